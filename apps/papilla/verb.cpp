@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "verb.hpp"
+
+#include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "papilla/core/atomic_file.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
+
+namespace papilla::app {
+namespace {
+
+int g_exit_code = 0;
+
+struct CommonOptions {
+  std::string json;
+  std::string progress = "auto";
+  bool quiet = false;
+  int threads = 0;
+  std::uint64_t seed = 1;
+};
+
+/// Prints "stage 42 % 3 s left" on one line of the terminal, or one JSON object a line.
+class ProgressPrinter {
+ public:
+  explicit ProgressPrinter(bool as_json) : as_json_(as_json) {}
+  ~ProgressPrinter() {
+    if (drawn_) fmt::print(stderr, "\r\033[K");
+  }
+  ProgressPrinter(const ProgressPrinter&) = delete;
+  ProgressPrinter& operator=(const ProgressPrinter&) = delete;
+
+  void operator()(std::string_view stage, double fraction) {
+    if (stage != stage_) {
+      stage_ = stage;
+      stage_clock_ = Stopwatch();
+      last_ = -1;
+    }
+    const double now = total_.seconds();
+    if (as_json_) {
+      if (now - last_ < 0.1 && fraction < 1) return;
+      std::cerr << Json{{"stage", stage}, {"fraction", fraction}, {"seconds", now}}.dump() << '\n';
+      last_ = now;
+      return;
+    }
+    if (now < 1 || now - last_ < 0.1) return;
+    last_ = now;
+    const double spent = stage_clock_.seconds();
+    std::string line = fmt::format("{} {:3.0f} %", stage, 100 * fraction);
+    if (fraction > 0.01 && fraction < 1)
+      line += fmt::format("  {:.0f} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3), spent * (1 - fraction) / fraction);
+    fmt::print(stderr, "\r\033[K{}", line);
+    std::fflush(stderr);
+    drawn_ = true;
+  }
+
+ private:
+  bool as_json_, drawn_ = false;
+  std::string stage_;
+  Stopwatch total_, stage_clock_;
+  double last_ = -1;
+};
+
+void run_verb(const CommonOptions& common, const VerbBody& body) {
+  const bool json_on_stdout = common.json == "-";
+  std::optional<oneapi::tbb::global_control> limit;
+  if (common.threads > 0)
+    limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
+
+  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, common.seed, 0};
+  const bool wants_json = common.progress == "json";
+  std::shared_ptr<ProgressPrinter> printer;
+  if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))
+    printer = std::make_shared<ProgressPrinter>(wants_json);
+  if (printer) context.progress = [printer](std::string_view stage, double fraction) { (*printer)(stage, fraction); };
+  const Json result = body(context);
+  context.progress = {};
+  printer.reset();
+  if (!common.json.empty()) {
+    const std::string text = result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (json_on_stdout)
+      std::cout << text << std::flush;
+    else
+      write_atomically(common.json, text);
+  }
+  if (!std::cout.flush()) throw IoError("standard output: cannot be written");
+  g_exit_code = context.exit_code;
+}
+
+}  // namespace
+
+void Console::print(const std::string& text) const {
+  if (!silent_) std::cout << text;
+}
+
+CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
+  CLI::App* verb = program.add_subcommand(info.name, info.summary);
+  verb->footer("Example:\n  " + info.example);
+  auto common = std::make_shared<CommonOptions>();
+  verb->add_option("--json", common->json, "Write the machine-readable result to FILE, or to stdout with -")
+      ->type_name("FILE|-")->group("Common");
+  verb->add_flag("-q,--quiet", common->quiet, "Print nothing but errors")->group("Common");
+  verb->add_option("--threads", common->threads, "Use N threads; 0 takes all cores")
+      ->type_name("N")->check(CLI::Range(0, 1024))->group("Common");
+  verb->add_option("--seed", common->seed, "Seed of everything random")->type_name("N")->capture_default_str()->group("Common");
+  verb->add_option("--progress", common->progress, "auto (a line on a terminal), json (a JSON object a line), none")
+      ->check(CLI::IsMember({"auto", "json", "none"}))->capture_default_str()->group("Common");
+  verb->callback([common, body = std::move(body)] { run_verb(*common, body); });
+  return verb;
+}
+
+int verb_exit_code() noexcept { return g_exit_code; }
+
+}  // namespace papilla::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "papilla/core/progress.hpp"
+
+namespace papilla::app {
+
+/// Keeps the order in which a verb writes its keys.
+using Json = nlohmann::ordered_json;
+
+/// Where a verb's text for people goes: stdout, unless --quiet or `--json -` claims it.
+class Console {
+ public:
+  explicit Console(bool silent) : silent_(silent) {}
+  void print(const std::string& text) const;
+  bool silent() const noexcept { return silent_; }
+
+ private:
+  bool silent_;
+};
+
+/// What every verb gets beside its own options.
+struct VerbContext {
+  Console console;
+  Progress progress;      ///< Draws on stderr when that is a terminal and the work takes over a second.
+  int threads = 0;        ///< 0: all cores.
+  std::uint64_t seed = 1;
+  int exit_code = 0;      ///< Set by a verb that ends normally but not with 0.
+};
+
+struct VerbInfo {
+  std::string name;
+  std::string summary;  ///< One sentence.
+  std::string example;  ///< A command line that works as printed.
+};
+
+/// The body of a verb: does the work, prints for people, returns the machine-readable result.
+using VerbBody = std::function<Json(VerbContext&)>;
+
+/// Adds a verb with the options that all verbs share (--json, --quiet, --threads, --seed, --progress).
+/// The caller adds its own options to the returned command, bound to an object that `body` shares.
+CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body);
+
+/// The exit code that the verb which ran asked for.
+int verb_exit_code() noexcept;
+
+}  // namespace papilla::app

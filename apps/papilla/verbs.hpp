@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace papilla::app {
+
+// One function a verb, in the file of its name below verbs/.
+void add_inspect(CLI::App& program);
+void add_tessellate(CLI::App& program);
+void add_repair(CLI::App& program);
+void add_unwrap(CLI::App& program);
+void add_measure(CLI::App& program);
+void add_analyze(CLI::App& program);
+void add_synthesize(CLI::App& program);
+void add_height(CLI::App& program);
+void add_plan(CLI::App& program);
+void add_bake(CLI::App& program);
+
+}  // namespace papilla::app

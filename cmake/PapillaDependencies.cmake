@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+# Finds the libraries of Debian 12 and repairs what their packages leave open.
+
+find_package(Threads REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HIDAPI REQUIRED IMPORTED_TARGET hidapi-hidraw)
+pkg_check_modules(MD REQUIRED IMPORTED_TARGET libmd)
+if(PAPILLA_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+
+if(PAPILLA_BUILD_TOOLKIT)
+  find_package(Eigen3 REQUIRED NO_MODULE)
+  # Before CGAL: CGAL's own FindOpenMesh would shadow the package configuration.
+  find_package(OpenMesh CONFIG REQUIRED)
+  find_package(CGAL REQUIRED)
+  find_package(TBB REQUIRED)
+  find_package(Ceres REQUIRED)
+  find_package(OpenCASCADE REQUIRED)
+  pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
+  find_package(OpenImageIO REQUIRED)
+  # Debian's target names an OpenCV include directory that need not exist.
+  set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
+
+  # OpenCASCADE sets no include directory on its targets.
+  add_library(papilla_occt INTERFACE)
+  target_include_directories(papilla_occt SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
+  target_link_libraries(papilla_occt INTERFACE TKernel TKMath TKG2d TKG3d TKGeomBase TKBRep TKGeomAlgo
+    TKTopAlgo TKPrim TKBool TKBO TKFillet TKOffset TKShHealing TKMesh TKXSBase TKSTEP TKIGES TKXDESTEP
+    TKXDEIGES TKXCAF TKLCAF TKCAF TKCDF)
+
+  # CGAL adds -frounding-math to whatever links it: link it privately and only where it is used.
+  add_library(papilla_cgal INTERFACE)
+  target_link_libraries(papilla_cgal INTERFACE CGAL::CGAL Eigen3::Eigen)
+  target_compile_definitions(papilla_cgal INTERFACE CGAL_EIGEN3_ENABLED)
+endif()
+if(PAPILLA_BUILD_BENCHMARKS AND PAPILLA_BUILD_TOOLKIT)
+  find_package(benchmark REQUIRED)
+endif()

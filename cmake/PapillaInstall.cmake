@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+include(CMakePackageConfigHelpers)
+configure_package_config_file(cmake/papilla-config.cmake.in ${CMAKE_BINARY_DIR}/papilla-config.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/papilla)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/papilla-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(EXPORT papilla-targets NAMESPACE papilla:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/papilla)
+install(FILES ${CMAKE_BINARY_DIR}/papilla-config.cmake ${CMAKE_BINARY_DIR}/papilla-config-version.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/papilla)

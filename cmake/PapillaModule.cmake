@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+# One helper per kind of target, so that every module is built the same way.
+
+add_library(papilla_build_options INTERFACE)
+target_compile_features(papilla_build_options INTERFACE cxx_std_20)
+target_compile_options(papilla_build_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+    -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wunused
+    -Wdouble-promotion -Wformat=2>
+  $<$<BOOL:${PAPILLA_WARNINGS_AS_ERRORS}>:-Werror>)
+if(PAPILLA_SANITIZE)
+  target_compile_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE})
+endif()
+
+# papilla_module(NAME [DIRECTORY dir] SOURCES ... [PUBLIC libs] [PRIVATE libs])
+# A static library papilla::NAME whose public headers are those below include/.
+function(papilla_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target papilla_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(papilla::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/include/*.hpp
+       ${CMAKE_CURRENT_SOURCE_DIR}/include/*.h)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR}/include
+                                  FILES ${headers})
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
+                                  $<BUILD_INTERFACE:papilla_build_options>)
+  install(TARGETS ${target} EXPORT papilla-targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
+endfunction()
+
+# papilla_program(NAME SOURCES ... LIBRARIES ... [INSTALL])
+function(papilla_program name)
+  cmake_parse_arguments(ARG "INSTALL" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} papilla_build_options)
+  if(ARG_INSTALL)
+    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endfunction()
+
+# papilla_test(NAME SOURCES ... LIBRARIES ...)
+# One GoogleTest program; every case becomes a ctest test named module.Suite.Case.
+function(papilla_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  set(target papilla_${name}_tests)
+  add_executable(${target} ${ARG_SOURCES})
+  target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} GTest::gtest_main papilla_build_options)
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT 300)
+endfunction()

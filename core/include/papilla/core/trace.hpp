@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <string_view>
+#include <vector>
+
+namespace papilla {
+
+/// One point of the error-over-run-time curve of an iterative or resolution-dependent method.
+struct TraceSample {
+  double seconds = 0;  ///< Wall time since the method was entered.
+  double error = 0;    ///< What the method minimises; each method says what and in which unit.
+};
+
+using Trace = std::vector<TraceSample>;
+
+/// Why an iteration ended. Only `converged` promises the tolerance that was asked for.
+enum class StopReason { converged, direct, iteration_limit, time_limit, line_search_stalled };
+
+/// The reason's name as reports print it, for example "iteration_limit".
+std::string_view to_string(StopReason reason) noexcept;
+
+/// Wall clock that starts when it is made.
+class Stopwatch {
+ public:
+  double seconds() const noexcept {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace papilla

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "papilla/meshing/triangle_mesh.hpp"
+
+namespace papilla {
+
+/// Row-major affine map of column vectors; translation in millimetres.
+using Transform = std::array<double, 16>;
+inline constexpr Transform k_identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// An encoded picture, byte for byte as in the file it came from.
+struct EncodedImage {
+  std::string name;
+  std::string mime_type;  ///< "image/png" or "image/jpeg".
+  std::string uri;        ///< Where it came from, relative to the scene's file; empty when embedded.
+  std::vector<std::byte> bytes;
+  std::string extras_json;
+};
+
+/// How a texture is sampled; the numbers are glTF's (OpenGL's), 0 = not given.
+struct Texture {
+  std::optional<std::uint32_t> image;
+  std::string name;
+  int wrap_s = 10497, wrap_t = 10497;  ///< 10497 repeat, 33071 clamp, 33648 mirrored repeat.
+  int min_filter = 0, mag_filter = 0;
+  std::string extras_json, extensions_json;
+};
+
+/// KHR_texture_transform: uv' = translate(offset) · rotate(rotation) · scale(scale) · uv.
+struct TextureTransform {
+  Vec2 offset{0, 0};
+  double rotation = 0;  ///< Radians, counter-clockwise.
+  Vec2 scale{1, 1};
+};
+
+struct TextureReference {
+  std::uint32_t texture = 0;  ///< Index into Scene::textures.
+  int tex_coord = 0;
+  double factor = 1;  ///< normalTexture.scale or occlusionTexture.strength.
+  std::optional<TextureTransform> transform;
+};
+
+struct Material {
+  std::string name;
+  std::array<double, 4> base_color{1, 1, 1, 1};  ///< Linear RGBA.
+  double metallic = 0, roughness = 0.8;
+  std::array<double, 3> emissive{0, 0, 0};
+  bool double_sided = false;
+  std::string alpha_mode = "OPAQUE";  ///< glTF: OPAQUE, MASK, BLEND.
+  double alpha_cutoff = 0.5;
+  std::optional<TextureReference> base_color_texture, metallic_roughness_texture, normal_texture,
+      occlusion_texture, emissive_texture;
+  std::string extras_json;      ///< A JSON object, or empty.
+  std::string extensions_json;  ///< glTF extensions as they were; texture numbers stay valid, textures are only appended.
+};
+
+/// One shape: a mesh and the materials its triangles name. Shared by all its instances.
+struct Part {
+  std::string name;
+  std::string id;  ///< Stable over re-import: the assembly path of the first instance.
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> materials;  ///< TriangleMesh::material slot -> Scene::materials.
+  std::string extras_json;
+};
+
+struct Node {
+  std::string name;
+  Transform local = k_identity;
+  std::vector<std::uint32_t> children;
+  std::optional<std::uint32_t> part;
+  std::string extras_json;
+};
+
+enum class UpAxis { y, z };
+
+/// What a file holds, in millimetres, in the file's own axes.
+struct Scene {
+  std::string format;              ///< "STEP", "STL", "OBJ", "glTF", ...
+  std::string unit = "mm";         ///< The file's unit; `millimetres_per_unit` was applied when reading.
+  double millimetres_per_unit = 1;
+  UpAxis up = UpAxis::z;
+
+  std::vector<Part> parts;
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> roots;  ///< Nodes without parent.
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<EncodedImage> images;
+
+  std::string extras_json;
+  std::vector<std::string> losses;    ///< What the reader had to leave behind, one sentence each.
+  std::vector<std::string> warnings;  ///< What looked wrong and how it was read.
+};
+
+/// One use of a part: where it stands in the scene.
+struct Instance {
+  std::uint32_t part = 0;
+  std::uint32_t node = 0;
+  Transform world = k_identity;
+};
+
+/// a · b.
+Transform multiply(const Transform& a, const Transform& b) noexcept;
+Vec3 transform_point(const Transform& t, Vec3 p) noexcept;
+
+/// Turns the scene's axes to glTF's Y up (the identity when it is Y up already): Z up becomes Y up, X stays.
+Transform to_y_up(UpAxis up) noexcept;
+
+/// All parts with their world transforms, in node order. Nodes that can't be reached from a root are left out.
+/// @throws InvalidInput when the nodes form a cycle or name a part or node that does not exist.
+std::vector<Instance> instances(const Scene& scene);
+
+/// A scene of one part under one root node.
+Scene single_part_scene(Part part, std::string format);
+
+}  // namespace papilla

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "papilla/core/vec.hpp"
+
+namespace papilla {
+
+using Index = std::uint32_t;
+using Triangle = std::array<Index, 3>;
+
+/// A value per triangle corner, stored once and indexed, so that it may jump over a seam
+/// while the positions stay welded. Either empty, or `indices` has one entry per triangle.
+template <class T>
+struct CornerAttribute {
+  std::vector<T> values;
+  std::vector<Triangle> indices;
+  bool empty() const noexcept { return indices.empty(); }
+};
+
+struct Color {
+  float r = 1, g = 1, b = 1, a = 1;  ///< Linear, in [0, 1].
+  friend bool operator==(const Color&, const Color&) = default;
+};
+
+/// A triangle soup or surface in millimetres, counter-clockwise seen from outside.
+/// Readers promise finite positions and indices in range; nothing else: neither welded
+/// nor manifold nor oriented. Every stage states what it adds.
+struct TriangleMesh {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+
+  CornerAttribute<Vec3> normals;
+  CornerAttribute<Vec2> uv;      ///< Texture channel 0; the unit is the owner's (charts: mm, files: texture repeats).
+  CornerAttribute<Vec2> uv1;     ///< Texture channel 1, the non-overlapping atlas.
+  CornerAttribute<Vec2> cad_uv;  ///< The CAD surface's own parameters.
+  CornerAttribute<Color> colors;
+
+  std::vector<std::uint32_t> material;  ///< Per triangle: slot in the owner's material list; empty: all 0.
+  std::vector<std::uint32_t> face;      ///< Per triangle: number of the CAD face or file group; empty: none.
+
+  Vec3 corner(std::size_t triangle, int k) const { return positions[triangles[triangle][static_cast<std::size_t>(k)]]; }
+};
+
+}  // namespace papilla
