@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "constraint_set.hpp"
 
@@ -59,6 +60,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   Planes planes;
   Vec3 x{}, slid{};
   bool free = false;
+  double nearest = std::numeric_limits<double>::infinity();
   for (;;) {
     const ConstrainedPoint aim = closest_point(goal, planes.plane, planes.count, shortest);
     if (!aim.found) break;
@@ -69,9 +71,13 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
       const double held = friction(surface_->material(next.material)) * next.load_m;
       if (wanted - held <= shortest) break;
       step = (1 - held / wanted) * step;
+    } else {
+      free = wanted == 0;
+      // A round that started from here and came back no nearer: converged to within the tolerance.
+      if (free || (planes.count == 0 && wanted > nearest - shortest)) break;
+      if (planes.count == 0) nearest = wanted;
     }
-    free = wanted == 0;
-    if (free || next.sweeps == k_steps) break;
+    if (next.sweeps == k_steps) break;
     ++next.sweeps;
     const auto hit = surface_->sweep(start + x, start + x + step);
     step = (hit ? hit->t : 1) * step;
