@@ -176,7 +176,8 @@ class SceneMaterials {
     if (material.normal_texture)
       scene_.losses.push_back("material '" + material.name + "': its normal map is replaced by that of the grain");
     attach_pictures(material, grain, transform);
-    tag.height->uv_transform.scale = {transform.scale.x, transform.scale.y};
+    tag.height->uv_transform.scale = transform.scale;
+    tag.height->metres_per_uv = {mm_per_unit * k_metres_per_mm, mm_per_unit * k_metres_per_mm};
   }
 
   void attach_pictures(Material& material, const Grain& grain, std::optional<TextureTransform> transform) {
@@ -207,8 +208,7 @@ class SceneMaterials {
   }
 
   static void write_extras(Material& material, const MaterialTag& tag, const MaterialRule& rule, const std::string& original_name) {
-    ordered_json extras = material.extras_json.empty() ? ordered_json::object() : ordered_json::parse(material.extras_json);
-    extras["haptic"] = ordered_json::parse(to_json(tag));
+    ordered_json extras = ordered_json::parse(with_material_tag(material.extras_json, tag));
     extras["papilla"] = {{"material", rule.name}};
     if (!original_name.empty() && original_name != material.name) extras["papilla"]["original"] = original_name;
     material.extras_json = extras.dump();
