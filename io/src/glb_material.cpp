@@ -87,7 +87,8 @@ void MaterialWriter::write_textures(Json& gltf) {
       if (known == samplers.end()) samplers.push_back(std::move(sampler));
     }
     if (texture.image && *texture.image >= scene_.images.size())
-      throw InvalidInput(fmt::format("write_glb: {} names image {} of {}", where, *texture.image, scene_.images.size()));
+      throw InvalidInput(
+          fmt::format("write_glb: {} names image {} of {}", where, *texture.image, scene_.images.size()));
     if (texture.image && image_number_[*texture.image]) json["source"] = *image_number_[*texture.image];
     add_name_and_extras(json, texture.name, texture.extras_json, where);
     if (!texture.extensions_json.empty())
@@ -98,15 +99,14 @@ void MaterialWriter::write_textures(Json& gltf) {
 
 bool MaterialWriter::is_usable(const TextureReference& reference) const {
   if (reference.texture >= scene_.textures.size())
-    throw InvalidInput(fmt::format("write_glb: a material names texture {} of {}", reference.texture,
-                                   scene_.textures.size()));
+    throw InvalidInput(
+        fmt::format("write_glb: a material names texture {} of {}", reference.texture, scene_.textures.size()));
   const Texture& texture = scene_.textures[reference.texture];
   const bool has_picture = texture.image && image_number_[*texture.image];
   return (has_picture || !texture.extensions_json.empty()) && reference.tex_coord < k_max_tex_coords;
 }
 
-Json MaterialWriter::reference(const TextureReference& reference, const char* factor_name,
-                               MaterialNeeds& needs) const {
+Json MaterialWriter::reference(const TextureReference& reference, const char* factor_name, MaterialNeeds& needs) const {
   Json json = {{"index", reference.texture}};
   if (reference.tex_coord != 0) json["texCoord"] = reference.tex_coord;
   if (*factor_name != '\0' && reference.factor != 1) json[factor_name] = reference.factor;

@@ -10,7 +10,7 @@ namespace papilla {
 
 /// What a material asks of the meshes that wear it.
 struct MaterialNeeds {
-  int tex_coords = 0;        ///< TEXCOORD_0 … that must be there.
+  int tex_coords = 0;  ///< TEXCOORD_0 … that must be there.
   bool tangents = false;
   int tangent_tex_coord = 0;
 };

@@ -88,8 +88,8 @@ template <class T>
 const T& value_at(const Part& part, const CornerAttribute<T>& attribute, std::size_t t, std::size_t k,
                   const char* name) {
   if (attribute.indices.size() != part.mesh.triangles.size())
-    fail(part, fmt::format("{} has {} entries for {} triangles", name, attribute.indices.size(),
-                           part.mesh.triangles.size()));
+    fail(part,
+         fmt::format("{} has {} entries for {} triangles", name, attribute.indices.size(), part.mesh.triangles.size()));
   const Index index = attribute.indices[t][k];
   if (index >= attribute.values.size())
     fail(part, fmt::format("triangle {} names {} {} of {}", t, name, index, attribute.values.size()));
@@ -132,8 +132,7 @@ Primitive collect(const Part& part, const std::vector<std::size_t>& triangles, c
     std::array<Vertex, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k].position = position_of(part, mesh.triangles[t][k]);
-      corners[k].normal =
-          unit_floats(value_at(part, normals, t, k, "normal"), flat == Vec3{} ? Vec3{0, 0, 1} : flat);
+      corners[k].normal = unit_floats(value_at(part, normals, t, k, "normal"), flat == Vec3{} ? Vec3{0, 0, 1} : flat);
       if (layout.tex_coords > 0) corners[k].uv0 = uv_at(part, mesh.uv, t, k);
       if (layout.tex_coords > 1) corners[k].uv1 = uv_at(part, mesh.uv1, t, k);
       if (layout.colors) corners[k].color = color_at(part, t, k);
@@ -154,9 +153,8 @@ Primitive collect(const Part& part, const std::vector<std::size_t>& triangles, c
 template <class T, std::size_t N>
 std::size_t add_attribute(const std::vector<std::array<T, N>>& values, Json accessor, GlbBuffer& buffer) {
   const std::size_t view = buffer.add_view(std::as_bytes(std::span(values)), GlbBuffer::Target::vertices);
-  Json full = {{"componentType", sizeof(T) == 4 ? 5126 : 5123},
-               {"count", values.size()},
-               {"type", "VEC" + std::to_string(N)}};
+  Json full = {
+      {"componentType", sizeof(T) == 4 ? 5126 : 5123}, {"count", values.size()}, {"type", "VEC" + std::to_string(N)}};
   full.update(accessor);
   return buffer.add_accessor(view, std::move(full));
 }
@@ -198,8 +196,7 @@ std::size_t add_indices(const Primitive& primitive, GlbBuffer& buffer) {
   const Json accessor = {{"count", 3 * primitive.triangles.size()}, {"type", "SCALAR"}};
   // The largest number of each width is the primitive restart value.
   if (primitive.vertices.size() > std::numeric_limits<std::uint16_t>::max()) {
-    const std::size_t view =
-        buffer.add_view(std::as_bytes(std::span(primitive.triangles)), GlbBuffer::Target::indices);
+    const std::size_t view = buffer.add_view(std::as_bytes(std::span(primitive.triangles)), GlbBuffer::Target::indices);
     Json full = {{"componentType", 5125}};
     full.update(accessor);
     return buffer.add_accessor(view, std::move(full));
@@ -245,7 +242,8 @@ std::vector<std::vector<std::size_t>> triangles_by_slot(const Part& part) {
   std::vector<std::vector<std::size_t>> slots(std::max<std::size_t>(part.materials.size(), 1));
   for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
     const std::size_t slot = part.mesh.material.empty() ? 0 : part.mesh.material[t];
-    if (slot >= slots.size()) fail(part, fmt::format("triangle {} names material slot {} of {}", t, slot, slots.size()));
+    if (slot >= slots.size())
+      fail(part, fmt::format("triangle {} names material slot {} of {}", t, slot, slots.size()));
     slots[slot].push_back(t);
   }
   return slots;

@@ -72,7 +72,8 @@ std::vector<T> read_pixels(ImageInput& input, const fs::path& path, int channels
 int color_channels(const ImageSpec& spec) { return spec.nchannels >= 3 ? 3 : 1; }
 
 double pitch_of(const ImageSpec& spec) {
-  const double x = double{spec.get_float_attribute("XResolution")}, y = double{spec.get_float_attribute("YResolution", static_cast<float>(x))};
+  const double x = double{spec.get_float_attribute("XResolution")},
+               y = double{spec.get_float_attribute("YResolution", static_cast<float>(x))};
   const std::string unit(spec.get_string_attribute("ResolutionUnit"));
   const double length_mm = unit == "in" || unit == "inch" ? k_mm_per_inch : unit == "cm" ? 10 : unit == "m" ? 1000 : 0;
   if (!(x > 0) || !std::isfinite(x) || !(std::abs(x - y) <= 1e-3 * x)) return 0;

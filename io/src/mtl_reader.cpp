@@ -144,8 +144,7 @@ class MtlReader {
     } else if (keyword == "norm" || keyword == "bump" || keyword == "map_Bump" || keyword == "map_bump") {
       if (keyword != "norm" && !is_normal_map(name)) return;
       if (const auto texture = add_texture(name, options.clamp))
-        material.normal_texture =
-            TextureReference{*texture, 0, options.bump_factor, to_texture_transform(options)};
+        material.normal_texture = TextureReference{*texture, 0, options.bump_factor, to_texture_transform(options)};
     } else {
       unused_.insert(std::string(keyword));
     }
@@ -153,8 +152,9 @@ class MtlReader {
 
   /// The options of "map_Kd -o 0 0 0 -s 2 2 1 file name.png"; leaves the file name.
   MapOptions read_options(std::string_view& line) const {
-    static const std::map<std::string_view, int> k_arguments = {{"-blendu", 1}, {"-blendv", 1}, {"-boost", 1}, {"-cc", 1},
-                                                                {"-imfchan", 1}, {"-mm", 2}, {"-texres", 1}, {"-type", 1}};
+    static const std::map<std::string_view, int> k_arguments = {{"-blendu", 1}, {"-blendv", 1},  {"-boost", 1},
+                                                                {"-cc", 1},     {"-imfchan", 1}, {"-mm", 2},
+                                                                {"-texres", 1}, {"-type", 1}};
     MapOptions options;
     for (;;) {
       std::string_view rest = line;

@@ -151,16 +151,17 @@ class ObjParser {
 
   static std::string printable(std::string_view word) {
     std::string text(word.substr(0, 40));
-    std::replace_if(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, '?');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, '?');
     return text;
   }
 
   /// Statements of the format that carry no triangles.
   static bool is_unsupported(std::string_view keyword) {
     static const std::set<std::string_view> k_keywords = {
-        "p",    "l",    "vp",   "cstype", "deg",      "bmat",     "step",       "curv",      "curv2",  "surf",  "parm",
-        "trim", "hole", "scrv", "sp",     "end",      "con",      "mg",         "bevel",     "c_interp", "d_interp", "lod",
-        "call", "csh",  "maplib", "usemap", "ctech", "stech", "shadow_obj", "trace_obj"};
+        "p",        "l",    "vp",   "cstype", "deg",    "bmat",   "step",  "curv",  "curv2",      "surf",
+        "parm",     "trim", "hole", "scrv",   "sp",     "end",    "con",   "mg",    "bevel",      "c_interp",
+        "d_interp", "lod",  "call", "csh",    "maplib", "usemap", "ctech", "stech", "shadow_obj", "trace_obj"};
     return k_keywords.contains(keyword);
   }
 
@@ -198,8 +199,8 @@ class ObjParser {
       const double* c = n + (count == 6 ? 3 : 4);
       const bool good = std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]);
       if (!good) note(bad_colors_);
-      content_.colors.push_back(
-          good ? Color{linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2]), 1} : Color{});
+      content_.colors.push_back(good ? Color{linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2]), 1}
+                                     : Color{});
     }
   }
 
@@ -241,8 +242,7 @@ class ObjParser {
     word.remove_prefix(first + 1);
     const std::size_t second = std::min(word.find('/'), word.size());
     if (second > 0) corner.uv = resolve(word.substr(0, second), content_.uv.size(), "texture vertex");
-    if (second + 1 < word.size())
-      corner.normal = resolve(word.substr(second + 1), content_.normals.size(), "normal");
+    if (second + 1 < word.size()) corner.normal = resolve(word.substr(second + 1), content_.normals.size(), "normal");
     return corner;
   }
 
@@ -274,8 +274,8 @@ class ObjParser {
 void check_indices(const ObjContent& content, const std::string& file) {
   const auto check = [&](const Face& face, Index index, std::size_t size, const char* what) {
     if (index != k_none && index >= size)
-      throw InvalidInput(fmt::format("{}: line {}: {} {} of {} does not exist", file, face.line, what,
-                                     std::size_t{index} + 1, size));
+      throw InvalidInput(
+          fmt::format("{}: line {}: {} {} of {} does not exist", file, face.line, what, std::size_t{index} + 1, size));
   };
   for (const Face& face : content.faces)
     for (std::size_t i = face.first_corner; i < face.first_corner + face.corners; ++i) {
@@ -466,7 +466,8 @@ void assemble_parts(ObjContent content, const std::filesystem::path& path, const
     std::vector<std::uint32_t> part_materials;
     for (const Face* face : faces[i]) {
       const auto [slot, is_new] = slots.try_emplace(face->material, static_cast<std::uint32_t>(slots.size()));
-      if (is_new && has_materials) part_materials.push_back(materials.number(content.materials.names()[face->material]));
+      if (is_new && has_materials)
+        part_materials.push_back(materials.number(content.materials.names()[face->material]));
     }
     Part part = assembler.assemble(faces[i], slots);
     part.name = names[i];

@@ -134,8 +134,7 @@ class AsciiReader {
       part.mesh.triangles.push_back(read_facet(welder));
       ++triangles_;
     }
-    if (word.empty())
-      fail(file_, "truncated after triangle " + std::to_string(triangles_) + ": 'endsolid' expected");
+    if (word.empty()) fail(file_, "truncated after triangle " + std::to_string(triangles_) + ": 'endsolid' expected");
     if (!equals_ignoring_case(word, "endsolid"))
       fail_at("'facet' or 'endsolid' expected, found '" + std::string(word.substr(0, 40)) + "'");
     rest_of_line();

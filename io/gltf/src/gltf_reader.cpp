@@ -103,8 +103,7 @@ std::vector<std::uint32_t> nodes_without_parent(const Document& document, const 
   std::vector<bool> is_child(scene.nodes.size(), false);
   for (const Node& node : scene.nodes)
     for (const std::uint32_t child : node.children) {
-      if (is_child[child])
-        throw InvalidInput(document.file + ": node " + std::to_string(child) + " has two parents");
+      if (is_child[child]) throw InvalidInput(document.file + ": node " + std::to_string(child) + " has two parents");
       is_child[child] = true;
     }
   std::vector<std::uint32_t> roots, open;

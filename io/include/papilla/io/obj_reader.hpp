@@ -9,10 +9,10 @@ namespace papilla {
 
 /// Reads a Wavefront OBJ with its MTL files and pictures.
 ///
-/// Parts: one per object (`o`); in a file without objects one per group (`g`); in a file without either one. `usemtl` gives
-/// the material slots, groups within an object the face numbers. Vertices are numbered as in the file (those that a
-/// part does not use are left out) and not merged. Polygons of any shape are cut into triangles; negative indices count
-/// from the end; indices may point ahead. Numbers have a decimal point whatever the locale. Names may hold spaces
+/// Parts: one per object (`o`); in a file without objects one per group (`g`); in a file without either one. `usemtl`
+/// gives the material slots, groups within an object the face numbers. Vertices are numbered as in the file (those that
+/// a part does not use are left out) and not merged. Polygons of any shape are cut into triangles; negative indices
+/// count from the end; indices may point ahead. Numbers have a decimal point whatever the locale. Names may hold spaces
 /// and any UTF-8. Six numbers behind `v` are a position and an sRGB colour.
 /// Lines, points and free-form geometry are listed in `losses`; missing materials and pictures, faces of fewer than
 /// three corners, and colours or normals that are not finite in `warnings`.

@@ -14,7 +14,8 @@ namespace papilla {
 /// that does not begin with "solid" (a warning tells of the surplus). ASCII: keywords in any case, any white space,
 /// numbers with a decimal point whatever the locale; every solid becomes a part of its name.
 /// Cost: linear, about 0.2 µs and 100 bytes per triangle. Deterministic.
-/// @throws IoError when the file can't be read; InvalidInput naming the file and the triangle that is missing, not finite
+/// @throws IoError when the file can't be read; InvalidInput naming the file and the triangle that is missing, not
+/// finite
 ///         or (ASCII) the line that can't be understood.
 Scene read_stl(const std::filesystem::path& path, const ReadOptions& options = {});
 
