@@ -18,7 +18,7 @@ struct Basis {
   double area() const { return std::abs(cross(a, b)); }
 };
 
-/// Gauss' reduction: the shortest basis of the same lattice, in the order and orientation of Lattice::vectors_px.
+/// Gauss' reduction: the shortest basis of the same lattice, |a| ≤ |b|.
 Basis reduced(Basis basis) {
   Vec2 a = basis.a, b = basis.b;
   if (norm(a) > norm(b)) std::swap(a, b);
@@ -27,10 +27,16 @@ Basis reduced(Basis basis) {
     if (norm(b) >= norm(a)) break;
     std::swap(a, b);
   }
-  const double tie = 1e-9 * norm(a);
-  if (a.x < -tie || (std::abs(a.x) <= tie && a.y < 0)) a = -1.0 * a;
-  if (cross(a, b) < 0) b = -1.0 * b;
   return {a, b};
+}
+
+/// The order and orientation of Lattice::vectors_px.
+std::array<Vec2, 2> oriented(Basis basis) {
+  const auto flatness = [](Vec2 v) { return std::abs(v.x) / norm(v); };
+  if (flatness(basis.b) > flatness(basis.a)) std::swap(basis.a, basis.b);
+  if (basis.a.x < 0) basis.a = -1.0 * basis.a;
+  if (cross(basis.a, basis.b) < 0) basis.b = -1.0 * basis.b;
+  return {basis.a, basis.b};
 }
 
 struct Node {
@@ -273,7 +279,7 @@ Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options)
     return lattice;
   }
   lattice.found = true;
-  lattice.vectors_px = {basis.a, basis.b};
+  lattice.vectors_px = oriented(basis);
   lattice.reason = "the picture repeats at " + std::to_string(2 * lattice.nodes) + " shifts";
   return lattice;
 }

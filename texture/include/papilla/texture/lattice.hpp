@@ -21,7 +21,8 @@ struct LatticeOptions {
 /// The translations under which a picture repeats; see find_lattice().
 struct Lattice {
   bool found = false;
-  /// Gauss-reduced primitive basis, x right, y down, in pixels: |a| ≤ |b|, |a·b| ≤ ½|a|², a points right, a × b > 0.
+  /// Gauss-reduced primitive basis, x right, y down, in pixels: |a·b| ≤ ½ min(|a|², |b|²), a is the
+  /// one nearer to the horizontal and points right, b points down.
   /// Zero when not found.
   std::array<Vec2, 2> vectors_px{};
   /// Mean over all lattice nodes of how far the correlation rises above its mean over one cell around the
