@@ -97,7 +97,7 @@ class LoneTriangles {
   LoneTriangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, GrainUp up,
                 LabelledTriangles& triangles, Sheets& sheets)
       : mesh_(mesh), across_(across), cosine_(cosine), up_(up), triangles_(triangles), sheets_(sheets),
-        size_(sheet_sizes(sheets)) {}
+        size_(sheet_sizes(sheets)), searches_left_(k_searches * sheets.of_triangle.size()) {}
 
   void run() {
     for (Index t = 0; t < sheets_.of_triangle.size(); ++t) {
@@ -106,57 +106,55 @@ class LoneTriangles {
       std::stable_sort(edges.begin(), edges.end(), [&](std::size_t a, std::size_t b) {
         return edge_length(mesh_, t, a) > edge_length(mesh_, t, b);
       });
-      if (std::none_of(edges.begin(), edges.end(), [&](std::size_t k) { return join(t, across_[3 * std::size_t{t} + k]); }))
-        std::any_of(edges.begin(), edges.end(), [&](std::size_t k) { return take(t, across_[3 * std::size_t{t} + k]); });
+      const auto across_edge = [&](std::size_t k) { return across_[3 * std::size_t{t} + k]; };
+      if (std::none_of(edges.begin(), edges.end(), [&](std::size_t k) { return join(t, across_edge(k)); }))
+        std::any_of(edges.begin(), edges.end(), [&](std::size_t k) { return take(t, across_edge(k)); });
     }
   }
 
  private:
-  /// Sheets up to this size are searched for overlap with a joining triangle.
-  static constexpr Index k_searched = 64;
+  /// How many triangles may be looked at in all searches together, per triangle of the mesh.
+  static constexpr std::size_t k_searches = 16;
+  /// Penetration, as a fraction of the triangle's size, that counts as touching.
+  static constexpr double k_touching = 1e-10;
 
   void move(Index t, std::uint32_t sheet, std::uint8_t label) {
     --size_[sheets_.of_triangle[t]];
     ++size_[sheet];
     sheets_.of_triangle[t] = sheet;
     triangles_.label[t] = label;
+    moved_.push_back(t);
   }
 
-  /// The triangles of the sheet of `start`, or nothing when there are more than k_searched.
-  std::vector<Index> small_sheet(Index start) const {
-    const std::uint32_t sheet = sheets_.of_triangle[start];
-    std::vector<Index> members;
-    if (size_[sheet] > k_searched) return members;
-    members.push_back(start);
-    for (std::size_t i = 0; i < members.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Index other = across_[3 * std::size_t{members[i]} + k];
-        if (other == k_no_triangle || sheets_.of_triangle[other] != sheet) continue;
-        if (std::find(members.begin(), members.end(), other) == members.end()) members.push_back(other);
-      }
-    return members;
+  /// Whether a triangle of the sheet lies over `own`, as far as the searches last; when in doubt, yes.
+  bool is_covered(const std::array<Vec2, 3>& own, std::uint32_t sheet, const ProjectionAxes& axes) {
+    if (members_.triangles.empty()) members_ = sort_by_chart(sheets_.of_triangle, sheets_.count);
+    const auto covers = [&](Index m) {
+      return sheets_.of_triangle[m] == sheet &&
+             interiors_meet(own, projected(mesh_, m, axes), k_touching * norm(own[1] - own[0]));
+    };
+    const auto members = members_.of(sheet);  // as they were; those that came since are in moved_
+    const std::size_t cost = members.size() + moved_.size();
+    if (cost > searches_left_) return true;
+    searches_left_ -= cost;
+    return std::any_of(members.begin(), members.end(), covers) || std::any_of(moved_.begin(), moved_.end(), covers);
   }
 
   /// Moves t to the sheet of its neighbour s.
   bool join(Index t, Index s) {
-    if (s == k_no_triangle || !triangles_.accepts(t, triangles_.label[s], cosine_)) return false;
-    const std::vector<Index> members = small_sheet(s);
-    if (members.empty()) return false;
+    if (s == k_no_triangle || !accepts(mesh_, t, triangles_.label[s], cosine_)) return false;
+    const std::uint32_t sheet = sheets_.of_triangle[s];
     const ProjectionAxes axes = axes_of(triangles_.label[s], up_);
-    const auto own = projected(mesh_, t, axes);
-    for (const Index m : members)
-      if (m != s && interiors_meet(own, projected(mesh_, m, axes), 1e-10 * edge_length(mesh_, t, 0))) return false;
-    move(t, sheets_.of_triangle[s], triangles_.label[s]);
+    if (is_covered(projected(mesh_, t, axes), sheet, axes)) return false;
+    move(t, sheet, triangles_.label[s]);
     return true;
   }
 
   /// Moves the neighbour s out of its sheet to t. Two triangles that share an edge and are not flipped can't overlap.
   bool take(Index t, Index s) {
-    if (s == k_no_triangle) return false;
-    const std::uint32_t from = sheets_.of_triangle[s];
-    if (size_[from] < 3 || neighbours_in(s, from) != 1) return false;
+    if (s == k_no_triangle || size_[sheets_.of_triangle[s]] < 3 || divides_its_sheet(s)) return false;
     for (const std::uint8_t label : {triangles_.label[t], triangles_.label[s]}) {
-      if (!triangles_.accepts(t, label, cosine_) || !triangles_.accepts(s, label, cosine_)) continue;
+      if (!accepts(mesh_, t, label, cosine_) || !accepts(mesh_, s, label, cosine_)) continue;
       triangles_.label[t] = label;
       move(s, sheets_.of_triangle[t], label);
       return true;
@@ -164,13 +162,49 @@ class LoneTriangles {
     return false;
   }
 
-  int neighbours_in(Index t, std::uint32_t sheet) const {
-    int count = 0;
+  /// Whether the neighbours of s in its sheet would perhaps lose touch without s: there are two of them, and no
+  /// fan of the sheet around their common corner joins them.
+  bool divides_its_sheet(Index s) const {
+    const std::uint32_t sheet = sheets_.of_triangle[s];
+    std::vector<Index> in_sheet;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index other = across_[3 * std::size_t{s} + k];
+      if (other != k_no_triangle && sheets_.of_triangle[other] == sheet) in_sheet.push_back(other);
+    }
+    if (in_sheet.size() < 2) return false;
+    if (in_sheet.size() > 2) return true;
+    Index before = s, at = in_sheet[0];
+    for (int steps = 0; steps < k_fan_steps && at != in_sheet[1]; ++steps) {
+      const Index corner = common_corner(s, in_sheet[0], in_sheet[1]);
+      const Index after = next_in_fan(at, before, corner);
+      if (after == k_no_triangle || after == s || sheets_.of_triangle[after] != sheet) return true;
+      before = at;
+      at = after;
+    }
+    return at != in_sheet[1];
+  }
+
+  static constexpr int k_fan_steps = 32;
+
+  bool has_corner(Index t, Index vertex) const {
+    const Triangle& c = mesh_.triangles[t];
+    return c[0] == vertex || c[1] == vertex || c[2] == vertex;
+  }
+
+  Index common_corner(Index s, Index a, Index b) const {
+    for (const Index v : mesh_.triangles[s])
+      if (has_corner(a, v) && has_corner(b, v)) return v;
+    return k_no_triangle;
+  }
+
+  /// The neighbour of t around the vertex that is not `before`.
+  Index next_in_fan(Index t, Index before, Index vertex) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index other = across_[3 * std::size_t{t} + k];
-      count += other != k_no_triangle && sheets_.of_triangle[other] == sheet;
+      const bool touches = mesh_.triangles[t][k] == vertex || mesh_.triangles[t][(k + 1) % 3] == vertex;
+      if (touches && other != before) return other;
     }
-    return count;
+    return k_no_triangle;
   }
 
   const TriangleMesh& mesh_;
@@ -180,6 +214,9 @@ class LoneTriangles {
   LabelledTriangles& triangles_;
   Sheets& sheets_;
   std::vector<Index> size_;
+  std::size_t searches_left_;
+  TrianglesOfCharts members_;
+  std::vector<Index> moved_;
 };
 
 }  // namespace
@@ -213,7 +250,7 @@ std::size_t absorb_small_sheets(const TriangleMesh& mesh, const Adjacency& acros
   if (borders.empty()) return 0;
   const TrianglesOfCharts members = sort_by_chart(sheets.of_triangle, sheets.count);
   std::vector<double> area(sheets.count, 0);
-  for (std::size_t t = 0; t < sheets.of_triangle.size(); ++t) area[sheets.of_triangle[t]] += triangles.doubled_area[t];
+  for (std::size_t t = 0; t < sheets.of_triangle.size(); ++t) area[sheets.of_triangle[t]] += double{triangles.doubled_area[t]};
   std::vector<std::uint8_t> label(sheets.count);
   for (std::uint32_t s = 0; s < sheets.count; ++s) label[s] = triangles.label[members.of(s).front()];
 
@@ -227,7 +264,7 @@ std::size_t absorb_small_sheets(const TriangleMesh& mesh, const Adjacency& acros
     if (!small) continue;
     const std::uint8_t wanted = label[border.other];
     if (!std::all_of(own.begin(), own.end(),
-                     [&](Index t) { return triangles.accepts(t, wanted, options.absorption_cosine); }))
+                     [&](Index t) { return accepts(mesh, t, wanted, options.absorption_cosine); }))
       continue;
     for (const Index t : own) triangles.label[t] = wanted;
     involved[border.sheet] = 'm';  // moved: its old label is no target any more

@@ -38,7 +38,7 @@ void check_options(const TriplanarOptions& o) {
           "tile_mm is negative or not finite");
 }
 
-void smooth(const Adjacency& across, const TriplanarOptions& options, const Stopwatch& clock,
+void smooth(const TriangleMesh& mesh, const Adjacency& across, const TriplanarOptions& options, const Stopwatch& clock,
             LabelledTriangles& triangles, Flattening& result) {
   const auto sample = [&] {
     result.trace.push_back({clock.seconds(), static_cast<double>(count_lone_triangles(across, triangles))});
@@ -46,7 +46,7 @@ void smooth(const Adjacency& across, const TriplanarOptions& options, const Stop
   sample();
   result.stop = StopReason::iteration_limit;
   for (int round = 0; round < options.smoothing_rounds; ++round) {
-    const std::size_t changed = smooth_labels_once(across, options.smoothing_cosine, triangles);
+    const std::size_t changed = smooth_labels_once(mesh, across, options.smoothing_cosine, triangles);
     if (changed == 0) {
       result.stop = StopReason::converged;
       break;
@@ -134,7 +134,7 @@ TriplanarResult flatten_triplanar(const TriangleMesh& mesh, const TriplanarOptio
   const Adjacency across = connect_triangles(mesh);
   result.seconds.connect = total.seconds() - result.seconds.project;
   fill_missing_labels(across, triangles);
-  smooth(across, options, total, triangles, flattening);
+  smooth(mesh, across, options, total, triangles, flattening);
   result.seconds.smooth = total.seconds() - result.seconds.connect - result.seconds.project;
 
   Stopwatch clock;

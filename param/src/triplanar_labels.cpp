@@ -13,37 +13,46 @@ constexpr double k_tie = 1 + 1e-6;
 /// its normal would be rounding noise.
 constexpr double k_no_area = 1e-12;
 
-std::uint8_t dominant_label(double nx, double ny, double nz) {
-  const double ax = std::abs(nx), ay = std::abs(ny), az = std::abs(nz);
+struct Normal {
+  Vec3 direction;           ///< Of length doubled_area.
+  double doubled_area = 0;  ///< 0 when the triangle is without area.
+};
+
+inline Normal normal_of(const TriangleMesh& mesh, std::size_t t) {
+  const Triangle& corners = mesh.triangles[t];
+  const Vec3 a = mesh.positions[corners[0]];
+  const Vec3 p = mesh.positions[corners[1]] - a, q = mesh.positions[corners[2]] - a;
+  const Vec3 n = cross(p, q);
+  const double area = norm(n);
+  return {n, area > k_no_area * (dot(p, p) + dot(q, q)) ? area : 0};
+}
+
+std::uint8_t dominant_label(const Vec3& n) {
+  const double ax = std::abs(n.x), ay = std::abs(n.y), az = std::abs(n.z);
   std::uint8_t axis = ay > k_tie * ax ? 1 : 0;
   axis = az > k_tie * (axis == 0 ? ax : ay) ? 2 : axis;
-  const double along = axis == 0 ? nx : axis == 1 ? ny : nz;
+  const double along = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
   return static_cast<std::uint8_t>(2 * axis + (along < 0 ? 1 : 0));
 }
 
 }  // namespace
 
 LabelledTriangles label_triangles(const TriangleMesh& mesh) {
-  LabelledTriangles result;
   const std::size_t count = mesh.triangles.size();
-  for (auto& component : result.normal) component.resize(count);
-  result.doubled_area.resize(count);
-  result.label.resize(count);
-  const Vec3* positions = mesh.positions.data();
+  LabelledTriangles result{std::vector<std::uint8_t>(count), std::vector<float>(count)};
   for (std::size_t t = 0; t < count; ++t) {
-    const Triangle& corners = mesh.triangles[t];
-    const Vec3 a = positions[corners[0]];
-    const Vec3 p = positions[corners[1]] - a, q = positions[corners[2]] - a;
-    const Vec3 n = cross(p, q);
-    const double area = norm(n), longest = dot(p, p) + dot(q, q);
-    const bool has_area = area > k_no_area * longest;
-    result.normal[0][t] = has_area ? n.x : 0;
-    result.normal[1][t] = has_area ? n.y : 0;
-    result.normal[2][t] = has_area ? n.z : 0;
-    result.doubled_area[t] = has_area ? area : 0;
-    result.label[t] = has_area ? dominant_label(n.x, n.y, n.z) : k_no_label;
+    const Normal n = normal_of(mesh, t);
+    result.label[t] = n.doubled_area > 0 ? dominant_label(n.direction) : k_no_label;
+    result.doubled_area[t] = static_cast<float>(n.doubled_area);
   }
   return result;
+}
+
+bool accepts(const TriangleMesh& mesh, Index t, std::uint8_t label, double cosine) {
+  const Normal n = normal_of(mesh, t);
+  const int axis = label >> 1;
+  const double along = axis == 0 ? n.direction.x : axis == 1 ? n.direction.y : n.direction.z;
+  return n.doubled_area == 0 || (label & 1 ? -along : along) >= cosine * n.doubled_area;
 }
 
 void fill_missing_labels(const Adjacency& across, LabelledTriangles& triangles) {
@@ -70,7 +79,8 @@ void fill_missing_labels(const Adjacency& across, LabelledTriangles& triangles) 
     if (l == k_no_label) l = 0;
 }
 
-std::size_t smooth_labels_once(const Adjacency& across, double cosine, LabelledTriangles& triangles) {
+std::size_t smooth_labels_once(const TriangleMesh& mesh, const Adjacency& across, double cosine,
+                               LabelledTriangles& triangles) {
   std::vector<std::uint8_t>& label = triangles.label;
   std::size_t changed = 0;
   for (Index t = 0; t < label.size(); ++t) {
@@ -82,14 +92,14 @@ std::size_t smooth_labels_once(const Adjacency& across, double cosine, LabelledT
       if (neighbour[k] != k_no_triangle && label[neighbour[k]] != own) unlike[unlike_count++] = neighbour[k];
     if (unlike_count < 2) continue;
     std::uint8_t wanted = k_no_label;
-    double weight = -1;
+    float weight = -1;
     for (int i = 0; i < unlike_count; ++i)
       for (int j = i + 1; j < unlike_count; ++j) {
         if (label[unlike[i]] != label[unlike[j]]) continue;
-        const double both = triangles.doubled_area[unlike[i]] + triangles.doubled_area[unlike[j]];
+        const float both = triangles.doubled_area[unlike[i]] + triangles.doubled_area[unlike[j]];
         if (both > weight) weight = both, wanted = label[unlike[i]];
       }
-    if (wanted == k_no_label || !triangles.accepts(t, wanted, cosine)) continue;
+    if (wanted == k_no_label || !accepts(mesh, t, wanted, cosine)) continue;
     label[t] = wanted;
     ++changed;
   }
