@@ -398,6 +398,25 @@ std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_
   return nearest(p, radius_m, [material](const Packed& t) noexcept { return t.material == material; });
 }
 
+bool ContactSurface::crosses(Vec3 from, Vec3 to) const noexcept {
+  const Vec3 start = from - origin_, way = to - from;
+  bool found = false;
+  double t_max = 1;
+  bvh_.along(start, way, 0, t_max, [&](std::uint32_t begin, std::uint32_t end) noexcept {
+    for (std::uint32_t place = begin; place < end && !found; ++place) {
+      const Corners t = corners(place);
+      const Vec3 ab = t.b - t.a, ac = t.c - t.a, p = cross(way, ac);
+      const double det = dot(ab, p);
+      if (det == 0) continue;
+      const Vec3 s = start - t.a, q = cross(s, ab);
+      const double u = dot(s, p) / det, v = dot(way, q) / det, at = dot(ac, q) / det;
+      found = u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 1;
+    }
+    if (found) t_max = -1;
+  });
+  return found;
+}
+
 double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {
   const Vec3 y = x - origin_;
   double least = radius_m - contact_radius_m(), reach = radius_m;
