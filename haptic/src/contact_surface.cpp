@@ -11,11 +11,11 @@
 namespace papilla {
 namespace {
 
-constexpr double k_skin_m = 2e-5;             // Closes gaps of 40 µm; a tenth of what a fingertip resolves as roughness edge.
-constexpr double k_skin_share = 1e-3;         // Of the extent, for scenes smaller than 20 mm.
-constexpr double k_least_skin_share = 2e-6;   // Of the extent: thirty times the rounding of single precision.
-// Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the times
-// must be finer than that, or the neighbour's tilted normal would be taken.
+constexpr double k_skin_m = 2e-5;      // Closes gaps of 40 µm; a tenth of what a fingertip resolves as roughness edge.
+constexpr double k_skin_share = 1e-3;  // Of the extent, for scenes smaller than 20 mm.
+constexpr double k_least_skin_share = 2e-6;  // Of the extent: thirty times the rounding of single precision.
+// Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the
+// times must be finer than that, or the neighbour's tilted normal would be taken.
 constexpr double k_close = 1e-7;
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
@@ -34,9 +34,12 @@ void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& material
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const ContactMaterial& m = materials[i];
     for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.stribeck_velocity})
-      if (!(value >= 0) || !std::isfinite(value)) fail("material " + std::to_string(i) + " has a number that is not >= 0");
-    if (m.height && *m.height >= heights.size()) fail("material " + std::to_string(i) + " names a missing height field");
-    if (m.height && mesh.corner_uv.empty()) fail("material " + std::to_string(i) + " has a relief but the mesh has no uv");
+      if (!(value >= 0) || !std::isfinite(value))
+        fail("material " + std::to_string(i) + " has a number that is not >= 0");
+    if (m.height && *m.height >= heights.size())
+      fail("material " + std::to_string(i) + " names a missing height field");
+    if (m.height && mesh.corner_uv.empty())
+      fail("material " + std::to_string(i) + " has a relief but the mesh has no uv");
   }
   for (std::size_t t = 0; t < n; ++t) {
     for (const std::uint32_t v : mesh.triangles[t])
@@ -93,7 +96,8 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   for (std::size_t t = 0; t < n; ++t) {
     const Vec3* c = &base.corners[3 * t];
     const bool usable = is_finite(c[0]) && is_finite(c[1]) && is_finite(c[2]) &&
-                        std::isfinite(norm(c[0]) + norm(c[1]) + norm(c[2])) && norm(cross(c[1] - c[0], c[2] - c[0])) > 0;
+                        std::isfinite(norm(c[0]) + norm(c[1]) + norm(c[2])) &&
+                        norm(cross(c[1] - c[0], c[2] - c[0])) > 0;
     if (!usable) continue;
     kept.push_back(static_cast<std::uint32_t>(t));
     for (int k = 0; k < 3; ++k) {
@@ -122,7 +126,8 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   };
   const auto has_relief = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
-    return s[0] < 0 || s[1] < 0 || s[2] < 0 || materials_[mesh.material.empty() ? 0 : mesh.material[t]].height.has_value();
+    return s[0] < 0 || s[1] < 0 || s[2] < 0 ||
+           materials_[mesh.material.empty() ? 0 : mesh.material[t]].height.has_value();
   };
   const auto highest = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
@@ -198,7 +203,8 @@ ContactSurface::Foot ContactSurface::foot(const Corners& t, Vec3 x) const noexce
 }
 
 /// Height of the relief above the base at a foot, and its gradient within the triangle's plane.
-double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* gradient) const noexcept {
+double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Foot& foot,
+                                 Vec3* gradient) const noexcept {
   const Packed& packed = triangles_[place];
   const Relief& relief = reliefs_[packed.relief];
   const auto corner = [&](int k) {
@@ -269,8 +275,8 @@ double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way
   return norm(along(0) * per_uv[0] + along(1) * per_uv[1]);
 }
 
-/// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat, it
-/// is the one that x stands above.
+/// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat,
+/// it is the one that x stands above.
 bool ContactSurface::comes_before(const SweepHit& a, const SweepHit& b) noexcept {
   return a.t != b.t ? a.t < b.t : a.penetration_m > b.penetration_m;
 }
@@ -292,7 +298,8 @@ std::optional<double> ContactSurface::approach(const Corners& t, Vec3 from, Vec3
   return at;
 }
 
-void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, std::optional<SweepHit>& best) const noexcept {
+void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way,
+                                 std::optional<SweepHit>& best) const noexcept {
   const Corners t = corners(place);
   const double t_max = best ? best->t : 1, contact = contact_radius_m();
   const auto touch = approach(t, from, way, 0, contact, t_max);
@@ -311,7 +318,8 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, std::
 }
 
 /// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
-void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, std::optional<SweepHit>& best) const noexcept {
+void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
+                                  std::optional<SweepHit>& best) const noexcept {
   const Corners t = corners(place);
   const double t_max = best ? best->t : 1, length = norm(way), contact = contact_radius_m();
   const auto& height = materials_[triangles_[place].material].height;
@@ -394,7 +402,8 @@ std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_
   return nearest(p, radius_m, [](const Packed&) noexcept { return true; });
 }
 
-std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m, std::uint32_t material) const noexcept {
+std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m,
+                                                          std::uint32_t material) const noexcept {
   return nearest(p, radius_m, [material](const Packed& t) noexcept { return t.material == material; });
 }
 

@@ -153,8 +153,12 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       result.max_force_n = std::max(result.max_force_n, norm(force));
       if (options.record) {
         const double t = start_s + static_cast<double>(i) * period;
-        (*options.record)[i] = {t, options.hand ? options.hand->position(t) : state.position, state.position,
-                                tick.proxy().proxy, force, tick.proxy().in_contact};
+        (*options.record)[i] = {t,
+                                options.hand ? options.hand->position(t) : state.position,
+                                state.position,
+                                tick.proxy().proxy,
+                                force,
+                                tick.proxy().in_contact};
       }
       result.fault = tick.guard().fault();
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;

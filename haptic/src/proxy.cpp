@@ -91,7 +91,8 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     }
     if (norm(step) > shortest) planes.keep(aim.active);
     if (planes.count == k_planes) break;
-    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x) + std::max(0.0, hit->penetration_m), hit->material};
+    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x) + std::max(0.0, hit->penetration_m),
+                                    hit->material};
     next.in_contact = true;
   }
   if (free) next = ProxyState{};

@@ -33,7 +33,8 @@ std::vector<Wave> draw_waves(const RoughnessTag& roughness, std::uint64_t seed) 
     const double wave_number = std::pow(most, (i + uniform(random)) / k_waves);
     const double direction = 2 * std::numbers::pi * uniform(random);
     Wave wave{static_cast<int>(std::lround(wave_number * std::cos(direction))),
-              static_cast<int>(std::lround(wave_number * std::sin(direction))), 0, 2 * std::numbers::pi * uniform(random)};
+              static_cast<int>(std::lround(wave_number * std::sin(direction))), 0,
+              2 * std::numbers::pi * uniform(random)};
     if (wave.kx == 0 && wave.ky == 0) wave.kx = 1;
     wave.amplitude = std::pow(std::hypot(wave.kx, wave.ky), -hurst - 0.5);
     waves.push_back(wave);

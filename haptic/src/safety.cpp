@@ -5,7 +5,9 @@
 
 namespace papilla {
 
-SafetyLimits safety_limits(double max_force_n) noexcept { return {.max_force_n = max_force_n, .slew_n_per_s = max_force_n / 2e-3}; }
+SafetyLimits safety_limits(double max_force_n) noexcept {
+  return {.max_force_n = max_force_n, .slew_n_per_s = max_force_n / 2e-3};
+}
 
 Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s) noexcept {
   if (!is_finite(force_n) || !std::isfinite(norm(force_n)))

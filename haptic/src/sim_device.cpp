@@ -18,8 +18,8 @@ constexpr std::string_view k_from_limit = "assumed: the damping that CHAI3D's la
 constexpr double k_delay = 1e-3;
 constexpr double damping_for(double largest_stiffness) { return largest_stiffness * (1e-3 + 2 * k_delay) / 2; }
 
-constexpr DevicePreset preset(std::string_view name, std::string_view title, double force, double radius, double stiffness,
-                              double mass, double friction, double step) {
+constexpr DevicePreset preset(std::string_view name, std::string_view title, double force, double radius,
+                              double stiffness, double mass, double friction, double step) {
   return {name,
           title,
           {force, k_chai},
@@ -68,8 +68,8 @@ const DevicePreset& device_preset(std::string_view name) {
 SimDevice::SimDevice(const DeviceCaps& caps, const Trajectory& hand, double period_s, const HandCoupling& coupling)
     : caps_(caps), hand_(&hand), period_(period_s), coupling_(coupling), position_(hand.samples().front().position) {
   const DeviceDynamics& d = caps.dynamics;
-  for (const double value : {d.mass_kg, d.damping, d.friction_n, d.encoder_step_m, d.delay_s, caps.max_force_n, period_s,
-                             coupling.stiffness, coupling.damping})
+  for (const double value : {d.mass_kg, d.damping, d.friction_n, d.encoder_step_m, d.delay_s, caps.max_force_n,
+                             period_s, coupling.stiffness, coupling.damping})
     if (!(value >= 0) || !std::isfinite(value)) throw InvalidInput("SimDevice: a number of the device is not >= 0");
   if (!(period_s > 0) || !(d.mass_kg > 0)) throw InvalidInput("SimDevice: period and mass must be > 0");
   if (d.delay_s > 60 * period_s) throw InvalidInput("SimDevice: the delay is longer than 60 periods");
@@ -99,7 +99,8 @@ void SimDevice::advance() noexcept {
   for (int i = 0; i < steps; ++i) {
     const double offset = i * h;
     const Vec3 hand = hand0 + (offset / period_) * (hand1 - hand0);
-    const Vec3 g = delayed_force(tick_, offset) + coupling_.stiffness * (hand - position_) + coupling_.damping * hand_velocity;
+    const Vec3 g =
+        delayed_force(tick_, offset) + coupling_.stiffness * (hand - position_) + coupling_.damping * hand_velocity;
     const Vec3 free_velocity = decay * velocity_ + phi * g;
     const Vec3 free_way = (d.mass_kg * phi) * velocity_ + psi * g;
     const double speed = norm(free_velocity), lost = d.friction_n * phi;

@@ -13,9 +13,9 @@ constexpr double k_step_m = 1e-3;
 constexpr double k_least_progress = 0.25;  // Of a step; less means that the material ends.
 
 Vec3 any_tangent(Vec3 n) {
-  const Vec3 axis = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z)   ? Vec3{1, 0, 0}
-                    : std::abs(n.y) <= std::abs(n.z) ? Vec3{0, 1, 0}
-                                                     : Vec3{0, 0, 1};
+  const Vec3 axis = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? Vec3{1, 0, 0}
+                    : std::abs(n.y) <= std::abs(n.z)                                 ? Vec3{0, 1, 0}
+                                                                                     : Vec3{0, 0, 1};
   return normalized(cross(n, axis));
 }
 
@@ -23,9 +23,10 @@ Vec3 tangential(Vec3 direction, Vec3 n) { return normalized(direction - dot(dire
 
 }  // namespace
 
-Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t material, Vec3 near, const StrokeOptions& options) {
-  if (!(options.speed_m_per_s > 0) || !(options.seconds > 0) || !(options.press_s > 0) || !std::isfinite(options.depth_m) ||
-      !std::isfinite(options.approach_m) || !(options.seconds <= 1e6))
+Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t material, Vec3 near,
+                            const StrokeOptions& options) {
+  if (!(options.speed_m_per_s > 0) || !(options.seconds > 0) || !(options.press_s > 0) ||
+      !std::isfinite(options.depth_m) || !std::isfinite(options.approach_m) || !(options.seconds <= 1e6))
     throw InvalidInput("press_and_stroke: speed and times must be > 0, and seconds at most a million");
   const double extent = norm(surface.high() - surface.low());
   const auto start = surface.closest_point(near, norm(near - surface.low()) + extent, material);

@@ -6,8 +6,8 @@
 
 namespace papilla {
 
-/// Watches a proxy and tells the ticks on which it has lost its contact. Shares no contact code with the proxy: it asks for
-/// the closest base point and for crossings of the probe's own path with the triangles.
+/// Watches a proxy and tells the ticks on which it has lost its contact. Shares no contact code with the proxy: it asks
+/// for the closest base point and for crossings of the probe's own path with the triangles.
 ///
 /// A tick is lost when the proxy is free although
 ///   - the probe stands in front of its closest triangle, but lower than the relief and probe radius above it; or

@@ -25,8 +25,8 @@ struct DeviceCaps {
 };
 
 struct DeviceState {
-  Vec3 position;               ///< m, in the frame of the scene.
-  double age_s = 0;            ///< How long ago the device reported it.
+  Vec3 position;     ///< m, in the frame of the scene.
+  double age_s = 0;  ///< How long ago the device reported it.
   std::uint32_t buttons = 0;
 };
 

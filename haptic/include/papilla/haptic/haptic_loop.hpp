@@ -25,8 +25,8 @@ struct RecordRow {
 struct LoopOptions {
   double rate_hz = 1000;
   std::uint64_t ticks = 2000;
-  bool paced = true;                         ///< False: ticks follow each other at once (tests, replays faster than time).
-  const Trajectory* hand = nullptr;          ///< For the recording's hand columns; without it they repeat the probe.
+  bool paced = true;                 ///< False: ticks follow each other at once (tests, replays faster than time).
+  const Trajectory* hand = nullptr;  ///< For the recording's hand columns; without it they repeat the probe.
   std::vector<RecordRow>* record = nullptr;  ///< Filled with one row a tick; its memory is taken before the loop.
   const std::atomic<bool>* stop = nullptr;   ///< The loop ends at the next tick when it is true.
 };
@@ -47,8 +47,8 @@ struct LoopResult {
 /// lost or the guard reports a fault; then writes zero force and stops the device, on every way out.
 ///
 /// Asks for SCHED_FIFO and locked memory and goes on without them. Wakes at absolute times, so that delays don't add
-/// up; a tick that ends after the next one should have begun is a missed deadline. With a simulated device the recording is
-/// the same bit for bit on every run, whatever the timing.
+/// up; a tick that ends after the next one should have begun is a missed deadline. With a simulated device the
+/// recording is the same bit for bit on every run, whatever the timing.
 /// @throws InvalidInput when the rate is not in [1, 100000] or a recording would need more than 20 million ticks.
 LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, const LoopOptions& options);
 

@@ -7,9 +7,9 @@ namespace papilla {
 
 struct SafetyLimits {
   double max_force_n = 3.3;
-  double slew_n_per_s = 1650;   ///< How fast the force may change.
-  double soft_start_s = 0.05;   ///< Over how long the first force fades in.
-  double watchdog_s = 0.01;     ///< Age of the newest position from which on there is no force.
+  double slew_n_per_s = 1650;  ///< How fast the force may change.
+  double soft_start_s = 0.05;  ///< Over how long the first force fades in.
+  double watchdog_s = 0.01;    ///< Age of the newest position from which on there is no force.
 };
 
 /// Limits of a device: its largest force, reached from zero in 2 ms at the fastest.

@@ -39,8 +39,8 @@ struct HandCoupling {
 ///     m·a = F(t − t_d) + K(x_h − x) + B(v_h − v) − b·v − f_c·v/|v|
 /// with the force held between ticks, sticking while the sum of the others stays below f_c, and positions read in steps
 /// of Δ. Integrated in steps of at most 50 µs: the linear damping exactly (exponential), Coulomb friction implicitly,
-/// so that it never reverses the motion. Each read() after the first advances by one period. Deterministic: the same calls give the
-/// same bits. noexcept, no allocation.
+/// so that it never reverses the motion. Each read() after the first advances by one period. Deterministic: the same
+/// calls give the same bits. noexcept, no allocation.
 class SimDevice final : public HapticDevice {
  public:
   /// @param hand must outlive the device; it starts at hand.start_s() and the handle at rest at its first position.
