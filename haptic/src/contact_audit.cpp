@@ -4,14 +4,12 @@
 namespace papilla {
 
 bool ContactAudit::lost(Vec3 probe, bool in_contact) noexcept {
-  if (in_contact) {
-    was_free_ = beyond_ = false;
-    return false;
-  }
-  if (was_free_ && surface_->crosses(last_, probe)) beyond_ = !beyond_;
+  if (!is_finite(probe)) return false;
+  if (started_ && surface_->crossings(last_, probe) % 2 == 1) behind_ = !behind_;
   last_ = probe;
-  was_free_ = true;
-  if (beyond_) return true;
+  started_ = true;
+  if (in_contact) return false;
+  if (behind_) return true;
 
   const double radius = surface_->probe_radius_m();
   const auto near = surface_->closest_point(probe, radius + surface_->tallest_relief_m());

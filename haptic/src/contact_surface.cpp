@@ -17,6 +17,8 @@ constexpr double k_least_skin_share = 2e-6;  // Of the extent: thirty times the 
 // Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the
 // times must be finer than that, or the neighbour's tilted normal would be taken.
 constexpr double k_close = 1e-7;
+// Share of a triangle by which a way may miss it in crossings(), so that an edge is met from one side at least.
+constexpr double k_edge = 1e-9;
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
@@ -341,7 +343,9 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
     if (at >= t_max) return;
     // Above the highest point and leaving: the rest of the way is free.
     if (now.distance > contact + top && dot(x - foot(t, x).point, way) >= 0) return;
-    at = std::min(t_max, at + std::max(finest, 0.5 * now.value / length));
+    // Not past the base either: behind it the clearance grows again.
+    const double base = std::max(0.5 * now.distance, tolerance_m());
+    at = std::min(t_max, at + std::min(std::max(finest, 0.5 * now.value / length), base / length));
   }
   for (int i = 0; i < k_bisections && at - outside > 1e-9; ++i) {
     const double middle = 0.5 * (outside + at);
@@ -407,23 +411,27 @@ std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_
   return nearest(p, radius_m, [material](const Packed& t) noexcept { return t.material == material; });
 }
 
-bool ContactSurface::crosses(Vec3 from, Vec3 to) const noexcept {
+int ContactSurface::crossings(Vec3 from, Vec3 to) const noexcept {
+  constexpr int k_most = 16;
   const Vec3 start = from - origin_, way = to - from;
-  bool found = false;
+  double places[k_most];
+  int count = 0;
   double t_max = 1;
   bvh_.along(start, way, 0, t_max, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    for (std::uint32_t place = begin; place < end && !found; ++place) {
+    for (std::uint32_t place = begin; place < end && count < k_most; ++place) {
       const Corners t = corners(place);
       const Vec3 ab = t.b - t.a, ac = t.c - t.a, p = cross(way, ac);
       const double det = dot(ab, p);
       if (det == 0) continue;
       const Vec3 s = start - t.a, q = cross(s, ab);
       const double u = dot(s, p) / det, v = dot(way, q) / det, at = dot(ac, q) / det;
-      found = u >= 0 && v >= 0 && u + v <= 1 && at >= 0 && at <= 1;
+      if (u < -k_edge || v < -k_edge || u + v > 1 + k_edge || at < 0 || at >= 1) continue;
+      const bool known =
+          std::any_of(places, places + count, [at](double other) noexcept { return std::abs(at - other) < k_edge; });
+      if (!known) places[count++] = at;
     }
-    if (found) t_max = -1;
   });
-  return found;
+  return count;
 }
 
 double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {

@@ -11,9 +11,10 @@ namespace papilla {
 ///
 /// A tick is lost when the proxy is free although
 ///   - the probe stands in front of its closest triangle, but lower than the relief and probe radius above it; or
-///   - the probe's path since the last tick, on which the proxy was free as well, went through a triangle; and every
-///     free tick after that until the path goes through one again or the proxy gets hold.
-/// noexcept, no allocation; a tick in contact costs nothing, a free one a query near the surface.
+///   - the probe's path since the last reset has gone through the triangles an odd number of times: it is behind a wall
+///     without being held. Leaving around the rim of an open sheet that it was pressed through counts as lost, too,
+///     from there on: the audit errs on that side.
+/// noexcept, no allocation. Costs one segment query, and one closest point when free near the surface.
 class ContactAudit {
  public:
   explicit ContactAudit(const ContactSurface& surface) noexcept : surface_(&surface) {}
@@ -24,7 +25,7 @@ class ContactAudit {
  private:
   const ContactSurface* surface_;
   Vec3 last_;
-  bool was_free_ = false, beyond_ = false;
+  bool started_ = false, behind_ = false;
 };
 
 }  // namespace papilla

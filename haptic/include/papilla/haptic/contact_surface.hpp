@@ -69,8 +69,9 @@ class ContactSurface {
   /// The same, among the triangles of one material.
   std::optional<SurfacePoint> closest_point(Vec3 p, double radius_m, std::uint32_t material) const noexcept;
 
-  /// Whether the straight way goes through a base triangle (Möller and Trumbore 1997; edges count).
-  bool crosses(Vec3 from, Vec3 to) const noexcept;
+  /// How often the straight way from `from` up to, but without, `to` goes through the base triangles (Möller and
+  /// Trumbore 1997). Triangles met at the same place, as duplicates and at edges, count once; at most 16.
+  int crossings(Vec3 from, Vec3 to) const noexcept;
 
   /// min over T of f_T(x), looked for within `radius_m` of x; radius_m − contact_radius_m() when nothing is near.
   double clearance(Vec3 x, double radius_m) const noexcept;
