@@ -332,6 +332,8 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
   if (!entry) return;
   const double finest = std::max(0.5 / std::max(texels_on(place, t, way), 0.5), 1.0 / k_march_steps);
 
+  // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
+  const double level = -0.5 * tolerance_m();
   double outside = *entry, at = *entry, allowed = -tolerance_m();
   for (bool first = true;; first = false) {
     const Vec3 x = from + at * way;
@@ -339,7 +341,7 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
     // A probe that is too deep already may rise.
     if (now.value < allowed && (!first || dot(now.gradient, way) < 0)) break;
     allowed = std::min(-tolerance_m(), now.value);
-    if (now.value >= 0) outside = at;
+    if (now.value >= level) outside = at;
     if (at >= t_max) return;
     // Above the highest point and leaving: the rest of the way is free.
     if (now.distance > contact + top && dot(x - foot(t, x).point, way) >= 0) return;
@@ -349,7 +351,7 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
   }
   for (int i = 0; i < k_bisections && at - outside > 1e-9; ++i) {
     const double middle = 0.5 * (outside + at);
-    (clearance_of(place, t, from + middle * way).value >= 0 ? outside : at) = middle;
+    (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
   }
   const Clearance there = clearance_of(place, t, from + outside * way);
   const SweepHit hit{outside, normalized(there.gradient), -there.value, source_[place], triangles_[place].material};
