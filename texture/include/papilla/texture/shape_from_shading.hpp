@@ -21,7 +21,7 @@ struct ShadingOptions {
   double relative_tolerance =
       1e-4;                  ///< variational: stop when five steps together lower the energy by less than this share.
   double smoothness = 0.05;  ///< variational: λ below, positive.
-  Progress progress;
+  Progress progress = {};
 };
 
 /// What a shape-from-shading method returns.
