@@ -38,24 +38,30 @@ std::size_t pixel_count(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-void check_size(const ImageSpec& spec, const fs::path& path) {
+void check_size(const ImageSpec& spec, const fs::path& path, std::size_t bytes) {
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
     throw InvalidInput(path.string() + ": is no flat picture");
   const std::size_t pixels = pixel_count(spec.width, spec.height);
-  const std::size_t holdable = k_free_pixels + k_max_pixels_per_byte * fs::file_size(path);
+  const std::size_t holdable = k_free_pixels + k_max_pixels_per_byte * bytes;
   if (pixels > std::min(k_max_image_pixels, holdable))
     throw InvalidInput(fmt::format("{}: claims {} x {} pixels; at most {} are supported for its size", path.string(),
                                    spec.width, spec.height, std::min(k_max_image_pixels, holdable)));
 }
 
+/// Asks for values as they are stored, not multiplied by alpha.
+ImageSpec stored_values() {
+  ImageSpec wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);
+  return wishes;
+}
+
 std::unique_ptr<ImageInput> open_picture(const fs::path& path) {
   require_file(path);
   if (fs::file_size(path) == 0) throw InvalidInput(path.string() + ": is empty");
-  ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);  // Values as stored, not multiplied by alpha.
+  const ImageSpec wishes = stored_values();
   auto input = ImageInput::open(path.string(), &wishes);
   if (!input) throw InvalidInput(path.string() + ": is no picture: " + first_line(OIIO::geterror()));
-  check_size(input->spec(), path);
+  check_size(input->spec(), path, fs::file_size(path));
   return input;
 }
 
@@ -70,6 +76,17 @@ std::vector<T> read_pixels(ImageInput& input, const fs::path& path, int channels
 }
 
 int color_channels(const ImageSpec& spec) { return spec.nchannels >= 3 ? 3 : 1; }
+
+ColorImage read_rgb(ImageInput& input, const fs::path& path) {
+  const ImageSpec& spec = input.spec();
+  const int channels = color_channels(spec);
+  ColorImage image{spec.width, spec.height, read_pixels<unsigned char>(input, path, channels)};
+  if (channels == 3) return image;
+  std::vector<unsigned char> rgb(3 * image.pixels.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
+  image.pixels = std::move(rgb);
+  return image;
+}
 
 double pitch_of(const ImageSpec& spec) {
   const double x = double{spec.get_float_attribute("XResolution")},
@@ -139,16 +156,16 @@ GreyImage read_grey_image(const fs::path& path) {
   return image;
 }
 
-ColorImage read_color_image(const fs::path& path) {
-  const auto input = open_picture(path);
-  const ImageSpec& spec = input->spec();
-  const int channels = color_channels(spec);
-  ColorImage image{spec.width, spec.height, read_pixels<unsigned char>(*input, path, channels)};
-  if (channels == 3) return image;
-  std::vector<unsigned char> rgb(3 * image.pixels.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
-  image.pixels = std::move(rgb);
-  return image;
+ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_picture(path), path); }
+
+ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+  const ImageSpec wishes = stored_values();
+  // The extension only starts OpenImageIO's search; the content decides.
+  const auto input = ImageInput::open("picture.png", &wishes, &memory);
+  if (!input) throw InvalidInput(name + ": is no picture: " + first_line(OIIO::geterror()));
+  check_size(input->spec(), name, bytes.size());
+  return read_rgb(*input, name);
 }
 
 std::vector<std::byte> encode_png(const ColorImage& image) {

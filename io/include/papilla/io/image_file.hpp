@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "papilla/texture/height_map.hpp"
@@ -24,6 +26,10 @@ GreyImage read_grey_image(const std::filesystem::path& path);
 /// Reads any picture OpenImageIO knows as 8-bit RGB; grey is repeated, alpha ignored.
 /// @throws IoError, InvalidInput as read_grey_image().
 ColorImage read_color_image(const std::filesystem::path& path);
+
+/// The same for a picture in memory, PNG or JPEG; `name` only names it in messages.
+/// @throws InvalidInput as read_color_image().
+ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);
 
 /// The picture as an 8-bit RGB PNG file, without metadata. The same picture gives the same bytes.
 /// @pre pixels.size() == 3 * width * height.
