@@ -39,9 +39,9 @@ int main(int argc, char** argv) {
   add_repair(program);
   // add_unwrap(program);
   // add_measure(program);
-  // add_analyze(program);
-  // add_synthesize(program);
-  // add_height(program);
+  add_analyze(program);
+  add_synthesize(program);
+  add_height(program);
   // add_plan(program);
   // add_bake(program);
 
