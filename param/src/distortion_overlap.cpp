@@ -31,9 +31,7 @@ Rectangle bounds(const UvTriangle& t) {
   return {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
 }
 
-double area(const UvTriangle& t) {
-  return 0.5 * cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
-}
+double area(const UvTriangle& t) { return 0.5 * cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]); }
 
 /// How deep b reaches over the line through each edge of a at most, taken over the edge where it reaches least.
 double depth(const UvTriangle& a, const UvTriangle& b) {
@@ -107,8 +105,9 @@ class Hierarchy {
       return split_x ? r.x0 + r.x1 : r.y0 + r.y1;
     };
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) { return std::pair(centre(a), a) < std::pair(centre(b), b); });
+    std::nth_element(
+        members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
+        [&](std::uint32_t a, std::uint32_t b) { return std::pair(centre(a), a) < std::pair(centre(b), b); });
     build(begin, middle);
     nodes_[self].first = static_cast<std::uint32_t>(nodes_.size());
     build(middle, end);
@@ -137,7 +136,8 @@ struct Segment {
 };
 
 Segment cut_row(const UvTriangle& t, double y, bool within_charts) {
-  Segment s{within_charts ? t.chart : 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Segment s{within_charts ? t.chart : 0, std::numeric_limits<double>::infinity(),
+            -std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < 3; ++k) {
     Vec2 a = t.corners[k], b = t.corners[(k + 1) % 3];
     if (b < a) std::swap(a, b);  // the neighbour across this edge computes the same crossing
@@ -182,7 +182,8 @@ Covered cover_rows(const std::vector<UvTriangle>& triangles, const std::vector<s
     heights += r.y1 - r.y0;
   }
   const double height = box.y1 - box.y0;
-  const int rows = static_cast<int>(std::clamp(k_most_segments * height / heights, 64.0, static_cast<double>(wanted_rows)));
+  const int rows =
+      static_cast<int>(std::clamp(k_most_segments * height / heights, 64.0, static_cast<double>(wanted_rows)));
   const double step = height / rows;
   const auto row_after = [&](double y) {  // the first row whose middle is at y or above
     return static_cast<std::size_t>(std::clamp(std::ceil((y - box.y0) / step - 0.5), 0.0, static_cast<double>(rows)));

@@ -206,8 +206,8 @@ class Measurement {
       TriangleDistortion& d = report_.per_triangle[t];
       d.area_mm2 = raw.area;
       d.degenerate_3d = !(raw.pair.height > k_degenerate * raw.pair.base && raw.pair.base > least_edge);
-      const bool has_uv_area = 2 * std::abs(raw.signed_uv_area) > k_degenerate * longest_uv &&
-                               longest_uv > least_uv_edge * least_uv_edge;
+      const bool has_uv_area =
+          2 * std::abs(raw.signed_uv_area) > k_degenerate * longest_uv && longest_uv > least_uv_edge * least_uv_edge;
       d.degenerate_uv = !d.degenerate_3d && !has_uv_area;
       d.measured = !d.degenerate_3d && !d.degenerate_uv;
     });
@@ -220,12 +220,14 @@ class Measurement {
       while (parent[t] != t) t = parent[t] = parent[parent[t]];
       return t;
     };
-    each_run(sides_, [](const Side& s) { return s.uv_edge(); }, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin + 1; i < end; ++i) {
-        const Index a = root(sides_[begin].corner / 3), b = root(sides_[i].corner / 3);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-    });
+    each_run(
+        sides_, [](const Side& s) { return s.uv_edge(); },
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin + 1; i < end; ++i) {
+            const Index a = root(sides_[begin].corner / 3), b = root(sides_[i].corner / 3);
+            parent[std::max(a, b)] = std::min(a, b);
+          }
+        });
     for (Index t = 0; t < raw_.size(); ++t) {
       const Index r = root(t);
       report_.per_triangle[t].chart = r == t ? report_.charts++ : report_.per_triangle[r].chart;
@@ -363,18 +365,20 @@ class Measurement {
 
   void sum_edges() {
     double length = 0, squared_length = 0, jump = 0, weight = 0;
-    each_run(sides_, [](const Side& s) { return s.uv_edge(); }, [&](std::size_t begin, std::size_t end) {
-      const Side& s = sides_[begin];
-      const double space = length_of(s), plane = scale_ * norm(uv_of(next(s.corner)) - uv_of(s.corner));
-      if (space > 0) {
-        const double difference = plane * plane - space * space;
-        report_.edge_length_error += std::abs(plane - space);
-        report_.maillot_length += difference * difference / (space * space);
-        length += space;
-        squared_length += space * space;
-      }
-      if (end - begin == 2) add_homogeneity(s, sides_[begin + 1], jump, weight);
-    });
+    each_run(
+        sides_, [](const Side& s) { return s.uv_edge(); },
+        [&](std::size_t begin, std::size_t end) {
+          const Side& s = sides_[begin];
+          const double space = length_of(s), plane = scale_ * norm(uv_of(next(s.corner)) - uv_of(s.corner));
+          if (space > 0) {
+            const double difference = plane * plane - space * space;
+            report_.edge_length_error += std::abs(plane - space);
+            report_.maillot_length += difference * difference / (space * space);
+            length += space;
+            squared_length += space * space;
+          }
+          if (end - begin == 2) add_homogeneity(s, sides_[begin + 1], jump, weight);
+        });
     if (length > 0) {
       report_.edge_length_error /= length;
       report_.maillot_length /= squared_length;
@@ -403,14 +407,16 @@ class Measurement {
 
   void sum_seams() {
     double jump = 0;
-    each_run(sides_, [](const Side& s) { return s.edge(); }, [&](std::size_t begin, std::size_t end) {
-      const Side& first = sides_[begin];
-      const Side& last = sides_[end - 1];
-      if (first.uv_edge() == last.uv_edge()) return;
-      const double length = length_of(first);
-      report_.seam_length_mm += length;
-      jump += 0.5 * length * (phase_jump(first.uv_low, last.uv_low) + phase_jump(first.uv_high, last.uv_high));
-    });
+    each_run(
+        sides_, [](const Side& s) { return s.edge(); },
+        [&](std::size_t begin, std::size_t end) {
+          const Side& first = sides_[begin];
+          const Side& last = sides_[end - 1];
+          if (first.uv_edge() == last.uv_edge()) return;
+          const double length = length_of(first);
+          report_.seam_length_mm += length;
+          jump += 0.5 * length * (phase_jump(first.uv_low, last.uv_low) + phase_jump(first.uv_high, last.uv_high));
+        });
     if (report_.seam_length_mm > 0) report_.seam_phase_jump = jump / report_.seam_length_mm;
   }
 
@@ -458,9 +464,11 @@ class Measurement {
 void check_options(const MeasureOptions& o) {
   for (const double x : {o.texture_px.x, o.texture_px.y, o.uv_per_texture.x, o.uv_per_texture.y})
     if (!(x > 0 && std::isfinite(x)))
-      throw InvalidInput(std::string(k_function) + ": texture_px and uv_per_texture must be positive, got " + std::to_string(x));
+      throw InvalidInput(std::string(k_function) + ": texture_px and uv_per_texture must be positive, got " +
+                         std::to_string(x));
   if (o.overlap_rows < 64 || o.overlap_rows > 65536)
-    throw InvalidInput(std::string(k_function) + ": overlap_rows is " + std::to_string(o.overlap_rows) + ", expected 64 to 65536");
+    throw InvalidInput(std::string(k_function) + ": overlap_rows is " + std::to_string(o.overlap_rows) +
+                       ", expected 64 to 65536");
 }
 
 }  // namespace
