@@ -129,21 +129,23 @@ std::vector<Index> number_equal(const std::vector<T>& values) {
 
 /// One side of a triangle, named by the points it joins: the lower position first.
 struct Side {
+  Index part;
   Index low, high;        ///< Positions.
   Index uv_low, uv_high;  ///< uv at these.
   Index corner;           ///< 3 * triangle + corner where the side starts.
-  auto edge() const { return std::tie(low, high); }
-  auto uv_edge() const { return std::tie(low, high, uv_low, uv_high); }
+  auto edge() const { return std::tie(part, low, high); }
+  auto uv_edge() const { return std::tie(part, low, high, uv_low, uv_high); }
 };
 
-std::vector<Side> sorted_sides(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv) {
+std::vector<Side> sorted_sides(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
+                               const std::vector<std::uint32_t>& part) {
   const std::vector<Index> position = number_equal(mesh.positions), plane = number_equal(uv.values);
   std::vector<Side> sides(3 * mesh.triangles.size());
   oneapi::tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
-      Side s{position[mesh.triangles[t][k]], position[mesh.triangles[t][l]], plane[uv.indices[t][k]],
-             plane[uv.indices[t][l]], static_cast<Index>(3 * t + k)};
+      Side s{part.empty() ? 0 : part[t], position[mesh.triangles[t][k]], position[mesh.triangles[t][l]],
+             plane[uv.indices[t][k]],    plane[uv.indices[t][l]],        static_cast<Index>(3 * t + k)};
       if (s.high < s.low) std::swap(s.low, s.high), std::swap(s.uv_low, s.uv_high);
       sides[3 * t + k] = s;
     }
@@ -176,7 +178,7 @@ class Measurement {
   DistortionReport run() {
     if (mesh_.triangles.empty()) return report_;
     measure_shapes();
-    sides_ = sorted_sides(mesh_, uv_);
+    sides_ = sorted_sides(mesh_, uv_, options_.part);
     connect_charts();
     find_orientation();
     choose_scale();
@@ -438,8 +440,10 @@ class Measurement {
       triangles.push_back({corners, d.chart});
       number.push_back(t);
     }
-    const UvOverlap any = find_uv_overlap(triangles, false, options_.overlap_rows);
-    const UvOverlap within = find_uv_overlap(triangles, true, options_.overlap_rows);
+    const UvOverlap within = find_uv_overlap(triangles, options_.overlap_rows);
+    for (std::size_t i = 0; i < number.size(); ++i)
+      triangles[i].group = options_.part.empty() ? 0 : options_.part[number[i]];
+    const UvOverlap any = find_uv_overlap(triangles, options_.overlap_rows);
     report_.overlap_area_fraction = any.fraction;
     report_.overlap_within_charts = within.fraction;
     for (std::size_t i = 0; i < number.size(); ++i) {
@@ -471,12 +475,47 @@ void check_options(const MeasureOptions& o) {
                        ", expected 64 to 65536");
 }
 
+bool all_have_uv(const CornerAttribute<Vec2>& uv) {
+  for (std::size_t t = 0; t < uv.indices.size(); ++t)
+    if (!uv.has_value(t)) return false;
+  return true;
+}
+
+/// Measures the triangles that have uv alone and puts the others back into the list.
+DistortionReport measure_those_with_uv(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
+                                       const MeasureOptions& options) {
+  TriangleMesh some;
+  some.positions = mesh.positions;
+  CornerAttribute<Vec2> their_uv{uv.values, {}};
+  MeasureOptions their_options = options;
+  their_options.part.clear();
+  std::vector<std::size_t> number;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!uv.has_value(t)) continue;
+    some.triangles.push_back(mesh.triangles[t]);
+    their_uv.indices.push_back(uv.indices[t]);
+    if (!options.part.empty()) their_options.part.push_back(options.part[t]);
+    number.push_back(t);
+  }
+  DistortionReport report = measure_distortion(some, their_uv, their_options);
+  report.triangles = mesh.triangles.size();
+  report.without_uv = mesh.triangles.size() - number.size();
+  std::vector<TriangleDistortion> all(mesh.triangles.size());
+  for (std::size_t i = 0; i < number.size(); ++i) all[number[i]] = report.per_triangle[i];
+  report.per_triangle = std::move(all);
+  return report;
+}
+
 }  // namespace
 
 DistortionReport measure_distortion(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
                                     const MeasureOptions& options) {
   check_options(options);
   detail::check_mesh(mesh, k_function);
+  if (!options.part.empty() && options.part.size() != mesh.triangles.size())
+    throw InvalidInput(std::string(k_function) + ": part has " + std::to_string(options.part.size()) + " entries for " +
+                       std::to_string(mesh.triangles.size()) + " triangles");
+  if (uv.indices.size() == mesh.triangles.size() && !all_have_uv(uv)) return measure_those_with_uv(mesh, uv, options);
   detail::check_uv(mesh, uv, k_function);
   return Measurement(mesh, uv, options).run();
 }

@@ -290,6 +290,34 @@ TEST(Measure, AllPointsInOneGiveZerosNotNan) {
   EXPECT_TRUE(std::isfinite(r.maillot_area));
 }
 
+TEST(Measure, PartsDoNotMeet) {
+  // The same square twice, stacked in space and in uv: nothing of one part touches the other.
+  TriangleMesh mesh = fan();
+  mesh.triangles.insert(mesh.triangles.end(), mesh.triangles.begin(), mesh.triangles.begin() + 4);
+  const auto uv = uv_per_vertex(mesh, [](Vec3 p) { return Vec2{p.x, p.y}; });
+  MeasureOptions options;
+  EXPECT_NEAR(measure_distortion(mesh, uv, options).overlap_area_fraction, 1, 1e-9);
+  options.part = {0, 0, 0, 0, 1, 1, 1, 1};
+  const DistortionReport r = measure_distortion(mesh, uv, options);
+  EXPECT_EQ(r.overlap_area_fraction, 0);
+  EXPECT_EQ(r.charts, 2u);
+  options.part.pop_back();
+  EXPECT_THROW(measure_distortion(mesh, uv, options), InvalidInput);
+}
+
+TEST(Measure, TrianglesWithoutUvAreLeftOut) {
+  const TriangleMesh mesh = fan();
+  auto uv = uv_per_vertex(mesh, [](Vec3 p) { return Vec2{p.x, p.y}; });
+  uv.indices[1] = {k_no_value, k_no_value, k_no_value};
+  const DistortionReport r = measure_distortion(mesh, uv);
+  EXPECT_EQ(r.triangles, 4u);
+  EXPECT_EQ(r.without_uv, 1u);
+  EXPECT_EQ(r.measured_triangles, 3u);
+  EXPECT_FALSE(r.per_triangle[1].measured);
+  EXPECT_TRUE(r.per_triangle[2].measured);
+  EXPECT_NEAR(r.symmetric_dirichlet.max, 4, 1e-12);
+}
+
 TEST(Measure, EmptyMeshIsEmpty) { EXPECT_EQ(measure_distortion({}, {}).triangles, 0u); }
 
 TEST(Measure, RefusesWhatIsNoUv) {

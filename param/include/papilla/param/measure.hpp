@@ -13,7 +13,9 @@ struct MeasureOptions {
   Vec2 texture_px{1024, 1024};  ///< Size of the texture that texel_density is counted for.
   Vec2 uv_per_texture{1, 1};    ///< How many uv units one repeat of the texture covers: 1 for texture
                                 ///< coordinates of files, the tile size in mm for uv in millimetres.
-  int overlap_rows = 4096;      ///< Rows in which the area of an overlap is summed; 64 to 65536.
+  /// Per triangle: the part it belongs to; empty: one part. Charts, seams and overlap end at parts.
+  std::vector<std::uint32_t> part;
+  int overlap_rows = 4096;  ///< Rows in which the area of an overlap is summed; 64 to 65536.
 };
 
 struct MeanMax {
@@ -22,6 +24,10 @@ struct MeanMax {
 
 struct MinMeanMax {
   double min = 0, mean = 0, max = 0;
+};
+
+struct MinMedianMax {
+  double min = 0, median = 0, max = 0;
 };
 
 /// Values below which the given share of the surface's area lies.
@@ -39,7 +45,7 @@ struct TriangleDistortion {
   bool measured = false;  ///< Degenerate neither in space nor in uv.
   bool flipped = false, degenerate_3d = false, degenerate_uv = false;
   bool overlaps_chart = false;  ///< Lies over or under a triangle of its own chart.
-  bool overlaps_any = false;    ///< ... of any chart.
+  bool overlaps_any = false;    ///< ... of any chart of its part.
 };
 
 /// Distortion of a map from a surface to the plane. Means are weighted by area in space unless said otherwise;
@@ -47,7 +53,8 @@ struct TriangleDistortion {
 /// values.
 struct DistortionReport {
   std::size_t triangles = 0, measured_triangles = 0;
-  std::uint32_t charts = 0;  ///< Connected over edges with the same two positions and uv.
+  std::size_t without_uv = 0;  ///< Left out of everything else.
+  std::uint32_t charts = 0;    ///< Connected over edges with the same two positions and uv.
   std::size_t flipped = 0;  ///< Turned against the majority (by uv area) of their chart; not those degenerate in space.
   std::uint32_t mirrored_charts = 0;  ///< Charts whose majority is clockwise in uv (where v runs upwards).
   std::size_t degenerate_3d =
@@ -74,7 +81,7 @@ struct DistortionReport {
       0;  ///< √ of the mean over interior edges of the squared jump of ∂u/∂Y and ∂v/∂Y across the edge.
   double green_lagrange =
       0;  ///< Mean over uv area of (σ1⁻² - 1)² + (σ2⁻² - 1)²: the map's first fundamental form against the identity.
-  MinMeanMax texel_density;  ///< Texels per mm, uv unscaled; `mean` holds the median by area.
+  MinMedianMax texel_density;  ///< Texels per mm, uv unscaled; the median by area.
 
   Percentiles symmetric_dirichlet_percentiles, stretch_percentiles, angle_error_percentiles;
   std::vector<TriangleDistortion> per_triangle;
@@ -89,7 +96,7 @@ struct DistortionReport {
 /// 0 means none; its area is summed in rows, exact along the row. Shares no code with the solvers. Cost: O(n log n),
 /// about 400 bytes per triangle. Parallel, the same bytes for any number of threads.
 ///
-/// @param uv one entry per triangle.
+/// @param uv one entry per triangle; those that have no value are counted and left out.
 /// @throws InvalidInput when a position or uv is not finite, an index is out of range, or an option is not positive.
 DistortionReport measure_distortion(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
                                     const MeasureOptions& options = {});
