@@ -18,7 +18,7 @@ constexpr double k_largest_coordinate = 1e60;
 
 }  // namespace
 
-void check_mesh(const TriangleMesh& mesh, std::string_view function) {
+void check_triangles(const TriangleMesh& mesh, std::string_view function) {
   if (mesh.triangles.size() >= (std::size_t{1} << 30))
     fail(function,
          "the mesh has " + std::to_string(mesh.triangles.size()) + " triangles, at most 2^30 - 1 can be numbered");

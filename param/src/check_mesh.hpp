@@ -10,7 +10,7 @@ namespace papilla::detail {
 
 /// @throws InvalidInput naming `function` and the first vertex or triangle when a position is not finite or too large
 ///         to be squared, an index is out of range, or the mesh has 2^30 triangles or more.
-void check_mesh(const TriangleMesh& mesh, std::string_view function);
+void check_triangles(const TriangleMesh& mesh, std::string_view function);
 
 /// @throws InvalidInput unless every triangle has a chart number below the count.
 void check_charts(const TriangleMesh& mesh, const ChartSet& charts, std::string_view function);

@@ -8,7 +8,7 @@
 namespace papilla {
 
 ChartSet components_as_charts(const TriangleMesh& mesh) {
-  detail::check_mesh(mesh, "components_as_charts");
+  detail::check_triangles(mesh, "components_as_charts");
   // Sheets of equal label: with one label for all, the components.
   detail::Sheets sheets =
       detail::connect_sheets(detail::connect_triangles(mesh), std::vector<std::uint8_t>(mesh.triangles.size(), 0));

@@ -233,7 +233,7 @@ std::vector<std::vector<Index>> border_loops(const ChartSurface& chart) {
 }  // namespace detail
 
 Flattening flatten_lscm(const TriangleMesh& mesh, const ChartSet& charts, const LscmOptions& options) {
-  check_mesh(mesh, k_function);
+  check_triangles(mesh, k_function);
   check_charts(mesh, charts, k_function);
   const Stopwatch clock;
   const Adjacency across = connect_triangles(mesh);

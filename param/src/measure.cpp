@@ -511,7 +511,7 @@ DistortionReport measure_those_with_uv(const TriangleMesh& mesh, const CornerAtt
 DistortionReport measure_distortion(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
                                     const MeasureOptions& options) {
   check_options(options);
-  detail::check_mesh(mesh, k_function);
+  detail::check_triangles(mesh, k_function);
   if (!options.part.empty() && options.part.size() != mesh.triangles.size())
     throw InvalidInput(std::string(k_function) + ": part has " + std::to_string(options.part.size()) + " entries for " +
                        std::to_string(mesh.triangles.size()) + " triangles");

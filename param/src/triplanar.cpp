@@ -124,7 +124,7 @@ BorderJump measure_jump(const TriangleMesh& mesh, const Adjacency& across, const
 
 TriplanarResult flatten_triplanar(const TriangleMesh& mesh, const TriplanarOptions& options) {
   check_options(options);
-  check_mesh(mesh, k_function);
+  check_triangles(mesh, k_function);
   const Stopwatch total;
   TriplanarResult result;
   Flattening& flattening = result.flattening;
