@@ -79,7 +79,7 @@ void pair_around(const TriangleMesh& mesh, std::span<const Index> halfedges, std
 class FreePlaces {
  public:
   FreePlaces(const std::vector<Vec3>& positions, double clearance)
-      : positions_(positions), clearance_(clearance), tree_(positions_, all_of(positions_)) {}
+      : clearance_(clearance), tree_(positions, all_of(positions)) {}
 
   /// start + m · step for the smallest m from 1 that is clear; m = 16 when none is.
   Vec3 along(const Vec3& start, const Vec3& step) {
@@ -106,7 +106,7 @@ class FreePlaces {
 
   bool is_clear(const Vec3& p) const {
     bool clear = true;
-    tree_.near_point(p, clearance_, [&](Index v) { clear = clear && norm(positions_[v] - p) >= clearance_; });
+    tree_.near_point(p, clearance_, [&](Index, const Vec3& q) { clear = clear && norm(q - p) >= clearance_; });
     for (int i = 0; i < 27 && clear; ++i) {
       const auto [begin, end] = placed_.equal_range(cell_of(p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
       for (auto other = begin; other != end && clear; ++other) clear = norm(other->second - p) >= clearance_;
@@ -114,7 +114,6 @@ class FreePlaces {
     return clear;
   }
 
-  std::vector<Vec3> positions_;
   double clearance_;
   PointTree tree_;
   std::multimap<Cell, Vec3> placed_;

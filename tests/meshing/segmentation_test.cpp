@@ -89,7 +89,7 @@ void expect_disks(const TriangleMesh& mesh, const SegmentationResult& result) {
   ASSERT_EQ(result.charts.of_triangle.size(), mesh.triangles.size());
   std::set<std::uint32_t> used(result.charts.of_triangle.begin(), result.charts.of_triangle.end());
   EXPECT_EQ(used.size(), result.charts.count);
-  if (!used.empty()) EXPECT_EQ(*used.rbegin() + 1, result.charts.count);
+  EXPECT_EQ(used.empty() ? 0 : *used.rbegin() + 1, result.charts.count);
   const std::vector<ChartTopology> topologies = chart_topologies(mesh, result.charts);
   for (std::uint32_t c = 0; c < result.charts.count; ++c) {
     const Count count = count_chart(mesh, result.charts, c);
@@ -212,6 +212,17 @@ TEST(Segmentation, NoiseDoesNotShatter) {
   const TriangleMesh mesh = terrain(60, 0.2, 11);
   const SegmentationResult result = segment_charts(mesh);
   EXPECT_LE(result.charts.count, 3u);
+}
+
+TEST(Segmentation, SpecksBoundTheCountOnTheRoughestSurface) {
+  const TriangleMesh mesh = terrain(40, 3, 5);  // most edges are bent by more than the feature angle
+  SegmentationOptions options;
+  options.speck_area_fraction = 0;
+  EXPECT_GT(segment_charts(mesh, options).charts.count, 300u);
+  options.speck_area_fraction = 0.01;
+  const SegmentationResult result = segment_charts(mesh, options);
+  EXPECT_LE(result.charts.count, 120u);
+  expect_disks(mesh, result);
 }
 
 TEST(Segmentation, EmptyMeshAndBadOptions) {
