@@ -6,7 +6,7 @@
 
 #include "papilla/core/error.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 /// Fourth powers of such lengths and their sums over a mesh stay finite.
@@ -59,4 +59,4 @@ void check_uv(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, std::st
       if (i >= uv.values.size()) fail(function, "triangle[" + std::to_string(t) + "] names a uv that does not exist");
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -7,7 +7,7 @@
 
 #include "adjacency.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 /// Fraction of the sheet's extent below which contact is not overlap: far above the rounding of coordinates, far
@@ -261,4 +261,4 @@ std::vector<std::uint32_t> split_overlaps(const PlaneSheet& sheet) {
   return piece;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

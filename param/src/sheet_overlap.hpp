@@ -8,7 +8,7 @@
 #include "papilla/core/vec.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// A directed border edge of a sheet in the plane; the sheet lies on its left.
 struct BorderEdge {
@@ -39,4 +39,4 @@ bool overlaps_itself(const PlaneSheet& sheet);
 /// that is left. @return the piece of each triangle, counted from 0.
 std::vector<std::uint32_t> split_overlaps(const PlaneSheet& sheet);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

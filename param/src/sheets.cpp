@@ -7,7 +7,7 @@
 #include "chart_pieces.hpp"
 #include "sheet_overlap.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 constexpr std::uint32_t k_no_sheet = ~std::uint32_t{0};
@@ -322,4 +322,4 @@ void renumber(Sheets& sheets) {
   sheets.count = count;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 /// Relative distance below which two normal components count as equal, so that rounding does not decide.
@@ -121,4 +121,4 @@ std::size_t count_lone_triangles(const Adjacency& across, const LabelledTriangle
   return lone;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail
