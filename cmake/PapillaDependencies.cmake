@@ -18,6 +18,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   find_package(Eigen3 REQUIRED NO_MODULE)
   # Before CGAL: CGAL's own FindOpenMesh would shadow the package configuration.
   find_package(OpenMesh CONFIG REQUIRED)
+  set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
   find_package(CGAL REQUIRED)
   find_package(TBB REQUIRED)
   find_package(Ceres REQUIRED)

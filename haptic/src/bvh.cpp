@@ -37,8 +37,8 @@ int bin_of(float c, float low, float scale) noexcept {
 }
 
 /// The cheapest of the 15 planes of one axis: area × count of both sides.
-void try_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items, const Box3f& centres, std::size_t axis,
-              Split& best) {
+void try_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items, const Box3f& centres,
+              std::size_t axis, Split& best) {
   const float extent = centres.high[axis] - centres.low[axis];
   if (!(extent > 0) || !std::isfinite(static_cast<float>(k_bins) / extent)) return;
   const float scale = static_cast<float>(k_bins) / extent;

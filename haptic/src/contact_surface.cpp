@@ -11,12 +11,14 @@
 namespace papilla {
 namespace {
 
-constexpr double k_skin_m = 2e-5;             // Closes gaps of 40 µm; a tenth of what a fingertip resolves as roughness edge.
-constexpr double k_skin_share = 1e-3;         // Of the extent, for scenes smaller than 20 mm.
-constexpr double k_least_skin_share = 2e-6;   // Of the extent: thirty times the rounding of single precision.
-// Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the times
-// must be finer than that, or the neighbour's tilted normal would be taken.
+constexpr double k_skin_m = 2e-5;      // Closes gaps of 40 µm; a tenth of what a fingertip resolves as roughness edge.
+constexpr double k_skin_share = 1e-3;  // Of the extent, for scenes smaller than 20 mm.
+constexpr double k_least_skin_share = 2e-6;  // Of the extent: thirty times the rounding of single precision.
+// Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the
+// times must be finer than that, or the neighbour's tilted normal would be taken.
 constexpr double k_close = 1e-7;
+// Share of a triangle by which a way may miss it in crossings(), so that an edge is met from one side at least.
+constexpr double k_edge = 1e-9;
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
@@ -34,9 +36,12 @@ void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& material
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const ContactMaterial& m = materials[i];
     for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.stribeck_velocity})
-      if (!(value >= 0) || !std::isfinite(value)) fail("material " + std::to_string(i) + " has a number that is not >= 0");
-    if (m.height && *m.height >= heights.size()) fail("material " + std::to_string(i) + " names a missing height field");
-    if (m.height && mesh.corner_uv.empty()) fail("material " + std::to_string(i) + " has a relief but the mesh has no uv");
+      if (!(value >= 0) || !std::isfinite(value))
+        fail("material " + std::to_string(i) + " has a number that is not >= 0");
+    if (m.height && *m.height >= heights.size())
+      fail("material " + std::to_string(i) + " names a missing height field");
+    if (m.height && mesh.corner_uv.empty())
+      fail("material " + std::to_string(i) + " has a relief but the mesh has no uv");
   }
   for (std::size_t t = 0; t < n; ++t) {
     for (const std::uint32_t v : mesh.triangles[t])
@@ -93,7 +98,8 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   for (std::size_t t = 0; t < n; ++t) {
     const Vec3* c = &base.corners[3 * t];
     const bool usable = is_finite(c[0]) && is_finite(c[1]) && is_finite(c[2]) &&
-                        std::isfinite(norm(c[0]) + norm(c[1]) + norm(c[2])) && norm(cross(c[1] - c[0], c[2] - c[0])) > 0;
+                        std::isfinite(norm(c[0]) + norm(c[1]) + norm(c[2])) &&
+                        norm(cross(c[1] - c[0], c[2] - c[0])) > 0;
     if (!usable) continue;
     kept.push_back(static_cast<std::uint32_t>(t));
     for (int k = 0; k < 3; ++k) {
@@ -122,7 +128,8 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   };
   const auto has_relief = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
-    return s[0] < 0 || s[1] < 0 || s[2] < 0 || materials_[mesh.material.empty() ? 0 : mesh.material[t]].height.has_value();
+    return s[0] < 0 || s[1] < 0 || s[2] < 0 ||
+           materials_[mesh.material.empty() ? 0 : mesh.material[t]].height.has_value();
   };
   const auto highest = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
@@ -198,7 +205,8 @@ ContactSurface::Foot ContactSurface::foot(const Corners& t, Vec3 x) const noexce
 }
 
 /// Height of the relief above the base at a foot, and its gradient within the triangle's plane.
-double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* gradient) const noexcept {
+double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Foot& foot,
+                                 Vec3* gradient) const noexcept {
   const Packed& packed = triangles_[place];
   const Relief& relief = reliefs_[packed.relief];
   const auto corner = [&](int k) {
@@ -269,8 +277,8 @@ double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way
   return norm(along(0) * per_uv[0] + along(1) * per_uv[1]);
 }
 
-/// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat, it
-/// is the one that x stands above.
+/// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat,
+/// it is the one that x stands above.
 bool ContactSurface::comes_before(const SweepHit& a, const SweepHit& b) noexcept {
   return a.t != b.t ? a.t < b.t : a.penetration_m > b.penetration_m;
 }
@@ -292,7 +300,8 @@ std::optional<double> ContactSurface::approach(const Corners& t, Vec3 from, Vec3
   return at;
 }
 
-void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, std::optional<SweepHit>& best) const noexcept {
+void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way,
+                                 std::optional<SweepHit>& best) const noexcept {
   const Corners t = corners(place);
   const double t_max = best ? best->t : 1, contact = contact_radius_m();
   const auto touch = approach(t, from, way, 0, contact, t_max);
@@ -311,7 +320,8 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, std::
 }
 
 /// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
-void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, std::optional<SweepHit>& best) const noexcept {
+void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
+                                  std::optional<SweepHit>& best) const noexcept {
   const Corners t = corners(place);
   const double t_max = best ? best->t : 1, length = norm(way), contact = contact_radius_m();
   const auto& height = materials_[triangles_[place].material].height;
@@ -322,6 +332,8 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, std:
   if (!entry) return;
   const double finest = std::max(0.5 / std::max(texels_on(place, t, way), 0.5), 1.0 / k_march_steps);
 
+  // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
+  const double level = -0.5 * tolerance_m();
   double outside = *entry, at = *entry, allowed = -tolerance_m();
   for (bool first = true;; first = false) {
     const Vec3 x = from + at * way;
@@ -329,15 +341,17 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, std:
     // A probe that is too deep already may rise.
     if (now.value < allowed && (!first || dot(now.gradient, way) < 0)) break;
     allowed = std::min(-tolerance_m(), now.value);
-    if (now.value >= 0) outside = at;
+    if (now.value >= level) outside = at;
     if (at >= t_max) return;
     // Above the highest point and leaving: the rest of the way is free.
     if (now.distance > contact + top && dot(x - foot(t, x).point, way) >= 0) return;
-    at = std::min(t_max, at + std::max(finest, 0.5 * now.value / length));
+    // Not past the base either: behind it the clearance grows again.
+    const double base = std::max(0.5 * now.distance, tolerance_m());
+    at = std::min(t_max, at + std::min(std::max(finest, 0.5 * now.value / length), base / length));
   }
   for (int i = 0; i < k_bisections && at - outside > 1e-9; ++i) {
     const double middle = 0.5 * (outside + at);
-    (clearance_of(place, t, from + middle * way).value >= 0 ? outside : at) = middle;
+    (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
   }
   const Clearance there = clearance_of(place, t, from + outside * way);
   const SweepHit hit{outside, normalized(there.gradient), -there.value, source_[place], triangles_[place].material};
@@ -394,8 +408,32 @@ std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_
   return nearest(p, radius_m, [](const Packed&) noexcept { return true; });
 }
 
-std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m, std::uint32_t material) const noexcept {
+std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m,
+                                                          std::uint32_t material) const noexcept {
   return nearest(p, radius_m, [material](const Packed& t) noexcept { return t.material == material; });
+}
+
+int ContactSurface::crossings(Vec3 from, Vec3 to) const noexcept {
+  constexpr int k_most = 16;
+  const Vec3 start = from - origin_, way = to - from;
+  double places[k_most];
+  int count = 0;
+  double t_max = 1;
+  bvh_.along(start, way, 0, t_max, [&](std::uint32_t begin, std::uint32_t end) noexcept {
+    for (std::uint32_t place = begin; place < end && count < k_most; ++place) {
+      const Corners t = corners(place);
+      const Vec3 ab = t.b - t.a, ac = t.c - t.a, p = cross(way, ac);
+      const double det = dot(ab, p);
+      if (det == 0) continue;
+      const Vec3 s = start - t.a, q = cross(s, ab);
+      const double u = dot(s, p) / det, v = dot(way, q) / det, at = dot(ac, q) / det;
+      if (u < -k_edge || v < -k_edge || u + v > 1 + k_edge || at < 0 || at >= 1) continue;
+      const bool known =
+          std::any_of(places, places + count, [at](double other) noexcept { return std::abs(at - other) < k_edge; });
+      if (!known) places[count++] = at;
+    }
+  });
+  return count;
 }
 
 double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {

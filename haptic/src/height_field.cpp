@@ -50,7 +50,8 @@ HeightField::HeightField(int width, int height, std::vector<std::uint16_t> sampl
     throw InvalidInput("HeightField: " + std::to_string(samples_.size()) + " samples are not " + std::to_string(width) +
                        " x " + std::to_string(height));
   const UvTransform& t = options.uv_transform;
-  for (const double value : {options.scale_m, options.offset_m, t.offset.x, t.offset.y, t.rotation, t.scale.x, t.scale.y})
+  for (const double value :
+       {options.scale_m, options.offset_m, t.offset.x, t.offset.y, t.rotation, t.scale.x, t.scale.y})
     if (!std::isfinite(value)) throw InvalidInput("HeightField: an option is not finite");
 
   metres_per_step_ = (options.white_is_outward ? 1 : -1) * options.scale_m / 65535;

@@ -118,7 +118,8 @@ void read_uv(const Members& in, HeightTag& height) {
   }
 }
 
-void read_uv_transform(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings, UvTransform& t) {
+void read_uv_transform(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings,
+                       UvTransform& t) {
   constexpr const char* k_code = "tag_height_uv";
   const Members in(json, place, warnings);
   in.pair("offset", k_code, -k_any, k_any, t.offset);
@@ -162,7 +163,8 @@ std::optional<HeightTag> read_height(const Json& json, const std::string& place,
   return height;
 }
 
-std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings) {
+std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& place,
+                                           std::vector<HapticWarning>& warnings) {
   constexpr const char* k_code = "tag_roughness";
   const Members in(json, place, warnings);
   RoughnessTag roughness;
@@ -177,7 +179,8 @@ std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& 
   return roughness;
 }
 
-std::optional<SymmetryTag> read_symmetry(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings) {
+std::optional<SymmetryTag> read_symmetry(const Json& json, const std::string& place,
+                                         std::vector<HapticWarning>& warnings) {
   const Members in(json, place, warnings);
   SymmetryTag symmetry;
   in.text("group", "tag_symmetry", symmetry.group);
@@ -220,7 +223,8 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   if (!json.is_object()) throw InvalidInput("haptic tag: is no JSON object");
   const auto version = json.find("version");
   if (version == json.end() || !version->is_number() || version->get<double>() != MaterialTag::k_version)
-    throw InvalidInput("haptic tag: version " + (version == json.end() ? "is missing" : version->dump()) + ", expected 1");
+    throw InvalidInput("haptic tag: version " + (version == json.end() ? "is missing" : version->dump()) +
+                       ", expected 1");
   const Members in(json, place, warnings);
   if (!in.has("stiffness") && !in.has("height")) throw InvalidInput("haptic tag: has neither stiffness nor height");
   MaterialTag tag;
@@ -228,7 +232,8 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   in.number("damping", "tag_damping", 0, 1e5, tag.damping);
   read_friction(in, tag);
   in.number("stribeckVelocity", "tag_stribeck", 1e-9, 1e3, tag.stribeck_velocity);
-  if (const Json* height = in.object("height", "tag_height")) tag.height = read_height(*height, place + ".height", warnings);
+  if (const Json* height = in.object("height", "tag_height"))
+    tag.height = read_height(*height, place + ".height", warnings);
   if (const Json* roughness = in.object("roughness", "tag_roughness"))
     tag.roughness = read_roughness(*roughness, place + ".roughness", warnings);
   if (const Json* symmetry = in.object("symmetry", "tag_symmetry"))
@@ -274,10 +279,12 @@ Json tag_json(const MaterialTag& tag) {
                          {"rmsHeight", tag.roughness->rms_height_m},
                          {"wavelengthRange", pair_json(tag.roughness->wavelength_range_m)}};
   if (tag.symmetry)
-    json["symmetry"] = {{"group", tag.symmetry->group},
-                        {"period", Json::array({pair_json(tag.symmetry->period_m[0]), pair_json(tag.symmetry->period_m[1])})}};
+    json["symmetry"] = {
+        {"group", tag.symmetry->group},
+        {"period", Json::array({pair_json(tag.symmetry->period_m[0]), pair_json(tag.symmetry->period_m[1])})}};
   if (tag.provenance)
-    json["provenance"] = {{"tool", tag.provenance->tool}, {"source", tag.provenance->source}, {"plan", tag.provenance->plan}};
+    json["provenance"] = {
+        {"tool", tag.provenance->tool}, {"source", tag.provenance->source}, {"plan", tag.provenance->plan}};
   return json;
 }
 
@@ -305,7 +312,9 @@ std::optional<MaterialTag> material_tag_of_extras(std::string_view extras_json, 
   }
 }
 
-std::string to_json(const MaterialTag& tag) { return tag_json(tag).dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string to_json(const MaterialTag& tag) {
+  return tag_json(tag).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string with_material_tag(std::string_view extras_json, const MaterialTag& tag) {
   Json extras = extras_json.empty() ? Json::object() : parse(extras_json);

@@ -91,7 +91,9 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     }
     if (norm(step) > shortest) planes.keep(aim.active);
     if (planes.count == k_planes) break;
-    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x) + std::max(0.0, hit->penetration_m), hit->material};
+    // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
+    x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
+    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material};
     next.in_contact = true;
   }
   if (free) next = ProxyState{};

@@ -8,9 +8,9 @@
 namespace papilla {
 namespace {
 
-constexpr int k_shortenings = 8;           // Halvings before a vertex that turns triangles over stays where it is.
-constexpr double k_least_cosine = 0.3;     // A face may tilt by 70 degrees before it counts as turned over.
-constexpr double k_least_miter = 0.5;      // Sharp corners move at most twice the height.
+constexpr int k_shortenings = 8;        // Halvings before a vertex that turns triangles over stays where it is.
+constexpr double k_least_cosine = 0.3;  // A face may tilt by 70 degrees before it counts as turned over.
+constexpr double k_least_miter = 0.5;   // Sharp corners move at most twice the height.
 
 Vec3 face_normal(Vec3 a, Vec3 b, Vec3 c) { return normalized(cross(b - a, c - a)); }
 
@@ -87,7 +87,8 @@ ReliefBase relief_base(const ContactMesh& mesh, const std::vector<ContactMateria
     std::vector<std::uint32_t> turned;
     for (std::size_t t = 0; t < n; ++t) {
       const Vec3 before = face_normal(corner(t, 0), corner(t, 1), corner(t, 2));
-      if (before == Vec3{} || dot(before, face_normal(moved(t, 0), moved(t, 1), moved(t, 2))) >= k_least_cosine) continue;
+      if (before == Vec3{} || dot(before, face_normal(moved(t, 0), moved(t, 1), moved(t, 2))) >= k_least_cosine)
+        continue;
       for (const std::uint32_t v : mesh.triangles[t]) turned.push_back(place[v]);
     }
     if (turned.empty()) break;

@@ -16,8 +16,8 @@ struct ReliefBase {
 };
 
 /// Vertices at the same place move together, by the lowest height of the materials that meet there, along the mean of
-/// their normals (corner normals where given, else faces, by angle), lengthened at sharp edges so that faces move by the full amount.
-/// Shortened where a triangle would turn over. Cost: one sort of the vertices.
+/// their normals (corner normals where given, else faces, by angle), lengthened at sharp edges so that faces move by
+/// the full amount. Shortened where a triangle would turn over. Cost: one sort of the vertices.
 ReliefBase relief_base(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
                        const std::vector<HeightField>& heights);
 

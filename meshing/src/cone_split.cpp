@@ -63,7 +63,11 @@ class ConeSplitter {
  public:
   ConeSplitter(const Surface& surface, const std::vector<std::uint8_t>& feature, const SegmentationOptions& options,
                std::vector<std::uint32_t>& labels)
-      : surface_(surface), feature_(feature), options_(options), labels_(labels), side_(labels.size(), k_unset),
+      : surface_(surface),
+        feature_(feature),
+        options_(options),
+        labels_(labels),
+        side_(labels.size(), k_unset),
         least_cosine_(std::cos(options.max_normal_deviation_deg * k_radians_per_degree)) {}
 
   std::uint32_t run(std::uint32_t count) {
@@ -173,7 +177,8 @@ class ConeSplitter {
       for (Index h = 3 * entry.triangle; h < 3 * entry.triangle + 3; ++h) {
         if (feature_[h]) continue;
         const Index other = triangle_of(surface_.opposite[h]);
-        if (labels_[other] == label && side_[other] == k_unset) queue_.push(cost(other, axes[entry.side]), {other, entry.side});
+        if (labels_[other] == label && side_[other] == k_unset)
+          queue_.push(cost(other, axes[entry.side]), {other, entry.side});
       }
     }
   }

@@ -26,7 +26,8 @@ struct Source {
 /// One chart as a surface of its own.
 struct Piece {
   explicit Piece(Submesh submesh)
-      : mesh(std::move(submesh)), edges(mesh.triangles, mesh.positions.size()),
+      : mesh(std::move(submesh)),
+        edges(mesh.triangles, mesh.positions.size()),
         opposite(opposite_halfedges(mesh.triangles, edges)) {
     centroid.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles)
@@ -37,6 +38,7 @@ struct Piece {
   Vec3 from(Index h) const { return mesh.positions[from_vertex(mesh.triangles, h)]; }
   Vec3 to(Index h) const { return mesh.positions[to_vertex(mesh.triangles, h)]; }
   double length(Index h) const { return norm(to(h) - from(h)); }
+  double area(Index t) const { return 0.5 * norm(cross(to(3 * t) - from(3 * t), to(3 * t + 1) - from(3 * t))); }
 
   /// Every edge has one triangle, or two that run opposite ways.
   bool is_manifold() const {
@@ -85,6 +87,24 @@ Growth grow(const Piece& piece, const std::vector<std::vector<Source>>& sources,
   return growth;
 }
 
+/// Makes both regions connected where long triangles let them interlock: of each, the piece with the most area stays
+/// and the others go to the other region.
+void connect_regions(const Piece& piece, const std::vector<std::uint8_t>& barrier, std::vector<std::uint8_t>& region) {
+  std::vector<Index> inner = piece.opposite;
+  for (Index h = 0; h < inner.size(); ++h)
+    if (barrier[h]) inner[h] = k_none;
+  for (const std::uint8_t side : {std::uint8_t{0}, std::uint8_t{1}}) {
+    std::vector<std::uint32_t> parts(region.begin(), region.end());
+    std::vector<double> area(split_into_components(inner, parts), 0);
+    for (Index t = 0; t < piece.size(); ++t)
+      if (region[t] == side) area[parts[t]] += piece.area(t);
+    const auto largest = std::max_element(area.begin(), area.end());
+    if (!(*largest > 0)) return;
+    for (Index t = 0; t < piece.size(); ++t)
+      if (region[t] == side && parts[t] != largest - area.begin()) region[t] = static_cast<std::uint8_t>(1 - side);
+  }
+}
+
 /// Half way between the two triangles that lie furthest apart (found by two sweeps).
 std::vector<std::uint8_t> bisect_between_farthest(const Piece& piece) {
   const std::vector<std::uint8_t> no_barrier(piece.opposite.size(), 0);
@@ -121,7 +141,9 @@ class LoopCutter {
     join_loops();
     const std::vector<Index> tour = walk_around();
     if (cut_edges_ == 0 || tour.size() != border_ + 2 * cut_edges_) return std::nullopt;
-    return grow(piece_, halves_of(tour), barrier_).region;
+    std::vector<std::uint8_t> region = grow(piece_, halves_of(tour), barrier_).region;
+    connect_regions(piece_, barrier_, region);
+    return region;
   }
 
  private:
@@ -313,7 +335,8 @@ std::vector<std::uint8_t> bisect(const Piece& piece, const ChartTopology& topolo
 
 std::size_t cut_to_disks(const TriangleMesh& mesh, const Surface& surface, const Progress& progress,
                          std::uint32_t count, std::vector<std::uint32_t>& labels) {
-  const std::vector<ChartTopology> topologies = label_topologies(opposite_within_labels(surface.triangles, surface.edges, labels), labels, count);
+  const std::vector<ChartTopology> topologies =
+      label_topologies(opposite_within_labels(surface.triangles, surface.edges, labels), labels, count);
   std::vector<std::vector<Index>> pending;
   {
     std::vector<std::vector<Index>> of_label(count);

@@ -17,7 +17,8 @@ using namespace detail;
 
 void check_options(const SegmentationOptions& options) {
   const auto require = [](bool valid, const char* name, double value) {
-    if (!valid) throw InvalidInput(std::string("segment_charts: ") + name + " " + std::to_string(value) + " is out of range");
+    if (!valid)
+      throw InvalidInput(std::string("segment_charts: ") + name + " " + std::to_string(value) + " is out of range");
   };
   const auto is_angle = [](double a) { return a > 0 && a <= 180; };
   const auto is_fraction = [](double f) { return f >= 0 && f <= 1; };

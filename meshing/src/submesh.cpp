@@ -21,8 +21,7 @@ std::size_t number_densely(std::vector<Triangle>& triangles) {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   for (Triangle& t : triangles)
-    for (Index& v : t)
-      v = static_cast<Index>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
+    for (Index& v : t) v = static_cast<Index>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
   return vertices.size();
 }
 

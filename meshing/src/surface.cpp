@@ -8,7 +8,9 @@
 namespace papilla::detail {
 
 Surface::Surface(const TriangleMesh& mesh)
-    : positions(mesh.positions), triangles(mesh.triangles), edges(mesh.triangles, mesh.positions.size()),
+    : positions(mesh.positions),
+      triangles(mesh.triangles),
+      edges(mesh.triangles, mesh.positions.size()),
       opposite(opposite_halfedges(mesh.triangles, edges)) {
   area_vector.reserve(triangles.size());
   for (const Triangle& t : triangles)

@@ -77,7 +77,7 @@ allowed_modules() {
     meshing) echo 'core|meshing' ;;
     param) echo 'core|meshing|param' ;;
     texture) echo 'core|texture' ;;
-    haptic) echo 'core|haptic|texture|meshing' ;;
+    haptic) echo 'core|haptic|texture' ;;
     io) echo 'core|haptic|texture|meshing|io' ;;
   esac
 }

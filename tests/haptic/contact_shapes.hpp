@@ -50,7 +50,8 @@ inline ContactMesh sphere(int n, double radius) {
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
       const double polar = std::numbers::pi * j / n, around = 2 * std::numbers::pi * (i % n) / n;
-      mesh.positions.push_back(radius * Vec3{std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar)});
+      mesh.positions.push_back(
+          radius * Vec3{std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar)});
     }
   const auto vertex = [n](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
   for (int j = 0; j < n; ++j)

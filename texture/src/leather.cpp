@@ -47,6 +47,7 @@ struct PebbleShape {
 /// lead from the cell's corners to its centre rounded off. Continuous: the rounding fades towards the border.
 double rounded_border_distance(const PebblePoints& points, Vec2 p, int own_column, int own_row) {
   constexpr double k_rounding = 0.2;
+  constexpr double k_least_flank = 0.42;  // Close pairs of points would make creases as steep as walls.
   const Vec2 own = points.point(own_column, own_row);
   std::array<double, 24> distances{};
   std::size_t count = 0;
@@ -54,7 +55,9 @@ double rounded_border_distance(const PebblePoints& points, Vec2 p, int own_colum
     for (int i = -2; i <= 2; ++i) {
       if (i == 0 && j == 0) continue;
       const Vec2 other = points.point(own_column + i, own_row + j), across = other - own;
-      distances[count++] = std::max(0.0, 2 * dot(0.5 * (own + other) - p, across) / dot(across, across));
+      const double half = norm(across) / 2;
+      const double distance = dot(0.5 * (own + other) - p, across) / norm(across);
+      distances[count++] = std::max(0.0, distance / std::max(half, k_least_flank));
     }
   const double least = *std::min_element(distances.begin(), distances.end());
   const double softness = k_rounding * least;
@@ -105,7 +108,7 @@ std::vector<double> leather_relief(int size_px, double size_mm, std::uint64_t se
 
   Random random(seed);
   const int pebbles = cells(size_mm, k_pebble_mm), wrinkles = cells(size_mm, k_wrinkle_mm);
-  const PebblePoints coarse(pebbles, 0.85, random), fine(wrinkles, 0.9, random);
+  const PebblePoints coarse(pebbles, 0.8, random), fine(wrinkles, 0.8, random);
   std::vector<double> relief(static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px));
   oneapi::tbb::parallel_for(0, size_px, [&](int y) {
     for (int x = 0; x < size_px; ++x) {

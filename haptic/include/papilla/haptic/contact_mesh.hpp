@@ -12,11 +12,11 @@ namespace papilla {
 
 /// What a surface does to a probe; the numbers of the material tag that the tick needs.
 struct ContactMaterial {
-  double stiffness = 500;           ///< N/m.
-  double damping = 0;               ///< N·s/m, of the wall; acts along the contact normal.
-  double static_friction = 0;       ///< Coulomb, dimensionless.
-  double dynamic_friction = 0;      ///< Coulomb, dimensionless, at most static_friction.
-  double stribeck_velocity = 0.01;  ///< m/s, the speed over which static friction fades into dynamic.
+  double stiffness = 500;               ///< N/m.
+  double damping = 0;                   ///< N·s/m, of the wall; acts along the contact normal.
+  double static_friction = 0;           ///< Coulomb, dimensionless.
+  double dynamic_friction = 0;          ///< Coulomb, dimensionless, at most static_friction.
+  double stribeck_velocity = 0.01;      ///< m/s, the speed over which static friction fades into dynamic.
   std::optional<std::uint32_t> height;  ///< Index of the relief in the surface's height fields.
 };
 

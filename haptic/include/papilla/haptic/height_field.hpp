@@ -58,8 +58,8 @@ class HeightField {
   /// The surface that the centre of a ball of radius r follows, less r: H(a) = max over |b−a| ≤ r of
   /// h(b) + √(r² − |b−a|²) − r (grey dilation; the same operation by which the tip of a force microscope widens a
   /// relief). Exact on the samples; quantised to 16 bits of the old range.
-  /// Cost: samples × π(ρ/texel)², ρ² = 2·range·r − range² (at most r²); the work is cut off by coarser offsets, never silently:
-  /// a texel below ρ/64 is an InvalidInput.
+  /// Cost: samples × π(ρ/texel)², ρ² = 2·range·r − range² (at most r²); the work is cut off by coarser offsets, never
+  /// silently: a texel below ρ/64 is an InvalidInput.
   /// @param metres_per_uv length of one unit of the untransformed u and v on the surface, > 0.
   HeightField dilated(double radius_m, Vec2 metres_per_uv) const;
 
@@ -76,7 +76,7 @@ class HeightField {
   int width_, height_;
   std::vector<std::uint16_t> samples_;
   HeightFieldOptions options_;
-  double base_m_ = 0, metres_per_step_ = 0;         // h = base + step · v.
+  double base_m_ = 0, metres_per_step_ = 0;            // h = base + step · v.
   double a_[2][2] = {{1, 0}, {0, 1}}, t_[2] = {0, 0};  // texel coordinates = A uv + t.
   double min_m_ = 0, max_m_ = 0;
 };

@@ -18,8 +18,8 @@ struct HapticWarning {
   std::string message;  ///< One line: place, value, fallback.
 };
 
-/// Where the height map of a material is and what its numbers mean: height = offset + scale · v / 65535 metres along the outward
-/// normal, v the 16-bit sample, linear.
+/// Where the height map of a material is and what its numbers mean: height = offset + scale · v / 65535 metres along
+/// the outward normal, v the 16-bit sample, linear.
 struct HeightTag {
   std::string uri;     ///< Sidecar file next to the glTF, or a data: URI; may be empty.
   std::string image;   ///< Name of an image in the glTF; may be empty.
@@ -40,15 +40,15 @@ struct HeightTag {
 
 /// Statistics of the relief: what the player makes up a relief from when the map is lost.
 struct RoughnessTag {
-  double fractal_dimension = 2.5;               ///< In [2, 3].
+  double fractal_dimension = 2.5;  ///< In [2, 3].
   double rms_height_m = 0;
-  Vec2 wavelength_range_m{2e-4, 2e-2};          ///< Shortest, longest.
+  Vec2 wavelength_range_m{2e-4, 2e-2};  ///< Shortest, longest.
   friend bool operator==(const RoughnessTag&, const RoughnessTag&) = default;
 };
 
 struct SymmetryTag {
-  std::string group;                            ///< Wallpaper group, for example "pmm".
-  std::array<Vec2, 2> period_m{};               ///< The two lattice vectors.
+  std::string group;               ///< Wallpaper group, for example "pmm".
+  std::array<Vec2, 2> period_m{};  ///< The two lattice vectors.
   friend bool operator==(const SymmetryTag&, const SymmetryTag&) = default;
 };
 
@@ -74,8 +74,9 @@ struct MaterialTag {
 };
 
 /// Reads one tag. Unknown members are ignored. A value of the wrong type or range is replaced by its default and
-/// reported: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (the relief is dropped when its scale
-/// or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_symmetry, tag_provenance.
+/// reported: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (the relief is dropped when its
+/// scale or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_symmetry,
+/// tag_provenance.
 /// @param json the object itself, not the extras around it.
 /// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);

@@ -25,19 +25,20 @@ struct ProxyState {
 /// The god-object [Zilles and Salisbury 1995] with a ball's radius [Ruspini, Kolarov and Khatib 1997]: the proxy
 /// follows the probe through free space and stays on the side of every surface from which it came.
 ///
-/// Each tick descends |proxy − probe|² from the proxy of the tick before. A step goes straight to the nearest point that
-/// the constraints found so far allow (the closest point of up to k_planes half-spaces, at most three of which can act) and is
-/// swept, so that no speed tunnels; what stops it becomes a constraint; constraints that no longer act are dropped
-/// when the proxy moves, and all are forgotten and found again when a step ends free, so that surfaces which fall away
-/// let go. The tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps sweeps; then
-/// the proxy still is outside and goes on in the next tick.
+/// Each tick descends |proxy − probe|² from the proxy of the tick before. A step goes straight to the nearest point
+/// that the constraints found so far allow (the closest point of up to k_planes half-spaces, at most three of which can
+/// act) and is swept, so that no speed tunnels; what stops it becomes a constraint; constraints that no longer act are
+/// dropped when the proxy moves, and all are forgotten and found again when a step ends free, so that surfaces which
+/// fall away let go. The tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps
+/// sweeps; then the proxy still is outside and goes on in the next tick.
 ///
-/// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only until it
-/// equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²) [Stribeck].
+/// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
+/// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
+/// [Stribeck].
 ///
 /// Guarantees: noexcept, no allocation, no lock; never passes a triangle; deterministic.
-/// Limits: relief is stepped at half a texel, so a spike of one texel can be missed by a sweep that goes across it far above, never by
-/// one that ends in it. The start of reset() is taken as free even when it lies within a solid.
+/// Limits: relief is stepped at half a texel, so a spike of one texel can be missed by a sweep that goes across it far
+/// above, never by one that ends in it. The start of reset() is taken as free even when it lies within a solid.
 class Proxy {
  public:
   static constexpr int k_planes = 8;

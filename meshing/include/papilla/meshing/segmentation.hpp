@@ -11,12 +11,12 @@ namespace papilla {
 
 /// Options of segment_charts(). All are relative, so one set of values serves any size of part.
 struct SegmentationOptions {
-  double feature_angle_deg = 45;          ///< Edges bent more than this part charts; in (0, 180].
-  double max_normal_deviation_deg = 60;   ///< Half-angle of the cone that holds a chart's normals; in (0, 180].
-  double outlier_area_fraction = 0.01;    ///< Of a chart's area may lie outside its cone: noise, not shape; in [0, 1].
-  double small_area_fraction = 1e-3;      ///< A chart below this fraction of a neighbour's area joins it; in [0, 1].
-  bool disks = true;                      ///< Cut charts until each is a disk.
-  Progress progress;                      ///< Told the fraction done; may be empty.
+  double feature_angle_deg = 45;         ///< Edges bent more than this part charts; in (0, 180].
+  double max_normal_deviation_deg = 60;  ///< Half-angle of the cone that holds a chart's normals; in (0, 180].
+  double outlier_area_fraction = 0.01;   ///< Of a chart's area may lie outside its cone: noise, not shape; in [0, 1].
+  double small_area_fraction = 1e-3;     ///< A chart below this fraction of a neighbour's area joins it; in [0, 1].
+  bool disks = true;                     ///< Cut charts until each is a disk.
+  Progress progress;                     ///< Told the fraction done; may be empty.
 };
 
 struct SegmentationResult {
