@@ -14,7 +14,7 @@
 namespace papilla {
 namespace {
 
-using namespace detail;
+using namespace param_detail;
 
 constexpr const char* k_function = "align_phase";
 
@@ -127,7 +127,7 @@ void check_options(const PhaseOptions& o) {
 
 AlignedPhase align_phase(const TriangleMesh& mesh, const Flattening& flattening, const PhaseOptions& options) {
   check_options(options);
-  check_triangles(mesh, k_function);
+  check_mesh(mesh, k_function);
   check_charts(mesh, flattening.charts, k_function);
   check_uv(mesh, flattening.uv, k_function);
   const Adjacency across = connect_triangles(mesh);

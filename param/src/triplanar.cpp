@@ -16,7 +16,7 @@
 namespace papilla {
 namespace {
 
-using namespace detail;
+using namespace param_detail;
 
 constexpr const char* k_function = "flatten_triplanar";
 
@@ -124,7 +124,7 @@ BorderJump measure_jump(const TriangleMesh& mesh, const Adjacency& across, const
 
 TriplanarResult flatten_triplanar(const TriangleMesh& mesh, const TriplanarOptions& options) {
   check_options(options);
-  check_triangles(mesh, k_function);
+  check_mesh(mesh, k_function);
   const Stopwatch total;
   TriplanarResult result;
   Flattening& flattening = result.flattening;
