@@ -42,9 +42,8 @@ std::vector<Seam> find_seams(const TriangleMesh& mesh, const Adjacency& across, 
     const SeamEdge e = seam_edge(mesh, flattening.uv, t, h % 3, other);
     seams.push_back({chart[t], chart[other], e.length_mm, {e.here[0] - e.there[0], e.here[1] - e.there[1]}});
   }
-  std::stable_sort(seams.begin(), seams.end(), [](const Seam& a, const Seam& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
+  std::stable_sort(seams.begin(), seams.end(),
+                   [](const Seam& a, const Seam& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
   return seams;
 }
 
@@ -71,7 +70,8 @@ std::vector<ChartPair> fit_pairs(const std::vector<Seam>& seams, double toleranc
     pairs.push_back(fit_pair(&seams[begin], seams.data() + end, tolerance));
     begin = end;
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const ChartPair& a, const ChartPair& b) { return a.worth > b.worth; });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const ChartPair& a, const ChartPair& b) { return a.worth > b.worth; });
   return pairs;
 }
 
@@ -117,7 +117,8 @@ class OffsetForest {
 
 void check_options(const PhaseOptions& o) {
   if (!(o.tolerance_mm > 0) || !std::isfinite(o.tolerance_mm))
-    throw InvalidInput(std::string(k_function) + ": tolerance_mm is " + std::to_string(o.tolerance_mm) + ", expected above 0");
+    throw InvalidInput(std::string(k_function) + ": tolerance_mm is " + std::to_string(o.tolerance_mm) +
+                       ", expected above 0");
   if (!(o.tile_mm.x >= 0 && o.tile_mm.y >= 0) || !is_finite(o.tile_mm))
     throw InvalidInput(std::string(k_function) + ": tile_mm is negative or not finite");
 }

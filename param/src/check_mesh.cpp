@@ -20,7 +20,8 @@ constexpr double k_largest_coordinate = 1e60;
 
 void check_mesh(const TriangleMesh& mesh, std::string_view function) {
   if (mesh.triangles.size() >= (std::size_t{1} << 30))
-    fail(function, "the mesh has " + std::to_string(mesh.triangles.size()) + " triangles, at most 2^30 - 1 can be numbered");
+    fail(function,
+         "the mesh has " + std::to_string(mesh.triangles.size()) + " triangles, at most 2^30 - 1 can be numbered");
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3& p = mesh.positions[v];
     // A comparison with NaN is false.

@@ -31,9 +31,7 @@ Rectangle bounds(const UvTriangle& t) {
   return {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
 }
 
-double area(const UvTriangle& t) {
-  return 0.5 * cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
-}
+double area(const UvTriangle& t) { return 0.5 * cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]); }
 
 /// How deep b reaches over the line through each edge of a at most, taken over the edge where it reaches least.
 double depth(const UvTriangle& a, const UvTriangle& b) {
@@ -107,8 +105,9 @@ class Hierarchy {
       return split_x ? r.x0 + r.x1 : r.y0 + r.y1;
     };
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) { return std::pair(centre(a), a) < std::pair(centre(b), b); });
+    std::nth_element(
+        members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
+        [&](std::uint32_t a, std::uint32_t b) { return std::pair(centre(a), a) < std::pair(centre(b), b); });
     build(begin, middle);
     nodes_[self].first = static_cast<std::uint32_t>(nodes_.size());
     build(middle, end);
@@ -119,11 +118,11 @@ class Hierarchy {
   std::vector<Node> nodes_;
 };
 
-/// The triangle numbers, all together or one list per chart.
-std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<UvTriangle>& triangles, bool within_charts) {
-  std::vector<std::vector<std::uint32_t>> groups(1);
+/// The triangle numbers of each group.
+std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<UvTriangle>& triangles) {
+  std::vector<std::vector<std::uint32_t>> groups;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::size_t group = within_charts ? triangles[t].chart : 0;
+    const std::size_t group = triangles[t].group;
     if (group >= groups.size()) groups.resize(group + 1);
     groups[group].push_back(t);
   }
@@ -136,8 +135,8 @@ struct Segment {
   double x0, x1;
 };
 
-Segment cut_row(const UvTriangle& t, double y, bool within_charts) {
-  Segment s{within_charts ? t.chart : 0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+Segment cut_row(const UvTriangle& t, double y) {
+  Segment s{t.group, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < 3; ++k) {
     Vec2 a = t.corners[k], b = t.corners[(k + 1) % 3];
     if (b < a) std::swap(a, b);  // the neighbour across this edge computes the same crossing
@@ -173,7 +172,7 @@ Covered cover(std::vector<Segment>& segments) {
 
 /// Sums, row by row, the area that the chosen triangles cover once and more than once.
 Covered cover_rows(const std::vector<UvTriangle>& triangles, const std::vector<std::uint32_t>& chosen,
-                   bool within_charts, int wanted_rows) {
+                   int wanted_rows) {
   Rectangle box;
   double heights = 0;
   for (const std::uint32_t t : chosen) {
@@ -182,7 +181,8 @@ Covered cover_rows(const std::vector<UvTriangle>& triangles, const std::vector<s
     heights += r.y1 - r.y0;
   }
   const double height = box.y1 - box.y0;
-  const int rows = static_cast<int>(std::clamp(k_most_segments * height / heights, 64.0, static_cast<double>(wanted_rows)));
+  const int rows =
+      static_cast<int>(std::clamp(k_most_segments * height / heights, 64.0, static_cast<double>(wanted_rows)));
   const double step = height / rows;
   const auto row_after = [&](double y) {  // the first row whose middle is at y or above
     return static_cast<std::size_t>(std::clamp(std::ceil((y - box.y0) / step - 0.5), 0.0, static_cast<double>(rows)));
@@ -202,8 +202,7 @@ Covered cover_rows(const std::vector<UvTriangle>& triangles, const std::vector<s
   oneapi::tbb::parallel_for(std::size_t{0}, of_row.size(), [&](std::size_t row) {
     const double y = box.y0 + (static_cast<double>(row) + 0.5) * step;
     std::vector<Segment> segments;
-    for (std::size_t i = first[row]; i < first[row + 1]; ++i)
-      segments.push_back(cut_row(triangles[in_row[i]], y, within_charts));
+    for (std::size_t i = first[row]; i < first[row + 1]; ++i) segments.push_back(cut_row(triangles[in_row[i]], y));
     of_row[row] = cover(segments);
   });
   Covered total;
@@ -213,10 +212,10 @@ Covered cover_rows(const std::vector<UvTriangle>& triangles, const std::vector<s
 
 }  // namespace
 
-UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, bool within_charts, int rows) {
+UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, int rows) {
   UvOverlap result;
   result.overlaps.assign(triangles.size(), 0);
-  auto groups = groups_of(triangles, within_charts);
+  auto groups = groups_of(triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
     const Hierarchy hierarchy(triangles, std::move(groups[g]));
     const auto members = hierarchy.members();
@@ -233,7 +232,7 @@ UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, bool within_
       alone += area(triangles[t]);
   }
   if (chosen.empty()) return result;
-  const Covered covered = cover_rows(triangles, chosen, within_charts, rows);
+  const Covered covered = cover_rows(triangles, chosen, rows);
   result.fraction = covered.twice / (alone + covered.once);
   return result;
 }

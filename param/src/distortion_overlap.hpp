@@ -11,7 +11,7 @@ namespace papilla::detail {
 
 struct UvTriangle {
   std::array<Vec2, 3> corners;  ///< Counter-clockwise.
-  std::uint32_t chart = 0;
+  std::uint32_t group = 0;      ///< Only triangles of one group can overlap.
 };
 
 struct UvOverlap {
@@ -19,8 +19,7 @@ struct UvOverlap {
   double fraction = 0;         ///< Area covered more than once / area covered.
 };
 
-/// Overlap among all triangles, or (`within_charts`) only among triangles of the same chart.
 /// @param triangles with positive area.
-UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, bool within_charts, int rows);
+UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, int rows);
 
 }  // namespace papilla::detail

@@ -33,7 +33,7 @@ struct MappedChart {
   CornerAttribute<Vec2> uv;           ///< Triangles in the order of the chart.
   std::vector<std::uint32_t> pieces;  ///< Chart number within this one, per triangle; empty: all 0.
   std::uint32_t piece_count = 1;
-  std::string failure;                ///< Why LSCM gave no map.
+  std::string failure;  ///< Why LSCM gave no map.
   bool wrong_topology = false;
   double area = 0, conformal_energy = 0;
 };
@@ -71,7 +71,8 @@ std::string topology_failure(const ChartSurface& chart) {
 double area_of(const ChartSurface& chart) {
   double area = 0;
   for (const Triangle& t : chart.triangles)
-    area += 0.5 * norm(cross(chart.positions[t[1]] - chart.positions[t[0]], chart.positions[t[2]] - chart.positions[t[0]]));
+    area +=
+        0.5 * norm(cross(chart.positions[t[1]] - chart.positions[t[0]], chart.positions[t[2]] - chart.positions[t[0]]));
   return area;
 }
 
@@ -86,7 +87,8 @@ void normalise(const ChartSurface& chart, GrainUp up, double area, std::vector<V
     const Vec3 doubled = cross(p, q);
     const double square = dot(doubled, doubled);
     if (!(square > k_no_area * k_no_area * longest_squared(p, q) * longest_squared(p, q))) continue;
-    // d = x p + y q has (x, y) from the two cross products; its image is x m + y n. Weighted by area / size of the image.
+    // d = x p + y q has (x, y) from the two cross products; its image is x m + y n. Weighted by area / size of the
+    // image.
     const Vec3 d = grain_direction(normalized(doubled), up);
     const double x = dot(cross(d, q), doubled) / square, y = dot(cross(p, d), doubled) / square;
     const Vec2 image = x * m + y * n;
@@ -116,7 +118,8 @@ std::string map_failure(const ChartSurface& chart, const std::vector<Vec2>& uv) 
     flipped += has_area ? !(signed_area > 0) : signed_area < -k_rounding_area * longest_squared(m, n);
   }
   if (flipped > 0)
-    return std::to_string(flipped) + " of " + std::to_string(chart.triangles.size()) + " triangles are flipped or collapsed";
+    return std::to_string(flipped) + " of " + std::to_string(chart.triangles.size()) +
+           " triangles are flipped or collapsed";
   std::vector<BorderEdge> border;
   for (const auto& loop : border_loops(chart))
     for (std::size_t i = 0; i < loop.size(); ++i) {

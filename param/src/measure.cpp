@@ -129,21 +129,23 @@ std::vector<Index> number_equal(const std::vector<T>& values) {
 
 /// One side of a triangle, named by the points it joins: the lower position first.
 struct Side {
+  Index part;
   Index low, high;        ///< Positions.
   Index uv_low, uv_high;  ///< uv at these.
   Index corner;           ///< 3 * triangle + corner where the side starts.
-  auto edge() const { return std::tie(low, high); }
-  auto uv_edge() const { return std::tie(low, high, uv_low, uv_high); }
+  auto edge() const { return std::tie(part, low, high); }
+  auto uv_edge() const { return std::tie(part, low, high, uv_low, uv_high); }
 };
 
-std::vector<Side> sorted_sides(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv) {
+std::vector<Side> sorted_sides(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
+                               const std::vector<std::uint32_t>& part) {
   const std::vector<Index> position = number_equal(mesh.positions), plane = number_equal(uv.values);
   std::vector<Side> sides(3 * mesh.triangles.size());
   oneapi::tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t l = (k + 1) % 3;
-      Side s{position[mesh.triangles[t][k]], position[mesh.triangles[t][l]], plane[uv.indices[t][k]],
-             plane[uv.indices[t][l]], static_cast<Index>(3 * t + k)};
+      Side s{part.empty() ? 0 : part[t], position[mesh.triangles[t][k]], position[mesh.triangles[t][l]],
+             plane[uv.indices[t][k]],    plane[uv.indices[t][l]],        static_cast<Index>(3 * t + k)};
       if (s.high < s.low) std::swap(s.low, s.high), std::swap(s.uv_low, s.uv_high);
       sides[3 * t + k] = s;
     }
@@ -176,7 +178,7 @@ class Measurement {
   DistortionReport run() {
     if (mesh_.triangles.empty()) return report_;
     measure_shapes();
-    sides_ = sorted_sides(mesh_, uv_);
+    sides_ = sorted_sides(mesh_, uv_, options_.part);
     connect_charts();
     find_orientation();
     choose_scale();
@@ -206,8 +208,8 @@ class Measurement {
       TriangleDistortion& d = report_.per_triangle[t];
       d.area_mm2 = raw.area;
       d.degenerate_3d = !(raw.pair.height > k_degenerate * raw.pair.base && raw.pair.base > least_edge);
-      const bool has_uv_area = 2 * std::abs(raw.signed_uv_area) > k_degenerate * longest_uv &&
-                               longest_uv > least_uv_edge * least_uv_edge;
+      const bool has_uv_area =
+          2 * std::abs(raw.signed_uv_area) > k_degenerate * longest_uv && longest_uv > least_uv_edge * least_uv_edge;
       d.degenerate_uv = !d.degenerate_3d && !has_uv_area;
       d.measured = !d.degenerate_3d && !d.degenerate_uv;
     });
@@ -220,12 +222,14 @@ class Measurement {
       while (parent[t] != t) t = parent[t] = parent[parent[t]];
       return t;
     };
-    each_run(sides_, [](const Side& s) { return s.uv_edge(); }, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin + 1; i < end; ++i) {
-        const Index a = root(sides_[begin].corner / 3), b = root(sides_[i].corner / 3);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-    });
+    each_run(
+        sides_, [](const Side& s) { return s.uv_edge(); },
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin + 1; i < end; ++i) {
+            const Index a = root(sides_[begin].corner / 3), b = root(sides_[i].corner / 3);
+            parent[std::max(a, b)] = std::min(a, b);
+          }
+        });
     for (Index t = 0; t < raw_.size(); ++t) {
       const Index r = root(t);
       report_.per_triangle[t].chart = r == t ? report_.charts++ : report_.per_triangle[r].chart;
@@ -363,18 +367,20 @@ class Measurement {
 
   void sum_edges() {
     double length = 0, squared_length = 0, jump = 0, weight = 0;
-    each_run(sides_, [](const Side& s) { return s.uv_edge(); }, [&](std::size_t begin, std::size_t end) {
-      const Side& s = sides_[begin];
-      const double space = length_of(s), plane = scale_ * norm(uv_of(next(s.corner)) - uv_of(s.corner));
-      if (space > 0) {
-        const double difference = plane * plane - space * space;
-        report_.edge_length_error += std::abs(plane - space);
-        report_.maillot_length += difference * difference / (space * space);
-        length += space;
-        squared_length += space * space;
-      }
-      if (end - begin == 2) add_homogeneity(s, sides_[begin + 1], jump, weight);
-    });
+    each_run(
+        sides_, [](const Side& s) { return s.uv_edge(); },
+        [&](std::size_t begin, std::size_t end) {
+          const Side& s = sides_[begin];
+          const double space = length_of(s), plane = scale_ * norm(uv_of(next(s.corner)) - uv_of(s.corner));
+          if (space > 0) {
+            const double difference = plane * plane - space * space;
+            report_.edge_length_error += std::abs(plane - space);
+            report_.maillot_length += difference * difference / (space * space);
+            length += space;
+            squared_length += space * space;
+          }
+          if (end - begin == 2) add_homogeneity(s, sides_[begin + 1], jump, weight);
+        });
     if (length > 0) {
       report_.edge_length_error /= length;
       report_.maillot_length /= squared_length;
@@ -403,14 +409,16 @@ class Measurement {
 
   void sum_seams() {
     double jump = 0;
-    each_run(sides_, [](const Side& s) { return s.edge(); }, [&](std::size_t begin, std::size_t end) {
-      const Side& first = sides_[begin];
-      const Side& last = sides_[end - 1];
-      if (first.uv_edge() == last.uv_edge()) return;
-      const double length = length_of(first);
-      report_.seam_length_mm += length;
-      jump += 0.5 * length * (phase_jump(first.uv_low, last.uv_low) + phase_jump(first.uv_high, last.uv_high));
-    });
+    each_run(
+        sides_, [](const Side& s) { return s.edge(); },
+        [&](std::size_t begin, std::size_t end) {
+          const Side& first = sides_[begin];
+          const Side& last = sides_[end - 1];
+          if (first.uv_edge() == last.uv_edge()) return;
+          const double length = length_of(first);
+          report_.seam_length_mm += length;
+          jump += 0.5 * length * (phase_jump(first.uv_low, last.uv_low) + phase_jump(first.uv_high, last.uv_high));
+        });
     if (report_.seam_length_mm > 0) report_.seam_phase_jump = jump / report_.seam_length_mm;
   }
 
@@ -432,8 +440,10 @@ class Measurement {
       triangles.push_back({corners, d.chart});
       number.push_back(t);
     }
-    const UvOverlap any = find_uv_overlap(triangles, false, options_.overlap_rows);
-    const UvOverlap within = find_uv_overlap(triangles, true, options_.overlap_rows);
+    const UvOverlap within = find_uv_overlap(triangles, options_.overlap_rows);
+    for (std::size_t i = 0; i < number.size(); ++i)
+      triangles[i].group = options_.part.empty() ? 0 : options_.part[number[i]];
+    const UvOverlap any = find_uv_overlap(triangles, options_.overlap_rows);
     report_.overlap_area_fraction = any.fraction;
     report_.overlap_within_charts = within.fraction;
     for (std::size_t i = 0; i < number.size(); ++i) {
@@ -458,9 +468,42 @@ class Measurement {
 void check_options(const MeasureOptions& o) {
   for (const double x : {o.texture_px.x, o.texture_px.y, o.uv_per_texture.x, o.uv_per_texture.y})
     if (!(x > 0 && std::isfinite(x)))
-      throw InvalidInput(std::string(k_function) + ": texture_px and uv_per_texture must be positive, got " + std::to_string(x));
+      throw InvalidInput(std::string(k_function) + ": texture_px and uv_per_texture must be positive, got " +
+                         std::to_string(x));
   if (o.overlap_rows < 64 || o.overlap_rows > 65536)
-    throw InvalidInput(std::string(k_function) + ": overlap_rows is " + std::to_string(o.overlap_rows) + ", expected 64 to 65536");
+    throw InvalidInput(std::string(k_function) + ": overlap_rows is " + std::to_string(o.overlap_rows) +
+                       ", expected 64 to 65536");
+}
+
+bool all_have_uv(const CornerAttribute<Vec2>& uv) {
+  for (std::size_t t = 0; t < uv.indices.size(); ++t)
+    if (!uv.has_value(t)) return false;
+  return true;
+}
+
+/// Measures the triangles that have uv alone and puts the others back into the list.
+DistortionReport measure_those_with_uv(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
+                                       const MeasureOptions& options) {
+  TriangleMesh some;
+  some.positions = mesh.positions;
+  CornerAttribute<Vec2> their_uv{uv.values, {}};
+  MeasureOptions their_options = options;
+  their_options.part.clear();
+  std::vector<std::size_t> number;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!uv.has_value(t)) continue;
+    some.triangles.push_back(mesh.triangles[t]);
+    their_uv.indices.push_back(uv.indices[t]);
+    if (!options.part.empty()) their_options.part.push_back(options.part[t]);
+    number.push_back(t);
+  }
+  DistortionReport report = measure_distortion(some, their_uv, their_options);
+  report.triangles = mesh.triangles.size();
+  report.without_uv = mesh.triangles.size() - number.size();
+  std::vector<TriangleDistortion> all(mesh.triangles.size());
+  for (std::size_t i = 0; i < number.size(); ++i) all[number[i]] = report.per_triangle[i];
+  report.per_triangle = std::move(all);
+  return report;
 }
 
 }  // namespace
@@ -469,6 +512,10 @@ DistortionReport measure_distortion(const TriangleMesh& mesh, const CornerAttrib
                                     const MeasureOptions& options) {
   check_options(options);
   detail::check_mesh(mesh, k_function);
+  if (!options.part.empty() && options.part.size() != mesh.triangles.size())
+    throw InvalidInput(std::string(k_function) + ": part has " + std::to_string(options.part.size()) + " entries for " +
+                       std::to_string(mesh.triangles.size()) + " triangles");
+  if (uv.indices.size() == mesh.triangles.size() && !all_have_uv(uv)) return measure_those_with_uv(mesh, uv, options);
   detail::check_uv(mesh, uv, k_function);
   return Measurement(mesh, uv, options).run();
 }

@@ -130,7 +130,8 @@ double whole_tiles(double distance, double tile) { return tile > 0 ? std::ceil(d
 
 void check_options(const AtlasOptions& o) {
   if (!(o.gutter_mm >= 0) || !std::isfinite(o.gutter_mm))
-    throw InvalidInput(std::string(k_function) + ": gutter_mm is " + std::to_string(o.gutter_mm) + ", expected at least 0");
+    throw InvalidInput(std::string(k_function) + ": gutter_mm is " + std::to_string(o.gutter_mm) +
+                       ", expected at least 0");
   if (!(o.tile_mm.x >= 0 && o.tile_mm.y >= 0) || !is_finite(o.tile_mm))
     throw InvalidInput(std::string(k_function) + ": tile_mm is negative or not finite");
 }
@@ -160,7 +161,8 @@ Atlas pack_atlas(const CornerAttribute<Vec2>& uv, const ChartSet& charts, const 
     Vec2& offset = atlas.offset[items[i].chart];
     offset = {whole_tiles(placement.position[i].x - box.low.x, options.tile_mm.x),
               whole_tiles(placement.position[i].y - box.low.y, options.tile_mm.y)};
-    atlas.size_mm = {std::max(atlas.size_mm.x, box.high.x + offset.x), std::max(atlas.size_mm.y, box.high.y + offset.y)};
+    atlas.size_mm = {std::max(atlas.size_mm.x, box.high.x + offset.x),
+                     std::max(atlas.size_mm.y, box.high.y + offset.y)};
     triangle_area += box.triangle_area;
   }
   atlas.uv = move_charts(uv, charts, atlas.offset, k_function);

@@ -143,8 +143,7 @@ bool edges_conflict(const BorderEdge& e, const BorderEdge& f, double tolerance) 
     const Vec2 along_e = shares_start ? d : -1.0 * d;
     const bool f_leaves = f.from == (shares_start ? e.from : e.to);
     const Vec2 along_f = f_leaves ? g : -1.0 * g;
-    return dot(along_e, along_f) > 0 &&
-           std::abs(cross(along_e, along_f)) <= tolerance * std::max(length_e, length_f);
+    return dot(along_e, along_f) > 0 && std::abs(cross(along_e, along_f)) <= tolerance * std::max(length_e, length_f);
   }
   const auto one_side = [](double s, double t, double limit) {
     return (s > limit && t > limit) || (s < -limit && t < -limit);

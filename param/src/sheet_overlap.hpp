@@ -31,8 +31,8 @@ bool interiors_meet(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b, 
 bool border_proves_injective(const std::vector<BorderEdge>& border);
 
 /// Whether some point of the plane lies inside two triangles of the sheet, up to 1e-10 of the sheet's extent.
-/// Wherever two triangles overlap, the overlap region is bounded by images of the border, whose own triangle is one of the
-/// overlapping ones: border triangles are tested against all, not all against all.
+/// Wherever two triangles overlap, the overlap region is bounded by images of the border, whose own triangle is one of
+/// the overlapping ones: border triangles are tested against all, not all against all.
 bool overlaps_itself(const PlaneSheet& sheet);
 
 /// Splits a sheet into connected pieces that don't overlap themselves, each grown breadth first from the first triangle

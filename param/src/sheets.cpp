@@ -96,8 +96,14 @@ class LoneTriangles {
  public:
   LoneTriangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, GrainUp up,
                 LabelledTriangles& triangles, Sheets& sheets)
-      : mesh_(mesh), across_(across), cosine_(cosine), up_(up), triangles_(triangles), sheets_(sheets),
-        size_(sheet_sizes(sheets)), searches_left_(k_searches * sheets.of_triangle.size()) {}
+      : mesh_(mesh),
+        across_(across),
+        cosine_(cosine),
+        up_(up),
+        triangles_(triangles),
+        sheets_(sheets),
+        size_(sheet_sizes(sheets)),
+        searches_left_(k_searches * sheets.of_triangle.size()) {}
 
   void run() {
     for (Index t = 0; t < sheets_.of_triangle.size(); ++t) {
@@ -250,7 +256,8 @@ std::size_t absorb_small_sheets(const TriangleMesh& mesh, const Adjacency& acros
   if (borders.empty()) return 0;
   const TrianglesOfCharts members = sort_by_chart(sheets.of_triangle, sheets.count);
   std::vector<double> area(sheets.count, 0);
-  for (std::size_t t = 0; t < sheets.of_triangle.size(); ++t) area[sheets.of_triangle[t]] += double{triangles.doubled_area[t]};
+  for (std::size_t t = 0; t < sheets.of_triangle.size(); ++t)
+    area[sheets.of_triangle[t]] += double{triangles.doubled_area[t]};
   std::vector<std::uint8_t> label(sheets.count);
   for (std::uint32_t s = 0; s < sheets.count; ++s) label[s] = triangles.label[members.of(s).front()];
 

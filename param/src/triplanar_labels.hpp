@@ -28,8 +28,8 @@ bool accepts(const TriangleMesh& mesh, Index t, std::uint8_t label, double cosin
 /// Gives every triangle without area the label of a neighbour that has one, nearest first; 0 when there is none.
 void fill_missing_labels(const Adjacency& across, LabelledTriangles& triangles);
 
-/// One pass in index order. A triangle with at most one neighbour of its own label and two or more of another one joins the other.
-/// Each move shortens the class borders counted in edges, so that repeated passes end.
+/// One pass in index order. A triangle with at most one neighbour of its own label and two or more of another one joins
+/// the other. Each move shortens the class borders counted in edges, so that repeated passes end.
 /// @return how many labels changed.
 std::size_t smooth_labels_once(const TriangleMesh& mesh, const Adjacency& across, double cosine,
                                LabelledTriangles& triangles);

@@ -95,36 +95,6 @@ TriangleMesh hemisphere_mesh(int rings, int segments, double radius) {
   return mesh;
 }
 
-TriangleMesh torus_mesh(int segments, int tube_segments, double radius, double tube_radius) {
-  TriangleMesh mesh;
-  for (int i = 0; i < segments; ++i)
-    for (int j = 0; j < tube_segments; ++j) {
-      const double a = 2 * k_pi * i / segments, b = 2 * k_pi * j / tube_segments, r = radius + tube_radius * std::cos(b);
-      mesh.positions.push_back({r * std::cos(a), r * std::sin(a), tube_radius * std::sin(b)});
-    }
-  const auto vertex = [&](int i, int j) {
-    return static_cast<Index>((i % segments) * tube_segments + j % tube_segments);
-  };
-  for (int i = 0; i < segments; ++i)
-    for (int j = 0; j < tube_segments; ++j) {
-      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-    }
-  return mesh;
-}
-
-TriangleMesh box_mesh(Vec3 size) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back({i & 1 ? size.x : 0, i & 2 ? size.y : 0, i & 4 ? size.z : 0});
-  const Index quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  for (const auto& q : quads) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
-  }
-  return mesh;
-}
-
 ChartSet one_chart(const TriangleMesh& mesh) {
   return {std::vector<std::uint32_t>(mesh.triangles.size(), 0), mesh.triangles.empty() ? 0u : 1u, 0};
 }

@@ -16,15 +16,13 @@ using Surface = std::function<Vec3(double s, double t)>;
 TriangleMesh grid_mesh(int columns, int rows, const Surface& surface, double jitter = 0);
 
 /// Shapes in millimetres.
-Vec3 dashboard(double s, double t);         ///< 1400 × 500, crowned, with a cluster hood and a console dip.
-Vec3 open_cylinder(double s, double t);     ///< Radius 500, height 2000, cut open; outside counter-clockwise.
-Vec3 grab_handle(double s, double t);       ///< U-shaped tapered tube, cut open along its inside.
-Vec3 helical_ramp(double s, double t);      ///< Two and a half turns of a spiral ramp: overlaps itself seen from above.
+Vec3 dashboard(double s, double t);      ///< 1400 × 500, crowned, with a cluster hood and a console dip.
+Vec3 open_cylinder(double s, double t);  ///< Radius 500, height 2000, cut open; outside counter-clockwise.
+Vec3 grab_handle(double s, double t);    ///< U-shaped tapered tube, cut open along its inside.
+Vec3 helical_ramp(double s, double t);   ///< Two and a half turns of a spiral ramp: overlaps itself seen from above.
 
 TriangleMesh dashboard_mesh(int columns, int rows);  ///< With the jitter of 0.15 cells that the benchmarks use.
 TriangleMesh hemisphere_mesh(int rings, int segments, double radius = 1000);  ///< CAD style: rings and a pole fan.
-TriangleMesh torus_mesh(int segments, int tube_segments, double radius = 1000, double tube_radius = 250);
-TriangleMesh box_mesh(Vec3 size);  ///< Closed, 12 triangles.
 
 /// All triangles in one chart.
 ChartSet one_chart(const TriangleMesh& mesh);

@@ -80,7 +80,8 @@ class ShadingEnergy {
         periodic_(options.periodic),
         light_(texture_detail::require_light(options.light, "shape_from_shading_variational")),
         brightness_(brightness(image, options.albedo)),
-        laplacian_(brightness_.size()) {}
+        laplacian_(brightness_.size()),
+        bilaplacian_(brightness_.size()) {}
 
   double value_and_gradient(const Field& z, double lambda, Field& gradient) {
     std::fill(gradient.begin(), gradient.end(), 0.0);
@@ -117,34 +118,34 @@ class ShadingEnergy {
     return energy;
   }
 
-  /// The 5-point Laplacian with periodic or reflecting borders at one pixel; symmetric as a matrix.
-  double laplacian_at(const Field& z, int x, int y) const {
-    const auto beyond = [this](int i, int count) {
-      return periodic_ ? texture_detail::wrapped(i, count) : std::clamp(i, 0, count - 1);
-    };
-    return z[pixel_index(beyond(x - 1, width_), y, width_)] + z[pixel_index(beyond(x + 1, width_), y, width_)] +
-           z[pixel_index(x, beyond(y - 1, height_), width_)] + z[pixel_index(x, beyond(y + 1, height_), width_)] -
-           4 * z[pixel_index(x, y, width_)];
+  /// The 5-point Laplacian with periodic or reflecting borders; symmetric as a matrix.
+  void laplacian(const Field& z, Field& result) const {
+    for (int y = 0; y < height_; ++y) {
+      const double* row = z.data() + pixel_index(0, y, width_);
+      const double* up = z.data() + pixel_index(0, beyond(y - 1, height_), width_);
+      const double* down = z.data() + pixel_index(0, beyond(y + 1, height_), width_);
+      double* target = result.data() + pixel_index(0, y, width_);
+      for (int x = 1; x + 1 < width_; ++x) target[x] = row[x - 1] + row[x + 1] + up[x] + down[x] - 4 * row[x];
+      for (const int x : {0, width_ - 1})
+        target[x] = row[beyond(x - 1, width_)] + row[beyond(x + 1, width_)] + up[x] + down[x] - 4 * row[x];
+    }
+  }
+
+  int beyond(int i, int count) const {
+    return periodic_ ? texture_detail::wrapped(i, count) : std::clamp(i, 0, count - 1);
   }
 
   double add_smoothness(const Field& z, double lambda, Field& gradient) {
-    double energy = 0;
-    for (int y = 0; y < height_; ++y)
-      for (int x = 0; x < width_; ++x) {
-        const double value = laplacian_at(z, x, y);
-        laplacian_[pixel_index(x, y, width_)] = value;
-        energy += value * value;
-      }
-    for (int y = 0; y < height_; ++y)
-      for (int x = 0; x < width_; ++x)
-        gradient[pixel_index(x, y, width_)] += 2 * lambda * laplacian_at(laplacian_, x, y);
-    return lambda * energy;
+    laplacian(z, laplacian_);
+    laplacian(laplacian_, bilaplacian_);
+    add_scaled(gradient, 2 * lambda, bilaplacian_);
+    return lambda * dot_product(laplacian_, laplacian_);
   }
 
   int width_, height_;
   bool periodic_;
   Vec3 light_;
-  Field brightness_, laplacian_;
+  Field brightness_, laplacian_, bilaplacian_;
   double residual_ = 0;
 };
 
@@ -248,6 +249,9 @@ StopReason descend(Descent& state, double lambda, std::size_t last_iteration) {
   return StopReason::iteration_limit;
 }
 
+/// Light closer to the viewer than this leaves a flat start flat: the derivative of the brightness vanishes there.
+constexpr double k_least_obliqueness = 0.01;
+
 }  // namespace
 
 ShadingResult shape_from_shading_variational(const GreyImage& image, const ShadingOptions& options) {
@@ -272,7 +276,8 @@ ShadingResult shape_from_shading_variational(const GreyImage& image, const Shadi
 
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options) {
   require_options(image, options, "shape_from_shading_tsai_shah");
-  const Vec3 s = texture_detail::require_light(options.light, "shape_from_shading_tsai_shah");
+  Vec3 s = texture_detail::require_light(options.light, "shape_from_shading_tsai_shah");
+  if (std::hypot(s.x, s.y) < k_least_obliqueness) s = normalized({k_least_obliqueness, k_least_obliqueness, 1});
   const Stopwatch clock;
   constexpr double k_noise = 1e-8, k_first_gain = 0.01;  // W and S of the paper.
   const Field target = brightness(image, options.albedo);

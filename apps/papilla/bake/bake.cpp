@@ -11,12 +11,12 @@
 #include <tuple>
 
 #include "bake/mesh_assembly.hpp"
+#include "bake/surface_uv.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/param/measure.hpp"
-#include "unwrap_mesh.hpp"
 
 namespace papilla::app {
 namespace {
@@ -65,21 +65,17 @@ void unwrap_surface(Work& work, const Scene& scene, const Grain& grain) {
   work.repair = repair_clock.seconds();
   work.mesh = std::move(repaired.mesh);
 
-  UnwrapRequest request;
-  request.method = work.surface->rule->unwrap;
-  request.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
-  request.up = scene.up;
-  UnwrapOutcome outcome = unwrap_mesh(work.mesh, request);
-  work.charts = outcome.seconds.segment;
-  work.unwrap = outcome.seconds.solve + outcome.seconds.pack;
-  work.report.method = outcome.method;
-  work.report.reason = outcome.reason;
-  work.report.charts = outcome.flattening.charts.count;
-  work.report.seam_mm = outcome.flattening.charts.seam_length_mm;
-  for (const ChartNote& note : outcome.flattening.notes) work.report.notes.push_back(note.reason);
-  work.mesh.uv = repeats_of(outcome.flattening, grain.size_mm);
+  SurfaceUv uv = make_surface_uv(work.mesh, work.surface->rule->unwrap, {grain.size_mm[0], grain.size_mm[1]}, scene.up);
+  work.charts = uv.segment_seconds;
+  work.unwrap = uv.flatten_seconds;
+  work.report.method = uv.method;
+  work.report.reason = uv.reason;
+  work.report.charts = uv.flattening.charts.count;
+  work.report.seam_mm = uv.flattening.charts.seam_length_mm;
+  for (const ChartNote& note : uv.flattening.notes) work.report.notes.push_back(note.reason);
+  work.mesh.uv = repeats_of(uv.flattening, grain.size_mm);
   work.report.mesh = work.mesh;
-  work.report.mesh.uv = std::move(outcome.flattening.uv);
+  work.report.mesh.uv = std::move(uv.flattening.uv);
 }
 
 void process(Work& work, const Scene& scene, const std::map<std::string, Grain>& grains) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "distortion_json.hpp"
+#include "distortion_report.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "pictures/relief.hpp"
@@ -150,7 +150,7 @@ std::vector<std::string> write_pictures(const BakeResult& result, const std::fil
   render.mode = RenderMode::checker;
   pictures.add("scene-checker", render_scene(result.scene, render));
   for (const BakedSurface* surface : surfaces)
-    pictures.add("uv-" + surface->label, draw_uv_layout(surface->mesh, surface->distortion));
+    pictures.add("uv-" + surface->label, draw_uv_layout(surface->mesh.uv, surface->distortion));
   for (const auto& [name, grain] : result.grains) {
     double exaggeration = 1;
     pictures.add("relief-" + name, draw_relief(grain.relief, exaggeration));

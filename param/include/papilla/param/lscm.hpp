@@ -15,7 +15,8 @@ enum class LscmSolver {
 struct LscmOptions {
   GrainUp up = GrainUp::z;
   LscmSolver solver = LscmSolver::cgal;
-  /// What a chart gets that has no valid map: planar projections of its pieces and a note; or, when false, an exception.
+  /// What a chart gets that has no valid map: planar projections of its pieces and a note; or, when false, an
+  /// exception.
   bool fall_back = true;
   TriplanarOptions projection;  ///< Of the fallback; its `up` is taken from here.
 };
@@ -29,15 +30,16 @@ struct LscmOptions {
 /// which the solver gives no finite map, a flipped triangle or an overlap, and a chart that is not a connected,
 /// orientable piece of genus 0 with a border, is refused or falls back as the options say; holes are welcome.
 /// Triangles without area get finite uv and count for nothing.
-/// Good input: charts of moderate curvature. Conformal maps keep angles, not sizes: caps of a sphere beyond a hemisphere and long
-/// fingers shrink without bound; LSCM may then also flip triangles.
-/// Cost: one sparse factorization per chart, O(n^1.5) time, about 2 kB (cgal) or 0.5 kB (hermitian) per vertex.
-/// Charts run in parallel; the result does not depend on the number of threads.
-/// Trace: one sample, error = Σ A (σ1 - σ2)² / Σ A of the scaled maps; charts that fell back are left out.
-/// Paper: B. Lévy, S. Petitjean, N. Ray, J. Maillot, Least squares conformal maps for automatic texture atlas generation, SIGGRAPH 2002.
+/// Good input: charts of moderate curvature. Conformal maps keep angles, not sizes: caps of a sphere beyond a
+/// hemisphere and long fingers shrink without bound; LSCM may then also flip triangles. Cost: one sparse factorization
+/// per chart, O(n^1.5) time, about 2 kB (cgal) or 0.5 kB (hermitian) per vertex. Charts run in parallel; the result
+/// does not depend on the number of threads. Trace: one sample, error = Σ A (σ1 - σ2)² / Σ A of the scaled maps; charts
+/// that fell back are left out. Paper: B. Lévy, S. Petitjean, N. Ray, J. Maillot, Least squares conformal maps for
+/// automatic texture atlas generation, SIGGRAPH 2002.
 ///
 /// @param charts one number below charts.count for every triangle.
-/// @throws InvalidInput for a mesh or chart set that breaks these preconditions; without fall_back also for a chart of the wrong
+/// @throws InvalidInput for a mesh or chart set that breaks these preconditions; without fall_back also for a chart of
+/// the wrong
 ///         topology, naming chart and triangle; SolverFailure for one that has no valid map.
 Flattening flatten_lscm(const TriangleMesh& mesh, const ChartSet& charts, const LscmOptions& options = {});
 

@@ -26,7 +26,7 @@ struct TriplanarOptions {
 
 /// How far the texture jumps where two classes meet, over all seams, weighted by length: the known price of the method.
 struct BorderJump {
-  double seam_mm = 0;                       ///< Length of the seams.
+  double seam_mm = 0;                          ///< Length of the seams.
   double mean_mm = 0, rms_mm = 0, max_mm = 0;  ///< Of |uv on one side - uv on the other|.
 };
 
@@ -35,7 +35,7 @@ struct TriplanarSeconds {
   double project = 0;  ///< Dominant axis per triangle and coordinates per corner.
   double connect = 0;  ///< Triangle adjacency.
   double smooth = 0;
-  double sheets = 0;   ///< Connected sheets, small pieces, overlap test and splits.
+  double sheets = 0;  ///< Connected sheets, small pieces, overlap test and splits.
   double total = 0;
 };
 
@@ -63,8 +63,8 @@ struct TriplanarResult {
 /// Good input: welded, consistently oriented. Non-manifold and inconsistently oriented edges are seams.
 /// Cost: O(n) plus O(b) overlap tests for b border triangles; about 100 bytes per triangle. Single-threaded.
 /// Deterministic: the same mesh gives the same bytes.
-/// Source: planar triple projection of section 4.2.3.1 of the thesis on haptic textures, with the dominant axis instead of the 45° rule, which leaves
-/// (1,1,1)/√3 without a class.
+/// Source: planar triple projection of section 4.2.3.1 of the thesis on haptic textures, with the dominant axis instead
+/// of the 45° rule, which leaves (1,1,1)/√3 without a class.
 ///
 /// @param mesh positions finite, indices in range, any topology, may be empty.
 /// @throws InvalidInput when a position is not finite, an index is out of range, or an option is.

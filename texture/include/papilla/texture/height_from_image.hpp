@@ -25,13 +25,14 @@ HeightMethod height_method(std::string_view name);
 /// Options of height_from_image().
 struct HeightOptions {
   HeightMethod method = HeightMethod::automatic;
-  std::optional<Vec3> light;     ///< Direction to the light (x right, y down, z to the viewer); estimated when absent.
-  double pitch_mm = 0;           ///< Millimetres per pixel; 0 takes the picture's, which may be unknown.
-  double depth_mm = 0.3;         ///< Peak to valley of the result.
-  std::optional<bool> periodic;  ///< Whether the height shall tile; measured from the picture when absent.
+  std::optional<Vec3> light =
+      {};                 ///< Direction to the light (x right, y down, z to the viewer); estimated when absent.
+  double pitch_mm = 0;    ///< Millimetres per pixel; 0 takes the picture's, which may be unknown.
+  double depth_mm = 0.3;  ///< Peak to valley of the result.
+  std::optional<bool> periodic = {};  ///< Whether the height shall tile; measured from the picture when absent.
   double albedo = 0;   ///< Grey of a surface facing the light; 0: such that the mean grey is that of a level surface.
   int iterations = 0;  ///< Steps of shape from shading; 0: the method's default.
-  Progress progress;
+  Progress progress = {};
 };
 
 /// What height_from_image() returns.

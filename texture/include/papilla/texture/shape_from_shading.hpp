@@ -21,7 +21,7 @@ struct ShadingOptions {
   double relative_tolerance =
       1e-4;                  ///< variational: stop when five steps together lower the energy by less than this share.
   double smoothness = 0.05;  ///< variational: λ below, positive.
-  Progress progress;
+  Progress progress = {};
 };
 
 /// What a shape-from-shading method returns.
@@ -49,6 +49,8 @@ ShadingResult shape_from_shading_variational(const GreyImage& image, const Shadi
 ///   Z ← Z − K f,  f = I/albedo − max(0, R(p, q)),  K = S f′ / (W + S f′²),  S ← (1 − K f′) S,
 /// f′ = df/dZ with the neighbours held (Jacobi). The published step Z − f/f′ divides by zero at frontal light
 /// and wherever f′ changes sign; the damped gain (W = 1e-8, S starts at 0.01) is finite everywhere.
+/// Light less than 0.01 off the viewing direction is taken as (0.01, 0.01, 1), as the source does: at exactly frontal
+/// light the flat start would stay flat.
 /// Fast, local, noisy: kept as the source's method, `variational` has half its error.
 /// Cost: O(pixels) a step. Deterministic.
 /// @throws InvalidInput as shape_from_shading_variational().
