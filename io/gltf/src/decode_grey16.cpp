@@ -44,8 +44,8 @@ Grey16 decode_grey16(std::span<const std::byte> bytes, const std::string& name) 
   tinygltf::Image image;
   std::string error, warning;
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  if (bytes.size() > 0x7fffffffU || !tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0, data,
-                                                             static_cast<int>(bytes.size()), nullptr))
+  if (bytes.size() > 0x7fffffffU ||
+      !tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0, data, static_cast<int>(bytes.size()), nullptr))
     throw InvalidInput(name + ": is damaged");
 
   Grey16 grey{image.width, image.height, header.bits, {}};

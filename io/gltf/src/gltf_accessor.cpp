@@ -123,8 +123,8 @@ AccessorReader::Elements AccessorReader::elements(int view_number, std::size_t o
   const std::size_t declared = document_.model.bufferViews[static_cast<std::size_t>(view_number)].byteStride;
   const std::size_t stride = strided && declared != 0 ? declared : size;
   if (stride < size)
-    fail(where, "byteStride " + std::to_string(stride) + " is smaller than an element of " + std::to_string(size) +
-                    " bytes");
+    fail(where,
+         "byteStride " + std::to_string(stride) + " is smaller than an element of " + std::to_string(size) + " bytes");
   if (offset > bytes.size() || bytes.size() - offset < size || count - 1 > (bytes.size() - offset - size) / stride)
     fail(where, std::to_string(count) + " elements of " + std::to_string(size) + " bytes at offset " +
                     std::to_string(offset) + ", stride " + std::to_string(stride) + " exceed bufferView " +
@@ -169,8 +169,8 @@ std::vector<double> AccessorReader::raw_numbers(const tinygltf::Accessor& access
     if (accessor.sparse.isSparse) apply_sparse(accessor, components, values, where);
     return values;
   }
-  const Elements source =
-      elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType, components, true, where);
+  const Elements source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType,
+                                   components, true, where);
   spend(accessor.count, where);
   std::vector<double> values(accessor.count * width);
   const std::size_t step = component_size(accessor.componentType);

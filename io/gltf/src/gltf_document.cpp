@@ -33,7 +33,8 @@ std::uint32_t word(std::string_view bytes, std::size_t at) {
 
 /// The JSON chunk of a GLB.
 std::string_view json_chunk(std::string_view bytes, const std::string& file) {
-  if (bytes.size() < 20) throw InvalidInput(file + ": truncated GLB header (" + std::to_string(bytes.size()) + " bytes)");
+  if (bytes.size() < 20)
+    throw InvalidInput(file + ": truncated GLB header (" + std::to_string(bytes.size()) + " bytes)");
   if (const auto version = word(bytes, 4); version != 2)
     throw InvalidInput(file + ": GLB version " + std::to_string(version) + " is not supported (2 is)");
   const std::size_t length = word(bytes, 8), json_length = word(bytes, 12);
@@ -67,14 +68,23 @@ void check_depth(std::string_view json, const std::string& file) {
 
 /// Extensions that a file may require: they are read, or only change how a material looks.
 bool is_supported(const std::string& extension) {
-  static constexpr std::array<std::string_view, 4> k_supported = {
-      "KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "KHR_xmp_json_ld"};
+  static constexpr std::array<std::string_view, 4> k_supported = {"KHR_mesh_quantization", "KHR_texture_transform",
+                                                                  "KHR_lights_punctual", "KHR_xmp_json_ld"};
   return extension.starts_with("KHR_materials_") ||
          std::find(k_supported.begin(), k_supported.end(), extension) != k_supported.end();
 }
 
-/// What must be known before tinygltf may see the text.
-void check_header(std::string_view text, const std::string& file) {
+/// The number of primitives of each mesh; tinygltf leaves out those it can't parse.
+std::vector<std::size_t> count_primitives(const nlohmann::json& json) {
+  std::vector<std::size_t> counts;
+  if (const auto meshes = json.find("meshes"); meshes != json.end() && meshes->is_array())
+    for (const auto& mesh : *meshes)
+      counts.push_back(mesh.is_object() && mesh.contains("primitives") ? mesh["primitives"].size() : 0);
+  return counts;
+}
+
+/// Checks what must be known before tinygltf may see the text. Returns the number of primitives of each mesh.
+std::vector<std::size_t> check_header(std::string_view text, const std::string& file) {
   check_depth(text, file);
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) throw InvalidInput(file + ": is no glTF: the JSON is damaged or not an object");
@@ -82,9 +92,10 @@ void check_header(std::string_view text, const std::string& file) {
   if (asset == json.end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
     throw InvalidInput(file + ": is no glTF: asset.version is missing");
   const std::string version = (*asset)["version"].get<std::string>();
-  if (!version.starts_with("2.")) throw InvalidInput(file + ": glTF version '" + version + "' is not supported (2.x is)");
+  if (!version.starts_with("2."))
+    throw InvalidInput(file + ": glTF version '" + version + "' is not supported (2.x is)");
   const auto required = json.find("extensionsRequired");
-  if (required == json.end()) return;
+  if (required == json.end()) return count_primitives(json);
   if (!required->is_array()) throw InvalidInput(file + ": extensionsRequired is not an array");
   std::string missing;
   for (const auto& extension : *required) {
@@ -92,6 +103,7 @@ void check_header(std::string_view text, const std::string& file) {
     if (!is_supported(name)) missing += (missing.empty() ? "" : ", ") + name;
   }
   if (!missing.empty()) throw InvalidInput(file + ": needs " + missing + ", which is not supported");
+  return count_primitives(json);
 }
 
 /// Keeps the encoded bytes. Those of a buffer view are left where they are: its range is not checked yet.
@@ -147,7 +159,8 @@ Document load_document(const std::filesystem::path& path) {
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(document.file + ": is larger than glTF's limit of 4 GiB");
   document.binary = std::string_view(bytes).starts_with(k_magic);
-  check_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file);
+  const auto primitives =
+      check_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file);
 
   tinygltf::TinyGLTF loader = make_loader();
   std::string error, warning;
@@ -156,14 +169,16 @@ Document load_document(const std::filesystem::path& path) {
   bool good = false;
   try {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    good = document.binary
-               ? loader.LoadBinaryFromMemory(&document.model, &error, &warning, data, size, folder)
-               : loader.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
+    good = document.binary ? loader.LoadBinaryFromMemory(&document.model, &error, &warning, data, size, folder)
+                           : loader.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
   } catch (const std::exception& failure) {
     error = failure.what();
   }
-  if (!good || !error.empty())
-    throw InvalidInput(document.file + ": " + (error.empty() ? "is no valid glTF" : first_line(error)));
+  if (!good) throw InvalidInput(document.file + ": " + (error.empty() ? "is no valid glTF" : first_line(error)));
+  for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
+    if (document.model.meshes[m].primitives.size() != primitives.at(m))
+      throw InvalidInput(document.file + ": mesh " + std::to_string(m) + ": " + first_line(error));
+  add_warnings(error, document.warnings);
   add_warnings(warning, document.warnings);
   return document;
 }

@@ -46,8 +46,8 @@ EncodedImage read_image(const tinygltf::Image& source, std::size_t number, const
   image.uri = percent_decoded(source.uri);
   image.extras_json = source.extras_json_string;
   const std::string where = "image " + std::to_string(number);
-  const auto bytes = source.bufferView >= 0 ? reader.view(source.bufferView, where)
-                                            : std::span<const unsigned char>(source.image);
+  const auto bytes =
+      source.bufferView >= 0 ? reader.view(source.bufferView, where) : std::span<const unsigned char>(source.image);
   image.bytes.resize(bytes.size());
   if (!bytes.empty()) std::memcpy(image.bytes.data(), bytes.data(), bytes.size());
   image.mime_type = mime_type_of(image.bytes, source.mimeType);

@@ -120,8 +120,8 @@ class PrimitiveReader {
       corners = reader_.indices(primitive.indices, where + ", indices");
       for (std::size_t i = 0; i < corners.size(); ++i)
         if (corners[i] >= vertex_count)
-          throw InvalidInput(document_.file + ": " + where + ": index[" + std::to_string(i) + "] = " +
-                             std::to_string(corners[i]) + " is not below the vertex count " +
+          throw InvalidInput(document_.file + ": " + where + ": index[" + std::to_string(i) +
+                             "] = " + std::to_string(corners[i]) + " is not below the vertex count " +
                              std::to_string(vertex_count));
     } else {
       corners.resize(vertex_count);
@@ -246,7 +246,8 @@ void read_parts(const Document& document, AccessorReader& reader, Scene& scene) 
       const tinygltf::Primitive& primitive = mesh.primitives[p];
       const std::string where = "mesh " + std::to_string(m) + ", primitive " + std::to_string(p);
       if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-        throw InvalidInput(document.file + ": " + where + ": mode " + std::to_string(primitive.mode) + " is not in 0..6");
+        throw InvalidInput(document.file + ": " + where + ": mode " + std::to_string(primitive.mode) +
+                           " is not in 0..6");
       if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
         losses.insert("points or lines of " + where);
         continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "gltf_material.hpp"
 #include "gltf_mesh.hpp"
@@ -30,10 +31,22 @@ Transform from_trs(const std::vector<double>& t, const std::vector<double>& q, c
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (!(length > 0)) throw InvalidInput(where + ": rotation is the zero quaternion");
   const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-  return {s[0] * (1 - 2 * (y * y + z * z)), s[1] * 2 * (x * y - z * w),       s[2] * 2 * (x * z + y * w),       t[0],
-          s[0] * 2 * (x * y + z * w),       s[1] * (1 - 2 * (x * x + z * z)), s[2] * 2 * (y * z - x * w),       t[1],
-          s[0] * 2 * (x * z - y * w),       s[1] * 2 * (y * z + x * w),       s[2] * (1 - 2 * (x * x + y * y)), t[2],
-          0,                                0,                                0,                                1};
+  return {s[0] * (1 - 2 * (y * y + z * z)),
+          s[1] * 2 * (x * y - z * w),
+          s[2] * 2 * (x * z + y * w),
+          t[0],
+          s[0] * 2 * (x * y + z * w),
+          s[1] * (1 - 2 * (x * x + z * z)),
+          s[2] * 2 * (y * z - x * w),
+          t[1],
+          s[0] * 2 * (x * z - y * w),
+          s[1] * 2 * (y * z + x * w),
+          s[2] * (1 - 2 * (x * x + y * y)),
+          t[2],
+          0,
+          0,
+          0,
+          1};
 }
 
 /// glTF stores columns.
@@ -47,11 +60,10 @@ Transform from_matrix(const std::vector<double>& m, const std::string& where) {
 }
 
 Transform local_transform(const tinygltf::Node& node, const std::string& where) {
-  Transform local = node.matrix.empty()
-                        ? from_trs(numbers_or(node.translation, {0, 0, 0}, "translation", where),
-                                   numbers_or(node.rotation, {0, 0, 0, 1}, "rotation", where),
-                                   numbers_or(node.scale, {1, 1, 1}, "scale", where), where)
-                        : from_matrix(node.matrix, where);
+  Transform local = node.matrix.empty() ? from_trs(numbers_or(node.translation, {0, 0, 0}, "translation", where),
+                                                   numbers_or(node.rotation, {0, 0, 0, 1}, "rotation", where),
+                                                   numbers_or(node.scale, {1, 1, 1}, "scale", where), where)
+                                        : from_matrix(node.matrix, where);
   for (const std::size_t i : {3U, 7U, 11U}) local[i] *= k_mm_per_metre;
   if (!std::all_of(local.begin(), local.end(), [](double x) { return std::isfinite(x); }))
     throw InvalidInput(where + ": the transform is not finite");
@@ -86,21 +98,33 @@ void read_nodes(const Document& document, Scene& scene) {
 }
 
 /// The nodes that nobody has as a child.
-std::vector<std::uint32_t> nodes_without_parent(const Scene& scene) {
+/// @throws InvalidInput when the nodes are no forest, whether the scene uses them or not.
+std::vector<std::uint32_t> nodes_without_parent(const Document& document, const Scene& scene) {
   std::vector<bool> is_child(scene.nodes.size(), false);
   for (const Node& node : scene.nodes)
-    for (const std::uint32_t child : node.children) is_child[child] = true;
-  std::vector<std::uint32_t> roots;
+    for (const std::uint32_t child : node.children) {
+      if (is_child[child]) throw InvalidInput(document.file + ": node " + std::to_string(child) + " has two parents");
+      is_child[child] = true;
+    }
+  std::vector<std::uint32_t> roots, open;
   for (std::uint32_t i = 0; i < scene.nodes.size(); ++i)
     if (!is_child[i]) roots.push_back(i);
+  std::size_t reached = 0;
+  for (open = roots; !open.empty(); ++reached) {
+    const std::vector<std::uint32_t>& children = scene.nodes[open.back()].children;
+    open.pop_back();
+    open.insert(open.end(), children.begin(), children.end());
+  }
+  if (reached != scene.nodes.size()) throw InvalidInput(document.file + ": the nodes form a cycle");
   return roots;
 }
 
 void read_roots(const Document& document, Scene& scene) {
   const tinygltf::Model& model = document.model;
   scene.extras_json = model.extras.Type() == tinygltf::NULL_TYPE ? "" : model.extras_json_string;
-  if (model.scenes.empty()) {
-    scene.roots = nodes_without_parent(scene);
+  std::vector<std::uint32_t> free_nodes = nodes_without_parent(document, scene);
+  if (model.scenes.empty() && model.defaultScene < 0) {
+    scene.roots = std::move(free_nodes);
     return;
   }
   const std::size_t number = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);

@@ -9,12 +9,17 @@
 
 namespace papilla {
 
-std::string read_file(const std::filesystem::path& path) {
+void require_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw IoError(path.string() + ": does not exist");
   if (std::filesystem::is_directory(status)) throw IoError(path.string() + ": is a directory");
   if (!std::filesystem::is_regular_file(status)) throw IoError(path.string() + ": is not a regular file");
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  require_file(path);
+  std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw IoError(path.string() + ": " + error.message());
   errno = 0;

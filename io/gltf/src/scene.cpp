@@ -14,7 +14,7 @@ namespace {
 /// A node on the way from a root, in the order of a depth-first walk.
 struct Visit {
   std::uint32_t node;
-  std::size_t parent;  ///< Index of the parent's visit, or k_no_parent.
+  std::size_t parent;   ///< Index of the parent's visit, or k_no_parent.
   std::size_t sibling;  ///< Number among the parent's children or the roots.
   int depth;
   Transform world;
@@ -32,8 +32,8 @@ void check_node(const Scene& scene, std::uint32_t node, const std::string& where
 std::vector<Visit> walk(const Scene& scene) {
   std::vector<Visit> visits, stack;
   std::vector<bool> seen(scene.nodes.size(), false);
-  const auto push = [&](const std::vector<std::uint32_t>& nodes, std::size_t parent, const Transform& world,
-                        int depth, const std::string& where) {
+  const auto push = [&](const std::vector<std::uint32_t>& nodes, std::size_t parent, const Transform& world, int depth,
+                        const std::string& where) {
     if (depth > k_max_depth)
       throw InvalidInput("scene: " + where + " is nested deeper than " + std::to_string(k_max_depth) + " levels");
     for (std::size_t i = nodes.size(); i-- > 0;) {
@@ -112,8 +112,8 @@ std::vector<Instance> instances(const Scene& scene) {
     const auto part = scene.nodes[visit.node].part;
     if (!part) continue;
     if (*part >= scene.parts.size())
-      throw InvalidInput("scene: node " + std::to_string(visit.node) + " names part " + std::to_string(*part) +
-                         " of " + std::to_string(scene.parts.size()));
+      throw InvalidInput("scene: node " + std::to_string(visit.node) + " names part " + std::to_string(*part) + " of " +
+                         std::to_string(scene.parts.size()));
     result.push_back({*part, visit.node, visit.world});
   }
   return result;

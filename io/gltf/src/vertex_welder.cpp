@@ -25,8 +25,7 @@ std::uint64_t hash(Vec3 p) noexcept {
 
 }  // namespace
 
-VertexWelder::VertexWelder(std::size_t expected_points)
-    : table_(std::bit_ceil(2 * expected_points + 16), k_free) {
+VertexWelder::VertexWelder(std::size_t expected_points) : table_(std::bit_ceil(2 * expected_points + 16), k_free) {
   points_.reserve(expected_points);
 }
 

@@ -11,8 +11,8 @@ namespace papilla {
 /// Metres become millimetres, v becomes 1 − v; triangles, strips and fans become triangles; sparse accessors and
 /// node transforms are honoured. One part per glTF mesh, in the same order, with its primitives' materials as slots;
 /// positions equal in every bit are merged within a part, so that uv seams do not tear the surface. Skins, morph
-/// targets, animations, cameras, lights, points and lines are listed in `losses`; pictures that are missing in `warnings`.
-/// Links no library but tinygltf, so that the player can use it.
+/// targets, animations, cameras, lights, points and lines are listed in `losses`; pictures that are missing in
+/// `warnings`. Links no library but tinygltf, so that the player can use it.
 ///
 /// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says; memory stays
 /// within about 100 times the file's size.

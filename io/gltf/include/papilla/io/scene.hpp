@@ -57,10 +57,11 @@ struct Material {
   bool double_sided = false;
   std::string alpha_mode = "OPAQUE";  ///< glTF: OPAQUE, MASK, BLEND.
   double alpha_cutoff = 0.5;
-  std::optional<TextureReference> base_color_texture, metallic_roughness_texture, normal_texture,
-      occlusion_texture, emissive_texture;
-  std::string extras_json;      ///< A JSON object, or empty.
-  std::string extensions_json;  ///< glTF extensions as they were; texture numbers stay valid, textures are only appended.
+  std::optional<TextureReference> base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
+      emissive_texture;
+  std::string extras_json;  ///< A JSON object, or empty.
+  std::string
+      extensions_json;  ///< glTF extensions as they were; texture numbers stay valid, textures are only appended.
 };
 
 /// One shape: a mesh and the materials its triangles name. Shared by all its instances.
@@ -88,8 +89,8 @@ enum class UpAxis { y, z };
 /// picture, 1 = one repeat, so that an unmirrored chart has positive area. glTF's v runs down: its reader and
 /// writer exchange v and 1 − v. The nodes form a forest: every node has at most one parent.
 struct Scene {
-  std::string format;              ///< "STEP", "STL", "OBJ", "glTF", ...
-  std::string unit = "mm";         ///< The file's unit; `millimetres_per_unit` was applied when reading.
+  std::string format;       ///< "STEP", "STL", "OBJ", "glTF", ...
+  std::string unit = "mm";  ///< The file's unit; `millimetres_per_unit` was applied when reading.
   double millimetres_per_unit = 1;
   UpAxis up = UpAxis::z;
 
