@@ -24,8 +24,7 @@ void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bound
                            std::to_string(v));
       const Vec3& p = mesh.positions[v];
       if (!usable(p.x) || !usable(p.y) || !usable(p.z))
-        throw InvalidInput(std::string(what) + ".positions[" + std::to_string(v) +
-                           "]: not finite or beyond 1e15 mm");
+        throw InvalidInput(std::string(what) + ".positions[" + std::to_string(v) + "]: not finite or beyond 1e15 mm");
       bounds.add(p);
     }
 }

@@ -38,8 +38,8 @@ void for_each_chunk(std::size_t count, const Body& body) {
 
 /// Closest point of p, starting from a triangle that is probably near; k_no_value: no idea.
 ClosestPoint closest_from(const TriangleBvh& bvh, const Vec3& p, Index hint) noexcept {
-  return bvh.closest(p, hint == k_no_value ? ClosestPoint{}
-                                           : ClosestPoint{detail::squared_distance(p, bvh.frame(hint)), hint});
+  return bvh.closest(
+      p, hint == k_no_value ? ClosestPoint{} : ClosestPoint{detail::squared_distance(p, bvh.frame(hint)), hint});
 }
 
 /// The largest distance met and where.
@@ -121,8 +121,7 @@ class TriangleRefiner {
 
   double distance_bound(const ConvexPiece& piece, Index to_triangle) const noexcept {
     double bound = 0;
-    for (const Vec3& v : piece.corners())
-      bound = std::max(bound, detail::squared_distance(v, to_.frame(to_triangle)));
+    for (const Vec3& v : piece.corners()) bound = std::max(bound, detail::squared_distance(v, to_.frame(to_triangle)));
     return std::sqrt(bound);
   }
 
@@ -145,8 +144,7 @@ class TriangleRefiner {
       settled_bound = std::max(settled_bound, bound);
       return true;
     }
-    return cut_along_prism({whole.piece, bound, found.triangle}) ||
-           halve({whole.piece, bound, found.triangle}, centre);
+    return cut_along_prism({whole.piece, bound, found.triangle}) || halve({whole.piece, bound, found.triangle}, centre);
   }
 
   void push(const ConvexPiece& piece, double bound, Index hint) {
@@ -334,9 +332,9 @@ class OneSide {
       TriangleRefiner refiner(to_, floor_, options_);
       for (std::size_t t = begin; t < end; ++t) {
         const Triangle& v = from_.triangles[t];
-        const auto outcome = refiner.refine({from_.positions[v[0]], from_.positions[v[1]], from_.positions[v[2]]},
-                                            {nearest_[v[0]], nearest_[v[1]], nearest_[v[2]]}, known,
-                                            static_cast<Index>(t), part.peak);
+        const auto outcome =
+            refiner.refine({from_.positions[v[0]], from_.positions[v[1]], from_.positions[v[2]]},
+                           {nearest_[v[0]], nearest_[v[1]], nearest_[v[2]]}, known, static_cast<Index>(t), part.peak);
         part.bound = std::max(part.bound, outcome.bound);
         part.unsettled += outcome.settled ? 0 : 1;
         if (outcome.bound > options_.list_above_mm) part.above.push_back(static_cast<Index>(t));
@@ -372,8 +370,8 @@ DeviationResult surface_deviation(const TriangleMesh& from, const TriangleMesh& 
     throw InvalidInput("surface_deviation: one of the surfaces has no triangles");
 
   constexpr double k_default_tolerance = 1e-6;
-  const double absolute = options.absolute_tolerance_mm < 0 ? k_default_tolerance * bounds.diagonal()
-                                                            : options.absolute_tolerance_mm;
+  const double absolute =
+      options.absolute_tolerance_mm < 0 ? k_default_tolerance * bounds.diagonal() : options.absolute_tolerance_mm;
   const double floor = std::max(absolute, options.settled_below_mm);
   {
     const TriangleBvh bvh(to.positions, to.triangles);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Index k_leaf_size = 4;
 constexpr int k_bins = 16;
-constexpr int k_sah_depth = 40;       ///< Deeper levels split in the middle, so that the depth stays below 40 + 32.
+constexpr int k_sah_depth = 40;  ///< Deeper levels split in the middle, so that the depth stays below 40 + 32.
 constexpr std::size_t k_stack = 80;
 constexpr Index k_serial_size = 1u << 13;
 
@@ -238,8 +238,7 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triang
   oneapi::tbb::parallel_for(Range(0, triangles.size(), k_serial_size), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const Triangle& t = triangles[i];
-      references[i] =
-          make_reference(positions[t[0]], positions[t[1]], positions[t[2]], centre_, static_cast<Index>(i));
+      references[i] = make_reference(positions[t[0]], positions[t[1]], positions[t[2]], centre_, static_cast<Index>(i));
     }
   });
   nodes_ = BvhBuilder(references).run();

@@ -15,8 +15,8 @@ struct DeviationOptions {
   bool two_sided = true;  ///< Also from the second surface to the first.
 
   /// The maximum is settled when bound - value <= max(relative_tolerance * value, absolute_tolerance_mm).
-  double relative_tolerance = 0.01;       ///< >= 0.
-  double absolute_tolerance_mm = -1;      ///< Negative: 1e-6 of the bounding diagonal of both surfaces.
+  double relative_tolerance = 0.01;   ///< >= 0.
+  double absolute_tolerance_mm = -1;  ///< Negative: 1e-6 of the bounding diagonal of both surfaces.
 
   /// Distances below this need no settling: a "within the tolerance?" question is answered by value <= settled <=
   /// bound <= limit at a fraction of the cost. 0: settle everything.
@@ -25,19 +25,19 @@ struct DeviationOptions {
   /// List the triangles whose bound exceeds this; infinity: none.
   double list_above_mm = std::numeric_limits<double>::infinity();
 
-  std::uint64_t mean_samples = 200'000;       ///< Area-weighted samples of mean and rms; at least one a triangle.
+  std::uint64_t mean_samples = 200'000;        ///< Area-weighted samples of mean and rms; at least one a triangle.
   std::uint32_t pieces_per_triangle = 20'000;  ///< Refinement limit of one triangle; what is left counts in the bound.
 };
 
 /// The distances of one surface's points to another surface, in mm.
 struct OneSidedDeviation {
-  double value = 0;  ///< The largest distance met: a lower bound of the maximum, attained at `at`.
-  double bound = 0;  ///< No point of the surface is farther away than this.
-  double mean = 0, rms = 0;  ///< Over the area, by sampling; triangles of no area do not count.
-  Vec3 at, nearest;  ///< Where `value` is attained, and a closest point on the other surface.
-  Index triangle = k_no_value;       ///< The triangle that `at` lies on.
-  std::vector<Index> above;          ///< Triangles whose bound exceeds `list_above_mm`, ascending.
-  std::uint64_t unsettled = 0;       ///< Triangles whose refinement hit its limit.
+  double value = 0;             ///< The largest distance met: a lower bound of the maximum, attained at `at`.
+  double bound = 0;             ///< No point of the surface is farther away than this.
+  double mean = 0, rms = 0;     ///< Over the area, by sampling; triangles of no area do not count.
+  Vec3 at, nearest;             ///< Where `value` is attained, and a closest point on the other surface.
+  Index triangle = k_no_value;  ///< The triangle that `at` lies on.
+  std::vector<Index> above;     ///< Triangles whose bound exceeds `list_above_mm`, ascending.
+  std::uint64_t unsettled = 0;  ///< Triangles whose refinement hit its limit.
 };
 
 struct DeviationResult {
@@ -52,10 +52,10 @@ struct DeviationResult {
 ///
 /// Measured, not estimated: `value` is attained by a point of the surface, and `bound` is an upper bound over *all*
 /// points of all triangles, both up to rounding (about 1e-15 of the largest coordinate). A piece F of a triangle, a
-/// convex polygon, is bounded by max over its corners v of d(v, S) for a triangle S of `to`, since the distance to a convex
-/// set is a convex function, and by d(m) + max |v - m| from its centre m, since d is 1-Lipschitz. Where both exceed the
-/// present maximum, F is cut along the prism over its closest triangle S, within which the first bound is exact, or
-/// halved when that cut has no inside. So large flat triangles against a fine tessellation, the usual case
+/// convex polygon, is bounded by max over its corners v of d(v, S) for a triangle S of `to`, since the distance to a
+/// convex set is a convex function, and by d(m) + max |v - m| from its centre m, since d is 1-Lipschitz. Where both
+/// exceed the present maximum, F is cut along the prism over its closest triangle S, within which the first bound is
+/// exact, or halved when that cut has no inside. So large flat triangles against a fine tessellation, the usual case
 /// after simplification, cost one piece per triangle overlapped instead of one per tolerance squared.
 ///
 /// Guarantees: value <= maximum <= bound; bound - value within the tolerances unless `unsettled` > 0 or
@@ -67,6 +67,7 @@ struct DeviationResult {
 ///         not finite or beyond 1e15 mm, or an option is negative or not a number.
 /// The convexity bound is that of Tang, Lee and Kim, Interactive Hausdorff Distance Computation for General Polygonal
 /// Models, SIGGRAPH 2009; cutting along the prisms instead of halving is ours.
-DeviationResult surface_deviation(const TriangleMesh& from, const TriangleMesh& to, const DeviationOptions& options = {});
+DeviationResult surface_deviation(const TriangleMesh& from, const TriangleMesh& to,
+                                  const DeviationOptions& options = {});
 
 }  // namespace papilla
