@@ -65,7 +65,10 @@ double farthest_corner(const ConvexPiece& piece, const Vec3& p) noexcept {
 class TriangleRefiner {
  public:
   TriangleRefiner(const TriangleBvh& to, double floor, const DeviationOptions& options)
-      : to_(to), options_(options), floor_(floor) {}
+      : to_(to),
+        options_(options),
+        floor_(floor),
+        most_pieces_(options.pieces_per_triangle + k_pieces_per_overlap * to.size()) {}
 
   struct Outcome {
     double bound = 0;
@@ -92,12 +95,12 @@ class TriangleRefiner {
     peak_ = &peak;
     pending_.clear();
     pending_.push_back({whole, bound, hint});
-    for (std::uint32_t pieces = 0; !pending_.empty();) {
+    for (std::size_t pieces = 0; !pending_.empty();) {
       const Pending next = pending_.back();
       pending_.pop_back();
       if (next.bound <= limit())
         outcome.bound = std::max(outcome.bound, next.bound);
-      else if (++pieces > options_.pieces_per_triangle || !divide(next, outcome.bound)) {
+      else if (++pieces > most_pieces_ || !divide(next, outcome.bound)) {
         outcome.bound = std::max(outcome.bound, next.bound);
         outcome.settled = false;
       }
@@ -106,6 +109,9 @@ class TriangleRefiner {
   }
 
  private:
+  static constexpr std::size_t k_pieces_per_overlap =
+      32;  ///< Cuts of a triangle that overlaps all of `to` are not too many.
+
   struct Pending {
     ConvexPiece piece;
     double bound;
@@ -221,7 +227,9 @@ class TriangleRefiner {
 
   const TriangleBvh& to_;
   const DeviationOptions& options_;
-  double floor_, known_ = 0, local_ = 0;
+  double floor_;
+  std::size_t most_pieces_;
+  double known_ = 0, local_ = 0;
   Index triangle_ = 0;
   Peak* peak_ = nullptr;
   std::vector<Pending> pending_;

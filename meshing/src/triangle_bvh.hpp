@@ -27,7 +27,7 @@ class TriangleBvh {
   /// @param positions Finite. @param triangles With indices in range; the positions are copied.
   TriangleBvh(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-  bool empty() const noexcept { return prims_.empty(); }
+  std::size_t size() const noexcept { return prims_.size(); }
 
   /// The closest point if it is nearer than `start`, else `start`.
   ClosestPoint closest(const Vec3& p, ClosestPoint start = {}) const noexcept;

