@@ -5,6 +5,7 @@
 #include <queue>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "check_mesh.hpp"
 #include "edge_table.hpp"
@@ -28,18 +29,11 @@ class DegenerateResolver {
 
   void run(const std::vector<Index>& degenerate) {
     for (const Index t : degenerate) enqueue(t);
-    std::size_t budget = 64 * degenerate.size() + 1024;
+    flips_left_ = 16 * degenerate.size() + 256;
     while (!queue_.empty()) {
       const Index t = queue_.top().triangle;
       queue_.pop();
-      if (!alive_[t]) continue;
-      if (budget == 0) {
-        kill(t);
-        ++result_.dropped;
-        continue;
-      }
-      --budget;
-      resolve(t);
+      if (alive_[t]) resolve(t);
     }
     measure_moves();
     keep_triangles(mesh_, alive_);
@@ -90,10 +84,19 @@ class DegenerateResolver {
                 apex = corners[previous_corner(s.longest_corner)];
     const double to_a = norm(mesh_.positions[apex] - mesh_.positions[a]);
     const double to_b = norm(mesh_.positions[apex] - mesh_.positions[b]);
-    if (std::min(to_a, to_b) <= k_needle_tolerances * tolerance_)
-      collapse(to_a <= to_b ? a : b, apex);
-    else
+    if (std::min(to_a, to_b) > k_needle_tolerances * tolerance_ && may_flip(a, b))
       replace_long_edge(t, a, b, apex, s.altitude);
+    else
+      collapse(to_a <= to_b ? a : b, apex);
+  }
+
+  /// An edge that was flipped away and came back sits in a quadrangle that is flat either way round: flipping it again
+  /// would go on for ever.
+  bool may_flip(Index a, Index b) {
+    if (flips_left_ == 0 || !flipped_away_.insert(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b)).second)
+      return false;
+    --flips_left_;
+    return true;
   }
 
   void collapse(Index p, Index q) {
@@ -166,6 +169,8 @@ class DegenerateResolver {
   std::unordered_map<Index, std::vector<Index>> stars_;
   std::priority_queue<Entry> queue_;
   std::vector<std::pair<Index, Index>> moves_;
+  std::unordered_set<std::uint64_t> flipped_away_;
+  std::size_t flips_left_ = 0;
 };
 
 std::vector<Index> degenerate_triangles(const TriangleMesh& mesh, double tolerance) {

@@ -29,17 +29,18 @@ ExactPositions exact_positions(const TriangleMesh& mesh) {
   ExactPositions result;
   result.of_position.assign(mesh.positions.size(), k_none);
   for (const Triangle& t : mesh.triangles)
-    for (const Index v : t) {
-      if (result.of_position[v] != k_none) continue;
-      const Vec3& p = mesh.positions[v];
-      std::size_t slot = hash(p) & (slots - 1);
-      while (table[slot] != k_none && !(mesh.positions[result.first[table[slot]]] == p)) slot = (slot + 1) & (slots - 1);
-      if (table[slot] == k_none) {
-        table[slot] = static_cast<Index>(result.first.size());
-        result.first.push_back(v);
-      }
-      result.of_position[v] = table[slot];
+    for (const Index v : t) result.of_position[v] = 0;
+  for (Index v = 0; v < mesh.positions.size(); ++v) {
+    if (result.of_position[v] == k_none) continue;
+    const Vec3& p = mesh.positions[v];
+    std::size_t slot = hash(p) & (slots - 1);
+    while (table[slot] != k_none && !(mesh.positions[result.first[table[slot]]] == p)) slot = (slot + 1) & (slots - 1);
+    if (table[slot] == k_none) {
+      table[slot] = static_cast<Index>(result.first.size());
+      result.first.push_back(v);
     }
+    result.of_position[v] = table[slot];
+  }
   return result;
 }
 

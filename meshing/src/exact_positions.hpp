@@ -7,7 +7,7 @@
 
 namespace papilla::detail {
 
-/// Numbers of the distinct positions that a triangle list names, in the order of their first use.
+/// Numbers of the distinct positions that a triangle list names, in the order of the positions.
 struct ExactPositions {
   std::vector<Index> of_position;  ///< Position -> number; k_none when no triangle names it.
   std::vector<Index> first;        ///< Number -> the first position that has it.

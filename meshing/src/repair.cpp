@@ -42,7 +42,6 @@ void drop_degenerate(RepairResult& all) {
   all.counts.repeated_corners += step.repeated;
   all.counts.collapsed_needles += step.collapsed;
   all.counts.flipped_caps += step.flipped;
-  all.counts.dropped_degenerate += step.dropped;
   all.max_deviation_mm += step.max_deviation_mm;
 }
 
