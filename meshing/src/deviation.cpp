@@ -9,6 +9,7 @@
 
 #include "check_distance_input.hpp"
 #include "convex_piece.hpp"
+#include "one_sided_deviation.hpp"
 #include "papilla/core/error.hpp"
 #include "triangle_bvh.hpp"
 
@@ -93,6 +94,8 @@ class TriangleRefiner {
     local_ = 0;
     triangle_ = triangle;
     peak_ = &peak;
+    if (bound > limit())
+      for (std::size_t k = 0; k < 3; ++k) measure(corner[k], nearest[k]);
     pending_.clear();
     pending_.push_back({whole, bound, hint});
     for (std::size_t pieces = 0; !pending_.empty();) {
@@ -120,9 +123,9 @@ class TriangleRefiner {
 
   /// Pieces bounded by this need no further look.
   double limit() const noexcept {
-    const double slope = 1 + options_.relative_tolerance;
-    const double local = slope * local_, global = slope * std::max(known_, local_);
-    return std::max(floor_, std::min(global, std::max(local, options_.list_above_mm)));
+    if (local_ > options_.list_above_mm) return std::numeric_limits<double>::infinity();
+    const double known = (1 + options_.relative_tolerance) * std::max(known_, local_);
+    return std::max(floor_, std::min(known, options_.list_above_mm));
   }
 
   double distance_bound(const ConvexPiece& piece, Index to_triangle) const noexcept {
@@ -242,9 +245,11 @@ class OneSide {
       : from_(from), to_(to), floor_(floor), options_(options) {}
 
   OneSidedDeviation run() {
+    settle_at_once();
     measure_corners();
-    sample_areas();
+    if (options_.mean_samples > 0) sample_areas();
     bound_triangles();
+    if (peak_.triangle == k_no_value) return std::move(result_);
     result_.value = peak_.value;
     result_.bound = std::max(result_.bound, peak_.value);
     result_.at = peak_.at;
@@ -254,10 +259,39 @@ class OneSide {
   }
 
  private:
+  /// Settles what a triangle of `to` near the neighbour is near enough to, without a search.
+  void settle_at_once() {
+    settled_.assign(from_.triangles.size(), 0);
+    if (!(options_.settled_below_mm > 0)) return;
+    std::vector<double> bounds((from_.triangles.size() + k_chunk - 1) / k_chunk, 0);
+    for_each_chunk(from_.triangles.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+      Index hint = k_no_value;
+      for (std::size_t t = begin; t < end; ++t) {
+        double bound = hint == k_no_value ? std::numeric_limits<double>::infinity() : corner_bound(t, hint);
+        if (!(bound <= floor_)) {
+          hint = closest_from(to_, (1.0 / 3) * (from_.corner(t, 0) + from_.corner(t, 1) + from_.corner(t, 2)), hint)
+                     .triangle;
+          bound = corner_bound(t, hint);
+        }
+        settled_[t] = bound <= floor_;
+        if (settled_[t]) bounds[chunk] = std::max(bounds[chunk], bound);
+      }
+    });
+    for (const double bound : bounds) result_.bound = std::max(result_.bound, bound);
+  }
+
+  double corner_bound(std::size_t t, Index to_triangle) const noexcept {
+    double bound = 0;
+    for (int k = 0; k < 3; ++k)
+      bound = std::max(bound, detail::squared_distance(from_.corner(t, k), to_.frame(to_triangle)));
+    return std::sqrt(bound);
+  }
+
   void measure_corners() {
     std::vector<Index> triangle_at(from_.positions.size(), k_no_value);
     for (Index t = 0; t < from_.triangles.size(); ++t)
-      for (const Index v : from_.triangles[t]) triangle_at[v] = t;
+      if (!settled_[t])
+        for (const Index v : from_.triangles[t]) triangle_at[v] = t;
     nearest_.assign(from_.positions.size(), k_no_value);
     std::vector<Peak> peaks((from_.positions.size() + k_chunk - 1) / k_chunk);
     for_each_chunk(from_.positions.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
@@ -287,6 +321,7 @@ class OneSide {
     };
     std::vector<Sums> sums((from_.triangles.size() + k_chunk - 1) / k_chunk);
     for_each_chunk(from_.triangles.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+      Index hint = k_no_value;
       for (std::size_t t = begin; t < end; ++t) {
         const double triangle_area = area(t);
         const double rows = per_sample > 0 ? std::ceil(std::sqrt(triangle_area / per_sample)) : 1;
@@ -294,7 +329,6 @@ class OneSide {
         const Vec3 a = from_.corner(t, 0), ab = (1.0 / n) * (from_.corner(t, 1) - a),
                    ac = (1.0 / n) * (from_.corner(t, 2) - a);
         double sum = 0, squares = 0;
-        Index hint = nearest_[from_.triangles[t][0]];
         const auto sample = [&](double i, double j) {
           const Vec3 p = a + i * ab + j * ac;
           const ClosestPoint found = closest_from(to_, p, hint);
@@ -330,7 +364,7 @@ class OneSide {
     struct Part {
       double bound = 0;
       std::uint64_t unsettled = 0;
-      std::vector<Index> above;
+      std::vector<ExceedingTriangle> above;
       Peak peak;
     };
     std::vector<Part> parts((from_.triangles.size() + k_chunk - 1) / k_chunk);
@@ -339,13 +373,17 @@ class OneSide {
       Part& part = parts[chunk];
       TriangleRefiner refiner(to_, floor_, options_);
       for (std::size_t t = begin; t < end; ++t) {
+        if (settled_[t]) continue;
         const Triangle& v = from_.triangles[t];
+        Peak peak;
         const auto outcome =
             refiner.refine({from_.positions[v[0]], from_.positions[v[1]], from_.positions[v[2]]},
-                           {nearest_[v[0]], nearest_[v[1]], nearest_[v[2]]}, known, static_cast<Index>(t), part.peak);
+                           {nearest_[v[0]], nearest_[v[1]], nearest_[v[2]]}, known, static_cast<Index>(t), peak);
+        part.peak.note(peak);
         part.bound = std::max(part.bound, outcome.bound);
         part.unsettled += outcome.settled ? 0 : 1;
-        if (outcome.bound > options_.list_above_mm) part.above.push_back(static_cast<Index>(t));
+        if (outcome.bound > options_.list_above_mm)
+          part.above.push_back({static_cast<Index>(t), peak.nearest_triangle, peak.value, peak.at});
       }
     });
     for (const Part& part : parts) {
@@ -360,12 +398,18 @@ class OneSide {
   const TriangleBvh& to_;
   double floor_;
   const DeviationOptions& options_;
-  std::vector<Index> nearest_;  ///< Per position of `from`: the triangle of `to` closest to it.
+  std::vector<std::uint8_t> settled_;  ///< Per triangle of `from`.
+  std::vector<Index> nearest_;         ///< Per position of `from`: the triangle of `to` closest to it.
   Peak peak_;
   OneSidedDeviation result_;
 };
 
 }  // namespace
+
+OneSidedDeviation detail::one_sided_deviation(const TriangleMesh& from, const TriangleBvh& to, double floor_mm,
+                                              const DeviationOptions& options) {
+  return OneSide(from, to, floor_mm, options).run();
+}
 
 DeviationResult surface_deviation(const TriangleMesh& from, const TriangleMesh& to, const DeviationOptions& options) {
   check(options);
@@ -381,14 +425,9 @@ DeviationResult surface_deviation(const TriangleMesh& from, const TriangleMesh& 
   const double absolute =
       options.absolute_tolerance_mm < 0 ? k_default_tolerance * bounds.diagonal() : options.absolute_tolerance_mm;
   const double floor = std::max(absolute, options.settled_below_mm);
-  {
-    const TriangleBvh bvh(to.positions, to.triangles);
-    result.from_to = OneSide(from, bvh, floor, options).run();
-  }
-  if (options.two_sided) {
-    const TriangleBvh bvh(from.positions, from.triangles);
-    result.to_from = OneSide(to, bvh, floor, options).run();
-  }
+  result.from_to = OneSide(from, TriangleBvh(to.positions, to.triangles), floor, options).run();
+  if (options.two_sided)
+    result.to_from = OneSide(to, TriangleBvh(from.positions, from.triangles), floor, options).run();
   return result;
 }
 

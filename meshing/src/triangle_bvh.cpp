@@ -11,10 +11,14 @@
 namespace papilla::detail {
 namespace {
 
-constexpr Index k_leaf_size = 4;
+constexpr Index k_leaf_size = 2;
 constexpr int k_bins = 16;
 constexpr int k_sah_depth = 40;  ///< Deeper levels split in the middle, so that the depth stays below 40 + 32.
-constexpr std::size_t k_stack = 80;
+constexpr std::size_t k_stack = 3 * 72 + 4;  ///< A node leaves at most three children behind.
+/// Boxes grow by this fraction of the list's extent: what the search in single precision may lose.
+constexpr double k_margin = 1e-6;
+/// Far from the list the search loses less than this fraction of a squared distance.
+constexpr float k_slack = 1e-5f;
 constexpr Index k_serial_size = 1u << 13;
 
 struct Box {
@@ -44,53 +48,43 @@ struct Reference {
 
 double component(const Vec3& v, int axis) noexcept { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-float rounded_down(double x) noexcept {
-  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
-}
-float rounded_up(double x) noexcept {
-  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
-}
-
-Reference make_reference(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& centre, Index triangle) noexcept {
+Reference make_reference(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& centre, double margin,
+                         Index triangle) noexcept {
   Reference reference;
   reference.triangle = triangle;
   for (int k = 0; k < 3; ++k) {
     const double x = component(a, k), y = component(b, k), z = component(c, k), o = component(centre, k);
-    reference.box.low[k] = rounded_down(std::min({x, y, z}) - o);
-    reference.box.high[k] = rounded_up(std::max({x, y, z}) - o);
+    reference.box.low[k] = static_cast<float>(std::min({x, y, z}) - o - margin);
+    reference.box.high[k] = static_cast<float>(std::max({x, y, z}) - o + margin);
   }
   return reference;
 }
 
 }  // namespace
 
-/// Splits references top down. A subtree over [begin, end) writes its nodes to slots begin ... end - 2, which no
-/// other subtree uses, and compaction afterwards closes the gaps.
+/// Splits references in two, top down. A subtree over [begin, end) writes its nodes to slots begin ... end - 2, which
+/// no other subtree uses; afterwards pairs of levels are folded into nodes of four.
 class BvhBuilder {
  public:
   using Node = TriangleBvh::Node;
 
-  BvhBuilder(std::vector<Reference>& references) : references_(references), sparse_(references.size()) {}
+  explicit BvhBuilder(std::vector<Reference>& references) : references_(references), pairs_(references.size()) {}
 
   std::vector<Node> run() {
-    const auto count = static_cast<Index>(references_.size());
     std::vector<Node> nodes;
+    const auto count = static_cast<Index>(references_.size());
     if (count == 0) return nodes;
-    const Subtree root = build(0, count, 0);
-    nodes.reserve(count / 2 + 1);
-    if (root.child >= 0) {
-      compact(root.child, nodes);
-    } else {  // a lone leaf beside an empty one
-      nodes.push_back(make_node(root, {{}, leaf(0, 0)}));
-    }
+    nodes.reserve(count / 3 + 1);
+    fold(build(0, count, 0), nodes);
     return nodes;
   }
 
  private:
   struct Subtree {
     Box box;
-    std::int64_t child;
+    std::int64_t child;  ///< Number of a pair, or as in Node a leaf.
   };
+  using Pair = std::array<Subtree, 2>;
   struct Split {
     double cost;
     int axis = -1;
@@ -105,19 +99,6 @@ class BvhBuilder {
     return ~((static_cast<std::int64_t>(begin) << 3) | static_cast<std::int64_t>(count));
   }
 
-  static Node make_node(const Subtree& left, const Subtree& right) noexcept {
-    Node node;
-    for (int k = 0; k < 3; ++k) {
-      node.low[k][0] = left.box.low[k];
-      node.low[k][1] = right.box.low[k];
-      node.high[k][0] = left.box.high[k];
-      node.high[k][1] = right.box.high[k];
-    }
-    node.child[0] = left.child;
-    node.child[1] = right.child;
-    return node;
-  }
-
   Box bounds(Index begin, Index end) const noexcept {
     Box box;
     for (Index i = begin; i < end; ++i) box.add(references_[i].box);
@@ -127,17 +108,17 @@ class BvhBuilder {
   Subtree build(Index begin, Index end, int depth) {
     if (end - begin <= k_leaf_size) return {bounds(begin, end), leaf(begin, end - begin)};
     const Index middle = partition(begin, end, depth);
-    Subtree left, right;
-    if (end - begin > k_serial_size)
-      oneapi::tbb::parallel_invoke([&] { left = build(begin, middle, depth + 1); },
-                                   [&] { right = build(middle, end, depth + 1); });
-    else {
-      left = build(begin, middle, depth + 1);
-      right = build(middle, end, depth + 1);
+    Pair& pair = pairs_[middle - 1];
+    const auto build_left = [&] { pair[0] = build(begin, middle, depth + 1); };
+    const auto build_right = [&] { pair[1] = build(middle, end, depth + 1); };
+    if (end - begin > k_serial_size) {
+      oneapi::tbb::parallel_invoke(build_left, build_right);
+    } else {
+      build_left();
+      build_right();
     }
-    sparse_[begin + (middle - begin) - 1] = make_node(left, right);
-    Subtree tree{left.box, static_cast<std::int64_t>(middle) - 1};
-    tree.box.add(right.box);
+    Subtree tree{pair[0].box, static_cast<std::int64_t>(middle) - 1};
+    tree.box.add(pair[1].box);
     return tree;
   }
 
@@ -205,20 +186,37 @@ class BvhBuilder {
     }
   }
 
-  std::int64_t compact(std::int64_t slot, std::vector<Node>& nodes) const {
-    const auto place = nodes.size();
-    nodes.push_back(sparse_[static_cast<std::size_t>(slot)]);
-    for (std::size_t side = 0; side < 2; ++side) {
-      const std::int64_t child = nodes[place].child[side];
-      if (child < 0) continue;
-      const std::int64_t moved = compact(child, nodes);
-      nodes[place].child[side] = moved;
+  /// Opens the largest inner children until there are four; returns the node's number.
+  std::int64_t fold(const Subtree& tree, std::vector<Node>& nodes) const {
+    std::array<Subtree, 4> child;
+    child[0] = tree;
+    std::size_t count = 1;
+    while (count < 4) {
+      std::size_t widest = count;
+      for (std::size_t i = 0; i < count; ++i)
+        if (child[i].child >= 0 && (widest == count || child[i].box.half_area() > child[widest].box.half_area()))
+          widest = i;
+      if (widest == count) break;
+      const Pair& pair = pairs_[static_cast<std::size_t>(child[widest].child)];
+      child[widest] = pair[0];
+      child[count++] = pair[1];
+    }
+    for (std::size_t i = count; i < 4; ++i) child[i] = {Box{}, leaf(0, 0)};
+    const std::size_t place = nodes.size();
+    nodes.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::int64_t code = child[i].child < 0 ? child[i].child : fold(child[i], nodes);
+      nodes[place].child[i] = code;
+      for (int k = 0; k < 3; ++k) {
+        nodes[place].low[k][i] = child[i].box.low[k];
+        nodes[place].high[k][i] = child[i].box.high[k];
+      }
     }
     return static_cast<std::int64_t>(place);
   }
 
   std::vector<Reference>& references_;
-  std::vector<Node> sparse_;
+  std::vector<Pair> pairs_;
 };
 
 TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
@@ -232,13 +230,16 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triang
     }
   if (triangles.empty()) return;
   centre_ = 0.5 * (low + high);
+  const Vec3 extent = high - low;
+  const double margin = k_margin * std::max({extent.x, extent.y, extent.z});
 
   std::vector<Reference> references(triangles.size());
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   oneapi::tbb::parallel_for(Range(0, triangles.size(), k_serial_size), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const Triangle& t = triangles[i];
-      references[i] = make_reference(positions[t[0]], positions[t[1]], positions[t[2]], centre_, static_cast<Index>(i));
+      references[i] =
+          make_reference(positions[t[0]], positions[t[1]], positions[t[2]], centre_, margin, static_cast<Index>(i));
     }
   });
   nodes_ = BvhBuilder(references).run();
@@ -258,40 +259,45 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triang
 ClosestPoint TriangleBvh::closest(const Vec3& p, ClosestPoint best) const noexcept {
   if (nodes_.empty()) return best;
   struct Entry {
-    double distance;
+    float distance;
     std::int64_t child;
   };
   Entry stack[k_stack];
   std::size_t depth = 0;
-  const double q[3] = {p.x - centre_.x, p.y - centre_.y, p.z - centre_.z};
+  const Vec3 relative = p - centre_;
+  const float q[3] = {static_cast<float>(relative.x), static_cast<float>(relative.y), static_cast<float>(relative.z)};
+  constexpr double k_grow = 1 + static_cast<double>(k_slack);
+  auto limit = static_cast<float>(best.squared_distance * k_grow);
 
-  const auto visit_leaf = [&](std::int64_t code) {
-    const auto bits = static_cast<std::size_t>(~code);
-    for (std::size_t i = bits >> 3, end = i + (bits & 7); i < end; ++i) {
-      const double d = squared_distance(p, prims_[i].frame);
-      if (d < best.squared_distance) best = {d, prims_[i].triangle};
-    }
-  };
   stack[depth++] = {0, 0};
   while (depth > 0) {
     const Entry entry = stack[--depth];
-    if (entry.distance >= best.squared_distance) continue;
+    if (entry.distance > limit) continue;
     if (entry.child < 0) {
-      visit_leaf(entry.child);
+      const auto bits = static_cast<std::size_t>(~entry.child);
+      for (std::size_t i = bits >> 3, end = i + (bits & 7); i < end; ++i) {
+        const double d = squared_distance(p, prims_[i].frame);
+        if (d < best.squared_distance) best = {d, prims_[i].triangle};
+      }
+      limit = static_cast<float>(best.squared_distance * k_grow);
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
-    double d[2] = {0, 0};
+    float d[4] = {0, 0, 0, 0};
     for (int k = 0; k < 3; ++k)
-      for (int side = 0; side < 2; ++side) {
-        const double below = static_cast<double>(node.low[k][side]) - q[k];
-        const double above = q[k] - static_cast<double>(node.high[k][side]);
-        const double outside = std::max(std::max(below, above), 0.0);
-        d[side] += outside * outside;
+      for (int i = 0; i < 4; ++i) {
+        const float below = node.low[k][i] - q[k], above = q[k] - node.high[k][i];
+        const float larger = below > above ? below : above;
+        const float outside = larger > 0 ? larger : 0;
+        d[i] += outside * outside;
       }
-    const std::size_t near = d[1] < d[0] ? 1 : 0, far = 1 - near;
-    if (d[far] < best.squared_distance) stack[depth++] = {d[far], node.child[far]};
-    if (d[near] < best.squared_distance) stack[depth++] = {d[near], node.child[near]};
+    const std::size_t first = depth;
+    for (int i = 0; i < 4; ++i) {
+      if (!(d[i] <= limit)) continue;
+      std::size_t place = depth++;
+      for (; place > first && stack[place - 1].distance < d[i]; --place) stack[place] = stack[place - 1];
+      stack[place] = {d[i], node.child[i]};
+    }
   }
   return best;
 }
@@ -337,16 +343,16 @@ bool TriangleBvh::blocks(const Vec3& a, const Vec3& b, Index ignored) const noex
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(child)];
-    for (int side = 0; side < 2; ++side) {
+    for (int i = 0; i < 4; ++i) {
       double enter = 0, leave = 1;
       for (int k = 0; k < 3; ++k) {
-        const double t0 = (static_cast<double>(node.low[k][side]) - origin[k]) * inverse[k];
-        const double t1 = (static_cast<double>(node.high[k][side]) - origin[k]) * inverse[k];
+        const double t0 = (static_cast<double>(node.low[k][i]) - origin[k]) * inverse[k];
+        const double t1 = (static_cast<double>(node.high[k][i]) - origin[k]) * inverse[k];
         enter = std::max(enter, std::min(t0, t1));
         leave = std::min(leave, std::max(t0, t1));
       }
       // The relative slack covers the rounding of the slab products.
-      if (enter <= leave * (1 + 1e-12) + 1e-15) stack[depth++] = node.child[side];
+      if (enter <= leave * (1 + 1e-12) + 1e-15) stack[depth++] = node.child[i];
     }
   }
   return false;

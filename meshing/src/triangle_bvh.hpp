@@ -16,12 +16,12 @@ struct ClosestPoint {
   Index triangle = k_no_value;
 };
 
-/// A tree of boxes over a triangle list, for closest points and for sight lines. Two boxes a node in one cache line,
-/// single precision around the list's centre and rounded outwards; the triangles themselves stay in double precision.
-/// Own code because the known libraries lack what the callers live on: a start bound for the search ("nearer than
-/// this?", from the neighbour's answer) and answers in double precision.
-/// Building costs O(n log n) by the surface area heuristic, in parallel; about 110 bytes a triangle. Any triangle
-/// shape is fine. Same input, same tree, whatever the number of threads.
+/// A tree of boxes over a triangle list, for closest points and for sight lines. Four boxes a node, single precision
+/// around the list's centre and rounded outwards by more than the search's own rounding; the triangles themselves stay
+/// in double precision. Own code because the known libraries lack what the callers live on: a start bound for the
+/// search ("nearer than this?", from the neighbour's answer) and answers in double precision. Building costs O(n log n)
+/// by the surface area heuristic, in parallel; about 150 bytes a triangle. Any triangle shape is fine. Same input, same
+/// tree, whatever the number of threads.
 class TriangleBvh {
  public:
   /// @param positions Finite. @param triangles With indices in range; the positions are copied.
@@ -45,8 +45,8 @@ class TriangleBvh {
   };
   /// Children >= 0 are nodes, others leaves of ~child: first prim in the upper bits, count in the lower three.
   struct alignas(64) Node {
-    float low[3][2], high[3][2];
-    std::int64_t child[2];
+    float low[3][4], high[3][4];
+    std::int64_t child[4];
   };
   friend class BvhBuilder;
 

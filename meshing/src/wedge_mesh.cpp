@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "edge_table.hpp"
 #include "check_distance_input.hpp"
+#include "edge_table.hpp"
 #include "exact_positions.hpp"
 #include "mesh_attributes.hpp"
 #include "papilla/core/units.hpp"

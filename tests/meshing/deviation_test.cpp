@@ -167,9 +167,11 @@ TEST(SurfaceDeviation, ListsTheTrianglesAboveALimit) {
   options.list_above_mm = 0.5;
   const DeviationResult d = surface_deviation(bent, test::plane(10, 1, 1, 1), options);
   ASSERT_EQ(d.from_to.above.size(), 2u);
-  for (const Index t : d.from_to.above) {
+  for (const ExceedingTriangle& above : d.from_to.above) {
     double top = 0;
-    for (int k = 0; k < 3; ++k) top = std::max(top, bent.corner(t, k).z);
+    EXPECT_GT(above.value, 0.5);
+    EXPECT_NEAR(above.at.z, above.value, 1e-12);
+    for (int k = 0; k < 3; ++k) top = std::max(top, bent.corner(above.triangle, k).z);
     EXPECT_EQ(top, 1);
   }
 }

@@ -18,27 +18,36 @@ struct DeviationOptions {
   double relative_tolerance = 0.01;   ///< >= 0.
   double absolute_tolerance_mm = -1;  ///< Negative: 1e-6 of the bounding diagonal of both surfaces.
 
-  /// Distances below this need no settling: a "within the tolerance?" question is answered by value <= settled <=
-  /// bound <= limit at a fraction of the cost. 0: settle everything.
+  /// Distances below this need no settling and are not searched for, so that `value` misses them: "within the
+  /// tolerance?" is answered by bound <= tolerance at a fraction of the cost. 0: settle everything.
   double settled_below_mm = 0;
 
-  /// List the triangles whose bound exceeds this; infinity: none.
+  /// List the triangles that exceed this, and refine none of them further, so that `bound` is loose where the list
+  /// is not empty. Infinity: none.
   double list_above_mm = std::numeric_limits<double>::infinity();
 
-  std::uint64_t mean_samples = 200'000;        ///< Area-weighted samples of mean and rms; at least one a triangle.
+  std::uint64_t mean_samples = 200'000;  ///< Of mean and rms, area-weighted; at least one a triangle. 0: leave them 0.
   std::uint32_t pieces_per_triangle = 20'000;  ///< Refinement limit of one triangle (plus 32 a triangle of the
                                                ///< other surface); what is left counts in the bound.
 };
 
+/// A triangle found to exceed DeviationOptions::list_above_mm, with the largest distance met on it.
+struct ExceedingTriangle {
+  Index triangle = k_no_value;          ///< Of the surface measured.
+  Index nearest_triangle = k_no_value;  ///< Of the other surface: closest to `at`.
+  double value = 0;                     ///< At most `list_above_mm` when only the bound exceeds it.
+  Vec3 at;
+};
+
 /// The distances of one surface's points to another surface, in mm.
 struct OneSidedDeviation {
-  double value = 0;             ///< The largest distance met: a lower bound of the maximum, attained at `at`.
-  double bound = 0;             ///< No point of the surface is farther away than this.
-  double mean = 0, rms = 0;     ///< Over the area, by sampling; triangles of no area do not count.
-  Vec3 at, nearest;             ///< Where `value` is attained, and a closest point on the other surface.
-  Index triangle = k_no_value;  ///< The triangle that `at` lies on.
-  std::vector<Index> above;     ///< Triangles whose bound exceeds `list_above_mm`, ascending.
-  std::uint64_t unsettled = 0;  ///< Triangles whose refinement hit its limit.
+  double value = 0;                      ///< The largest distance met: a lower bound of the maximum, attained at `at`.
+  double bound = 0;                      ///< No point of the surface is farther away than this.
+  double mean = 0, rms = 0;              ///< Over the area, by sampling; triangles of no area do not count.
+  Vec3 at, nearest;                      ///< Where `value` is attained, and a closest point on the other surface.
+  Index triangle = k_no_value;           ///< The triangle that `at` lies on.
+  std::vector<ExceedingTriangle> above;  ///< Triangles that exceed `list_above_mm`, in their order.
+  std::uint64_t unsettled = 0;           ///< Triangles whose refinement hit its limit.
 };
 
 struct DeviationResult {
