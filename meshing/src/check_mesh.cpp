@@ -19,7 +19,8 @@ void check_indices(const std::vector<Triangle>& triangles, std::size_t limit, st
                    std::string_view what) {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const Index v : triangles[t])
-      if (v >= limit) fail(function, std::string(what) + " index " + std::to_string(v) + " out of range at triangle", t);
+      if (v >= limit)
+        fail(function, std::string(what) + " index " + std::to_string(v) + " out of range at triangle", t);
 }
 
 /// Keeps volumes and squared areas finite.
@@ -40,7 +41,8 @@ void check_mesh(const TriangleMesh& mesh, std::string_view function) {
       if (!is_usable(mesh.positions[v])) fail(function, "coordinate is not finite or beyond 1e100 at positions", v);
   for_each_corner_attribute(mesh, [&](const auto& attribute) {
     if (attribute.empty()) return;
-    if (attribute.indices.size() != count) fail(function, "attribute count differs from triangles", attribute.indices.size());
+    if (attribute.indices.size() != count)
+      fail(function, "attribute count differs from triangles", attribute.indices.size());
     check_indices(attribute.indices, attribute.values.size(), function, "attribute");
   });
   for_each_label(mesh, [&](const auto& labels) {

@@ -24,7 +24,10 @@ constexpr double k_needle_tolerances = 4;
 class DegenerateResolver {
  public:
   DegenerateResolver(TriangleMesh& mesh, double tolerance, DegenerateResult& result)
-      : mesh_(mesh), tolerance_(tolerance), result_(result), around_(mesh.triangles, mesh.positions.size()),
+      : mesh_(mesh),
+        tolerance_(tolerance),
+        result_(result),
+        around_(mesh.triangles, mesh.positions.size()),
         alive_(mesh.triangles.size(), 1) {}
 
   void run(const std::vector<Index>& degenerate) {

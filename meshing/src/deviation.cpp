@@ -27,6 +27,8 @@ void check(const DeviationOptions& o) {
   if (!(o.relative_tolerance >= 0) || std::isnan(o.absolute_tolerance_mm) || !(o.settled_below_mm >= 0) ||
       !(o.list_above_mm >= 0))
     throw InvalidInput("surface_deviation: an option is negative or not a number");
+  if (o.settled_below_mm > o.list_above_mm)
+    throw InvalidInput("surface_deviation: options.settled_below_mm exceeds list_above_mm");
 }
 
 template <class Body>

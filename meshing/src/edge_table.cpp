@@ -62,6 +62,25 @@ std::vector<Index> opposite_halfedges(const std::vector<Triangle>& triangles, co
   return opposite;
 }
 
+std::vector<Index> opposite_within_labels(const std::vector<Triangle>& triangles, const EdgeTable& edges,
+                                          std::span<const std::uint32_t> labels) {
+  std::vector<Index> opposite(3 * triangles.size(), k_none);
+  std::vector<std::pair<std::uint32_t, Index>> group;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    group.clear();
+    for (const Index h : edges.halfedges(e)) group.emplace_back(labels[triangle_of(h)], h);
+    std::sort(group.begin(), group.end());
+    for (std::size_t begin = 0, end = 0; begin < group.size(); begin = end) {
+      while (end < group.size() && group[end].first == group[begin].first) ++end;
+      const Index a = group[begin].second, b = group[end - 1].second;
+      if (end - begin != 2 || runs_up(triangles, a) == runs_up(triangles, b)) continue;
+      opposite[a] = b;
+      opposite[b] = a;
+    }
+  }
+  return opposite;
+}
+
 UnionFind join_fans(std::span<const Index> opposite) {
   UnionFind fans(opposite.size());
   for (Index h = 0; h < opposite.size(); ++h) {

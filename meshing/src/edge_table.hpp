@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,10 @@ inline bool runs_up(const std::vector<Triangle>& triangles, Index halfedge) noex
 
 /// The opposite half-edge of each half-edge whose edge has exactly two that run opposite ways, else k_none.
 std::vector<Index> opposite_halfedges(const std::vector<Triangle>& triangles, const EdgeTable& edges);
+
+/// The same within each label's triangles alone: edges of exactly two half-edges of one label that run opposite ways.
+std::vector<Index> opposite_within_labels(const std::vector<Triangle>& triangles, const EdgeTable& edges,
+                                          std::span<const std::uint32_t> labels);
 
 /// Joins the corners of one vertex that are linked through opposite half-edges: each set is one fan of triangles
 /// around a vertex, and a manifold vertex has one. Corners are numbered like half-edges.

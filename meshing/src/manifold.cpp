@@ -71,7 +71,10 @@ void pair_around(const TriangleMesh& mesh, std::span<const Index> halfedges, std
 class Splitter {
  public:
   Splitter(TriangleMesh& mesh, double gap, ManifoldResult& result)
-      : mesh_(mesh), gap_(gap), result_(result), edges_(mesh.triangles, mesh.positions.size()),
+      : mesh_(mesh),
+        gap_(gap),
+        result_(result),
+        edges_(mesh.triangles, mesh.positions.size()),
         opposite_(opposite_halfedges(mesh.triangles, edges_)) {}
 
   void run() {

@@ -37,8 +37,8 @@ struct Component {
 };
 
 struct Traversal {
-  std::vector<Index> order;           ///< Triangles, component by component.
-  std::vector<std::uint8_t> turn;     ///< Per triangle.
+  std::vector<Index> order;        ///< Triangles, component by component.
+  std::vector<std::uint8_t> turn;  ///< Per triangle.
   std::vector<Component> components;
 };
 
@@ -114,7 +114,8 @@ bool is_inside(const TriangleMesh& mesh, const Traversal& traversal, const Compo
   for (std::size_t i = component.begin; i < component.end; ++i) {
     const Index t = traversal.order[i];
     const Vec3 a = mesh.corner(t, 0) - p, b = mesh.corner(t, 1) - p, c = mesh.corner(t, 2) - p;
-    const double u = dot(k_direction, cross(b, c)), v = dot(k_direction, cross(c, a)), w = dot(k_direction, cross(a, b));
+    const double u = dot(k_direction, cross(b, c)), v = dot(k_direction, cross(c, a)),
+                 w = dot(k_direction, cross(a, b));
     if (!((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0))) continue;
     if (dot(a, cross(b, c)) * (u + v + w) > 0) inside = !inside;
   }
@@ -148,8 +149,7 @@ void decide_senses(const TriangleMesh& mesh, Traversal& traversal) {
 OrientResult orient(TriangleMesh mesh) {
   check_mesh(mesh, "orient");
   OrientResult result;
-  Traversal traversal =
-      traverse(mesh, neighbours(mesh.triangles, mesh.positions.size()), result.conflicting_edges);
+  Traversal traversal = traverse(mesh, neighbours(mesh.triangles, mesh.positions.size()), result.conflicting_edges);
   decide_senses(mesh, traversal);
   for (const Component& c : traversal.components) {
     result.closed += c.closed;

@@ -36,12 +36,12 @@ void keep_worst_places(const OneSidedDeviation& input_side, const OneSidedDeviat
                        std::size_t candidate_triangles, const TriangleMesh& current, const TriangleBvh& current_bvh,
                        std::vector<std::uint8_t>& kept) {
   std::vector<const ExceedingTriangle*> worst(candidate_triangles, nullptr);
-  for (const ExceedingTriangle& e : candidate_side.above) worst[e.triangle] = &e;
   for (const ExceedingTriangle& e : input_side.above) {
     const ExceedingTriangle*& w = worst[e.nearest_triangle];
-    if (w == nullptr || w->nearest_triangle == k_no_value || e.value > w->value || w->triangle == e.nearest_triangle)
-      w = &e;
+    if (w == nullptr || e.value > w->value) w = &e;
   }
+  for (const ExceedingTriangle& e : candidate_side.above)
+    if (worst[e.triangle] == nullptr) worst[e.triangle] = &e;
   for (const ExceedingTriangle* e : worst)
     if (e != nullptr)
       for (const Index v : current.triangles[current_bvh.closest(e->at).triangle]) kept[v] = 1;

@@ -185,7 +185,8 @@ MeshStatistics mesh_statistics(const TriangleMesh& mesh) {
   measure_box(welded, result);
   const double diagonal = norm(result.high - result.low);
   const double volume = measure_shapes(welded, diagonal, result);
-  for_each_same_group(welded.triangles, [&](std::span<const Index> same) { result.duplicate_triangles += same.size() - 1; });
+  for_each_same_group(welded.triangles,
+                      [&](std::span<const Index> same) { result.duplicate_triangles += same.size() - 1; });
 
   const EdgeTable edges(welded.triangles, welded.positions.size());
   count_edges(welded.triangles, edges, result);

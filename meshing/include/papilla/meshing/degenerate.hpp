@@ -9,15 +9,16 @@ namespace papilla {
 
 /// Options of remove_degenerate().
 struct DegenerateOptions {
-  double relative_altitude = 1e-7;  ///< Triangles flatter than this fraction of the bounding diagonal are degenerate, in [0, 0.1].
+  double relative_altitude =
+      1e-7;  ///< Triangles flatter than this fraction of the bounding diagonal are degenerate, in [0, 0.1].
 };
 
 struct DegenerateResult {
   TriangleMesh mesh;
-  std::size_t found = 0;      ///< Degenerate triangles of the input, repeated corners included.
-  std::size_t repeated = 0;   ///< Triangles dropped because they named a vertex twice.
-  std::size_t collapsed = 0;  ///< Triangles whose shortest edge was collapsed.
-  std::size_t flipped = 0;    ///< Triangles whose long edge was replaced by edges through the middle vertex.
+  std::size_t found = 0;        ///< Degenerate triangles of the input, repeated corners included.
+  std::size_t repeated = 0;     ///< Triangles dropped because they named a vertex twice.
+  std::size_t collapsed = 0;    ///< Triangles whose shortest edge was collapsed.
+  std::size_t flipped = 0;      ///< Triangles whose long edge was replaced by edges through the middle vertex.
   double max_deviation_mm = 0;  ///< The furthest that a vertex moved or that a removed cap reached beyond the edge.
 };
 

@@ -18,19 +18,19 @@ struct RepairOptions {
 
 /// What each operation did, summed over the passes.
 struct RepairCounts {
-  std::size_t welded_equal = 0;        ///< Positions that another one equalled.
-  std::size_t welded_near = 0;         ///< Vertices moved onto another one to close a crack.
-  std::size_t repeated_corners = 0;    ///< Triangles dropped because they named a vertex twice.
+  std::size_t welded_equal = 0;      ///< Positions that another one equalled.
+  std::size_t welded_near = 0;       ///< Vertices moved onto another one to close a crack.
+  std::size_t repeated_corners = 0;  ///< Triangles dropped because they named a vertex twice.
   std::size_t collapsed_needles = 0;
   std::size_t flipped_caps = 0;
-  std::size_t duplicates = 0;          ///< Triangles dropped because an earlier one ran the same way.
-  std::size_t opposites = 0;           ///< Back sides of double sheets dropped.
-  std::size_t walls = 0;               ///< Triangles dropped between touching solids.
-  std::size_t t_junctions = 0;         ///< Vertices inserted into boundary edges.
-  std::size_t border_slivers = 0;      ///< Border triangles dropped because their apex lay on their boundary edge.
-  std::size_t reversed = 0;            ///< Triangles turned over.
-  std::size_t parted_edges = 0;        ///< Non-manifold edges and cuts through non-orientable surfaces.
-  std::size_t added_vertices = 0;      ///< Copies made to part them.
+  std::size_t duplicates = 0;      ///< Triangles dropped because an earlier one ran the same way.
+  std::size_t opposites = 0;       ///< Back sides of double sheets dropped.
+  std::size_t walls = 0;           ///< Triangles dropped between touching solids.
+  std::size_t t_junctions = 0;     ///< Vertices inserted into boundary edges.
+  std::size_t border_slivers = 0;  ///< Border triangles dropped because their apex lay on their boundary edge.
+  std::size_t reversed = 0;        ///< Triangles turned over.
+  std::size_t parted_edges = 0;    ///< Non-manifold edges and cuts through non-orientable surfaces.
+  std::size_t added_vertices = 0;  ///< Copies made to part them.
   friend bool operator==(const RepairCounts&, const RepairCounts&) = default;
 };
 

@@ -10,10 +10,10 @@ namespace papilla {
 
 /// Options of weld(). The defaults close the noise of single-precision coordinates at any size of part.
 struct WeldOptions {
-  double relative_tolerance = 1e-6;      ///< Of the part's bounding diagonal; used when `tolerance_mm` is not given.
-  std::optional<double> tolerance_mm;    ///< Overrides the relative tolerance.
-  double feature_fraction = 0.45;        ///< No vertex moves further than this fraction of its shortest edge, in [0, 0.5):
-                                         ///< below 0.5 no real edge can collapse. Edges of degenerate length don't count.
+  double relative_tolerance = 1e-6;    ///< Of the part's bounding diagonal; used when `tolerance_mm` is not given.
+  std::optional<double> tolerance_mm;  ///< Overrides the relative tolerance.
+  double feature_fraction = 0.45;  ///< No vertex moves further than this fraction of its shortest edge, in [0, 0.5):
+                                   ///< below 0.5 no real edge can collapse. Edges of degenerate length don't count.
 };
 
 struct WeldResult {
