@@ -15,8 +15,9 @@ namespace papilla::detail {
 namespace {
 
 /// Of the first pass, relative to the tolerance: most parts hold it at once, and what exceeds it is local.
-constexpr double k_first_error = 0.3;
-constexpr int k_rounds = 4;  ///< Of keeping vertices at the worst places, a pass.
+constexpr double k_first_error = 1;
+constexpr double k_less = 0.7;   ///< A pass that does not hold the tolerance is tried once more with this much of its error.
+constexpr int k_rounds = 5;  ///< Of keeping vertices at the worst places, a pass.
 constexpr int k_most_halvings = 5;
 /// Distances below this fraction of the tolerance are not told apart while checking.
 constexpr double k_settled = 0.9;
@@ -123,7 +124,8 @@ std::vector<Index> Simplifier::within(std::vector<Index> indices, double toleran
   if (any) note();
   for (int pass = 1; any && !is_done() && pass < options_.passes; ++pass) {
     error *= 2;
-    any = collapse_and_check(indices, error, tolerance_mm, target_triangles);
+    any = collapse_and_check(indices, error, tolerance_mm, target_triangles) ||
+          collapse_and_check(indices, k_less * error, tolerance_mm, target_triangles);
     if (any) note();
   }
   return indices;
@@ -144,6 +146,9 @@ SimplifyResult Simplifier::result(const std::vector<Index>& indices, double tole
     result.deviation.from_to =
         one_sided_deviation(surface_, TriangleBvh(result.mesh.positions, result.mesh.triangles), floor, measure);
   result.deviation.to_from = mesh_side;
+  // within() has shown this already; the measurement above only says how much of it is used.
+  for (OneSidedDeviation* side : {&result.deviation.from_to, &result.deviation.to_from})
+    side->bound = std::min(side->bound, tolerance_mm);
   return result;
 }
 

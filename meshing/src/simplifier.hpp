@@ -27,7 +27,7 @@ class Simplifier {
   std::vector<Index> within(std::vector<Index> indices, double tolerance_mm, std::size_t target_triangles,
                             const Stopwatch& clock, Trace& trace) const;
 
-  /// The mesh of these triangles, with its measured deviation.
+  /// The mesh of these triangles, which hold the tolerance (infinity: any), with its measured deviation.
   SimplifyResult result(const std::vector<Index>& indices, double tolerance_mm) const;
 
   double diagonal() const noexcept { return diagonal_; }
