@@ -123,18 +123,22 @@ void set_interval(PartVisibility& part) noexcept {
   part.high = part.visible_samples == part.samples ? 1 : std::min(1.0, middle + half);
 }
 
-bool touches(const detail::ConvexPiece& triangle, const BoxVolume& box) noexcept {
-  detail::ConvexPiece piece = triangle;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 n{axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+/// What of the piece lies behind a plane or on it.
+detail::ConvexPiece not_ahead(const detail::ConvexPiece& piece, const Vec3& origin, const Vec3& normal) noexcept {
+  const auto halves = piece.cut(origin, normal, 0);
+  if (halves.behind.size() > 0) return halves.behind;
+  detail::ConvexPiece touching;
+  for (const Vec3& p : piece.corners())
+    if (dot(p - origin, normal) <= 0) touching.add(p);
+  return touching;
+}
+
+bool touches(detail::ConvexPiece piece, const BoxVolume& box) noexcept {
+  for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
     for (const auto& [corner, outwards] : {std::pair{box.low, -n}, std::pair{box.high, n}}) {
-      const bool outside = std::all_of(piece.corners().begin(), piece.corners().end(),
-                                       [&](const Vec3& p) { return dot(p - corner, outwards) > 0; });
-      if (outside) return false;
-      const auto halves = piece.cut(corner, outwards, 0);
-      if (halves.behind.size() > 0) piece = halves.behind;
+      piece = not_ahead(piece, corner, outwards);
+      if (piece.size() == 0) return false;
     }
-  }
   return true;
 }
 

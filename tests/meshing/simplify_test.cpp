@@ -184,7 +184,8 @@ TEST(Simplify, MaterialAndFaceBordersStayWhereTheyAre) {
     const auto label_area = [](const TriangleMesh& mesh, const std::vector<std::uint32_t>& of, std::uint32_t which) {
       double sum = 0;
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        if (of[t] == which) sum += 0.5 * norm(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
+        if (of[t] == which)
+          sum += 0.5 * norm(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
       return sum;
     };
     for (std::size_t t = 0; t < plane.triangles.size(); ++t) {
@@ -238,7 +239,8 @@ TEST(Simplify, TrianglesWithoutValuesStayWithout) {
   EXPECT_LT(r.mesh.triangles.size(), 12u);
   double with = 0;
   for (std::size_t t = 0; t < r.mesh.triangles.size(); ++t)
-    if (r.mesh.uv.has_value(t)) with += 0.5 * norm(cross(r.mesh.corner(t, 1) - r.mesh.corner(t, 0), r.mesh.corner(t, 2) - r.mesh.corner(t, 0)));
+    if (r.mesh.uv.has_value(t))
+      with += 0.5 * norm(cross(r.mesh.corner(t, 1) - r.mesh.corner(t, 0), r.mesh.corner(t, 2) - r.mesh.corner(t, 0)));
   EXPECT_NEAR(with, 50, 5);
 }
 
@@ -306,8 +308,8 @@ TEST(SimplifyToBudget, HitsTheBudgetAndSparesWhatMatters) {
   EXPECT_TRUE(r.reached);
   EXPECT_LE(r.triangles, 4000u);
   EXPECT_GE(r.triangles, 3900u);
-  EXPECT_EQ(r.triangles, r.parts[0].mesh.triangles.size() + 3 * r.parts[1].mesh.triangles.size() +
-                             r.parts[2].mesh.triangles.size());
+  EXPECT_EQ(r.triangles,
+            r.parts[0].mesh.triangles.size() + 3 * r.parts[1].mesh.triangles.size() + r.parts[2].mesh.triangles.size());
   EXPECT_GT(r.parts[0].mesh.triangles.size(), 2 * r.parts[1].mesh.triangles.size());
   EXPECT_EQ(r.parts[2].mesh.triangles.size(), 12u);  // flat faces cost nothing, so they go first
   EXPECT_LT(r.parts[0].deviation.value(), r.parts[1].deviation.value());

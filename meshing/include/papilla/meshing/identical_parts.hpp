@@ -18,8 +18,8 @@ struct ComparedPart {
 
 /// Options of find_identical_parts().
 struct IdenticalOptions {
-  double relative_tolerance = 1e-5;  ///< Of the part's bounding diagonal, in (0, 1e-2].
-  bool compare_attributes = true;    ///< uv, uv1, colours, normals and material slots must agree, too.
+  double relative_tolerance = 1e-5;    ///< Of the part's bounding diagonal, in (0, 1e-2].
+  bool compare_attributes = true;      ///< uv, uv1, colours, normals and material slots must agree, too.
   std::uint32_t most_trials = 20'000;  ///< Rotations tried per pair; a pair that needs more is taken as different.
 };
 
@@ -39,10 +39,10 @@ struct PartCopy {
 /// same orientation (and the same attributes). Mirror images are therefore different unless the part is its own mirror
 /// image. The order of vertices and triangles does not matter. TriangleMesh::face and cad_uv are not compared.
 /// Not found: copies tessellated differently, scaled copies, and pairs whose symmetry needs more than `most_trials`.
-/// Method: parts with equal counts and area are laid on each other by their centre of area and two vertices, at the rarest
-/// distances from it; every pair of vertices of the other part at those distances is tried, the ones with the same numbers
-/// first, until the check passes.
-/// Cost: O(n log n) a part and per pair of equal counts and area; deterministic.
+/// Method: parts with equal counts and area are laid on each other by their centre of area and two vertices, at the
+/// rarest distances from it; every pair of vertices of the other part at those distances is tried, the ones with the
+/// same numbers first, until the check passes. Cost: O(n log n) a part and per pair of equal counts and area;
+/// deterministic.
 /// @throws InvalidInput naming the part when a mesh is missing or has a bad index or coordinate; also when an option is
 ///         out of its range.
 std::vector<PartCopy> find_identical_parts(std::span<const ComparedPart> parts, const IdenticalOptions& options = {});

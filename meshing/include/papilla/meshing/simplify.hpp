@@ -38,27 +38,28 @@ struct SimplifyResult {
 };
 
 /// Decimation within a surface tolerance: half-edge collapses in the order of quadric error [Garland and Heckbert,
-/// Surface simplification using quadric error metrics, SIGGRAPH 1997], *checked by measurement*: each pass collapses up to
-/// an error, measures the distances (deviation.hpp), keeps the vertices near the places that are worst, and starts
+/// Surface simplification using quadric error metrics, SIGGRAPH 1997], *checked by measurement*: each pass collapses up
+/// to an error, measures the distances (deviation.hpp), keeps the vertices near the places that are worst, and starts
 /// again, until the tolerance holds everywhere. A pass that does not get there in five rounds is tried with less
 /// error, then dropped. The next pass starts from the result with twice the error.
 ///
 /// Vertices are never moved or made, so whatever they carry stays exact. Kept: borders, uv, uv1, cad_uv and colour
 /// seams, material and face borders, features; they are thinned out along their course only. Normals: those of the
-/// vertices that stay, and where a smooth fan has several, their mean by area. Non-manifold edges and their vertices stay
-/// as they are. Triangles that repeat a position are dropped.
+/// vertices that stay, and where a smooth fan has several, their mean by area. Non-manifold edges and their vertices
+/// stay as they are. Triangles that repeat a position are dropped.
 ///
 /// The collapses are own code, chosen by measurement on the office chair, a knurled CAD insert and a scanned head, with
-/// tolerances of 1e-3 and 1e-4 of the diagonal, triangles left at equal measured deviation, features kept: libmeshoptimizer
-/// 0.18 left 1.02 to 1.8 times as many with the same passes and checks (its quadrics are means, so a collapse
-/// it counts as e lies up to 4 e off, and single precision, which drowns errors below 2e-4 of the extent; 0.35 us a
-/// triangle against 0.4 to 2.7 here, where measuring takes 20); CGAL 5.5 (Garland-Heckbert) left 0.85 to 1.27 times as many
-/// without keeping features, which it can do only by freezing their edges, moves vertices off their uv, refuses
-/// non-manifold meshes, and took 2 to 10 us. Slivers are fine: planes of triangles lower than 1e-6 of the diagonal don't count.
+/// tolerances of 1e-3 and 1e-4 of the diagonal, triangles left at equal measured deviation, features kept:
+/// libmeshoptimizer 0.18 left 1.02 to 1.8 times as many with the same passes and checks (its quadrics are means, so a
+/// collapse it counts as e lies up to 4 e off, and single precision, which drowns errors below 2e-4 of the extent; 0.35
+/// us a triangle against 0.4 to 2.7 here, where measuring takes 20); CGAL 5.5 (Garland-Heckbert) left 0.85 to 1.27
+/// times as many without keeping features, which it can do only by freezing their edges, moves vertices off their uv,
+/// refuses non-manifold meshes, and took 2 to 10 us. Slivers are fine: planes of triangles lower than 1e-6 of the
+/// diagonal don't count.
 ///
 /// Good input: welded or weldable by exact positions (soups are joined here), repaired: double sheets are non-manifold.
-/// Cost: 15 to 60 us of processor time a triangle with two passes, nearly all for measuring, which is parallel; about 500
-/// bytes a triangle. Deterministic, whatever the number of threads.
+/// Cost: 15 to 60 us of processor time a triangle with two passes, nearly all for measuring, which is parallel; about
+/// 500 bytes a triangle. Deterministic, whatever the number of threads.
 /// @param mesh With finite positions and indices in range.
 /// @throws InvalidInput when the mesh breaks that or exceeds 1e15 mm, neither a tolerance nor a target is given, the
 /// tolerance

@@ -39,17 +39,18 @@ struct PartVisibility {
   double low = 0, high = 0;
 };
 
-/// Ray-cast visibility: sample points spread over each part's area, each tested against eye points spread over the view volume;
-/// a sample is visible when the straight line to one of its eye points meets no opaque triangle. Both sides of a
-/// surface can be seen, so neither closed nor oriented parts are needed, and parts that are not opaque hide nothing.
+/// Ray-cast visibility: sample points spread over each part's area, each tested against eye points spread over the view
+/// volume; a sample is visible when the straight line to one of its eye points meets no opaque triangle. Both sides of
+/// a surface can be seen, so neither closed nor oriented parts are needed, and parts that are not opaque hide nothing.
 ///
-/// Honest about sampling: `visible_fraction` counts what `eyes_per_sample` eyes see and is biased low, since an opening that
-/// all of a sample's eyes miss stays unseen; `low` and `high` cover the chance in the surface samples, not that bias. A part
-/// that is seen through a small gap only may be reported as invisible: more samples make that rarer, never
-/// impossible. Lines start 1e-6 of the scene's diagonal off the surface, so that coincident sheets do not hide each other.
-/// Low-discrepancy points [Roberts 2018, the R sequences], no random numbers: same input, same result, whatever the
-/// number of threads. Cost: O(n log n) for the tree over all triangles, then about 1 us a line of sight.
-/// @throws InvalidInput naming the part when a mesh is missing or has a bad index or coordinate, a transform is not finite;
+/// Honest about sampling: `visible_fraction` counts what `eyes_per_sample` eyes see and is biased low, since an opening
+/// that all of a sample's eyes miss stays unseen; `low` and `high` cover the chance in the surface samples, not that
+/// bias. A part that is seen through a small gap only may be reported as invisible: more samples make that rarer, never
+/// impossible. Lines start 1e-6 of the scene's diagonal off the surface, so that coincident sheets do not hide each
+/// other. Low-discrepancy points [Roberts 2018, the R sequences], no random numbers: same input, same result, whatever
+/// the number of threads. Cost: O(n log n) for the tree over all triangles, then about 1 us a line of sight.
+/// @throws InvalidInput naming the part when a mesh is missing or has a bad index or coordinate, a transform is not
+/// finite;
 ///         also when the volume or an option is out of its range.
 std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts, const Volume& eyes,
                                                const VisibilityOptions& options = {});
