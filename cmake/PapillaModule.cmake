@@ -35,6 +35,7 @@ function(papilla_module name)
                                   $<BUILD_INTERFACE:papilla_build_options>)
   install(TARGETS ${target} EXPORT papilla-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
+  set_property(GLOBAL APPEND PROPERTY PAPILLA_COMPONENTS ${name})
 endfunction()
 
 # papilla_types(NAME DIRECTORY dir FILES header... [PUBLIC libs])

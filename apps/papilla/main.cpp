@@ -37,13 +37,13 @@ int main(int argc, char** argv) {
   add_inspect(program);
   // add_tessellate(program);
   add_repair(program);
-  // add_unwrap(program);
-  // add_measure(program);
-  // add_analyze(program);
-  // add_synthesize(program);
-  // add_height(program);
-  // add_plan(program);
-  // add_bake(program);
+  add_unwrap(program);
+  add_measure(program);
+  add_analyze(program);
+  add_synthesize(program);
+  add_height(program);
+  add_plan(program);
+  add_bake(program);
 
   try {
     program.parse(argc, argv);

@@ -4,6 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/core.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/read_file.hpp"
+#include "text_scanner.hpp"
 
 namespace papilla {
 namespace {
@@ -38,24 +40,54 @@ std::size_t pixel_count(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-void check_size(const ImageSpec& spec, const fs::path& path) {
+void check_size(const ImageSpec& spec, const fs::path& path, std::size_t bytes) {
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
     throw InvalidInput(path.string() + ": is no flat picture");
   const std::size_t pixels = pixel_count(spec.width, spec.height);
-  const std::size_t holdable = k_free_pixels + k_max_pixels_per_byte * fs::file_size(path);
+  const std::size_t holdable = k_free_pixels + k_max_pixels_per_byte * bytes;
   if (pixels > std::min(k_max_image_pixels, holdable))
     throw InvalidInput(fmt::format("{}: claims {} x {} pixels; at most {} are supported for its size", path.string(),
                                    spec.width, spec.height, std::min(k_max_image_pixels, holdable)));
 }
 
+/// Asks for values as they are stored, not multiplied by alpha.
+ImageSpec stored_values() {
+  ImageSpec wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);
+  return wishes;
+}
+
+std::uint32_t big_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char c : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(c);
+  return value;
+}
+
+/// libpng tells stderr about damaged files, where our one message is to stand alone: finds the damage first.
+void check_png(std::string_view bytes, const fs::path& path) {
+  constexpr std::size_t k_frame = 12;  // Length, type and checksum around a chunk's content.
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return;
+  for (std::string_view rest = std::string_view(bytes).substr(8);;) {
+    if (rest.size() < k_frame || rest.size() - k_frame < big_endian(rest))
+      throw InvalidInput(path.string() + ": is truncated");
+    const std::size_t length = big_endian(rest);
+    const std::string_view checked = rest.substr(4, 4 + length);
+    if (crc32_z(0, reinterpret_cast<const unsigned char*>(checked.data()), checked.size()) !=
+        big_endian(rest.substr(8 + length)))
+      throw InvalidInput(fmt::format("{}: is damaged in chunk {}", path.string(), printable(checked.substr(0, 4))));
+    if (checked.starts_with("IEND")) return;
+    rest.remove_prefix(k_frame + length);
+  }
+}
+
 std::unique_ptr<ImageInput> open_picture(const fs::path& path) {
   require_file(path);
   if (fs::file_size(path) == 0) throw InvalidInput(path.string() + ": is empty");
-  ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);  // Values as stored, not multiplied by alpha.
+  check_png(read_file(path), path);
+  const ImageSpec wishes = stored_values();
   auto input = ImageInput::open(path.string(), &wishes);
   if (!input) throw InvalidInput(path.string() + ": is no picture: " + first_line(OIIO::geterror()));
-  check_size(input->spec(), path);
+  check_size(input->spec(), path, fs::file_size(path));
   return input;
 }
 
@@ -71,6 +103,17 @@ std::vector<T> read_pixels(ImageInput& input, const fs::path& path, int channels
 
 int color_channels(const ImageSpec& spec) { return spec.nchannels >= 3 ? 3 : 1; }
 
+ColorImage read_rgb(ImageInput& input, const fs::path& path) {
+  const ImageSpec& spec = input.spec();
+  const int channels = color_channels(spec);
+  ColorImage image{spec.width, spec.height, read_pixels<unsigned char>(input, path, channels)};
+  if (channels == 3) return image;
+  std::vector<unsigned char> rgb(3 * image.pixels.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
+  image.pixels = std::move(rgb);
+  return image;
+}
+
 double pitch_of(const ImageSpec& spec) {
   const double x = double{spec.get_float_attribute("XResolution")},
                y = double{spec.get_float_attribute("YResolution", static_cast<float>(x))};
@@ -80,6 +123,14 @@ double pitch_of(const ImageSpec& spec) {
   return length_mm / x;
 }
 
+/// libpng complains on stderr about a file that is opened and not written, so this is asked first.
+bool can_hold(const ImageOutput& output, TypeDesc type) {
+  const std::string_view format = output.format_name();
+  if (format == "png") return type != TypeDesc::FLOAT;
+  if (format == "jpeg") return type == TypeDesc::UINT8;
+  return format != "openexr" || type == TypeDesc::FLOAT;
+}
+
 /// The file's bytes; `path` only names it and chooses the format.
 std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
   const auto output = ImageOutput::create(path.string());
@@ -87,11 +138,11 @@ std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, T
     OIIO::geterror();
     throw InvalidInput(path.string() + ": pictures can be written as .png, .tif, .exr and .jpg");
   }
+  if (!can_hold(*output, spec.format))
+    throw InvalidInput(fmt::format("{}: the format cannot hold {}", path.string(), spec.format.c_str()));
   OIIO::Filesystem::IOVecOutput memory;
   if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec))
     throw InvalidInput(path.string() + ": " + first_line(output->geterror()));
-  if (output->spec().format != spec.format)
-    throw InvalidInput(fmt::format("{}: the format cannot hold {}", path.string(), spec.format.c_str()));
   if (!output->write_image(source, pixels) || !output->close())
     throw IoError(path.string() + ": " + first_line(output->geterror()));
   return memory.buffer();
@@ -103,9 +154,10 @@ void write_bytes(const fs::path& path, const std::vector<unsigned char>& data) {
 
 void set_pitch(ImageSpec& spec, double pitch_mm_x, double pitch_mm_y) {
   if (!(pitch_mm_x > 0) || !(pitch_mm_y > 0)) return;
-  spec.attribute("ResolutionUnit", "cm");
-  spec.attribute("XResolution", static_cast<float>(10 / pitch_mm_x));
-  spec.attribute("YResolution", static_cast<float>(10 / pitch_mm_y));
+  spec.attribute("ResolutionUnit", "in");  // OpenEXR knows no other unit.
+  spec.attribute("XResolution", static_cast<float>(k_mm_per_inch / pitch_mm_x));
+  spec.attribute("YResolution", static_cast<float>(k_mm_per_inch / pitch_mm_y));
+  spec.attribute("PixelAspectRatio", static_cast<float>(pitch_mm_x / pitch_mm_y));
 }
 
 void check_pixels(int width, int height, std::size_t values, std::size_t channels, const char* function) {
@@ -139,16 +191,17 @@ GreyImage read_grey_image(const fs::path& path) {
   return image;
 }
 
-ColorImage read_color_image(const fs::path& path) {
-  const auto input = open_picture(path);
-  const ImageSpec& spec = input->spec();
-  const int channels = color_channels(spec);
-  ColorImage image{spec.width, spec.height, read_pixels<unsigned char>(*input, path, channels)};
-  if (channels == 3) return image;
-  std::vector<unsigned char> rgb(3 * image.pixels.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
-  image.pixels = std::move(rgb);
-  return image;
+ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_picture(path), path); }
+
+ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
+  check_png({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+  const ImageSpec wishes = stored_values();
+  // The extension only starts OpenImageIO's search; the content decides.
+  const auto input = ImageInput::open("picture.png", &wishes, &memory);
+  if (!input) throw InvalidInput(name + ": is no picture: " + first_line(OIIO::geterror()));
+  check_size(input->spec(), name, bytes.size());
+  return read_rgb(*input, name);
 }
 
 std::vector<std::byte> encode_png(const ColorImage& image) {

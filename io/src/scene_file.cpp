@@ -5,6 +5,7 @@
 #include <string>
 
 #include "papilla/core/error.hpp"
+#include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/obj_reader.hpp"
@@ -23,7 +24,20 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& options) {
+Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+  CadReadOptions cad;
+  cad.chord_mm = options.chord_mm;
+  cad.angle_deg = options.angle_deg;
+  cad.brep_mm_per_unit = options.millimetres_per_unit;
+  CadReport report;
+  Scene scene = read_cad(path, cad, &report, progress);
+  scene.up = options.up.value_or(scene.up);
+  for (const CadFaceNote& note : report.failed_faces)
+    scene.losses.push_back("part '" + note.part + "', CAD face " + std::to_string(note.face) + ": " + note.reason);
+  return scene;
+}
+
+Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
   const std::string extension = lower_extension(path);
   if (extension == ".stl") return read_stl(path, options);
   if (extension == ".obj") return read_obj(path, options);
@@ -32,7 +46,9 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
     scene.up = options.up.value_or(scene.up);
     return scene;
   }
-  throw InvalidInput(path.string() + ": the extension '" + extension + "' is unknown; known are .stl .obj .glb .gltf");
+  if (is_cad_extension(path)) return read_cad_scene(path, options, progress);
+  throw InvalidInput(path.string() + ": the extension '" + extension +
+                     "' is unknown; known are .step .stp .p21 .iges .igs .brep .brp .stl .obj .glb .gltf");
 }
 
 }  // namespace
@@ -40,7 +56,7 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
   require_file(path);
   if (progress) progress("read", 0);
-  Scene scene = read_by_extension(path, options);
+  Scene scene = read_by_extension(path, options, progress);
   if (progress) progress("read", 1);
   return scene;
 }

@@ -7,7 +7,7 @@
 
 #include "mesh_report.hpp"
 #include "papilla/io/scene_file.hpp"
-#include "read_flags.hpp"
+#include "scene_options.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
@@ -15,7 +15,7 @@ namespace {
 
 struct InspectOptions {
   std::string file;
-  ReadOptions read;
+  SceneOptions read;
 };
 
 std::string material_names(const Scene& scene, const Part& part) {
@@ -95,7 +95,7 @@ void print_for_people(const Console& console, const Json& result, const Scene& s
 }
 
 Json inspect(VerbContext& context, const InspectOptions& options) {
-  const Scene scene = read_scene(options.file, options.read, context.progress);
+  const Scene scene = read_scene(options.file, options.read.read_options(), context.progress);
   const std::vector<MeshStatistics> statistics = part_statistics(scene, context.progress);
   Json result{{"file", options.file}, {"format", scene.format}, {"units", scene.unit}};
   result["millimetres_per_unit"] = scene.millimetres_per_unit;
@@ -117,7 +117,7 @@ void add_inspect(CLI::App& program) {
                              "papilla inspect seat.obj --json -"},
                             [options](VerbContext& context) { return inspect(context, *options); });
   verb->add_option("file", options->file, "STL, OBJ, GLB or glTF file")->type_name("FILE")->required();
-  add_read_flags(*verb, options->read);
+  options->read.add_to(*verb);
 }
 
 }  // namespace papilla::app

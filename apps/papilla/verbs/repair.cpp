@@ -11,7 +11,7 @@
 #include "mesh_report.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/scene_file.hpp"
-#include "read_flags.hpp"
+#include "scene_options.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
@@ -20,7 +20,7 @@ namespace {
 struct RepairVerbOptions {
   std::string in, out;
   std::optional<double> weld_mm;
-  ReadOptions read;
+  SceneOptions read;
 };
 
 std::vector<RepairResult> repair_parts(Scene& scene, const RepairVerbOptions& options, const Progress& progress) {
@@ -66,7 +66,7 @@ void show_both_sides(Scene& scene, const std::vector<RepairResult>& results) {
 
 Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
   const Stopwatch clock;
-  Scene scene = read_scene(options.in, options.read, context.progress);
+  Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
   const MeshStatistics before = total_statistics(part_statistics(scene, context.progress));
   const std::vector<RepairResult> results = repair_parts(scene, options, context.progress);
   const MeshStatistics after = total_statistics(part_statistics(scene, context.progress));
@@ -107,7 +107,7 @@ void add_repair(CLI::App& program) {
   verb->add_option("--weld", options->weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
-  add_read_flags(*verb, options->read);
+  options->read.add_to(*verb);
 }
 
 }  // namespace papilla::app

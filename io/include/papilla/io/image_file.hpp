@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "papilla/texture/height_map.hpp"
@@ -25,13 +27,17 @@ GreyImage read_grey_image(const std::filesystem::path& path);
 /// @throws IoError, InvalidInput as read_grey_image().
 ColorImage read_color_image(const std::filesystem::path& path);
 
+/// The same for a picture in memory, PNG or JPEG; `name` only names it in messages.
+/// @throws InvalidInput as read_color_image().
+ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);
+
 /// The picture as an 8-bit RGB PNG file, without metadata. The same picture gives the same bytes.
 /// @pre pixels.size() == 3 * width * height.
 std::vector<std::byte> encode_png(const ColorImage& image);
 
 /// A height map as a 16-bit grey PNG: h = offset_mm + scale_mm · v / 65535, v = 0 … 65535, white is outward.
 struct EncodedHeight {
-  std::vector<std::byte> png;  ///< Only IHDR, IDAT and IEND: no gamma, no colour profile.
+  std::vector<std::byte> png;  ///< Without gamma, colour profile, text or time.
   double scale_mm = 0;         ///< Range of the heights; 0 for a flat map, whose samples are all 0.
   double offset_mm = 0;        ///< Lowest height.
 };

@@ -8,7 +8,8 @@
 
 namespace papilla {
 
-/// Reads a file by its extension, in any case: .stl, .obj, .glb, .gltf.
+/// Reads a file by its extension, in any case: .step .stp .p21 .iges .igs .brep .brp, .stl, .obj, .glb, .gltf.
+/// CAD surfaces are tessellated; faces that could not be are named in Scene::losses.
 /// @throws IoError when the file can't be read; InvalidInput when the extension is unknown (the message lists
 ///         the known ones) or the content is not what the extension says.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <TDocStd_Document.hxx>
+#include <filesystem>
+#include <string>
+
+#include "papilla/core/progress.hpp"
+
+namespace papilla::cad {
+
+/// A CAD file as OpenCASCADE's document, in millimetres.
+struct CadDocument {
+  Handle(TDocStd_Document) document;
+  std::string format;       ///< "STEP", "IGES", "BREP".
+  std::string unit = "mm";  ///< The file's own.
+  double millimetres_per_unit = 1;
+};
+
+/// Reads the file into a document with assembly tree, names, colours, layers and materials.
+/// @throws IoError, InvalidInput as read_cad(); Standard_Failure from inside the library.
+CadDocument read_document(const std::filesystem::path& path, double brep_mm_per_unit, const Progress& progress);
+
+}  // namespace papilla::cad

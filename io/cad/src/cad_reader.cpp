@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/cad_reader.hpp"
+
+#include <Standard_ErrorHandler.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "cad_document.hpp"
+#include "cad_mesh.hpp"
+#include "cad_tessellate.hpp"
+#include "cad_tree.hpp"
+#include "occt_session.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since construction or the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void check_options(const CadReadOptions& options) {
+  const auto refuse = [](const std::string& what, double value) {
+    throw InvalidInput("read_cad: " + what + ", got " + std::to_string(value));
+  };
+  if (!(options.chord_mm > 0) || !std::isfinite(options.chord_mm)) refuse("chord_mm must be > 0", options.chord_mm);
+  if (!(options.angle_deg > 0 && options.angle_deg <= 90)) refuse("angle_deg must be in (0, 90]", options.angle_deg);
+  if (!(options.brep_mm_per_unit > 0) || !std::isfinite(options.brep_mm_per_unit))
+    refuse("brep_mm_per_unit must be > 0", options.brep_mm_per_unit);
+  if (options.relative && options.chord_mm > 1) refuse("a relative chord must be in (0, 1]", options.chord_mm);
+}
+
+/// A chord this far below the model's size asks for more triangles than any memory holds.
+constexpr double k_least_relative_chord = 1e-6;
+
+void check_size(const std::filesystem::path& path, const std::vector<TopoDS_Shape>& shapes,
+                const CadReadOptions& options) {
+  if (shapes.empty()) throw InvalidInput(path.string() + ": holds no face");
+  const double diagonal = cad::diagonal_of(shapes);
+  if (!std::isfinite(diagonal)) throw InvalidInput(path.string() + ": holds geometry that is not finite");
+  if (!options.relative && options.chord_mm < k_least_relative_chord * diagonal)
+    throw InvalidInput(path.string() + ": chord " + std::to_string(options.chord_mm) +
+                       " mm is below 1e-6 of the model's diagonal, " + std::to_string(diagonal) + " mm");
+}
+
+std::size_t count_solids(const TopoDS_Shape& shape) {
+  std::size_t count = 0;
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) ++count;
+  return count;
+}
+
+void add_mesh(Part& part, const cad::TessellatedShape& shape, cad::ShapeMesh mesh, CadReport& report) {
+  for (const cad::FaceTrouble& trouble : shape.troubles)
+    (trouble.solved ? report.repaired_faces : report.failed_faces)
+        .push_back({part.name, trouble.number, trouble.reason});
+  for (const std::uint32_t number : mesh.not_finite)
+    report.failed_faces.push_back({part.name, number, "coordinates are not finite"});
+  report.faces += shape.faces.size();
+  report.triangles += mesh.mesh.triangles.size();
+  report.dropped_triangles += mesh.dropped_triangles;
+  report.max_deviation_mm = std::max(report.max_deviation_mm, mesh.max_deviation_mm);
+  part.mesh = std::move(mesh.mesh);
+}
+
+void warn_of_faces(const CadReport& report, Scene& scene) {
+  for (const CadFaceNote& note : report.failed_faces)
+    scene.losses.push_back("face " + std::to_string(note.face) + " of part '" + note.part +
+                           "' has no triangles or gaps: " + note.reason);
+  for (const CadFaceNote& note : report.repaired_faces)
+    scene.warnings.push_back("face " + std::to_string(note.face) + " of part '" + note.part +
+                             "' needed a second attempt: " + note.reason);
+  if (scene.format == "BREP") scene.warnings.push_back("BREP carries no unit");
+}
+
+Scene read(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
+           const Progress& progress) {
+  Stopwatch watch;
+  if (progress) progress("read", 0);
+  cad::CadTree tree = cad::build_tree(cad::read_document(path, options.brep_mm_per_unit, progress));
+  check_size(path, tree.shapes, options);
+  report.seconds_read = watch.lap();
+
+  std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, options, progress);
+  report.seconds_tessellate = watch.lap();
+
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (progress) progress("convert", 0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(shapes.size()));
+    report.solids += count_solids(tree.shapes[i]);
+    add_mesh(tree.scene.parts[i], shapes[i], cad::to_mesh(shapes[i].faces, tree.face_materials[i]), report);
+  }
+  if (report.triangles == 0) throw InvalidInput(path.string() + ": none of its faces can be tessellated");
+  warn_of_faces(report, tree.scene);
+  report.seconds_convert = watch.lap();
+  if (progress) progress("convert", 1);
+  return std::move(tree.scene);
+}
+
+}  // namespace
+
+Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options, CadReport* report,
+               const Progress& progress) {
+  check_options(options);
+  const cad::OcctSession session;
+  CadReport own;
+  CadReport& filled = report ? *report : own;
+  filled = {};
+  try {
+    OCC_CATCH_SIGNALS
+    return read(path, options, filled, progress);
+  } catch (const Standard_Failure& failure) {
+    std::string what = failure.GetMessageString();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    throw InvalidInput(path.string() + ": damaged CAD data (" + failure.DynamicType()->Name() +
+                       (what.empty() ? "" : ": " + what) + ")");
+  }
+}
+
+bool is_cad_extension(const std::filesystem::path& path) {
+  static constexpr std::array<std::string_view, 7> k_extensions = {".step", ".stp",  ".p21", ".iges",
+                                                                   ".igs",  ".brep", ".brp"};
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(k_extensions.begin(), k_extensions.end(), extension) != k_extensions.end();
+}
+
+}  // namespace papilla
