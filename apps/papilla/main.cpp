@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   add_inspect(program);
   // add_tessellate(program);
   add_repair(program);
+  add_simplify(program);
   add_unwrap(program);
   add_measure(program);
   add_analyze(program);
