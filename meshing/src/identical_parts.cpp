@@ -238,7 +238,7 @@ class Comparer {
       const Vec3 p = motion(original_.places[i]);
       double best = tolerance_;
       Index found = k_no_value;
-      tree.near_point(p, tolerance_, [&](Index j) {
+      tree.near_point(p, tolerance_, [&](Index j, const Vec3&) {
         const double d = norm(part.places[j] - p);
         if (d <= best && taken_[j] != trial_) {
           best = d;
