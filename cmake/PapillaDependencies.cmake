@@ -18,6 +18,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   find_package(Eigen3 REQUIRED NO_MODULE)
   # Before CGAL: CGAL's own FindOpenMesh would shadow the package configuration.
   find_package(OpenMesh CONFIG REQUIRED)
+  set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
   find_package(CGAL REQUIRED)
   find_package(TBB REQUIRED)
   find_package(Ceres REQUIRED)
@@ -29,6 +30,7 @@ if(PAPILLA_BUILD_TOOLKIT)
 
   # OpenCASCADE sets no include directory on its targets.
   add_library(papilla_occt INTERFACE)
+  set_target_properties(papilla_occt PROPERTIES EXPORT_NAME occt)
   target_include_directories(papilla_occt SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
   target_link_libraries(papilla_occt INTERFACE TKernel TKMath TKG2d TKG3d TKGeomBase TKBRep TKGeomAlgo
     TKTopAlgo TKPrim TKBool TKBO TKFillet TKOffset TKShHealing TKMesh TKXSBase TKSTEP TKIGES TKXDESTEP
@@ -36,6 +38,7 @@ if(PAPILLA_BUILD_TOOLKIT)
 
   # CGAL adds -frounding-math to whatever links it: link it privately and only where it is used.
   add_library(papilla_cgal INTERFACE)
+  set_target_properties(papilla_cgal PROPERTIES EXPORT_NAME cgal)
   target_link_libraries(papilla_cgal INTERFACE CGAL::CGAL Eigen3::Eigen)
   target_compile_definitions(papilla_cgal INTERFACE CGAL_EIGEN3_ENABLED)
 endif()

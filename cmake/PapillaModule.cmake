@@ -8,6 +8,10 @@ target_compile_options(papilla_build_options INTERFACE
     -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wunused
     -Wdouble-promotion -Wformat=2>
   $<$<BOOL:${PAPILLA_WARNINGS_AS_ERRORS}>:-Werror>)
+# g++ 12 warns falsely of overlapping copies in "text" + std::string (GCC bug 105651).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(papilla_build_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
+endif()
 if(PAPILLA_SANITIZE)
   target_compile_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE})
@@ -31,6 +35,23 @@ function(papilla_module name)
                                   $<BUILD_INTERFACE:papilla_build_options>)
   install(TARGETS ${target} EXPORT papilla-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
+  set_property(GLOBAL APPEND PROPERTY PAPILLA_COMPONENTS ${name})
+endfunction()
+
+# papilla_types(NAME DIRECTORY dir FILES header... [PUBLIC libs])
+# A header-only papilla::NAME: the few types of a toolkit folder that the player side shares.
+function(papilla_types name)
+  cmake_parse_arguments(ARG "" "DIRECTORY" "FILES;PUBLIC" ${ARGN})
+  set(target papilla_${name})
+  add_library(${target} INTERFACE)
+  add_library(papilla::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set(base ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_DIRECTORY}/include)
+  list(TRANSFORM ARG_FILES PREPEND ${base}/papilla/${ARG_DIRECTORY}/)
+  target_sources(${target} INTERFACE FILE_SET HEADERS BASE_DIRS ${base} FILES ${ARG_FILES})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  target_link_libraries(${target} INTERFACE ${ARG_PUBLIC})
+  install(TARGETS ${target} EXPORT papilla-targets FILE_SET HEADERS)
 endfunction()
 
 # papilla_program(NAME SOURCES ... LIBRARIES ... [INSTALL])

@@ -34,16 +34,17 @@ int main(int argc, char** argv) {
       "'papilla VERB --help' shows the options of a verb and an example.");
 
   using namespace papilla::app;
-  // add_inspect(program);
+  add_inspect(program);
   // add_tessellate(program);
-  // add_repair(program);
-  // add_unwrap(program);
-  // add_measure(program);
-  // add_analyze(program);
-  // add_synthesize(program);
-  // add_height(program);
-  // add_plan(program);
-  // add_bake(program);
+  add_repair(program);
+  add_simplify(program);
+  add_unwrap(program);
+  add_measure(program);
+  add_analyze(program);
+  add_synthesize(program);
+  add_height(program);
+  add_plan(program);
+  add_bake(program);
 
   try {
     program.parse(argc, argv);

@@ -9,6 +9,7 @@ namespace papilla::app {
 void add_inspect(CLI::App& program);
 void add_tessellate(CLI::App& program);
 void add_repair(CLI::App& program);
+void add_simplify(CLI::App& program);
 void add_unwrap(CLI::App& program);
 void add_measure(CLI::App& program);
 void add_analyze(CLI::App& program);

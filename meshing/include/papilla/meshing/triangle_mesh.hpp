@@ -12,6 +12,9 @@ namespace papilla {
 using Index = std::uint32_t;
 using Triangle = std::array<Index, 3>;
 
+/// Stands in CornerAttribute::indices for "this triangle has no value".
+inline constexpr Index k_no_value = 0xffffffffu;
+
 /// A value per triangle corner, stored once and indexed, so that it may jump over a seam
 /// while the positions stay welded. Either empty, or `indices` has one entry per triangle.
 template <class T>
@@ -19,6 +22,7 @@ struct CornerAttribute {
   std::vector<T> values;
   std::vector<Triangle> indices;
   bool empty() const noexcept { return indices.empty(); }
+  bool has_value(std::size_t triangle) const noexcept { return !empty() && indices[triangle][0] != k_no_value; }
 };
 
 struct Color {

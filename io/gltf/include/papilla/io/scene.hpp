@@ -34,10 +34,11 @@ struct Texture {
   std::string extras_json, extensions_json;
 };
 
-/// KHR_texture_transform: uv' = translate(offset) · rotate(rotation) · scale(scale) · uv.
+/// KHR_texture_transform: uv' = translate(offset) · rotate(rotation) · scale(scale) · uv, with uv in glTF's own
+/// space (v down, origin at the picture's upper left). transform_uv() applies it to a scene's uv.
 struct TextureTransform {
   Vec2 offset{0, 0};
-  double rotation = 0;  ///< Radians, counter-clockwise.
+  double rotation = 0;  ///< Radians; turns the uv counter-clockwise as seen with v down.
   Vec2 scale{1, 1};
 };
 
@@ -56,10 +57,11 @@ struct Material {
   bool double_sided = false;
   std::string alpha_mode = "OPAQUE";  ///< glTF: OPAQUE, MASK, BLEND.
   double alpha_cutoff = 0.5;
-  std::optional<TextureReference> base_color_texture, metallic_roughness_texture, normal_texture,
-      occlusion_texture, emissive_texture;
-  std::string extras_json;      ///< A JSON object, or empty.
-  std::string extensions_json;  ///< glTF extensions as they were; texture numbers stay valid, textures are only appended.
+  std::optional<TextureReference> base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
+      emissive_texture;
+  std::string extras_json;  ///< A JSON object, or empty.
+  std::string
+      extensions_json;  ///< glTF extensions as they were; texture numbers stay valid, textures are only appended.
 };
 
 /// One shape: a mesh and the materials its triangles name. Shared by all its instances.
@@ -82,9 +84,13 @@ struct Node {
 enum class UpAxis { y, z };
 
 /// What a file holds, in millimetres, in the file's own axes.
+///
+/// Texture coordinates are those of OBJ for every format: u to the right, v up, (0, 0) at the lower left corner of the
+/// picture, 1 = one repeat, so that an unmirrored chart has positive area. glTF's v runs down: its reader and
+/// writer exchange v and 1 − v. The nodes form a forest: every node has at most one parent.
 struct Scene {
-  std::string format;              ///< "STEP", "STL", "OBJ", "glTF", ...
-  std::string unit = "mm";         ///< The file's unit; `millimetres_per_unit` was applied when reading.
+  std::string format;       ///< "STEP", "STL", "OBJ", "glTF", ...
+  std::string unit = "mm";  ///< The file's unit; `millimetres_per_unit` was applied when reading.
   double millimetres_per_unit = 1;
   UpAxis up = UpAxis::z;
 
@@ -114,9 +120,20 @@ Vec3 transform_point(const Transform& t, Vec3 p) noexcept;
 /// Turns the scene's axes to glTF's Y up (the identity when it is Y up already): Z up becomes Y up, X stays.
 Transform to_y_up(UpAxis up) noexcept;
 
-/// All parts with their world transforms, in node order. Nodes that can't be reached from a root are left out.
-/// @throws InvalidInput when the nodes form a cycle or name a part or node that does not exist.
+/// The transformed texture coordinates of a scene's uv (v up in and out).
+Vec2 transform_uv(const TextureTransform& transform, Vec2 uv) noexcept;
+
+/// All parts with their world transforms, depth first from the roots, children in their order. Nodes that can't be
+/// reached from a root are left out. Cost: linear in the number of nodes; no recursion.
+/// @throws InvalidInput when a node is reached twice (a cycle, or a node with two parents), a part or node
+///         that does not exist is named, or the nodes are nested deeper than 1024 levels.
 std::vector<Instance> instances(const Scene& scene);
+
+/// Sets Part::id of every part to the names of the nodes above its first instance, joined by '/'. A node without
+/// name counts as "#" and its number among its siblings; a second part of the same path gets "~2", and so on.
+/// Parts without an instance get their own name.
+/// @throws InvalidInput as instances().
+void assign_part_ids(Scene& scene);
 
 /// A scene of one part under one root node.
 Scene single_part_scene(Part part, std::string format);

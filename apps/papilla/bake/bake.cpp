@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/bake.hpp"
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <set>
+#include <tuple>
+
+#include "bake/mesh_assembly.hpp"
+#include "bake/surface_uv.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/core/units.hpp"
+#include "papilla/meshing/repair.hpp"
+#include "papilla/param/measure.hpp"
+
+namespace papilla::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+bool runs(const Surface& surface, Stage stage) { return decision(surface.plan, stage).run; }
+
+/// A surface on its way through the stages.
+struct Work {
+  const Surface* surface = nullptr;
+  TriangleMesh mesh;  ///< uv: repeats of the grain when new, as they were when kept.
+  BakedSurface report;
+  double repair = 0, charts = 0, unwrap = 0, measure = 0;
+};
+
+/// uv in millimetres -> repeats of the grain. Whole repeats are taken off chart by chart, so that float coordinates
+/// keep their precision.
+CornerAttribute<Vec2> repeats_of(const Flattening& flattening, const double (&size_mm)[2]) {
+  CornerAttribute<Vec2> uv = flattening.uv;
+  for (Vec2& value : uv.values) value = {value.x / size_mm[0], value.y / size_mm[1]};
+  std::vector<Vec2> low(flattening.charts.count, {HUGE_VAL, HUGE_VAL});
+  std::vector<std::uint32_t> chart_of_value(uv.values.size(), 0);
+  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
+    const std::uint32_t chart = flattening.charts.of_triangle[t];
+    for (const Index i : uv.indices[t]) {
+      chart_of_value[i] = chart;
+      low[chart] = {std::min(low[chart].x, uv.values[i].x), std::min(low[chart].y, uv.values[i].y)};
+    }
+  }
+  for (std::size_t i = 0; i < uv.values.size(); ++i) {
+    const Vec2 whole{std::floor(low[chart_of_value[i]].x), std::floor(low[chart_of_value[i]].y)};
+    uv.values[i] = uv.values[i] - whole;
+  }
+  return uv;
+}
+
+CornerAttribute<Vec2> scaled(CornerAttribute<Vec2> uv, double factor) {
+  for (Vec2& value : uv.values) value = factor * value;
+  return uv;
+}
+
+void unwrap_surface(Work& work, const Scene& scene, const Grain& grain) {
+  Stopwatch repair_clock;
+  RepairResult repaired = repair(work.mesh, {});
+  work.repair = repair_clock.seconds();
+  work.mesh = std::move(repaired.mesh);
+
+  SurfaceUv uv = make_surface_uv(work.mesh, work.surface->rule->unwrap, {grain.size_mm[0], grain.size_mm[1]}, scene.up);
+  work.charts = uv.segment_seconds;
+  work.unwrap = uv.flatten_seconds;
+  work.report.method = uv.method;
+  work.report.reason = uv.reason;
+  work.report.charts = uv.flattening.charts.count;
+  work.report.seam_mm = uv.flattening.charts.seam_length_mm;
+  for (const ChartNote& note : uv.flattening.notes) work.report.notes.push_back(note.reason);
+  work.mesh.uv = repeats_of(uv.flattening, grain.size_mm);
+  work.report.mesh = work.mesh;
+  work.report.mesh.uv = std::move(uv.flattening.uv);
+}
+
+void process(Work& work, const Scene& scene, const std::map<std::string, Grain>& grains) {
+  const Surface& surface = *work.surface;
+  const Grain& grain = grains.at(surface.rule->name);
+  work.report.label = surface.label;
+  work.report.material = surface.rule->name;
+  if (runs(surface, Stage::unwrap)) {
+    unwrap_surface(work, scene, grain);
+  } else {
+    work.report.method = "kept";
+    work.report.reason = surface.uv_note;
+    work.report.mesh = work.mesh;
+    work.report.mesh.uv = scaled(work.mesh.uv, surface.uv_mm_per_unit);
+  }
+  Stopwatch clock;
+  work.report.distortion = measure_distortion(work.report.mesh, work.report.mesh.uv, {});
+  work.measure = clock.seconds();
+}
+
+/// Adds pictures and materials to the scene, each once.
+class SceneMaterials {
+ public:
+  SceneMaterials(BakeResult& result) : result_(result), scene_(result.scene) {
+    for (const Material& material : scene_.materials) names_.insert(material.name);
+    result_.mm_per_uv.resize(scene_.materials.size());
+  }
+
+  /// The material that `surface` shall have, made on first use.
+  std::uint32_t material_of(const Surface& surface) {
+    const Part& part = scene_.parts[surface.part];
+    const bool has_original = surface.slot < part.materials.size();
+    const std::uint32_t original = has_original ? part.materials[surface.slot] : k_none;
+    const bool grain = !surface.rule->texture.empty();
+    const bool kept = grain && !runs(surface, Stage::unwrap);
+    const double mm_per_unit = kept ? surface.uv_mm_per_unit : 0;
+    const auto [it, is_new] = made_.try_emplace({original, surface.rule->name, mm_per_unit}, 0);
+    if (is_new) it->second = make(original, *surface.rule, grain, mm_per_unit);
+    return it->second;
+  }
+
+ private:
+  static constexpr std::uint32_t k_none = 0xffffffffu;
+
+  std::uint32_t make(std::uint32_t original, const MaterialRule& rule, bool grain, double kept_mm_per_unit) {
+    Material material = original == k_none ? Material{} : scene_.materials[original];
+    const std::string original_name = material.name;
+    if (material.name.empty() || material.name.front() == '#') material.name = rule.name;
+    material.name = unique(material.name);
+    if (rule.color) material.base_color = linear_colour(*rule.color);
+    if (rule.roughness) material.roughness = *rule.roughness;
+    if (rule.metallic) material.metallic = *rule.metallic;
+
+    MaterialTag tag;
+    if (grain) {
+      const Grain& relief = result_.grains.at(rule.name);
+      tag = relief.tag;
+      if (kept_mm_per_unit > 0)
+        attach_to_kept_uv(material, tag, relief, kept_mm_per_unit);
+      else
+        attach_to_new_uv(material, relief);
+    }
+    apply_constants(rule, tag);
+    write_extras(material, tag, rule, original_name);
+    scene_.materials.push_back(std::move(material));
+    result_.mm_per_uv.resize(scene_.materials.size());
+    if (grain) {
+      const Grain& relief = result_.grains.at(rule.name);
+      result_.mm_per_uv.back() = kept_mm_per_unit > 0 ? Vec2{kept_mm_per_unit, kept_mm_per_unit} : Vec2{relief.size_mm[0], relief.size_mm[1]};
+    }
+    return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+  }
+
+  /// New uv: one unit is one repeat. The old pictures no longer fit.
+  void attach_to_new_uv(Material& material, const Grain& grain) {
+    const auto drop = [&](std::optional<TextureReference>& reference, const char* what) {
+      if (reference && reference->tex_coord == 0) {
+        scene_.losses.push_back("material '" + material.name + "': its " + what + " is left out, because its uv is new");
+        reference.reset();
+      }
+    };
+    drop(material.base_color_texture, "base colour picture");
+    drop(material.metallic_roughness_texture, "metallic-roughness picture");
+    drop(material.occlusion_texture, "occlusion picture");
+    drop(material.emissive_texture, "emissive picture");
+    drop(material.normal_texture, "normal map");
+    attach_pictures(material, grain, std::nullopt);
+  }
+
+  /// Kept uv: a texture transform brings them to repeats of the grain.
+  void attach_to_kept_uv(Material& material, MaterialTag& tag, const Grain& grain, double mm_per_unit) {
+    TextureTransform transform;
+    transform.scale = {mm_per_unit / grain.size_mm[0], mm_per_unit / grain.size_mm[1]};
+    if (material.normal_texture)
+      scene_.losses.push_back("material '" + material.name + "': its normal map is replaced by that of the grain");
+    attach_pictures(material, grain, transform);
+    tag.height->uv_transform.scale = transform.scale;
+    tag.height->metres_per_uv = {mm_per_unit * k_metres_per_mm, mm_per_unit * k_metres_per_mm};
+  }
+
+  void attach_pictures(Material& material, const Grain& grain, std::optional<TextureTransform> transform) {
+    TextureReference normal;
+    normal.texture = texture_of(grain.normal_png);
+    normal.transform = transform;
+    material.normal_texture = normal;
+    if (!grain.picture || material.base_color_texture) return;
+    TextureReference picture;
+    picture.texture = texture_of(*grain.picture);
+    picture.transform = transform;
+    material.base_color_texture = picture;
+    material.base_color = {1, 1, 1, material.base_color[3]};
+  }
+
+  std::uint32_t texture_of(const EncodedImage& image) {
+    const auto [it, is_new] = textures_.try_emplace(image.name, 0);
+    if (!is_new) return it->second;
+    scene_.images.push_back(image);
+    Texture texture;
+    texture.image = static_cast<std::uint32_t>(scene_.images.size() - 1);
+    texture.name = image.name;
+    texture.min_filter = 9987;  // linear, mip-mapped
+    texture.mag_filter = 9729;  // linear
+    scene_.textures.push_back(std::move(texture));
+    it->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+    return it->second;
+  }
+
+  static void write_extras(Material& material, const MaterialTag& tag, const MaterialRule& rule, const std::string& original_name) {
+    ordered_json extras = ordered_json::parse(with_material_tag(material.extras_json, tag));
+    extras["papilla"] = {{"material", rule.name}};
+    if (!original_name.empty() && original_name != material.name) extras["papilla"]["original"] = original_name;
+    material.extras_json = extras.dump();
+  }
+
+  std::string unique(const std::string& name) {
+    std::string candidate = name;
+    for (int i = 2; !names_.insert(candidate).second; ++i) candidate = fmt::format("{} {}", name, i);
+    return candidate;
+  }
+
+  BakeResult& result_;
+  Scene& scene_;
+  std::set<std::string> names_;
+  std::map<std::string, std::uint32_t> textures_;
+  std::map<std::tuple<std::uint32_t, std::string, double>, std::uint32_t> made_;
+};
+
+/// Makes the grains that the surfaces use.
+std::map<std::string, Grain> make_grains(const std::vector<Surface>& surfaces, const Progress& progress) {
+  std::map<std::string, const MaterialRule*> rules;
+  for (const Surface& surface : surfaces)
+    if (runs(surface, Stage::height)) rules[surface.rule->name] = surface.rule;
+  std::map<std::string, Grain> grains;
+  for (const auto& [name, rule] : rules) {
+    if (progress) progress("grain " + name, static_cast<double>(grains.size()) / static_cast<double>(rules.size()));
+    grains.emplace(name, make_grain(*rule));
+  }
+  return grains;
+}
+
+/// Puts the parts with grain together again from their surfaces.
+void reassemble(Scene& scene, const std::vector<Surface>& surfaces, std::vector<Work>& works) {
+  std::map<std::uint32_t, std::vector<Work*>> by_part;
+  for (Work& work : works)
+    if (runs(*work.surface, Stage::unwrap)) by_part[work.surface->part].push_back(&work);
+  for (auto& [number, changed] : by_part) {
+    Part& part = scene.parts[number];
+    TriangleMesh mesh;
+    for (const Surface& surface : surfaces) {
+      if (surface.part != number) continue;
+      const auto work = std::find_if(changed.begin(), changed.end(), [&](const Work* w) { return w->surface == &surface; });
+      append_mesh(mesh, work != changed.end() ? (*work)->mesh : extract_triangles(part.mesh, surface.triangles));
+    }
+    part.mesh = std::move(mesh);
+  }
+}
+
+}  // namespace
+
+BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress) {
+  BakeResult result;
+  result.scene = std::move(scene);
+  result.grains = make_grains(surfaces, progress);
+  for (const auto& [name, grain] : result.grains) {
+    result.seconds["analyze"] += grain.seconds.analyze;
+    result.seconds["height"] += grain.seconds.height;
+    result.seconds["normal_map"] += grain.seconds.normal_map;
+  }
+
+  std::vector<Work> works;
+  for (const Surface& surface : surfaces)
+    if (runs(surface, Stage::measure)) works.push_back({&surface, {}, {}, 0, 0, 0, 0});
+  std::size_t done = 0;
+  std::mutex progress_mutex;
+  oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
+    Work& work = works[i];
+    const Part& part = result.scene.parts[work.surface->part];
+    try {
+      work.mesh = extract_triangles(part.mesh, work.surface->triangles);
+      process(work, result.scene, result.grains);
+    } catch (const SolverFailure& error) {
+      throw SolverFailure("part '" + work.surface->label + "': " + error.what());
+    } catch (const InvalidInput& error) {
+      throw InvalidInput("part '" + work.surface->label + "': " + error.what());
+    }
+    const std::lock_guard lock(progress_mutex);
+    if (progress) progress("surfaces", static_cast<double>(++done) / static_cast<double>(works.size()));
+  });
+
+  reassemble(result.scene, surfaces, works);
+  SceneMaterials materials(result);
+  std::vector<std::pair<const Surface*, std::uint32_t>> chosen;
+  for (const Surface& surface : surfaces)
+    if (surface.rule) chosen.emplace_back(&surface, materials.material_of(surface));
+  for (const auto& [surface, material] : chosen) {
+    Part& part = result.scene.parts[surface->part];
+    if (part.materials.size() <= surface->slot) part.materials.resize(surface->slot + 1, material);
+    part.materials[surface->slot] = material;
+  }
+  for (Work& work : works) {
+    result.seconds["repair"] += work.repair;
+    result.seconds["charts"] += work.charts;
+    result.seconds["unwrap"] += work.unwrap;
+    result.seconds["measure"] += work.measure;
+    result.surfaces.push_back(std::move(work.report));
+  }
+  return result;
+}
+
+}  // namespace papilla::app

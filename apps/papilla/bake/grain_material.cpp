@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/grain_material.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/core/units.hpp"
+#include "papilla/haptic/sha256.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/height_from_image.hpp"
+#include "papilla/texture/normal_map.hpp"
+#include "papilla/texture/resample.hpp"
+#include "papilla/texture/roughness.hpp"
+#include "papilla/texture/symmetry.hpp"
+#include "papilla/texture/texture_class.hpp"
+#include "papilla/texture/tiling.hpp"
+
+namespace papilla::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// More samples than this a side show and feel like nothing: at 40 mm a repeat they are finer than 0.04 mm.
+constexpr int k_most_samples = 1024;
+/// Peak to valley of a relief of which nothing is said, as a share of the shorter side of the grain.
+constexpr double k_default_depth = 0.01;
+
+/// Width and height of one repeat, from the rule or from the picture's resolution.
+void find_size(const MaterialRule& rule, const GreyImage& image, double (&size_mm)[2]) {
+  const double pixels[2] = {static_cast<double>(image.width), static_cast<double>(image.height)};
+  for (int k = 0; k < 2; ++k) {
+    size_mm[k] = rule.size_mm[k] > 0 ? rule.size_mm[k] : pixels[k] * image.pitch_mm;
+    if (!(size_mm[k] > 0))
+      throw InvalidInput("material '" + rule.name + "': " + rule.texture.string() +
+                         " has no resolution; size_mm must say how many millimetres it shows");
+  }
+}
+
+EncodedImage png(std::string name, std::vector<std::byte> bytes) {
+  EncodedImage image;
+  image.name = std::move(name);
+  image.mime_type = "image/png";
+  image.bytes = std::move(bytes);
+  return image;
+}
+
+std::string base64(const std::vector<std::byte>& bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < left ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= left ? digits[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+/// The relief of the picture, at most k_most_samples a side, over size_mm.
+HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, Grain& grain) {
+  HeightOptions options;
+  options.method = height_method(rule.height.method);
+  options.pitch_mm = grain.size_mm[0] / image.width;
+  options.depth_mm = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+  HeightResult result = height_from_image(image, options);
+  HeightMap relief = std::move(result.map);
+  relief.pitch_mm_x = grain.size_mm[0] / relief.width;
+  relief.pitch_mm_y = grain.size_mm[1] / relief.height;
+  if (relief.width > k_most_samples || relief.height > k_most_samples)
+    relief = resample(relief, std::min(relief.width, k_most_samples), std::min(relief.height, k_most_samples));
+  for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
+  grain.report["height"] = {{"method", to_string(result.method)}, {"reason", result.reason},
+                            {"light", {result.light.x, result.light.y, result.light.z}},
+                            {"light_estimated", result.light_estimated},
+                            {"depth_mm", result.depth_mm * rule.height.scale},
+                            {"rms_mm", result.rms_mm * rule.height.scale},
+                            {"periodic", relief.periodic}, {"stop", to_string(result.stop)}};
+  return relief;
+}
+
+/// The map travels as a data: URI within the tag: strings in extras survive tools that drop pictures no texture uses.
+HeightTag height_tag(const Grain& grain, const EncodedHeight& encoded) {
+  HeightTag tag;
+  tag.uri = "data:image/png;base64," + base64(encoded.png);
+  tag.sha256 = sha256_hex(encoded.png);
+  tag.size = {grain.relief.width, grain.relief.height};
+  tag.scale_m = encoded.scale_mm * k_metres_per_mm;
+  tag.offset_m = encoded.offset_mm * k_metres_per_mm;
+  tag.metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
+  tag.rms_m = rms_height_mm(grain.relief) * k_metres_per_mm;
+  return tag;
+}
+
+void describe_relief(Grain& grain) {
+  const Roughness roughness = measure_roughness(grain.relief);
+  RoughnessTag tag;
+  tag.rms_height_m = roughness.rms_mm * k_metres_per_mm;
+  tag.wavelength_range_m = {roughness.shortest_wavelength_mm * k_metres_per_mm, roughness.longest_wavelength_mm * k_metres_per_mm};
+  if (roughness.fractal) tag.fractal_dimension = std::clamp(roughness.fractal->dimension, 2.0, 3.0);
+  grain.tag.roughness = tag;
+  grain.report["roughness"] = {{"rms_mm", roughness.rms_mm}, {"fractal_dimension", roughness.fractal ? ordered_json(roughness.fractal->dimension) : nullptr}};
+}
+
+void analyze(const MaterialRule& rule, const GreyImage& image, const ColorImage& color, Grain& grain) {
+  const SymmetryAnalysis symmetry = analyze_symmetry(image);
+  const TextureClass kind = classify(image, symmetry.explained_variance());
+  const Tiling tiling = measure_tiling(image);
+  const bool monochrome = is_monochrome(color);
+  const bool show = rule.show == "picture" || (rule.show == "auto" && !monochrome);
+  if (show) grain.picture = png("grain." + rule.name, encode_png(color));
+  grain.report["picture"] = {{"file", rule.texture.string()}, {"width", image.width}, {"height", image.height},
+                             {"size_mm", {grain.size_mm[0], grain.size_mm[1]}}, {"tiles", tiling.tiles},
+                             {"monochrome", monochrome}, {"shown", show}};
+  grain.report["class"] = {{"name", to_string(kind.kind)}, {"disordered", kind.disordered},
+                           {"weakly_ordered", kind.weakly_ordered}, {"strongly_ordered", kind.strongly_ordered}};
+  grain.report["lattice"] = symmetry.lattice.found;
+  if (!symmetry.lattice.found) return;
+  const Vec2 mm_per_px{grain.size_mm[0] / image.width, grain.size_mm[1] / image.height};
+  SymmetryTag tag;
+  auto vectors = ordered_json::array();
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec2 mm{symmetry.lattice.vectors_px[k].x * mm_per_px.x, symmetry.lattice.vectors_px[k].y * mm_per_px.y};
+    tag.period_m[k] = k_metres_per_mm * mm;
+    vectors.push_back({mm.x, mm.y});
+  }
+  grain.tag.symmetry = tag;
+  grain.report["period_mm"] = vectors;
+}
+
+}  // namespace
+
+Grain make_grain(const MaterialRule& rule) {
+  Grain grain;
+  const Stopwatch analyze_clock;
+  const GreyImage image = read_grey_image(rule.texture);
+  find_size(rule, image, grain.size_mm);
+  analyze(rule, image, read_color_image(rule.texture), grain);
+  grain.seconds.analyze = analyze_clock.seconds();
+
+  const Stopwatch height_clock;
+  grain.relief = make_relief(rule, image, grain);
+  describe_relief(grain);
+  const EncodedHeight encoded = encode_height_png16(grain.relief);
+  grain.tag.height = height_tag(grain, encoded);
+  grain.seconds.height = height_clock.seconds();
+
+  const Stopwatch normal_clock;
+  grain.normal_png = png("normal." + rule.name, encode_png(normal_map(grain.relief)));
+  grain.seconds.normal_map = normal_clock.seconds();
+
+  ProvenanceTag provenance;
+  provenance.tool = std::string("papilla ") + version();
+  provenance.source = grain.report["height"]["method"];
+  provenance.plan = "analyze height normal_map tag";
+  grain.tag.provenance = provenance;
+  grain.height_png = png("height." + rule.name, encoded.png);
+  return grain;
+}
+
+void apply_constants(const MaterialRule& rule, MaterialTag& tag) {
+  if (rule.stiffness) tag.stiffness = *rule.stiffness;
+  if (rule.damping) tag.damping = *rule.damping;
+  tag.static_friction = rule.static_friction.value_or(rule.dynamic_friction.value_or(tag.static_friction));
+  tag.dynamic_friction = rule.dynamic_friction.value_or(rule.static_friction.value_or(tag.dynamic_friction));
+  if (rule.stribeck_velocity) tag.stribeck_velocity = *rule.stribeck_velocity;
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "distortion_report.hpp"
+#include "papilla/core/atomic_file.hpp"
+#include "papilla/io/image_file.hpp"
+#include "pictures/relief.hpp"
+#include "pictures/scene_render.hpp"
+#include "pictures/uv_layout.hpp"
+
+namespace papilla::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// More layouts than this are no longer looked at; the largest surfaces are drawn.
+constexpr std::size_t k_most_layouts = 24;
+
+/// The summed distortion of all surfaces with grain: means weighted by area, counts added.
+ordered_json total_distortion(const std::vector<BakedSurface>& surfaces) {
+  double area = 0, symmetric_dirichlet = 0, angle = 0, stretch2 = 0, worst = 0;
+  std::size_t flipped = 0, triangles = 0, charts = 0, overlapping = 0;
+  for (const BakedSurface& surface : surfaces) {
+    const DistortionReport& report = surface.distortion;
+    area += report.area_mm2;
+    symmetric_dirichlet += report.area_mm2 * report.symmetric_dirichlet.mean;
+    angle += report.area_mm2 * report.angle_error_deg.mean;
+    stretch2 += report.area_mm2 * report.stretch_l2 * report.stretch_l2;
+    worst = std::max(worst, report.stretch_linf);
+    flipped += report.flipped;
+    triangles += report.triangles;
+    charts += report.charts;
+    overlapping += report.overlapping_within_charts;
+  }
+  ordered_json json = {{"triangles", triangles}, {"charts", charts}, {"flipped", flipped},
+                       {"overlapping_within_charts", overlapping}, {"area_mm2", area}};
+  if (!(area > 0)) return json;
+  json["symmetric_dirichlet"] = {{"mean", symmetric_dirichlet / area}};
+  json["angle_error_deg"] = {{"mean", angle / area}};
+  json["stretch_l2"] = std::sqrt(stretch2 / area);
+  json["stretch_linf"] = worst;
+  return json;
+}
+
+/// A name that is safe in any file system: letters, digits, dot and dash, at most 60 characters.
+std::string file_name(const std::string& label) {
+  std::string name;
+  for (const char c : label.substr(0, 60))
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' ? c : '_';
+  return name.empty() ? "unnamed" : name;
+}
+
+/// Writes pictures into one folder under names that do not repeat.
+class PictureFolder {
+ public:
+  PictureFolder(std::filesystem::path folder, std::size_t expected, const Progress& progress)
+      : folder_(std::move(folder)), expected_(expected), progress_(progress) {}
+
+  void add(const std::string& label, const ColorImage& image) { write(unique(label), encode_png(image)); }
+  void add(const std::string& label, const std::vector<std::byte>& png) { write(unique(label), png); }
+  std::vector<std::string> names() const { return names_; }
+
+ private:
+  std::string unique(const std::string& label) {
+    const std::string stem = file_name(label);
+    std::string name = stem;
+    for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{}-{}", stem, i);
+    return name + ".png";
+  }
+  void write(const std::string& name, const std::vector<std::byte>& png) {
+    write_atomically(folder_ / name, std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
+    names_.push_back(name);
+    if (progress_) progress_("pictures", static_cast<double>(names_.size()) / static_cast<double>(expected_));
+  }
+
+  std::filesystem::path folder_;
+  std::size_t expected_;
+  const Progress& progress_;
+  std::set<std::string> taken_;
+  std::vector<std::string> names_;
+};
+
+std::vector<const BakedSurface*> largest_surfaces(const std::vector<BakedSurface>& surfaces) {
+  std::vector<const BakedSurface*> order;
+  for (const BakedSurface& surface : surfaces) order.push_back(&surface);
+  std::stable_sort(order.begin(), order.end(), [](const BakedSurface* a, const BakedSurface* b) {
+    return a->distortion.area_mm2 > b->distortion.area_mm2;
+  });
+  order.resize(std::min(order.size(), k_most_layouts));
+  return order;
+}
+
+}  // namespace
+
+ordered_json bake_json(const BakeResult& result, const std::vector<Surface>& planned) {
+  ordered_json json;
+  json["plan"] = plan_json(planned);
+  json["parts"] = ordered_json::array();
+  for (const BakedSurface& surface : result.surfaces)
+    json["parts"].push_back({{"part", surface.label}, {"material", surface.material}, {"unwrap", surface.method},
+                             {"reason", surface.reason}, {"charts", surface.charts}, {"seam_mm", surface.seam_mm},
+                             {"notes", surface.notes}, {"distortion", distortion_json(surface.distortion)}});
+  json["materials"] = ordered_json::array();
+  for (const auto& [name, grain] : result.grains) {
+    ordered_json entry = {{"name", name}};
+    entry.update(grain.report);
+    json["materials"].push_back(std::move(entry));
+  }
+  json["distortion"] = total_distortion(result.surfaces);
+  json["losses"] = result.scene.losses;
+  json["warnings"] = result.scene.warnings;
+  json["seconds"] = result.seconds;
+  return json;
+}
+
+std::string bake_table(const BakeResult& result) {
+  std::size_t width = 4, material_width = 8;
+  for (const BakedSurface& surface : result.surfaces) {
+    width = std::clamp(surface.label.size(), width, std::size_t{40});
+    material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
+  }
+  std::string out = fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
+                                material_width, "unwrap", "charts", "triangles", "sym.D", "angle°", "flipped");
+  for (const BakedSurface& surface : result.surfaces) {
+    out += fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
+                       surface.material, material_width, surface.method, surface.distortion.charts,
+                       surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
+                       surface.distortion.angle_error_deg.mean, surface.distortion.flipped);
+    if (!surface.notes.empty())
+      out += fmt::format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(), surface.notes.front());
+  }
+  if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
+  return out;
+}
+
+std::vector<std::string> write_pictures(const BakeResult& result, const std::filesystem::path& folder,
+                                        const Progress& progress) {
+  const std::vector<const BakedSurface*> surfaces = largest_surfaces(result.surfaces);
+  PictureFolder pictures(folder, 2 + surfaces.size() + 2 * result.grains.size(), progress);
+  RenderOptions render;
+  render.mm_per_uv = result.mm_per_uv;
+  pictures.add("scene", render_scene(result.scene, render));
+  render.mode = RenderMode::checker;
+  pictures.add("scene-checker", render_scene(result.scene, render));
+  for (const BakedSurface* surface : surfaces)
+    pictures.add("uv-" + surface->label, draw_uv_layout(surface->mesh.uv, surface->distortion));
+  for (const auto& [name, grain] : result.grains) {
+    double exaggeration = 1;
+    pictures.add("relief-" + name, draw_relief(grain.relief, exaggeration));
+    pictures.add("height-" + name, grain.height_png.bytes);
+  }
+  return pictures.names();
+}
+
+}  // namespace papilla::app

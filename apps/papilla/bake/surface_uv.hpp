@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "papilla/core/vec.hpp"
+#include "papilla/io/scene.hpp"
+#include "papilla/param/flattening.hpp"
+
+namespace papilla::app {
+
+struct SurfaceUv {
+  Flattening flattening;  ///< uv in millimetres, grain upright, charts placed so that its phase goes on over seams.
+  std::string method;     ///< "lscm" or "triplanar".
+  std::string reason;     ///< Why that one.
+  double segment_seconds = 0, flatten_seconds = 0;
+};
+
+/// New uv for a surface with tiling grain.
+/// @param mesh repaired.
+/// @param wanted "lscm", "triplanar", or "auto": triplanar for surfaces smaller than one repeat of the grain, which show
+///        too little of it for distortion to matter; lscm, whose charts are fewer, for all others.
+/// @throws InvalidInput, SolverFailure of the method.
+SurfaceUv make_surface_uv(const TriangleMesh& mesh, const std::string& wanted, Vec2 tile_mm, UpAxis up);
+
+}  // namespace papilla::app

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "papilla/texture/height_map.hpp"
+#include "papilla/texture/image.hpp"
+
+namespace papilla::app {
+
+/// A height map lit from the top left under 35°, true to scale: what the eye would see of the relief on a matt surface.
+/// Relief too flat to be seen is exaggerated until its rms slope is 0.25; `exaggeration` returns the factor.
+ColorImage draw_relief(const HeightMap& map, double& exaggeration);
+
+}  // namespace papilla::app

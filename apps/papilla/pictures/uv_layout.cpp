@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pictures/uv_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace papilla::app {
+namespace {
+
+using Rgb = std::array<unsigned char, 3>;
+
+constexpr Rgb k_ink = {0, 0, 0}, k_wrong = {220, 30, 30};
+constexpr int k_margin = 16, k_legend_height = 64, k_bar_height = 18;
+
+/// Viridis at nine even steps (S. van der Walt, N. Smith, 2015, CC0).
+constexpr std::array<Rgb, 9> k_viridis = {{{68, 1, 84},
+                                           {71, 44, 122},
+                                           {59, 81, 139},
+                                           {44, 113, 142},
+                                           {33, 144, 141},
+                                           {39, 173, 129},
+                                           {92, 200, 99},
+                                           {170, 220, 50},
+                                           {253, 231, 37}}};
+
+Rgb viridis(double x) {
+  const double place = std::clamp(x, 0.0, 1.0) * (k_viridis.size() - 1);
+  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(place), k_viridis.size() - 2);
+  Rgb colour{};
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<unsigned char>(
+        std::lround(k_viridis[i][c] + (place - static_cast<double>(i)) * (k_viridis[i + 1][c] - k_viridis[i][c])));
+  return colour;
+}
+
+struct Canvas {
+  ColorImage image;
+  Canvas(int width, int height) : image{width, height, {}} {
+    image.pixels.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 255);
+  }
+  void set(int x, int y, const Rgb& colour) {
+    if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
+    std::copy(colour.begin(), colour.end(), &image.pixels[index(x, y)]);
+  }
+  std::size_t index(int x, int y) const {
+    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+  }
+};
+
+void fill_triangle(Canvas& canvas, std::array<Vec2, 3> p, const Rgb& colour) {
+  const auto [low, high] = std::minmax({p[0].y, p[1].y, p[2].y});
+  const int first = std::max(0, static_cast<int>(std::ceil(low - 0.5)));
+  const int last = std::min(canvas.image.height - 1, static_cast<int>(std::floor(high - 0.5)));
+  for (int row = first; row <= last; ++row) {
+    const double y = row + 0.5;
+    double x0 = std::numeric_limits<double>::infinity(), x1 = -x0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 a = p[k], b = p[(k + 1) % 3];
+      if ((a.y <= y) == (b.y <= y)) continue;
+      const double x = a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
+      x0 = std::min(x0, x), x1 = std::max(x1, x);
+    }
+    for (int x = std::max(0, static_cast<int>(std::ceil(x0 - 0.5))); x + 0.5 < x1 && x < canvas.image.width; ++x)
+      canvas.set(x, row, colour);
+  }
+}
+
+/// A line of the given width in samples.
+void draw_line(Canvas& canvas, Vec2 a, Vec2 b, double width, const Rgb& colour) {
+  const Vec2 d = b - a;
+  const double length = norm(d);
+  if (!(length > 0)) return;
+  const Vec2 side{-0.5 * width * d.y / length, 0.5 * width * d.x / length};
+  fill_triangle(canvas, {a - side, b - side, b + side}, colour);
+  fill_triangle(canvas, {a - side, b + side, a + side}, colour);
+}
+
+/// Corner k of triangle t to the next one is an edge of one triangle in uv.
+std::vector<std::array<Index, 2>> border_edges(const CornerAttribute<Vec2>& uv) {
+  std::vector<std::array<Index, 4>> edges;  // low, high, from, to
+  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
+    if (!uv.has_value(t)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = uv.indices[t][k], b = uv.indices[t][(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a, b});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::array<Index, 2>> borders;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto same = [&](std::size_t j) { return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1]; };
+    if ((i > 0 && same(i - 1)) || (i + 1 < edges.size() && same(i + 1))) continue;
+    borders.push_back({edges[i][2], edges[i][3]});
+  }
+  return borders;
+}
+
+/// 3 × 5 pixels a character, a row in the low three bits.
+std::array<std::uint8_t, 5> glyph(char c) {
+  switch (c) {
+    case '0': return {7, 5, 5, 5, 7};
+    case '1': return {2, 6, 2, 2, 7};
+    case '2': return {7, 1, 7, 4, 7};
+    case '3': return {7, 1, 7, 1, 7};
+    case '4': return {5, 5, 7, 1, 1};
+    case '5': return {7, 4, 7, 1, 7};
+    case '6': return {7, 4, 7, 5, 7};
+    case '7': return {7, 1, 2, 2, 2};
+    case '8': return {7, 5, 7, 5, 7};
+    case '9': return {7, 5, 7, 1, 7};
+    case '.': return {0, 0, 0, 0, 2};
+    case '+': return {0, 2, 7, 2, 0};
+    case '-': return {0, 0, 7, 0, 0};
+    default: return {0, 0, 0, 0, 0};
+  }
+}
+
+void draw_text(Canvas& canvas, int centre, int top, std::string_view text) {
+  constexpr int scale = 2, advance = 4 * scale;
+  int left = centre - static_cast<int>(text.size()) * advance / 2;
+  for (const char c : text) {
+    const auto rows = glyph(c);
+    for (int y = 0; y < 5 * scale; ++y)
+      for (int x = 0; x < 3 * scale; ++x)
+        if (rows[static_cast<std::size_t>(y / scale)] >> (2 - x / scale) & 1) canvas.set(left + x, top + y, k_ink);
+    left += advance;
+  }
+}
+
+void draw_legend(Canvas& canvas, int top, double worst) {
+  const int left = 2 * k_margin, right = canvas.image.width - 2 * k_margin;
+  for (int x = left; x < right; ++x)
+    for (int y = 0; y < k_bar_height; ++y) canvas.set(x, top + y, viridis((x - left + 0.5) / (right - left)));
+  constexpr int ticks = 4;
+  for (int i = 0; i <= ticks; ++i) {
+    const double part = static_cast<double>(i) / ticks;
+    const int x = left + static_cast<int>(std::lround(part * (right - 1 - left)));
+    for (int y = 0; y < 5; ++y) canvas.set(x, top + k_bar_height + y, k_ink);
+    draw_text(canvas, x, top + k_bar_height + 8,
+              fmt::format("{:.2f}{}", 4 + part * (worst - 4), i == ticks ? "+" : ""));
+  }
+}
+
+/// Averages squares of samples into pixels.
+void shrink(const Canvas& fine, int samples, Canvas& target) {
+  const int divisor = samples * samples;
+  for (int y = 0; y < fine.image.height / samples; ++y)
+    for (int x = 0; x < fine.image.width / samples; ++x) {
+      std::array<int, 3> sum{};
+      for (int j = 0; j < samples; ++j)
+        for (int i = 0; i < samples; ++i)
+          for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += fine.image.pixels[fine.index(x * samples + i, y * samples + j) + c];
+      target.set(x, y,
+                 {static_cast<unsigned char>(sum[0] / divisor), static_cast<unsigned char>(sum[1] / divisor),
+                  static_cast<unsigned char>(sum[2] / divisor)});
+    }
+}
+
+struct Bounds {
+  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+};
+
+Bounds bounds_of(const CornerAttribute<Vec2>& uv) {
+  Bounds b;
+  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
+    if (!uv.has_value(t)) continue;
+    for (const Index i : uv.indices[t]) {
+      b.low = {std::min(b.low.x, uv.values[i].x), std::min(b.low.y, uv.values[i].y)};
+      b.high = {std::max(b.high.x, uv.values[i].x), std::max(b.high.y, uv.values[i].y)};
+    }
+  }
+  return b.low.x <= b.high.x ? b : Bounds{{0, 0}, {1, 1}};
+}
+
+}  // namespace
+
+ColorImage draw_uv_layout(const CornerAttribute<Vec2>& uv, const DistortionReport& report,
+                          const UvLayoutOptions& options) {
+  const Bounds b = bounds_of(uv);
+  const Vec2 size = b.high - b.low;
+  const double larger = std::max({size.x, size.y, std::numeric_limits<double>::min()});
+  const double inner = options.side_px - 2 * k_margin;
+  const int width = std::max(256, static_cast<int>(std::lround(inner * size.x / larger)) + 2 * k_margin);
+  const int height = std::max(2 * k_margin + 1, static_cast<int>(std::lround(inner * size.y / larger)) + 2 * k_margin);
+  Canvas fine(width * options.samples, height * options.samples);
+  const auto place = [&](Index i) {
+    const Vec2 p = uv.values[i] - b.low;
+    return options.samples * Vec2{k_margin + inner * (p.x / larger), height - k_margin - inner * (p.y / larger)};
+  };
+  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
+    if (!uv.has_value(t)) continue;
+    const TriangleDistortion& d = report.per_triangle[t];
+    const bool wrong = d.flipped || !d.measured;
+    fill_triangle(fine, {place(uv.indices[t][0]), place(uv.indices[t][1]), place(uv.indices[t][2])},
+                  wrong ? k_wrong : viridis((d.symmetric_dirichlet - 4) / (options.worst - 4)));
+  }
+  for (const auto& [from, to] : border_edges(uv)) draw_line(fine, place(from), place(to), options.samples, k_ink);
+  Canvas canvas(width, height + k_legend_height);
+  shrink(fine, options.samples, canvas);
+  draw_legend(canvas, height + k_margin / 2, options.worst);
+  return canvas.image;
+}
+
+}  // namespace papilla::app

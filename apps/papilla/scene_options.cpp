@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_options.hpp"
+
+#include <map>
+
+#include "papilla/core/units.hpp"
+
+namespace papilla::app {
+namespace {
+
+/// Chord deviation in millimetres of the presets.
+const std::map<std::string, double> k_qualities = {
+    {"extra-coarse", 1.0}, {"coarse", 0.5}, {"medium", 0.2}, {"fine", 0.1}, {"extra-fine", 0.02}};
+
+const std::map<std::string, double> k_units = {
+    {"mm", 1}, {"cm", 10}, {"m", k_mm_per_metre}, {"in", k_mm_per_inch}, {"ft", 12 * k_mm_per_inch}};
+
+}  // namespace
+
+void SceneOptions::add_to(CLI::App& verb) {
+  auto* chord = verb.add_option("--chord,--sag", chord_mm, "CAD: largest distance between surface and triangles, mm")
+                    ->check(CLI::Range(1e-6, 1e3))->capture_default_str()->group("Input");
+  verb.add_option("--angle", angle_deg, "CAD: largest angle between neighbouring normals, degrees")
+      ->check(CLI::Range(0.1, 90.0))->capture_default_str()->group("Input");
+  verb.add_option("--quality", quality, "CAD: chord by name: extra-coarse 1, coarse 0.5, medium 0.2, fine 0.1, extra-fine 0.02 mm")
+      ->check(CLI::IsMember({"extra-coarse", "coarse", "medium", "fine", "extra-fine"}))->excludes(chord)->group("Input");
+  verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ)")
+      ->check(CLI::IsMember({"file", "mm", "cm", "m", "in", "ft"}))->capture_default_str()->group("Input");
+  verb.add_option("--up", up, "Upward axis: as the file's format has it, or given")
+      ->check(CLI::IsMember({"file", "y", "z"}))->capture_default_str()->group("Input");
+}
+
+ReadOptions SceneOptions::read_options() const {
+  ReadOptions options;
+  options.chord_mm = quality.empty() ? chord_mm : k_qualities.at(quality);
+  options.angle_deg = angle_deg;
+  if (unit != "file") options.millimetres_per_unit = k_units.at(unit);
+  if (up != "file") options.up = up == "y" ? UpAxis::y : UpAxis::z;
+  return options;
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "papilla/io/scene_file.hpp"
+
+namespace papilla::app {
+
+/// How a verb's input is read: unit, axes and, for CAD, tessellation. Shared by every verb that reads a scene.
+struct SceneOptions {
+  std::string unit = "file", up = "file", quality;
+  double chord_mm = 0.1, angle_deg = 20;
+
+  void add_to(CLI::App& verb);
+  ReadOptions read_options() const;
+};
+
+}  // namespace papilla::app

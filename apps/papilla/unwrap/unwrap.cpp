@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "unwrap/unwrap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "papilla/core/error.hpp"
+#include "papilla/meshing/weld.hpp"
+#include "papilla/param/components.hpp"
+#include "papilla/param/pack.hpp"
+
+namespace papilla::app {
+namespace {
+
+/// The uv and charts of all parts that have some, in one list: chart and value numbers follow one another.
+struct AllCharts {
+  CornerAttribute<Vec2> uv;
+  ChartSet charts;
+};
+
+AllCharts gather(const std::vector<UnwrappedPart>& parts) {
+  AllCharts all;
+  for (const UnwrappedPart& part : parts) {
+    const Flattening& f = part.flattening;
+    const auto first = static_cast<Index>(all.uv.values.size());
+    all.uv.values.insert(all.uv.values.end(), f.uv.values.begin(), f.uv.values.end());
+    for (const Triangle& t : f.uv.indices) all.uv.indices.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const std::uint32_t c : f.charts.of_triangle) all.charts.of_triangle.push_back(all.charts.count + c);
+    all.charts.count += f.charts.count;
+  }
+  return all;
+}
+
+/// Gives the values of `uv`, in the order of gather(), back to the parts.
+void scatter(const CornerAttribute<Vec2>& uv, std::vector<UnwrappedPart>& parts) {
+  auto next = uv.values.begin();
+  for (UnwrappedPart& part : parts) {
+    const auto end = next + static_cast<std::ptrdiff_t>(part.flattening.uv.values.size());
+    std::copy(next, end, part.flattening.uv.values.begin());
+    next = end;
+  }
+}
+
+/// Half a percent of the side of a square that holds the area of all charts.
+double relative_gutter(const CornerAttribute<Vec2>& uv) {
+  double area = 0;
+  for (const Triangle& t : uv.indices)
+    area += 0.5 * std::abs(cross(uv.values[t[1]] - uv.values[t[0]], uv.values[t[2]] - uv.values[t[0]]));
+  return 0.005 * std::sqrt(area);
+}
+
+void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& report) {
+  for (std::size_t p = 0; p < report.parts.size(); ++p) {
+    Flattening& f = report.parts[p].flattening;
+    if (f.uv.empty()) continue;
+    f.uv = align_phase(scene.parts[p].mesh, f, {.tile_mm = options.tile_mm}).uv;
+  }
+  if (options.layout == UvLayout::tile) return;
+  const AllCharts all = gather(report.parts);
+  const double gutter = options.gutter_mm.value_or(relative_gutter(all.uv));
+  const Atlas atlas = pack_atlas(all.uv, all.charts, {.gutter_mm = gutter, .tile_mm = options.tile_mm});
+  report.fill_rate = atlas.fill_rate;
+  scatter(atlas.uv, report.parts);
+}
+
+void add_trace(const Flattening& flattening, double start, UnwrapReport& report) {
+  for (TraceSample sample : flattening.trace) report.trace.push_back({start + sample.seconds, sample.error});
+  // The worst ending of any part is the scene's.
+  if (flattening.stop == StopReason::iteration_limit || report.stop == StopReason::direct)
+    report.stop = flattening.stop;
+}
+
+}  // namespace
+
+Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOptions& options, double& segment_seconds) {
+  TriplanarOptions projection;
+  projection.up = up;
+  projection.tile_mm = options.tile_mm;
+  if (options.method == UnwrapMethod::triplanar) return flatten_triplanar(mesh, projection).flattening;
+  const Stopwatch clock;
+  const bool keep = options.charts == ChartSource::keep;
+  const ChartSet charts = keep ? components_as_charts(mesh) : segment_charts(mesh, options.segmentation).charts;
+  segment_seconds += clock.seconds();
+  LscmOptions lscm;
+  lscm.up = up;
+  lscm.solver = options.solver;
+  lscm.fall_back = !keep;
+  lscm.projection = projection;
+  return flatten_lscm(mesh, charts, lscm);
+}
+
+UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress) {
+  const Stopwatch clock;
+  if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
+    throw InvalidInput("no part has triangles to unwrap");
+  UnwrapReport report;
+  report.parts.resize(scene.parts.size());
+  const GrainUp up = scene.up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  std::exception_ptr first_failure;
+  bool any = false;
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    if (progress) progress("unwrap", static_cast<double>(p) / static_cast<double>(scene.parts.size()));
+    Part& part = scene.parts[p];
+    UnwrappedPart& result = report.parts[p];
+    try {
+      part.mesh = weld_equal(std::move(part.mesh)).mesh;
+      const double start = clock.seconds(), before = report.seconds.segment;
+      result.flattening = flatten_part(part.mesh, up, options, report.seconds.segment);
+      report.seconds.solve += clock.seconds() - start - (report.seconds.segment - before);
+      add_trace(result.flattening, start, report);
+      any = true;
+    } catch (const SolverFailure& error) {
+      result.failure = "part '" + part.name + "': " + error.what();
+      if (!first_failure) first_failure = std::make_exception_ptr(SolverFailure(result.failure));
+    } catch (const InvalidInput& error) {
+      result.failure = "part '" + part.name + "': " + error.what();
+      if (!first_failure) first_failure = std::make_exception_ptr(InvalidInput(result.failure));
+    }
+  }
+  if (!any && first_failure) std::rethrow_exception(first_failure);
+  const double start = clock.seconds();
+  place(scene, options, report);
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    if (!report.parts[p].failure.empty()) continue;
+    scene.parts[p].mesh.uv = report.parts[p].flattening.uv;
+    report.charts += report.parts[p].flattening.charts.count;
+  }
+  report.seconds.pack = clock.seconds() - start;
+  report.seconds.total = clock.seconds();
+  return report;
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/bake.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "bake/report.hpp"
+#include "exit_code.hpp"
+#include "papilla/core/atomic_file.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/io/glb_writer.hpp"
+#include "scene_options.hpp"
+#include "verb.hpp"
+#include "verbs.hpp"
+
+namespace papilla::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string input, materials, output, report;
+  SceneOptions scene;
+};
+
+/// Makes the report's folder before the work, so that a wrong path is known at once.
+void prepare_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) throw IoError(folder.string() + ": cannot be made a folder");
+}
+
+Json run_bake(const Options& options, VerbContext& context) {
+  if (fs::path(options.output).extension() != ".glb")
+    throw UsageError("--output: '" + options.output + "' must end in .glb");
+  if (!options.report.empty()) prepare_folder(options.report);
+  const Stopwatch total;
+  const MaterialsFile rules = read_materials_file(options.materials);
+  Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
+  const double read_seconds = total.seconds();
+  const std::vector<Surface> surfaces = plan_surfaces(scene, rules);
+  BakeResult result = bake(std::move(scene), surfaces, context.progress);
+  result.seconds["read"] = read_seconds;
+  const Stopwatch write_clock;
+  write_glb(result.scene, options.output, {});
+  result.seconds["write"] = write_clock.seconds();
+
+  Json json = bake_json(result, surfaces);
+  std::size_t triangles = 0;
+  for (const Instance& use : instances(result.scene)) triangles += result.scene.parts[use.part].mesh.triangles.size();
+  json["output"] = {{"file", options.output}, {"bytes", fs::file_size(options.output)}, {"triangles", triangles}};
+  context.console.print(bake_table(result));
+  for (const std::string& loss : result.scene.losses) context.console.print("left out: " + loss + "\n");
+  for (const std::string& warning : result.scene.warnings) context.console.print("warning: " + warning + "\n");
+  context.console.print(fmt::format("{}: {} triangles, {:.1f} MB\n", options.output, triangles,
+                                    static_cast<double>(fs::file_size(options.output)) / 1e6));
+  if (!options.report.empty()) {
+    const Stopwatch pictures_clock;
+    json["pictures"] = write_pictures(result, options.report, context.progress);
+    result.seconds["pictures"] = pictures_clock.seconds();
+  }
+  result.seconds["total"] = total.seconds();
+  json["seconds"] = result.seconds;
+  if (!options.report.empty()) {
+    const fs::path file = fs::path(options.report) / "report.json";
+    write_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    context.console.print(file.string() + ": plan, distortion, times; pictures beside it\n");
+  }
+  return json;
+}
+
+}  // namespace
+
+void add_bake(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      add_verb(program,
+               {"bake", "The main job: grain and touch onto a scene, as one GLB.",
+                "papilla bake data/cockpit.step -m data/cockpit.materials.json -o cockpit.glb --report report"},
+               [options](VerbContext& context) { return run_bake(*options, context); });
+  verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
+  verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")
+      ->required();
+  verb->add_option("-o,--output", options->output, "GLB to write")->required();
+  verb->add_option("--report", options->report, "Folder for report.json and pictures")->type_name("DIR");
+  options->scene.add_to(*verb);
+}
+
+}  // namespace papilla::app

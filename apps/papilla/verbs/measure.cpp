@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+
+#include "distortion_report.hpp"
+#include "exit_code.hpp"
+#include "papilla/core/atomic_file.hpp"
+#include "papilla/io/image_file.hpp"
+#include "pictures/uv_layout.hpp"
+#include "scene_options.hpp"
+#include "verb.hpp"
+#include "verbs.hpp"
+
+namespace papilla::app {
+namespace {
+
+struct Options {
+  std::string input, picture, csv;
+  std::vector<std::string> gates;
+  SceneOptions scene;
+  double texture_px = 1024, uv_per_texture = 1;
+};
+
+/// NAME=VALUE, the name with dots for nested keys.
+struct Gate {
+  std::string name;
+  double limit = 0;
+};
+
+Gate parse_gate(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  Gate gate{text.substr(0, equals)};
+  const char* end = text.data() + text.size();
+  if (equals != std::string::npos) {
+    const auto [rest, error] = std::from_chars(text.data() + equals + 1, end, gate.limit);
+    if (error == std::errc() && rest == end && gate.limit == gate.limit) return gate;
+  }
+  throw UsageError("--fail-above '" + text + "': expected NAME=VALUE with a number");
+}
+
+double gated_value(const Json& distortion, const std::string& name) {
+  const Json* value = &distortion;
+  for (std::size_t begin = 0; begin <= name.size() && value;) {
+    const std::size_t end = std::min(name.find('.', begin), name.size());
+    const std::string key = name.substr(begin, end - begin);
+    value = value->is_object() && value->contains(key) ? &value->at(key) : nullptr;
+    begin = end + 1;
+  }
+  if (!value || !value->is_number())
+    throw UsageError("--fail-above: the report has no number '" + name +
+                     "'; it has, for example, symmetric_dirichlet.mean");
+  return value->get<double>();
+}
+
+Json check_gates(const std::vector<Gate>& gates, const Json& distortion, VerbContext& context) {
+  Json failed = Json::array();
+  for (const Gate& gate : gates) {
+    const double value = gated_value(distortion, gate.name);
+    if (value <= gate.limit) continue;
+    context.exit_code = k_exit_gate;
+    context.console.print(fmt::format("FAILED: {} is {:.6g}, above {:.6g}\n", gate.name, value, gate.limit));
+    failed.push_back({{"name", gate.name}, {"value", value}, {"limit", gate.limit}});
+  }
+  return failed;
+}
+
+/// The reports of single parts, when there are several.
+Json parts_json(const Scene& scene, const MeasureOptions& options) {
+  Json parts = Json::array();
+  for (const Part& part : scene.parts) {
+    Json entry = {{"name", part.name}};
+    if (part.mesh.uv.empty())
+      entry["without_uv"] = part.mesh.triangles.size();
+    else
+      entry.update(distortion_json(measure_distortion(part.mesh, part.mesh.uv, options)));
+    parts.push_back(std::move(entry));
+  }
+  return parts;
+}
+
+Json run(const Options& options, VerbContext& context) {
+  std::vector<Gate> gates;
+  const Json empty = distortion_json({});
+  for (const std::string& text : options.gates) {
+    gates.push_back(parse_gate(text));
+    gated_value(empty, gates.back().name);  // an unknown name is told before the work
+  }
+  MeasureOptions measure;
+  measure.texture_px = {options.texture_px, options.texture_px};
+  measure.uv_per_texture = {options.uv_per_texture, options.uv_per_texture};
+  const Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
+  SceneDistortion distortion;
+  try {
+    distortion = measure_scene(scene, measure);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(options.input + ": " + error.what());
+  }
+  Json result = distortion_json(distortion.report);
+  context.console.print(distortion_text(distortion.report));
+  if (!options.picture.empty())
+    write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
+  if (!options.csv.empty()) write_atomically(options.csv, distortion_csv(distortion));
+  if (scene.parts.size() > 1) result["parts"] = parts_json(scene, measure);
+  result["failed"] = check_gates(gates, result, context);
+  return result;
+}
+
+}  // namespace
+
+void add_measure(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      add_verb(program,
+               {"measure", "Measure the distortion of a file's texture coordinates, whoever made them.",
+                "papilla measure part.obj --picture part.png --fail-above flipped=0 symmetric_dirichlet.mean=4.1"},
+               [options](VerbContext& context) { return run(*options, context); });
+  verb->add_option("IN", options->input, "Mesh or glTF file")->required();
+  verb->add_option("--picture", options->picture, "Draw the layout, coloured by symmetric Dirichlet distortion")
+      ->type_name("PNG");
+  verb->add_option("--csv", options->csv, "Write a line per triangle")->type_name("FILE");
+  verb->add_option("--fail-above", options->gates, "Exit with 1 when the number NAME of the report exceeds VALUE")
+      ->type_name("NAME=VALUE");
+  verb->add_option("--texture-px", options->texture_px, "Side of the texture in texels, for the texel density")
+      ->check(CLI::Range(1.0, 1e6))
+      ->type_name("PX")
+      ->capture_default_str();
+  verb->add_option("--uv-per-texture", options->uv_per_texture,
+                   "uv units that one texture covers: 1, or millimetres when uv are in millimetres")
+      ->check(CLI::Range(1e-9, 1e9))
+      ->type_name("UV")
+      ->capture_default_str();
+  options->scene.add_to(*verb);
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "height_source.hpp"
+
+#include <span>
+#include <string>
+
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/sha256.hpp"
+#include "papilla/io/decode_grey16.hpp"
+#include "papilla/io/read_file.hpp"
+
+namespace papilla::player {
+namespace {
+
+int base64_value(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+std::optional<std::string> decode_base64(std::string_view text) {
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  unsigned buffer = 0;
+  int bits = 0;
+  for (const char c : text) {
+    const int value = base64_value(c);
+    if (value < 0) return std::nullopt;
+    buffer = (buffer << 6 | static_cast<unsigned>(value)) & 0xffffU;
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(buffer >> bits & 0xffU);
+  }
+  return bytes;
+}
+
+int hex_value(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+/// %20 and the like, as in every URI of glTF.
+std::string decode_percent(std::string_view uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool escape = uri[i] == '%' && i + 2 < uri.size() && hex_value(uri[i + 1]) >= 0 && hex_value(uri[i + 2]) >= 0;
+    text += escape ? static_cast<char>(hex_value(uri[i + 1]) * 16 + hex_value(uri[i + 2])) : uri[i];
+    if (escape) i += 2;
+  }
+  return text;
+}
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+class Finder {
+ public:
+  Finder(const HeightTag& tag, std::vector<HapticWarning>& warnings) : tag_(tag), warnings_(warnings) {}
+
+  bool matches(std::span<const std::byte> bytes, const std::string& place) const {
+    if (!tag_.sha256.empty() && sha256_hex(bytes) == tag_.sha256) return true;
+    warnings_.push_back({"height_sha256", place + ": is not the map that the tag describes (SHA-256 differs)"});
+    return false;
+  }
+
+  std::optional<std::string> from_uri(const std::filesystem::path& folder) const {
+    if (tag_.uri.empty()) return std::nullopt;
+    if (tag_.uri.starts_with("data:")) {
+      const auto comma = tag_.uri.find(";base64,");
+      auto bytes =
+          comma == std::string::npos ? std::nullopt : decode_base64(std::string_view(tag_.uri).substr(comma + 8));
+      if (!bytes) warnings_.push_back({"height_data_uri", "the data: URI of the height map is not base64"});
+      return bytes && matches(bytes_of(*bytes), "data: URI") ? bytes : std::nullopt;
+    }
+    try {
+      std::string bytes = read_file(folder / decode_percent(tag_.uri));
+      return matches(bytes_of(bytes), tag_.uri) ? std::optional(std::move(bytes)) : std::nullopt;
+    } catch (const Error& error) {
+      warnings_.push_back({"height_file", error.what()});
+      return std::nullopt;
+    }
+  }
+
+  const EncodedImage* from_image(const Scene& scene) const {
+    if (tag_.image.empty()) return nullptr;
+    const EncodedImage* named = nullptr;
+    for (const EncodedImage& image : scene.images)
+      if (image.name == tag_.image) {
+        named = &image;
+        if (matches(image.bytes, "image " + image.name)) return named;
+      }
+    if (!named) warnings_.push_back({"height_image", "the file holds no image of the name " + tag_.image});
+    return nullptr;
+  }
+
+  HeightField decode(std::span<const std::byte> bytes) const {
+    Grey16 grey = decode_grey16(bytes, tag_.image.empty() ? "height map" : tag_.image);
+    if (grey.bits != 16)
+      warnings_.push_back(
+          {"height_bits", "the height map has " + std::to_string(grey.bits) + " bits a sample, steps can be felt"});
+    if (tag_.size[0] > 0 && (tag_.size[0] != grey.width || tag_.size[1] != grey.height))
+      warnings_.push_back({"height_size", "the height map is " + std::to_string(grey.width) + " x " +
+                                              std::to_string(grey.height) + ", the tag says otherwise"});
+    return HeightField(
+        grey.width, grey.height, std::move(grey.values),
+        {tag_.scale_m, tag_.offset_m, tag_.white_is_outward, tag_.uv_transform, tag_.wrap, Interpolation::bicubic});
+  }
+
+ private:
+  const HeightTag& tag_;
+  std::vector<HapticWarning>& warnings_;
+};
+
+}  // namespace
+
+std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene,
+                                           const std::filesystem::path& folder, std::vector<HapticWarning>& warnings) {
+  const Finder finder(tag, warnings);
+  try {
+    if (const auto bytes = finder.from_uri(folder)) return finder.decode(bytes_of(*bytes));
+    if (const EncodedImage* image = finder.from_image(scene)) return finder.decode(image->bytes);
+  } catch (const Error& error) {
+    warnings.push_back({"height_image", error.what()});
+  }
+  return std::nullopt;
+}
+
+}  // namespace papilla::player

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "papilla/haptic/height_field.hpp"
+#include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/scene.hpp"
+
+namespace papilla::player {
+
+/// The height map that a tag names: its data: URI or sidecar file next to the glTF, then the image of its name. Only
+/// bytes with the tag's SHA-256 are taken. What goes wrong becomes a warning (height_data_uri, height_file,
+/// height_sha256, height_image, height_bits, height_size) and nothing is returned.
+std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene,
+                                           const std::filesystem::path& folder, std::vector<HapticWarning>& warnings);
+
+}  // namespace papilla::player

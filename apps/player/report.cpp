@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <cmath>
+
+namespace papilla::player {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json quantiles(const Histogram& h) {
+  return {{"p50", h.quantile(0.5)}, {"p99", h.quantile(0.99)}, {"p999", h.quantile(0.999)}, {"max", h.max()}};
+}
+
+std::string quantile_line(const char* what, const Histogram& h) {
+  return fmt::format("  {:<10} median {:.1f} us, 99 % {:.1f}, 99.9 % {:.1f}, worst {:.1f}\n", what, h.quantile(0.5),
+                     h.quantile(0.99), h.quantile(0.999), h.max());
+}
+
+/// Largest resident memory of the process so far.
+double peak_rss_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::string clamp_line(const StabilityClamp& clamp, const std::string& name) {
+  std::string line = fmt::format("  {}: stiffness {:.0f} -> {:.0f} N/m", name, clamp.stiffness_wanted, clamp.stiffness);
+  if (clamp.damping < clamp.damping_wanted)
+    line += fmt::format(", damping {:.3g} -> {:.3g} N s/m", clamp.damping_wanted, clamp.damping);
+  return line + ", so that the device stays stable\n";
+}
+
+}  // namespace
+
+Json to_json(const RunReport& r) {
+  Json clamped = Json::array(), clamps = Json::array(), warnings = Json::array();
+  for (const StabilityClamp& c : r.clamps) {
+    clamped.push_back(r.material_names[c.material]);
+    clamps.push_back({{"material", r.material_names[c.material]},
+                      {"stiffness_wanted", c.stiffness_wanted},
+                      {"stiffness", c.stiffness},
+                      {"damping_wanted", c.damping_wanted},
+                      {"damping", c.damping}});
+  }
+  for (const MaterialWarning& w : r.warnings)
+    warnings.push_back({{"code", w.warning.code}, {"material", w.material}, {"message", w.warning.message}});
+  const LoopResult& loop = r.loop;
+  return {{"file", r.file},
+          {"device", r.device},
+          {"rate_hz", r.rate_hz},
+          {"achieved_rate_hz", loop.seconds > 0 ? static_cast<double>(loop.ticks) / loop.seconds : 0},
+          {"ticks", loop.ticks},
+          {"missed_deadlines", loop.missed_deadlines},
+          {"wakeup_us", quantiles(loop.wakeup_us)},
+          {"tick_us", quantiles(loop.tick_us)},
+          {"contact_ticks", loop.contact_ticks},
+          {"lost_contact_ticks", loop.lost_contact_ticks},
+          {"max_force_n", loop.max_force_n},
+          {"stiffness_limit_n_per_m", std::isfinite(r.stiffness_limit) ? Json(r.stiffness_limit) : Json()},
+          {"clamped_materials", clamped},
+          {"clamps", clamps},
+          {"height_maps", {{"loaded", r.maps_loaded}, {"missing", r.maps_missing}}},
+          {"fixed_priority", loop.fixed_priority},
+          {"memory_locked", loop.memory_locked},
+          {"warnings", warnings},
+          {"triangles", r.triangles},
+          {"contact_bytes", r.contact_bytes},
+          {"load_seconds", r.load_seconds},
+          {"rss_mib", peak_rss_mib()}};
+}
+
+std::string summary(const RunReport& r) {
+  const LoopResult& loop = r.loop;
+  std::string text = fmt::format("{} on {} at {:.0f} Hz\n", r.file, r.device, r.rate_hz);
+  text += fmt::format("  {} triangles to feel, {} height maps ({} missing), loaded in {:.2f} s\n", r.triangles,
+                      r.maps_loaded, r.maps_missing, r.load_seconds);
+  for (const StabilityClamp& clamp : r.clamps) text += clamp_line(clamp, r.material_names[clamp.material]);
+  for (const MaterialWarning& w : r.warnings)
+    text += fmt::format("  warning {}: {}{}{}\n", w.warning.code, w.material, w.material.empty() ? "" : ": ",
+                        w.warning.message);
+  if (!loop.realtime_note.empty()) text += fmt::format("  no guarantees of time: {}\n", loop.realtime_note);
+  text += fmt::format("  {} ticks in {:.2f} s, {} missed deadlines\n", loop.ticks, loop.seconds, loop.missed_deadlines);
+  text += quantile_line("tick", loop.tick_us) + quantile_line("wake-up", loop.wakeup_us);
+  text += fmt::format("  contact on {} ticks, lost on {}, largest force {:.2f} N, stiffness limit {:.0f} N/m\n",
+                      loop.contact_ticks, loop.lost_contact_ticks, loop.max_force_n, r.stiffness_limit);
+  return text;
+}
+
+}  // namespace papilla::player

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "papilla/haptic/haptic_loop.hpp"
+#include "papilla/haptic/stability.hpp"
+#include "tagged_scene.hpp"
+
+namespace papilla::player {
+
+/// Everything that a run yields.
+struct RunReport {
+  std::string file, device;
+  double rate_hz = 0, stiffness_limit = 0, load_seconds = 0;
+  std::size_t triangles = 0, contact_bytes = 0;
+  int maps_loaded = 0, maps_missing = 0;
+  std::vector<StabilityClamp> clamps;
+  std::vector<std::string> material_names;
+  std::vector<MaterialWarning> warnings;
+  LoopResult loop;
+};
+
+nlohmann::ordered_json to_json(const RunReport& report);
+
+/// A few lines for people.
+std::string summary(const RunReport& report);
+
+}  // namespace papilla::player

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "papilla/core/vec.hpp"
+
+namespace papilla {
+
+/// An axis-aligned box in single precision.
+struct Box3f {
+  std::array<float, 3> low{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
+                           std::numeric_limits<float>::infinity()};
+  std::array<float, 3> high{-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()};
+  void add(const Box3f& other) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], other.low[i]);
+      high[i] = std::max(high[i], other.high[i]);
+    }
+  }
+};
+
+/// Bounding volume hierarchy over boxes, as one flat array of 32-byte nodes.
+///
+/// Built top down with the surface area heuristic over 16 bins a axis [Wald 2007, "On fast construction of SAH-based
+/// bounding volume hierarchies"]; below depth 48, and where all centres coincide, by halves, so that the depth stays
+/// below k_stack. Leaves hold at most 4 boxes. Build: O(n log n), about 0.5 µs per box and level. Deterministic.
+/// Queries are noexcept, use a fixed stack and allocate nothing. They answer with ranges of leaf_order(): the owner
+/// keeps its items in that order.
+class Bvh {
+ public:
+  Bvh() = default;
+  /// @param boxes finite, at most 2³¹.
+  explicit Bvh(std::span<const Box3f> boxes);
+
+  /// leaf_order()[i]: the number of the input box that stands at place i.
+  const std::vector<std::uint32_t>& leaf_order() const noexcept { return order_; }
+  bool empty() const noexcept { return nodes_.empty(); }
+  std::size_t bytes() const noexcept { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
+
+  /// Calls visit(begin, end) for each leaf with a point nearer than `radius` to `centre`, near ones first.
+  /// `visit` may shrink `radius`.
+  template <class Visit>
+  void within(Vec3 centre, double& radius, Visit&& visit) const noexcept {
+    walk([&](const Node& node) noexcept { return distance2(node.box, centre); },
+         [&](double key) noexcept { return key <= radius * radius; }, visit);
+  }
+
+  /// Calls visit(begin, end) for each leaf that comes nearer than `radius` to the points from + t·along,
+  /// t ∈ [0, t_max], those met first first. `visit` may shrink `t_max`. (Boxes are grown by `radius`, so some leaves
+  /// are visited in vain at their corners.)
+  template <class Visit>
+  void along(Vec3 from, Vec3 along, double radius, double& t_max, Visit&& visit) const noexcept {
+    const Slabs slabs(from, along, radius);
+    walk([&](const Node& node) noexcept { return slabs.entry(node.box, t_max); },
+         [&](double key) noexcept { return key <= t_max; }, visit);
+  }
+
+ private:
+  struct Node {
+    Box3f box;
+    std::uint32_t first = 0;  ///< Leaf: place of its first box; else: index of the first of two children.
+    std::uint32_t count = 0;  ///< Leaf: number of boxes; else 0.
+  };
+  static constexpr int k_stack = 96;
+
+  struct Slabs {
+    double origin[3], inverse[3], radius;
+    Slabs(Vec3 from, Vec3 direction, double r) noexcept : origin{from.x, from.y, from.z}, radius(r) {
+      const double d[3] = {direction.x, direction.y, direction.z};
+      // A finite stand-in for 1/0: 0 · ∞ would be NaN.
+      for (int i = 0; i < 3; ++i) inverse[i] = std::abs(d[i]) > 1e-290 ? 1 / d[i] : std::copysign(1e290, d[i]);
+    }
+    /// Where the ray enters the grown box; infinity when it misses it before t_max.
+    double entry(const Box3f& box, double t_max) const noexcept {
+      double in = 0, out = t_max;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double a = (static_cast<double>(box.low[i]) - radius - origin[i]) * inverse[i];
+        const double b = (static_cast<double>(box.high[i]) + radius - origin[i]) * inverse[i];
+        in = std::max(in, std::min(a, b));
+        out = std::min(out, std::max(a, b));
+      }
+      return in <= out ? in : std::numeric_limits<double>::infinity();
+    }
+  };
+
+  static double distance2(const Box3f& box, Vec3 p) noexcept {
+    const double q[3] = {p.x, p.y, p.z};
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double d = std::max({static_cast<double>(box.low[i]) - q[i], q[i] - static_cast<double>(box.high[i]), 0.0});
+      sum += d * d;
+    }
+    return sum;
+  }
+
+  /// Depth first, the child with the smaller key first; `wanted` is asked again when an entry is taken up.
+  template <class Key, class Wanted, class Visit>
+  void walk(Key&& key, Wanted&& wanted, Visit&& visit) const noexcept {
+    if (nodes_.empty()) return;
+    struct Entry {
+      double key;
+      std::uint32_t node;
+    };
+    Entry stack[k_stack];
+    int size = 0;
+    Entry now{key(nodes_[0]), 0};
+    for (;;) {
+      if (wanted(now.key)) {
+        const Node& node = nodes_[now.node];
+        if (node.count == 0) {
+          Entry near{key(nodes_[node.first]), node.first}, far{key(nodes_[node.first + 1]), node.first + 1};
+          if (far.key < near.key) std::swap(near, far);
+          if (wanted(far.key)) stack[size++] = far;
+          now = near;
+          continue;
+        }
+        visit(node.first, node.first + node.count);
+      }
+      if (size == 0) return;
+      now = stack[--size];
+    }
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace papilla

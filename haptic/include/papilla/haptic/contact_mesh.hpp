@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "papilla/core/vec.hpp"
+
+namespace papilla {
+
+/// What a surface does to a probe; the numbers of the material tag that the tick needs.
+struct ContactMaterial {
+  double stiffness = 500;               ///< N/m.
+  double damping = 0;                   ///< N·s/m, of the wall; acts along the contact normal.
+  double static_friction = 0;           ///< Coulomb, dimensionless.
+  double dynamic_friction = 0;          ///< Coulomb, dimensionless, at most static_friction.
+  double stribeck_velocity = 0.01;      ///< m/s, the speed over which static friction fades into dynamic.
+  std::optional<std::uint32_t> height;  ///< Index of the relief in the surface's height fields.
+};
+
+/// Triangles to be felt: metres, in the frame of the scene, counter-clockwise seen from outside.
+/// A soup is welcome: duplicated vertices, gaps, slivers, T-junctions, several parts.
+struct ContactMesh {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vec2> corner_uv;          ///< Three per triangle, or empty. Needed by materials with a relief.
+  std::vector<Vec3> corner_normals;     ///< Three per triangle, or empty: taken from the faces.
+  std::vector<std::uint32_t> material;  ///< Per triangle, index of its ContactMaterial; or empty: all 0.
+};
+
+}  // namespace papilla

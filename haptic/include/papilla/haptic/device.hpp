@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "papilla/core/vec.hpp"
+
+namespace papilla {
+
+/// What the stability of a contact depends on, of one force device.
+struct DeviceDynamics {
+  double mass_kg = 0;         ///< Apparent mass at the handle.
+  double damping = 0;         ///< b, N·s/m: the device's own, not what it can be commanded.
+  double friction_n = 0;      ///< f_c, Coulomb friction at the handle.
+  double encoder_step_m = 0;  ///< Δ, smallest step of the position.
+  double delay_s = 0;         ///< t_d, from a force written to a force felt, beside the hold of the loop.
+};
+
+struct DeviceCaps {
+  std::string name;
+  double max_force_n = 0;
+  double workspace_radius_m = 0;
+  DeviceDynamics dynamics;
+};
+
+struct DeviceState {
+  Vec3 position;     ///< m, in the frame of the scene.
+  double age_s = 0;  ///< How long ago the device reported it.
+  std::uint32_t buttons = 0;
+};
+
+/// A force device with three degrees of freedom. The loop calls read() and write() once a tick; both are noexcept and
+/// neither allocates.
+class HapticDevice {
+ public:
+  HapticDevice() = default;
+  HapticDevice(const HapticDevice&) = delete;
+  HapticDevice& operator=(const HapticDevice&) = delete;
+  virtual ~HapticDevice() = default;
+
+  virtual const DeviceCaps& caps() const noexcept = 0;
+  /// The newest position. @returns false when the device is lost.
+  virtual bool read(DeviceState& state) noexcept = 0;
+  /// Sets the force on the hand in newtons. @returns false when the device is lost.
+  virtual bool write(Vec3 force_n) noexcept = 0;
+  /// Zero force and actuators off. May be called at any time, also twice.
+  virtual void stop() noexcept = 0;
+};
+
+}  // namespace papilla

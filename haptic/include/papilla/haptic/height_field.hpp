@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "papilla/core/vec.hpp"
+
+namespace papilla {
+
+/// What a texture coordinate outside [0, 1) means, per axis (glTF's three sampler modes).
+enum class Wrap { repeat, clamp, mirror };
+
+/// How heights between samples are found. Bilinear is continuous; bicubic (Catmull–Rom) has a continuous gradient
+/// as well and still passes through the samples.
+enum class Interpolation { bilinear, bicubic };
+
+/// KHR_texture_transform: uv' = offset + R(rotation) · diag(scale) · uv.
+struct UvTransform {
+  Vec2 offset{0, 0};
+  double rotation = 0;  ///< Radians, counter-clockwise as the extension defines it.
+  Vec2 scale{1, 1};
+  friend bool operator==(const UvTransform&, const UvTransform&) = default;
+};
+
+/// Numbers that turn a 16-bit picture into heights in metres: h = offset + scale · v / 65535.
+struct HeightFieldOptions {
+  double scale_m = 0;
+  double offset_m = 0;
+  bool white_is_outward = true;  ///< False: v counts from white.
+  UvTransform uv_transform;
+  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};
+  Interpolation interpolation = Interpolation::bicubic;
+};
+
+/// Height and its derivatives by the texture coordinates before the transform.
+struct HeightSample {
+  double height_m = 0;
+  Vec2 gradient_m{};  ///< (∂h/∂u, ∂h/∂v) in metres per unit of uv.
+};
+
+/// A relief that is a function of texture coordinates, held in 16 bits a sample.
+///
+/// Texel (x, y) of a w × h picture has its centre at uv = ((x+½)/w, (y+½)/h), row 0 on top, as glTF samples
+/// pictures. Bicubic values are cut to the range of the samples and of the values halfway
+/// between them, so that min_m() and max_m() hold everywhere.
+/// sample() is noexcept, allocates nothing, and costs 4 (bilinear) or 16 (bicubic) reads. A uv that is not finite
+/// is read as 0.
+class HeightField {
+ public:
+  /// @param samples width × height values, row by row.
+  /// @throws InvalidInput when a size is zero, the number of samples differs from it, or an option is not finite.
+  HeightField(int width, int height, std::vector<std::uint16_t> samples, const HeightFieldOptions& options);
+
+  HeightSample sample(Vec2 uv) const noexcept;
+
+  /// The surface that the centre of a ball of radius r follows, less r: H(a) = max over |b−a| ≤ r of
+  /// h(b) + √(r² − |b−a|²) − r (grey dilation; the same operation by which the tip of a force microscope widens a
+  /// relief). Exact on the samples; quantised to 16 bits of the old range.
+  /// Cost: samples × π(ρ/texel)², ρ² = 2·range·r − range² (at most r²); the work is cut off by coarser offsets, never
+  /// silently: a texel below ρ/64 is an InvalidInput.
+  /// @param metres_per_uv length of one unit of the untransformed u and v on the surface, > 0.
+  HeightField dilated(double radius_m, Vec2 metres_per_uv) const;
+
+  double min_m() const noexcept { return min_m_; }
+  double max_m() const noexcept { return max_m_; }
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  /// Samples met per unit of untransformed u and v: the columns of the map from uv to texels.
+  std::array<Vec2, 2> texels_per_uv() const noexcept;
+
+ private:
+  std::uint16_t texel(long x, long y) const noexcept;
+  std::pair<double, double> range() const;
+
+  int width_, height_;
+  std::vector<std::uint16_t> samples_;
+  HeightFieldOptions options_;
+  double base_m_ = 0, metres_per_step_ = 0;            // h = base + step · v.
+  double a_[2][2] = {{1, 0}, {0, 1}}, t_[2] = {0, 0};  // texel coordinates = A uv + t.
+  double min_m_ = 0, max_m_ = 0;
+};
+
+}  // namespace papilla

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "papilla/core/vec.hpp"
+#include "papilla/haptic/height_field.hpp"
+
+namespace papilla {
+
+/// Something odd in a tag or its height map, and what was done instead.
+struct HapticWarning {
+  std::string code;     ///< Stable, for scripts: "tag_version", "height_sha256", ...
+  std::string message;  ///< One line: place, value, fallback.
+};
+
+/// Where the height map of a material is and what its numbers mean: height = offset + scale · v / 65535 metres along
+/// the outward normal, v the 16-bit sample, linear.
+struct HeightTag {
+  std::string uri;     ///< Sidecar file next to the glTF, or a data: URI; may be empty.
+  std::string image;   ///< Name of an image in the glTF; may be empty.
+  std::string sha256;  ///< 64 hexadecimal digits of the PNG's bytes. A map without the right sum is not used.
+  int bits = 16;
+  std::string channel = "r";
+  std::array<int, 2> size{0, 0};  ///< Width, height in samples; 0: not given.
+  double scale_m = 0;
+  double offset_m = 0;
+  bool white_is_outward = true;  ///< "outward": "white" or "black".
+  int tex_coord = 0;
+  UvTransform uv_transform;
+  Vec2 metres_per_uv{1, 1};  ///< Metres on the surface per unit of uv before the transform.
+  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};
+  double rms_m = 0;  ///< Root mean square of the height around its mean; 0: not given.
+  friend bool operator==(const HeightTag&, const HeightTag&) = default;
+};
+
+/// Statistics of the relief: what the player makes up a relief from when the map is lost.
+struct RoughnessTag {
+  double fractal_dimension = 2.5;  ///< In [2, 3].
+  double rms_height_m = 0;
+  Vec2 wavelength_range_m{2e-4, 2e-2};  ///< Shortest, longest.
+  friend bool operator==(const RoughnessTag&, const RoughnessTag&) = default;
+};
+
+struct SymmetryTag {
+  std::string group;               ///< Wallpaper group, for example "pmm".
+  std::array<Vec2, 2> period_m{};  ///< The two lattice vectors.
+  friend bool operator==(const SymmetryTag&, const SymmetryTag&) = default;
+};
+
+struct ProvenanceTag {
+  std::string tool, source, plan;
+  friend bool operator==(const ProvenanceTag&, const ProvenanceTag&) = default;
+};
+
+/// materials[i].extras.haptic of a glTF file, version 1, in SI units. docs/haptic-material.md explains it and
+/// haptic-material.schema.json is its JSON Schema. The values here are the defaults of the tag.
+struct MaterialTag {
+  static constexpr int k_version = 1;
+  double stiffness = 500;           ///< N/m, ≥ 0.
+  double damping = 0;               ///< N·s/m, ≥ 0.
+  double static_friction = 0;       ///< ≥ 0. Defaults to dynamic_friction when only that is given.
+  double dynamic_friction = 0;      ///< In [0, static_friction]. Defaults to static_friction when only that is given.
+  double stribeck_velocity = 0.01;  ///< m/s, > 0.
+  std::optional<HeightTag> height;
+  std::optional<RoughnessTag> roughness;
+  std::optional<SymmetryTag> symmetry;
+  std::optional<ProvenanceTag> provenance;
+  friend bool operator==(const MaterialTag&, const MaterialTag&) = default;
+};
+
+/// Reads one tag. Unknown members are ignored. A value of the wrong type or range is replaced by its default and
+/// reported: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (the relief is dropped when its
+/// scale or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_symmetry,
+/// tag_provenance.
+/// @param json the object itself, not the extras around it.
+/// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
+MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);
+
+/// The tag in a material's extras, or nothing when there is none. A tag that parse_material_tag() refuses is reported
+/// as tag_refused and counts as none; so do extras that are no JSON.
+std::optional<MaterialTag> material_tag_of_extras(std::string_view extras_json, std::vector<HapticWarning>& warnings);
+
+/// The tag as compact JSON; parse_material_tag() gives the same value back, bit for bit.
+std::string to_json(const MaterialTag& tag);
+
+/// The extras with their "haptic" member set to the tag; everything else stays. Empty extras become an object.
+/// @throws InvalidInput when the extras are no JSON object.
+std::string with_material_tag(std::string_view extras_json, const MaterialTag& tag);
+
+}  // namespace papilla

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "papilla/core/vec.hpp"
+#include "papilla/haptic/contact_surface.hpp"
+
+namespace papilla {
+
+struct ConstrainedPoint;
+
+/// Where the proxy stands after a tick.
+struct ProxyState {
+  Vec3 proxy;                  ///< Centre of the probe as the surface allows it.
+  Vec3 normal;                 ///< Unit direction in which the surfaces hold it; zero when free.
+  double load_m = 0;           ///< Depth along `normal`: distance of the probe behind the surfaces, without the skin.
+  bool in_contact = false;     ///< At least one constraint acts.
+  bool sliding = false;        ///< The proxy was moved along the surface in this tick.
+  int constraints = 0;         ///< Constraints that act: 1 to 3.
+  int sweeps = 0;              ///< Swept tests that the tick took.
+  std::uint32_t material = 0;  ///< Of the surface that carries the load.
+};
+
+/// The god-object [Zilles and Salisbury 1995] with a ball's radius [Ruspini, Kolarov and Khatib 1997]: the proxy
+/// follows the probe through free space and stays on the side of every surface from which it came.
+///
+/// Each tick descends |proxy − probe|² from the proxy of the tick before. A step goes straight to the nearest point
+/// that the constraints found so far allow (the closest point of up to k_planes half-spaces, at most three of which can
+/// act) and is swept, so that no speed tunnels; what stops it becomes a constraint; constraints that no longer act are
+/// dropped when the proxy moves, and all are forgotten and found again when a step ends free, so that surfaces which
+/// fall away let go. The tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps
+/// sweeps; then the proxy still is outside and goes on in the next tick.
+///
+/// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
+/// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
+/// [Stribeck].
+///
+/// Guarantees: noexcept, no allocation, no lock; never passes a triangle; deterministic.
+/// Limits: relief is stepped at half a texel, so a spike of one texel can be missed by a sweep that goes across it far
+/// above, never by one that ends in it. The start of reset() is taken as free even when it lies within a solid.
+class Proxy {
+ public:
+  static constexpr int k_planes = 8;
+  static constexpr int k_steps = 64;
+
+  /// @param surface must outlive the proxy.
+  explicit Proxy(const ContactSurface& surface) noexcept : surface_(&surface) {}
+
+  /// Puts proxy and probe to `position`, free.
+  void reset(Vec3 position) noexcept;
+
+  /// One tick of `period_s` with the probe at `probe`. A position that is not finite leaves everything as it was.
+  /// The first call after construction resets.
+  const ProxyState& update(Vec3 probe, double period_s) noexcept;
+
+  const ProxyState& state() const noexcept { return state_; }
+
+ private:
+  struct Planes;
+  void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
+  double friction(const ContactMaterial& material) const noexcept;
+
+  const ContactSurface* surface_;
+  ProxyState state_;
+  double slide_speed_ = 0;  // m/s, of the tick before.
+  bool started_ = false;
+};
+
+}  // namespace papilla

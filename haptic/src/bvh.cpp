@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/bvh.hpp"
+
+#include <numeric>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr std::uint32_t k_leaf_size = 4;
+constexpr int k_bins = 16;
+constexpr int k_sah_depth = 48;  // Halving from here on adds at most 31 levels: below the stack's 96.
+
+float centre(const Box3f& box, std::size_t axis) noexcept { return 0.5F * box.low[axis] + 0.5F * box.high[axis]; }
+
+double half_area(const Box3f& box) noexcept {
+  const double x = static_cast<double>(box.high[0]) - static_cast<double>(box.low[0]);
+  const double y = static_cast<double>(box.high[1]) - static_cast<double>(box.low[1]);
+  const double z = static_cast<double>(box.high[2]) - static_cast<double>(box.low[2]);
+  return x >= 0 ? x * y + y * z + z * x : 0;
+}
+
+struct Split {
+  std::size_t axis = 0;
+  int bin = 0;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+struct Bin {
+  Box3f box;
+  std::uint32_t count = 0;
+};
+
+int bin_of(float c, float low, float scale) noexcept {
+  return std::clamp(static_cast<int>((c - low) * scale), 0, k_bins - 1);
+}
+
+/// The cheapest of the 15 planes of one axis: area × count of both sides.
+void try_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items, const Box3f& centres,
+              std::size_t axis, Split& best) {
+  const float extent = centres.high[axis] - centres.low[axis];
+  if (!(extent > 0) || !std::isfinite(static_cast<float>(k_bins) / extent)) return;
+  const float scale = static_cast<float>(k_bins) / extent;
+  std::array<Bin, k_bins> bins;
+  for (const std::uint32_t item : items) {
+    Bin& bin = bins[static_cast<std::size_t>(bin_of(centre(boxes[item], axis), centres.low[axis], scale))];
+    bin.box.add(boxes[item]);
+    ++bin.count;
+  }
+  std::array<double, k_bins> above{};
+  Bin sum;
+  for (std::size_t i = k_bins - 1; i > 0; --i) {
+    sum.box.add(bins[i].box);
+    sum.count += bins[i].count;
+    above[i] = half_area(sum.box) * sum.count;
+  }
+  sum = Bin{};
+  for (std::size_t i = 0; i + 1 < k_bins; ++i) {
+    sum.box.add(bins[i].box);
+    sum.count += bins[i].count;
+    const double cost = half_area(sum.box) * sum.count + above[i + 1];
+    if (sum.count > 0 && sum.count < items.size() && cost < best.cost) best = {axis, static_cast<int>(i), cost};
+  }
+}
+
+/// Reorders `items` and returns how many belong to the first child.
+std::size_t divide(std::span<const Box3f> boxes, std::span<std::uint32_t> items, int depth) {
+  Box3f centres;
+  for (const std::uint32_t item : items) {
+    const std::array<float, 3> c = {centre(boxes[item], 0), centre(boxes[item], 1), centre(boxes[item], 2)};
+    centres.add(Box3f{c, c});
+  }
+  Split best;
+  if (depth < k_sah_depth)
+    for (std::size_t axis = 0; axis < 3; ++axis) try_axis(boxes, items, centres, axis, best);
+  if (std::isfinite(best.cost)) {
+    const float low = centres.low[best.axis], scale = static_cast<float>(k_bins) / (centres.high[best.axis] - low);
+    const auto middle = std::partition(items.begin(), items.end(), [&](std::uint32_t item) {
+      return bin_of(centre(boxes[item], best.axis), low, scale) <= best.bin;
+    });
+    return static_cast<std::size_t>(middle - items.begin());
+  }
+  return items.size() / 2;
+}
+
+}  // namespace
+
+Bvh::Bvh(std::span<const Box3f> boxes) : order_(boxes.size()) {
+  if (boxes.size() > (std::size_t{1} << 31)) throw InvalidInput("Bvh: more than 2^31 boxes");
+  if (boxes.empty()) return;
+  std::iota(order_.begin(), order_.end(), 0U);
+  struct Task {
+    std::uint32_t node, first, count;
+    int depth;
+  };
+  nodes_.reserve(boxes.size());
+  nodes_.emplace_back();
+  std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(boxes.size()), 0}};
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    const std::span<std::uint32_t> items(order_.data() + task.first, task.count);
+    Box3f box;
+    for (const std::uint32_t item : items) box.add(boxes[item]);
+    nodes_[task.node].box = box;
+    if (task.count <= k_leaf_size) {
+      nodes_[task.node].first = task.first;
+      nodes_[task.node].count = task.count;
+      continue;
+    }
+    const auto left = static_cast<std::uint32_t>(divide(boxes, items, task.depth));
+    const auto child = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[task.node].first = child;
+    nodes_.resize(nodes_.size() + 2);
+    tasks.push_back({child + 1, task.first + left, task.count - left, task.depth + 1});
+    tasks.push_back({child, task.first, left, task.depth + 1});
+  }
+  nodes_.shrink_to_fit();
+}
+
+}  // namespace papilla

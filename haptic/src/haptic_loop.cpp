@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/haptic_loop.hpp"
+
+#include <sched.h>
+#include <sys/mman.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/haptic_tick.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr int k_priority = 80;  // Below the kernel's own threads at 99, above interrupt threads at 50.
+constexpr std::uint64_t k_longest_recording = 20'000'000;
+constexpr double k_largest_lag_periods = 10;  // After a longer stall the clock starts anew instead of catching up.
+
+double seconds_of(clockid_t clock) noexcept {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Absolute times of the ticks, in nanoseconds of the monotonic clock.
+class Pacer {
+ public:
+  explicit Pacer(double period_s) noexcept : period_ns_(period_s * 1e9), start_ns_(now_ns()) {}
+
+  /// Sleeps until tick `i` and returns how late it is, in microseconds.
+  double wait(std::uint64_t i) noexcept {
+    const double due = due_ns(i);
+    timespec t{};
+    t.tv_sec = static_cast<time_t>(due / 1e9);
+    t.tv_nsec = static_cast<long>(due - 1e9 * static_cast<double>(t.tv_sec));
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+    }
+    return std::max(0.0, (now_ns() - due) * 1e-3);
+  }
+
+  /// Whether tick i + 1 should have begun. After a long stall later ticks are moved.
+  bool missed(std::uint64_t i) noexcept {
+    const double late = now_ns() - due_ns(i + 1);
+    if (late > k_largest_lag_periods * period_ns_) start_ns_ += late;
+    return late > 0;
+  }
+
+ private:
+  static double now_ns() noexcept {
+    timespec t{};
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+  }
+  double due_ns(std::uint64_t i) const noexcept { return start_ns_ + period_ns_ * static_cast<double>(i + 1); }
+
+  double period_ns_, start_ns_;
+};
+
+/// Fixed priority and locked memory as long as it lives, where the system grants them.
+class Realtime {
+ public:
+  explicit Realtime(LoopResult& result) {
+    sched_param parameters{};
+    policy_ = sched_getscheduler(0);
+    sched_getparam(0, &before_);
+    parameters.sched_priority = k_priority;
+    const auto note = [&](const char* what) {
+      if (!result.realtime_note.empty()) result.realtime_note += "; ";
+      result.realtime_note += std::string(what) + " refused (" + std::strerror(errno) + ")";
+    };
+    fixed_ = sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
+    if (!fixed_) note("SCHED_FIFO");
+    locked_ = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+    if (!locked_) note("mlockall");
+    result.fixed_priority = fixed_;
+    result.memory_locked = locked_;
+  }
+  ~Realtime() {
+    if (locked_) munlockall();
+    if (fixed_) sched_setscheduler(0, policy_, &before_);
+  }
+  Realtime(const Realtime&) = delete;
+  Realtime& operator=(const Realtime&) = delete;
+
+ private:
+  int policy_ = SCHED_OTHER;
+  sched_param before_{};
+  bool fixed_ = false, locked_ = false;
+};
+
+/// Leaves the device without force on every way out.
+class StopAtEnd {
+ public:
+  explicit StopAtEnd(HapticDevice& device) noexcept : device_(device) {}
+  ~StopAtEnd() {
+    device_.write({});
+    device_.stop();
+  }
+  StopAtEnd(const StopAtEnd&) = delete;
+  StopAtEnd& operator=(const StopAtEnd&) = delete;
+
+ private:
+  HapticDevice& device_;
+};
+
+void append(std::string& text, double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  text.append(buffer, error == std::errc() ? end : buffer);
+}
+
+}  // namespace
+
+LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, const LoopOptions& options) {
+  if (!(options.rate_hz >= 1) || !(options.rate_hz <= 1e5))
+    throw InvalidInput("run_haptic_loop: the rate of " + std::to_string(options.rate_hz) + " Hz is not in [1, 100000]");
+  if (options.record && options.ticks > k_longest_recording)
+    throw InvalidInput("run_haptic_loop: a recording of " + std::to_string(options.ticks) + " ticks is longer than " +
+                       std::to_string(k_longest_recording));
+  LoopResult result;
+  const double period = 1 / options.rate_hz;
+  const double start_s = options.hand ? options.hand->start_s() : 0;
+  if (options.record) {
+    options.record->clear();
+    options.record->resize(options.ticks);  // Touches every page, so that none is missing in the loop.
+  }
+  HapticTick tick(surface, safety_limits(device.caps().max_force_n), period);
+  const StopAtEnd stop_at_end(device);
+  {
+    const Realtime realtime(result);
+    const double begin = seconds_of(CLOCK_MONOTONIC);
+    Pacer pacer(period);
+    while (result.ticks < options.ticks && !(options.stop && options.stop->load(std::memory_order_relaxed))) {
+      const std::uint64_t i = result.ticks;
+      if (options.paced) result.wakeup_us.add(pacer.wait(i));
+      const double before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+      DeviceState state;
+      result.device_lost = !device.read(state);
+      if (result.device_lost) break;
+      const Vec3 force = tick(state);
+      result.device_lost = !device.write(force);
+      result.tick_us.add((seconds_of(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6);
+
+      ++result.ticks;
+      if (options.paced && pacer.missed(i)) ++result.missed_deadlines;
+      if (tick.proxy().in_contact) ++result.contact_ticks;
+      if (tick.lost()) ++result.lost_contact_ticks;
+      result.max_force_n = std::max(result.max_force_n, norm(force));
+      if (options.record) {
+        const double t = start_s + static_cast<double>(i) * period;
+        (*options.record)[i] = {t,
+                                options.hand ? options.hand->position(t) : state.position,
+                                state.position,
+                                tick.proxy().proxy,
+                                force,
+                                tick.proxy().in_contact};
+      }
+      result.fault = tick.guard().fault();
+      if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
+    }
+    result.seconds = seconds_of(CLOCK_MONOTONIC) - begin;
+  }
+  if (options.record) options.record->resize(result.ticks);
+  return result;
+}
+
+std::string record_csv(std::span<const RecordRow> rows) {
+  std::string text = "t,x,y,z,probe_x,probe_y,probe_z,proxy_x,proxy_y,proxy_z,force_x,force_y,force_z,contact\n";
+  for (const RecordRow& row : rows) {
+    append(text, row.t);
+    for (const Vec3& v : {row.hand, row.probe, row.proxy, row.force})
+      for (const double value : {v.x, v.y, v.z}) {
+        text += ',';
+        append(text, value);
+      }
+    text += row.in_contact ? ",1\n" : ",0\n";
+  }
+  return text;
+}
+
+}  // namespace papilla

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/height_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr double k_largest_texel = 1e9;  // Texel coordinates beyond are cut, so that they fit an integer.
+
+long wrapped(long i, long n, Wrap mode) noexcept {
+  switch (mode) {
+    case Wrap::clamp: return std::clamp(i, 0L, n - 1);
+    case Wrap::mirror: {
+      const long m = ((i % (2 * n)) + 2 * n) % (2 * n);
+      return m < n ? m : 2 * n - 1 - m;
+    }
+    case Wrap::repeat: break;
+  }
+  const long m = i % n;
+  return m < 0 ? m + n : m;
+}
+
+/// Weights of Catmull and Rom (1974) for the samples at −1, 0, 1, 2, and their derivatives.
+void cubic_weights(double f, double* w, double* d) noexcept {
+  const double f2 = f * f, f3 = f2 * f;
+  w[0] = 0.5 * (-f3 + 2 * f2 - f);
+  w[1] = 0.5 * (3 * f3 - 5 * f2 + 2);
+  w[2] = 0.5 * (-3 * f3 + 4 * f2 + f);
+  w[3] = 0.5 * (f3 - f2);
+  d[0] = 0.5 * (-3 * f2 + 4 * f - 1);
+  d[1] = 0.5 * (9 * f2 - 10 * f);
+  d[2] = 0.5 * (-9 * f2 + 8 * f + 1);
+  d[3] = 0.5 * (3 * f2 - 2 * f);
+}
+
+double texel_coordinate(double value) noexcept {
+  return std::isfinite(value) ? std::clamp(value, -k_largest_texel, k_largest_texel) : 0;
+}
+
+}  // namespace
+
+HeightField::HeightField(int width, int height, std::vector<std::uint16_t> samples, const HeightFieldOptions& options)
+    : width_(width), height_(height), samples_(std::move(samples)), options_(options) {
+  if (width <= 0 || height <= 0 ||
+      samples_.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+    throw InvalidInput("HeightField: " + std::to_string(samples_.size()) + " samples are not " + std::to_string(width) +
+                       " x " + std::to_string(height));
+  const UvTransform& t = options.uv_transform;
+  for (const double value :
+       {options.scale_m, options.offset_m, t.offset.x, t.offset.y, t.rotation, t.scale.x, t.scale.y})
+    if (!std::isfinite(value)) throw InvalidInput("HeightField: an option is not finite");
+
+  metres_per_step_ = (options.white_is_outward ? 1 : -1) * options.scale_m / 65535;
+  base_m_ = options.offset_m + (options.white_is_outward ? 0 : options.scale_m);
+  const auto [low, high] = range();
+  const double one = base_m_ + metres_per_step_ * low, other = base_m_ + metres_per_step_ * high;
+  min_m_ = std::min(one, other);
+  max_m_ = std::max(one, other);
+
+  // glTF: u' = cos·su·u + sin·sv·v + ou, v' = −sin·su·u + cos·sv·v + ov.
+  const double c = std::cos(t.rotation), s = std::sin(t.rotation);
+  a_[0][0] = width * c * t.scale.x;
+  a_[0][1] = width * s * t.scale.y;
+  a_[1][0] = -height * s * t.scale.x;
+  a_[1][1] = height * c * t.scale.y;
+  t_[0] = width * t.offset.x - 0.5;
+  t_[1] = height * t.offset.y - 0.5;
+}
+
+std::uint16_t HeightField::texel(long x, long y) const noexcept {
+  const long column = wrapped(x, width_, options_.wrap[0]), row = wrapped(y, height_, options_.wrap[1]);
+  return samples_[static_cast<std::size_t>(row * width_ + column)];
+}
+
+/// Least and largest sample; with bicubic interpolation also of the values halfway between samples, where it goes
+/// beyond them the most.
+std::pair<double, double> HeightField::range() const {
+  const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
+  double least = *low, most = *high;
+  if (options_.interpolation != Interpolation::bicubic) return {least, most};
+  const auto halfway = [](double a, double b, double c, double d) { return (9 * (b + c) - a - d) / 16; };
+  const auto take = [&](double v) {
+    least = std::min(least, v);
+    most = std::max(most, v);
+  };
+  for (long y = 0; y < height_; ++y)
+    for (long x = 0; x < width_; ++x) {
+      double row[4];
+      for (long j = 0; j < 4; ++j)
+        row[j] =
+            halfway(texel(x - 1, y + j - 1), texel(x, y + j - 1), texel(x + 1, y + j - 1), texel(x + 2, y + j - 1));
+      take(row[1]);
+      take(halfway(texel(x, y - 1), texel(x, y), texel(x, y + 1), texel(x, y + 2)));
+      take(halfway(row[0], row[1], row[2], row[3]));
+    }
+  return {least, most};
+}
+
+HeightSample HeightField::sample(Vec2 uv) const noexcept {
+  const double x = texel_coordinate(a_[0][0] * uv.x + a_[0][1] * uv.y + t_[0]);
+  const double y = texel_coordinate(a_[1][0] * uv.x + a_[1][1] * uv.y + t_[1]);
+  const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
+  const long ix = static_cast<long>(x0), iy = static_cast<long>(y0);
+  double wx[4], dx[4], wy[4], dy[4];
+  int taps = 4, first = -1;
+  if (options_.interpolation == Interpolation::bicubic) {
+    cubic_weights(fx, wx, dx);
+    cubic_weights(fy, wy, dy);
+  } else {
+    taps = 2, first = 0;
+    wx[0] = 1 - fx, wx[1] = fx, dx[0] = -1, dx[1] = 1;
+    wy[0] = 1 - fy, wy[1] = fy, dy[0] = -1, dy[1] = 1;
+  }
+  const bool inside = ix + first >= 0 && ix + first + taps <= width_ && iy + first >= 0 && iy + first + taps <= height_;
+  double value = 0, by_x = 0, by_y = 0;
+  for (int j = 0; j < taps; ++j) {
+    double row = 0, row_by_x = 0;
+    const std::size_t start = inside ? static_cast<std::size_t>((iy + first + j) * width_ + ix + first) : 0;
+    for (int i = 0; i < taps; ++i) {
+      const double v = inside ? samples_[start + static_cast<std::size_t>(i)] : texel(ix + first + i, iy + first + j);
+      row += wx[i] * v;
+      row_by_x += dx[i] * v;
+    }
+    value += wy[j] * row;
+    by_x += wy[j] * row_by_x;
+    by_y += dy[j] * row;
+  }
+  const double h = base_m_ + metres_per_step_ * value;
+  if (h < min_m_) return {min_m_, {}};
+  if (h > max_m_) return {max_m_, {}};
+  by_x *= metres_per_step_;
+  by_y *= metres_per_step_;
+  return {h, {by_x * a_[0][0] + by_y * a_[1][0], by_x * a_[0][1] + by_y * a_[1][1]}};
+}
+
+std::array<Vec2, 2> HeightField::texels_per_uv() const noexcept {
+  return {Vec2{a_[0][0], a_[1][0]}, Vec2{a_[0][1], a_[1][1]}};
+}
+
+HeightField HeightField::dilated(double radius_m, Vec2 metres_per_uv) const {
+  if (!(radius_m >= 0) || !(metres_per_uv.x > 0) || !(metres_per_uv.y > 0))
+    throw InvalidInput("HeightField::dilated: needs radius >= 0 and metres per uv > 0");
+  const double range = max_m_ - min_m_;
+  const double reach = range >= radius_m ? radius_m : std::sqrt(range * (2 * radius_m - range));
+  // One texel step in metres, along both picture axes: the inverse of A, scaled to metres.
+  const double det = a_[0][0] * a_[1][1] - a_[0][1] * a_[1][0];
+  if (reach == 0 || det == 0) return *this;
+  const Vec2 step_x{a_[1][1] / det * metres_per_uv.x, -a_[1][0] / det * metres_per_uv.y};
+  const Vec2 step_y{-a_[0][1] / det * metres_per_uv.x, a_[0][0] / det * metres_per_uv.y};
+  // Texels whose offsets can lie within reach: the height of the cell's parallelogram bounds each index.
+  const double area = std::abs(cross(step_x, step_y));
+  const double columns = reach * norm(step_y) / area, rows = reach * norm(step_x) / area;
+  if (!(columns <= 64 && rows <= 64))
+    throw InvalidInput("HeightField::dilated: a probe of radius " + std::to_string(radius_m * 1e3) +
+                       " mm spans more than 64 texels of the map");
+
+  struct Tap {
+    long x, y;
+    double cap;
+  };
+  std::vector<Tap> taps;
+  for (long j = -static_cast<long>(rows); j <= static_cast<long>(rows); ++j)
+    for (long i = -static_cast<long>(columns); i <= static_cast<long>(columns); ++i) {
+      const double distance = norm(static_cast<double>(i) * step_x + static_cast<double>(j) * step_y);
+      if (distance <= reach) taps.push_back({i, j, std::sqrt(radius_m * radius_m - distance * distance) - radius_m});
+    }
+  std::sort(taps.begin(), taps.end(), [](const Tap& a, const Tap& b) {
+    return a.cap != b.cap ? a.cap > b.cap : (a.y != b.y ? a.y < b.y : a.x < b.x);
+  });
+
+  std::vector<std::uint16_t> result(samples_.size());
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      double best = min_m_;
+      for (const Tap& tap : taps) {
+        if (max_m_ + tap.cap <= best) break;
+        best = std::max(best, base_m_ + metres_per_step_ * texel(x + tap.x, y + tap.y) + tap.cap);
+      }
+      const double v = metres_per_step_ != 0 ? (best - base_m_) / metres_per_step_ : 0;
+      result[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
+          static_cast<std::uint16_t>(std::clamp(std::lround(v), 0L, 65535L));
+    }
+  return HeightField(width_, height_, std::move(result), options_);
+}
+
+}  // namespace papilla

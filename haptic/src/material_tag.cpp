@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/material_tag.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Reads members of one object; what is odd becomes a warning and leaves the default in place.
+class Members {
+ public:
+  Members(const Json& object, std::string place, std::vector<HapticWarning>& warnings)
+      : object_(object), place_(std::move(place)), warnings_(warnings) {}
+
+  bool has(const char* name) const { return object_.contains(name); }
+
+  void warn(const char* code, const char* name, const std::string& what) const {
+    warnings_.push_back({code, place_ + "." + name + " = " + shown(name) + ": " + what});
+  }
+
+  bool number(const char* name, const char* code, double low, double high, double& value) const {
+    if (!has(name)) return false;
+    const Json& member = object_.at(name);
+    const double read = member.is_number() ? member.get<double>() : std::nan("");
+    if (!(read >= low) || !(read <= high)) {
+      warn(code, name, "is no number in range, " + Json(value).dump() + " is used");
+      return false;
+    }
+    value = read;
+    return true;
+  }
+
+  bool pair(const char* name, const char* code, double low, double high, Vec2& value) const {
+    if (!has(name)) return false;
+    const Json& member = object_.at(name);
+    const bool fits = member.is_array() && member.size() == 2 && member[0].is_number() && member[1].is_number();
+    const Vec2 read = fits ? Vec2{member[0].get<double>(), member[1].get<double>()} : Vec2{};
+    if (!fits || !(std::min(read.x, read.y) >= low) || !(std::max(read.x, read.y) <= high)) {
+      warn(code, name, "is no pair of numbers in range, the default is used");
+      return false;
+    }
+    value = read;
+    return true;
+  }
+
+  void text(const char* name, const char* code, std::string& value) const {
+    if (!has(name)) return;
+    if (!object_.at(name).is_string())
+      warn(code, name, "is no text and is ignored");
+    else
+      value = object_.at(name).get<std::string>();
+  }
+
+  const Json* object(const char* name, const char* code) const {
+    if (!has(name)) return nullptr;
+    if (object_.at(name).is_object()) return &object_.at(name);
+    warn(code, name, "is no object and is ignored");
+    return nullptr;
+  }
+
+  const Json& at(const char* name) const { return object_.at(name); }
+  const std::string& place() const { return place_; }
+
+ private:
+  std::string shown(const char* name) const {
+    std::string text = object_.at(name).dump(-1, ' ', true, Json::error_handler_t::replace);
+    if (text.size() > 60) text = text.substr(0, 57) + "...";
+    return text;
+  }
+  const Json& object_;
+  std::string place_;
+  std::vector<HapticWarning>& warnings_;
+};
+
+constexpr double k_any = 1e12;  // Larger numbers are no lengths, stiffnesses or frictions of anything.
+constexpr int k_largest_picture = 1 << 16;
+
+std::optional<Wrap> wrap_of(const Json& value) {
+  if (value == "repeat") return Wrap::repeat;
+  if (value == "clamp") return Wrap::clamp;
+  if (value == "mirror") return Wrap::mirror;
+  return std::nullopt;
+}
+
+const char* name_of(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::clamp: return "clamp";
+    case Wrap::mirror: return "mirror";
+    case Wrap::repeat: break;
+  }
+  return "repeat";
+}
+
+bool is_sha256(const std::string& text) {
+  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+         });
+}
+
+void read_uv(const Members& in, HeightTag& height) {
+  constexpr const char* k_code = "tag_height_uv";
+  double tex_coord = 0;
+  if (in.number("texCoord", k_code, 0, 7, tex_coord)) height.tex_coord = static_cast<int>(tex_coord);
+  in.pair("metresPerUV", k_code, 1e-9, k_any, height.metres_per_uv);
+  if (in.has("wrap")) {
+    const Json& wrap = in.at("wrap");
+    const bool fits = wrap.is_array() && wrap.size() == 2 && wrap_of(wrap[0]) && wrap_of(wrap[1]);
+    if (fits)
+      height.wrap = {*wrap_of(wrap[0]), *wrap_of(wrap[1])};
+    else
+      in.warn(k_code, "wrap", "is not two of repeat, clamp, mirror; repeat is used");
+  }
+}
+
+void read_uv_transform(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings,
+                       UvTransform& t) {
+  constexpr const char* k_code = "tag_height_uv";
+  const Members in(json, place, warnings);
+  in.pair("offset", k_code, -k_any, k_any, t.offset);
+  in.pair("scale", k_code, -k_any, k_any, t.scale);
+  in.number("rotation", k_code, -k_any, k_any, t.rotation);
+}
+
+std::optional<HeightTag> read_height(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings) {
+  constexpr const char* k_code = "tag_height";
+  const Members in(json, place, warnings);
+  HeightTag height;
+  if (!in.number("scale", k_code, -1, 1, height.scale_m) ||
+      (in.has("offset") && !in.number("offset", k_code, -1, 1, height.offset_m))) {
+    warnings.push_back({k_code, place + ": scale and offset must be numbers within a metre, the relief is dropped"});
+    return std::nullopt;
+  }
+  in.text("uri", k_code, height.uri);
+  in.text("image", k_code, height.image);
+  in.text("sha256", "tag_height_sha256", height.sha256);
+  if (!is_sha256(height.sha256)) {
+    warnings.push_back({"tag_height_sha256", place + ".sha256: is not 64 hexadecimal digits, no map can be accepted"});
+    height.sha256.clear();
+  }
+  std::transform(height.sha256.begin(), height.sha256.end(), height.sha256.begin(),
+                 [](char c) { return c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c; });
+  double bits = 16;
+  if (in.number("bits", "tag_height_bits", 1, 64, bits)) height.bits = static_cast<int>(bits);
+  if (height.bits != 16) in.warn("tag_height_bits", "bits", "steps of an 8-bit map can be felt, 16 is expected");
+  in.text("channel", k_code, height.channel);
+  Vec2 size;
+  if (in.pair("size", k_code, 1, k_largest_picture, size))
+    height.size = {static_cast<int>(size.x), static_cast<int>(size.y)};
+  std::string outward = "white";
+  in.text("outward", k_code, outward);
+  if (outward != "white" && outward != "black") in.warn(k_code, "outward", "is neither white nor black, white is used");
+  height.white_is_outward = outward != "black";
+  in.number("rms", k_code, 0, 1, height.rms_m);
+  read_uv(in, height);
+  if (const Json* transform = in.object("uvTransform", "tag_height_uv"))
+    read_uv_transform(*transform, place + ".uvTransform", warnings, height.uv_transform);
+  return height;
+}
+
+std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& place,
+                                           std::vector<HapticWarning>& warnings) {
+  constexpr const char* k_code = "tag_roughness";
+  const Members in(json, place, warnings);
+  RoughnessTag roughness;
+  in.number("fractalDimension", k_code, 2, 3, roughness.fractal_dimension);
+  if (!in.number("rmsHeight", k_code, 0, 0.1, roughness.rms_height_m)) return std::nullopt;
+  const Vec2 before = roughness.wavelength_range_m;
+  if (in.pair("wavelengthRange", k_code, 1e-9, 100, roughness.wavelength_range_m) &&
+      roughness.wavelength_range_m.x > roughness.wavelength_range_m.y) {
+    in.warn(k_code, "wavelengthRange", "goes from long to short, the default is used");
+    roughness.wavelength_range_m = before;
+  }
+  return roughness;
+}
+
+std::optional<SymmetryTag> read_symmetry(const Json& json, const std::string& place,
+                                         std::vector<HapticWarning>& warnings) {
+  const Members in(json, place, warnings);
+  SymmetryTag symmetry;
+  in.text("group", "tag_symmetry", symmetry.group);
+  if (!in.has("period")) return symmetry;
+  const Json& period = in.at("period");
+  bool fits = period.is_array() && period.size() == 2;
+  for (std::size_t i = 0; fits && i < 2; ++i)
+    fits = period[i].is_array() && period[i].size() == 2 && period[i][0].is_number() && period[i][1].is_number();
+  if (!fits) {
+    in.warn("tag_symmetry", "period", "is not two vectors and is ignored");
+    return symmetry;
+  }
+  for (std::size_t i = 0; i < 2; ++i) symmetry.period_m[i] = {period[i][0].get<double>(), period[i][1].get<double>()};
+  return symmetry;
+}
+
+ProvenanceTag read_provenance(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings) {
+  const Members in(json, place, warnings);
+  ProvenanceTag provenance;
+  in.text("tool", "tag_provenance", provenance.tool);
+  in.text("source", "tag_provenance", provenance.source);
+  in.text("plan", "tag_provenance", provenance.plan);
+  return provenance;
+}
+
+void read_friction(const Members& in, MaterialTag& tag) {
+  constexpr const char* k_code = "tag_friction";
+  const bool has_static = in.number("staticFriction", k_code, 0, 100, tag.static_friction);
+  const bool has_dynamic = in.number("dynamicFriction", k_code, 0, 100, tag.dynamic_friction);
+  if (has_static && !has_dynamic) tag.dynamic_friction = tag.static_friction;
+  if (has_dynamic && !has_static) tag.static_friction = tag.dynamic_friction;
+  if (tag.dynamic_friction > tag.static_friction) {
+    in.warn(k_code, "dynamicFriction", "is larger than staticFriction, which is used for both");
+    tag.dynamic_friction = tag.static_friction;
+  }
+}
+
+MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
+  const std::string place = "haptic";
+  if (!json.is_object()) throw InvalidInput("haptic tag: is no JSON object");
+  const auto version = json.find("version");
+  if (version == json.end() || !version->is_number() || version->get<double>() != MaterialTag::k_version)
+    throw InvalidInput("haptic tag: version " + (version == json.end() ? "is missing" : version->dump()) +
+                       ", expected 1");
+  const Members in(json, place, warnings);
+  if (!in.has("stiffness") && !in.has("height")) throw InvalidInput("haptic tag: has neither stiffness nor height");
+  MaterialTag tag;
+  in.number("stiffness", "tag_stiffness", 0, 1e7, tag.stiffness);
+  in.number("damping", "tag_damping", 0, 1e5, tag.damping);
+  read_friction(in, tag);
+  in.number("stribeckVelocity", "tag_stribeck", 1e-9, 1e3, tag.stribeck_velocity);
+  if (const Json* height = in.object("height", "tag_height"))
+    tag.height = read_height(*height, place + ".height", warnings);
+  if (const Json* roughness = in.object("roughness", "tag_roughness"))
+    tag.roughness = read_roughness(*roughness, place + ".roughness", warnings);
+  if (const Json* symmetry = in.object("symmetry", "tag_symmetry"))
+    tag.symmetry = read_symmetry(*symmetry, place + ".symmetry", warnings);
+  if (const Json* provenance = in.object("provenance", "tag_provenance"))
+    tag.provenance = read_provenance(*provenance, place + ".provenance", warnings);
+  return tag;
+}
+
+Json pair_json(Vec2 v) { return Json::array({v.x, v.y}); }
+
+Json height_json(const HeightTag& h) {
+  Json json = Json::object();
+  if (!h.uri.empty()) json["uri"] = h.uri;
+  if (!h.image.empty()) json["image"] = h.image;
+  if (!h.sha256.empty()) json["sha256"] = h.sha256;
+  json["bits"] = h.bits;
+  json["channel"] = h.channel;
+  if (h.size[0] > 0) json["size"] = h.size;
+  json["scale"] = h.scale_m;
+  json["offset"] = h.offset_m;
+  json["outward"] = h.white_is_outward ? "white" : "black";
+  json["texCoord"] = h.tex_coord;
+  json["uvTransform"] = {{"offset", pair_json(h.uv_transform.offset)},
+                         {"rotation", h.uv_transform.rotation},
+                         {"scale", pair_json(h.uv_transform.scale)}};
+  json["metresPerUV"] = pair_json(h.metres_per_uv);
+  json["wrap"] = {name_of(h.wrap[0]), name_of(h.wrap[1])};
+  if (h.rms_m > 0) json["rms"] = h.rms_m;
+  return json;
+}
+
+Json tag_json(const MaterialTag& tag) {
+  Json json = {{"version", MaterialTag::k_version},
+               {"stiffness", tag.stiffness},
+               {"damping", tag.damping},
+               {"staticFriction", tag.static_friction},
+               {"dynamicFriction", tag.dynamic_friction},
+               {"stribeckVelocity", tag.stribeck_velocity}};
+  if (tag.height) json["height"] = height_json(*tag.height);
+  if (tag.roughness)
+    json["roughness"] = {{"fractalDimension", tag.roughness->fractal_dimension},
+                         {"rmsHeight", tag.roughness->rms_height_m},
+                         {"wavelengthRange", pair_json(tag.roughness->wavelength_range_m)}};
+  if (tag.symmetry)
+    json["symmetry"] = {
+        {"group", tag.symmetry->group},
+        {"period", Json::array({pair_json(tag.symmetry->period_m[0]), pair_json(tag.symmetry->period_m[1])})}};
+  if (tag.provenance)
+    json["provenance"] = {
+        {"tool", tag.provenance->tool}, {"source", tag.provenance->source}, {"plan", tag.provenance->plan}};
+  return json;
+}
+
+Json parse(std::string_view text) { return Json::parse(text, nullptr, false); }
+
+}  // namespace
+
+MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings) {
+  return read_tag(parse(json), warnings);
+}
+
+std::optional<MaterialTag> material_tag_of_extras(std::string_view extras_json, std::vector<HapticWarning>& warnings) {
+  if (extras_json.empty()) return std::nullopt;
+  const Json extras = parse(extras_json);
+  if (extras.is_discarded()) {
+    warnings.push_back({"tag_refused", "extras: are no JSON"});
+    return std::nullopt;
+  }
+  if (!extras.is_object() || !extras.contains("haptic")) return std::nullopt;
+  try {
+    return read_tag(extras.at("haptic"), warnings);
+  } catch (const InvalidInput& error) {
+    warnings.push_back({"tag_refused", error.what()});
+    return std::nullopt;
+  }
+}
+
+std::string to_json(const MaterialTag& tag) {
+  return tag_json(tag).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string with_material_tag(std::string_view extras_json, const MaterialTag& tag) {
+  Json extras = extras_json.empty() ? Json::object() : parse(extras_json);
+  if (!extras.is_object()) throw InvalidInput("with_material_tag: the extras are no JSON object");
+  extras["haptic"] = tag_json(tag);
+  return extras.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace papilla

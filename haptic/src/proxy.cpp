@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/proxy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "constraint_set.hpp"
+
+namespace papilla {
+namespace {
+
+/// Of the shortest step. Near the end a step of s brings only s²/2·depth.
+constexpr double k_least_gain = 0.02;
+
+}  // namespace
+
+/// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
+struct Proxy::Planes {
+  HalfSpace plane[k_planes];
+  int count = 0;
+
+  void keep(std::uint32_t active) noexcept {
+    int kept = 0;
+    for (int i = 0; i < count; ++i)
+      if (active >> i & 1U) plane[kept++] = plane[i];
+    count = kept;
+  }
+};
+
+void Proxy::reset(Vec3 position) noexcept {
+  state_ = ProxyState{};
+  state_.proxy = position;
+  slide_speed_ = 0;
+  started_ = true;
+}
+
+double Proxy::friction(const ContactMaterial& m) const noexcept {
+  if (m.static_friction == 0 && m.dynamic_friction == 0) return 0;
+  if (!(slide_speed_ > 0)) return m.static_friction;
+  const double ratio = m.stribeck_velocity > 0 ? slide_speed_ / m.stribeck_velocity : 1e3;
+  return m.dynamic_friction + (m.static_friction - m.dynamic_friction) * std::exp(-ratio * ratio);
+}
+
+/// Says what holds the proxy when it wants to go to `aim` and would like to be at `goal`.
+void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept {
+  const Vec3 behind = aim.point - goal;
+  const double depth = norm(behind);
+  int loaded = 0;
+  while (!(aim.active >> loaded & 1U)) ++loaded;
+  next.in_contact = true;
+  next.constraints = aim.count;
+  next.normal = depth > 0 ? (1 / depth) * behind : planes.plane[loaded].normal;
+  next.load_m = std::max(0.0, depth - surface_->skin_m());
+  next.material = planes.plane[loaded].material;
+}
+
+const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
+  if (!is_finite(probe)) return state_;
+  if (!started_) reset(probe);
+  const double shortest = surface_->tolerance_m() / 4;
+  const Vec3 start = state_.proxy;  // Everything below is relative to it: small numbers, full precision.
+  const Vec3 goal = probe - start;
+
+  ProxyState next;
+  Planes planes;
+  Vec3 x{}, slid{};
+  bool free = false;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (;;) {
+    const ConstrainedPoint aim = closest_point(goal, planes.plane, planes.count, shortest);
+    if (!aim.found) break;
+    Vec3 step = aim.point - x;
+    const double wanted = norm(step);
+    if (aim.count > 0) {
+      hold(aim, planes, goal, next);
+      const double held = friction(surface_->material(next.material)) * next.load_m;
+      if (wanted - held <= shortest) break;
+      step = (1 - held / wanted) * step;
+    } else {
+      free = wanted == 0;
+      // A round that started from here and came back no nearer: converged to within the tolerance.
+      if (free || (planes.count == 0 && wanted > nearest - k_least_gain * shortest)) break;
+      if (planes.count == 0) nearest = wanted;
+    }
+    if (next.sweeps == k_steps) break;
+    ++next.sweeps;
+    const auto hit = surface_->sweep(start + x, start + x + step);
+    step = (hit ? hit->t : 1) * step;
+    x = x + step;
+    if (aim.count > 0) slid = slid + step;
+    free = !hit && planes.count == 0;
+    if (free) break;
+    if (!hit) {
+      planes.count = 0;
+      continue;
+    }
+    if (norm(step) > shortest) planes.keep(aim.active);
+    if (planes.count == k_planes) break;
+    // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
+    x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
+    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material};
+    next.in_contact = true;
+  }
+  if (free) next = ProxyState{};
+  const double distance = norm(slid);
+  next.sliding = next.in_contact && distance > surface_->tolerance_m();
+  slide_speed_ = next.sliding && period_s > 0 ? distance / period_s : 0;
+  next.proxy = start + x;
+  state_ = next;
+  return state_;
+}
+
+}  // namespace papilla

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/safety.hpp"
+
+#include <algorithm>
+
+namespace papilla {
+
+SafetyLimits safety_limits(double max_force_n) noexcept {
+  return {.max_force_n = max_force_n, .slew_n_per_s = max_force_n / 2e-3};
+}
+
+Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s) noexcept {
+  if (!is_finite(force_n) || !std::isfinite(norm(force_n)))
+    fault_ = Fault::not_finite;
+  else if (!(age_s <= limits_.watchdog_s) && fault_ == Fault::none)
+    fault_ = Fault::stale_input;
+  if (fault_ != Fault::none) return last_ = {};
+
+  if (faded_in_s_ < limits_.soft_start_s && (force_n != Vec3{} || faded_in_s_ > 0)) {
+    faded_in_s_ += period_s;
+    force_n = std::min(1.0, faded_in_s_ / limits_.soft_start_s) * force_n;
+  }
+  const double size = norm(force_n);
+  if (size > limits_.max_force_n) force_n = (limits_.max_force_n / size) * force_n;
+  const Vec3 change = force_n - last_;
+  const double most = limits_.slew_n_per_s * period_s, wanted = norm(change);
+  last_ = wanted > most ? last_ + (most / wanted) * change : force_n;
+  return last_;
+}
+
+void ForceGuard::resume() noexcept {
+  fault_ = Fault::none;
+  faded_in_s_ = 0;
+  last_ = {};
+}
+
+}  // namespace papilla

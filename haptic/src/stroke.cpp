@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/stroke.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr double k_step_m = 1e-3;
+constexpr double k_least_progress = 0.25;  // Of a step; less means that the material ends.
+
+Vec3 any_tangent(Vec3 n) {
+  const Vec3 axis = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? Vec3{1, 0, 0}
+                    : std::abs(n.y) <= std::abs(n.z)                                 ? Vec3{0, 1, 0}
+                                                                                     : Vec3{0, 0, 1};
+  return normalized(cross(n, axis));
+}
+
+Vec3 tangential(Vec3 direction, Vec3 n) { return normalized(direction - dot(direction, n) * n); }
+
+}  // namespace
+
+Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t material, Vec3 near,
+                            const StrokeOptions& options) {
+  if (!(options.speed_m_per_s > 0) || !(options.seconds > 0) || !(options.press_s > 0) ||
+      !std::isfinite(options.depth_m) || !std::isfinite(options.approach_m) || !(options.seconds <= 1e6))
+    throw InvalidInput("press_and_stroke: speed and times must be > 0, and seconds at most a million");
+  const double extent = norm(surface.high() - surface.low());
+  const auto start = surface.closest_point(near, norm(near - surface.low()) + extent, material);
+  if (!start) throw InvalidInput("press_and_stroke: no triangle of material " + std::to_string(material));
+
+  const double step = std::min(k_step_m, extent / 100);
+  SurfacePoint here = *start;
+  Vec3 direction = any_tangent(here.face_normal);
+  const auto pressed = [&](const SurfacePoint& p) { return p.point - options.depth_m * p.face_normal; };
+  std::vector<Trajectory::Sample> samples{{0, here.point + options.approach_m * here.face_normal},
+                                          {options.press_s, pressed(here)}};
+  int turns = 0;
+  while (samples.back().t < options.seconds && turns < 2) {
+    const auto next = surface.closest_point(here.point + step * direction, step, material);
+    const Vec3 way = next ? next->point - here.point : Vec3{};
+    if (dot(way, direction) < k_least_progress * step) {
+      direction = -direction;
+      ++turns;
+      continue;
+    }
+    turns = 0;
+    here = *next;
+    direction = tangential(direction, here.face_normal);
+    const double time = norm(pressed(here) - samples.back().position) / options.speed_m_per_s;
+    samples.push_back({samples.back().t + std::max(time, 1e-6), pressed(here)});
+  }
+  return Trajectory(std::move(samples));
+}
+
+}  // namespace papilla

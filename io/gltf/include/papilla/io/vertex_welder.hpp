@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "papilla/meshing/triangle_mesh.hpp"
+
+namespace papilla {
+
+/// Numbers points so that points equal in every bit share a number (−0 counts as 0). No tolerance: points that
+/// differ in the last bit stay apart. The numbers follow the order of first appearance.
+/// Cost: constant per point (a hash table with linear probing), 24 bytes per distinct point plus 4 to 16 of table.
+/// @pre finite coordinates.
+class VertexWelder {
+ public:
+  explicit VertexWelder(std::size_t expected_points = 0);
+
+  /// The number of the point, new or known.
+  /// @throws std::length_error when there are 2^32 − 1 distinct points.
+  Index add(Vec3 point);
+
+  const std::vector<Vec3>& points() const noexcept { return points_; }
+  std::vector<Vec3> take_points() noexcept { return std::move(points_); }
+
+ private:
+  void grow();
+  std::size_t slot_of(Vec3 point) const noexcept;
+
+  std::vector<Vec3> points_;
+  std::vector<Index> table_;
+};
+
+}  // namespace papilla

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/decode_grey16.hpp"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr std::uint64_t k_max_pixels = std::uint64_t{1} << 26;
+constexpr std::size_t k_header_size = 8 + 8 + 13;  ///< Signature, chunk header, IHDR.
+
+struct PngHeader {
+  std::uint32_t width, height;
+  int bits;
+};
+
+std::uint32_t big_endian(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
+  return value;
+}
+
+PngHeader read_header(std::span<const std::byte> bytes, const std::string& name) {
+  static constexpr std::array<unsigned char, 8> k_signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  if (bytes.size() < k_header_size || std::memcmp(bytes.data(), k_signature.data(), k_signature.size()) != 0)
+    throw InvalidInput(name + ": is no PNG picture");
+  const PngHeader header{big_endian(bytes, 16), big_endian(bytes, 20), std::to_integer<int>(bytes[24])};
+  if (header.width == 0 || header.height == 0 || std::uint64_t{header.width} * header.height > k_max_pixels)
+    throw InvalidInput(name + ": has " + std::to_string(header.width) + " x " + std::to_string(header.height) +
+                       " pixels; between 1 and 2^26 are supported");
+  return header;
+}
+
+}  // namespace
+
+Grey16 decode_grey16(std::span<const std::byte> bytes, const std::string& name) {
+  const PngHeader header = read_header(bytes, name);
+  tinygltf::Image image;
+  std::string error, warning;
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  if (bytes.size() > 0x7fffffffU ||
+      !tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0, data, static_cast<int>(bytes.size()), nullptr))
+    throw InvalidInput(name + ": is damaged");
+
+  Grey16 grey{image.width, image.height, header.bits, {}};
+  grey.values.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  const std::size_t channels = static_cast<std::size_t>(image.component);
+  for (std::size_t i = 0; i < grey.values.size(); ++i) {
+    if (image.bits == 16)
+      std::memcpy(&grey.values[i], &image.image[2 * channels * i], 2);
+    else
+      grey.values[i] = static_cast<std::uint16_t>(image.image[channels * i] * 257U);
+  }
+  return grey;
+}
+
+}  // namespace papilla

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_accessor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla::gltf {
+namespace {
+
+/// Elements that one file may hand out, all uses of an accessor counted: 2^28 are 90 million triangles. A small
+/// file gets less: each of its bytes may be used 64 times.
+constexpr std::size_t k_max_elements = std::size_t{1} << 28;
+constexpr std::size_t k_elements_per_byte = 64;
+constexpr std::size_t k_free_elements = std::size_t{1} << 20;
+
+template <class T>
+double load(const unsigned char* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return static_cast<double>(value);
+}
+
+double load(const unsigned char* at, int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return load<std::int8_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return load<std::uint8_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return load<std::int16_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return load<std::uint16_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return load<std::uint32_t>(at);
+    default: return load<float>(at);
+  }
+}
+
+/// glTF 2.0, 3.11: how a normalized integer becomes a real number.
+double normalize(double value, int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return std::max(value / 127, -1.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return value / 255;
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return std::max(value / 32767, -1.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return value / 65535;
+    default: return value;
+  }
+}
+
+std::size_t component_size(int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
+    default: return 0;
+  }
+}
+
+bool is_unsigned(int component_type) {
+  return component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+         component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+}  // namespace
+
+/// A checked window on a buffer.
+struct AccessorReader::Elements {
+  const unsigned char* first = nullptr;
+  std::size_t stride = 0;
+  const unsigned char* at(std::size_t i) const { return first + i * stride; }
+};
+
+void AccessorReader::fail(const std::string& where, const std::string& reason) const {
+  throw InvalidInput(document_.file + ": " + where + ": " + reason);
+}
+
+AccessorReader::AccessorReader(const Document& document) : document_(document) {
+  std::size_t bytes = 0;
+  for (const tinygltf::Buffer& buffer : document.model.buffers) bytes += buffer.data.size();
+  budget_ = std::min(k_max_elements, k_free_elements + k_elements_per_byte * bytes);
+}
+
+void AccessorReader::spend(std::size_t elements, const std::string& where) {
+  if (elements > budget_) fail(where, "the file expands to more elements than its size and 2^28 allow");
+  budget_ -= elements;
+}
+
+const tinygltf::Accessor& AccessorReader::accessor(int number, const std::string& where) const {
+  const auto& accessors = document_.model.accessors;
+  if (number < 0 || static_cast<std::size_t>(number) >= accessors.size())
+    fail(where, "accessor " + std::to_string(number) + " does not exist");
+  return accessors[static_cast<std::size_t>(number)];
+}
+
+std::span<const unsigned char> AccessorReader::view(int number, const std::string& where) const {
+  const tinygltf::Model& model = document_.model;
+  if (number < 0 || static_cast<std::size_t>(number) >= model.bufferViews.size())
+    fail(where, "bufferView " + std::to_string(number) + " does not exist");
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(number)];
+  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
+    fail(where, "bufferView " + std::to_string(number) + " names buffer " + std::to_string(view.buffer) +
+                    ", which does not exist");
+  const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(view.buffer)];
+  if (buffer.uri.empty() && (!document_.binary || view.buffer != 0))
+    fail(where, "buffer " + std::to_string(view.buffer) + " has no data");
+  if (view.byteOffset > buffer.data.size() || view.byteLength > buffer.data.size() - view.byteOffset)
+    fail(where, "bufferView " + std::to_string(number) + " (offset " + std::to_string(view.byteOffset) + ", length " +
+                    std::to_string(view.byteLength) + ") exceeds its buffer of " + std::to_string(buffer.data.size()) +
+                    " bytes");
+  return {buffer.data.data() + view.byteOffset, view.byteLength};
+}
+
+AccessorReader::Elements AccessorReader::elements(int view_number, std::size_t offset, std::size_t count,
+                                                  int component_type, int components, bool strided,
+                                                  const std::string& where) const {
+  const std::size_t component = component_size(component_type);
+  if (component == 0) fail(where, "componentType " + std::to_string(component_type) + " is not supported");
+  const std::size_t size = component * static_cast<std::size_t>(components);
+  const auto bytes = view(view_number, where);
+  const std::size_t declared = document_.model.bufferViews[static_cast<std::size_t>(view_number)].byteStride;
+  const std::size_t stride = strided && declared != 0 ? declared : size;
+  if (stride < size)
+    fail(where,
+         "byteStride " + std::to_string(stride) + " is smaller than an element of " + std::to_string(size) + " bytes");
+  if (offset > bytes.size() || bytes.size() - offset < size || count - 1 > (bytes.size() - offset - size) / stride)
+    fail(where, std::to_string(count) + " elements of " + std::to_string(size) + " bytes at offset " +
+                    std::to_string(offset) + ", stride " + std::to_string(stride) + " exceed bufferView " +
+                    std::to_string(view_number) + " of " + std::to_string(bytes.size()) + " bytes");
+  return {bytes.data() + offset, stride};
+}
+
+void AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, int components, std::vector<double>& values,
+                                  const std::string& where) const {
+  const auto& sparse = accessor.sparse;
+  const std::string place = where + ", sparse";
+  if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count)
+    fail(place, "count " + std::to_string(sparse.count) + " is not in 1.." + std::to_string(accessor.count));
+  if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) fail(place, "byteOffset is negative");
+  if (!is_unsigned(sparse.indices.componentType)) fail(place, "the indices are not unsigned integers");
+  const auto count = static_cast<std::size_t>(sparse.count);
+  const Elements where_to = elements(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
+                                     count, sparse.indices.componentType, 1, false, place);
+  const Elements what = elements(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
+                                 accessor.componentType, components, false, place);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(load(where_to.at(i), sparse.indices.componentType));
+    if (index >= accessor.count)
+      fail(place, "index " + std::to_string(index) + " is not below " + std::to_string(accessor.count));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(components); ++k)
+      values[index * static_cast<std::size_t>(components) + k] =
+          load(what.at(i) + k * component_size(accessor.componentType), accessor.componentType);
+  }
+}
+
+std::vector<double> AccessorReader::raw_numbers(const tinygltf::Accessor& accessor, int components,
+                                                const std::string& where) {
+  if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
+    fail(where, "the accessor's type has not " + std::to_string(components) + " components");
+  if (accessor.count == 0) fail(where, "the accessor's count is 0");
+  if (component_size(accessor.componentType) == 0)
+    fail(where, "componentType " + std::to_string(accessor.componentType) + " is not supported");
+  const auto width = static_cast<std::size_t>(components);
+  if (accessor.bufferView < 0) {
+    spend(accessor.count, where);
+    std::vector<double> values(accessor.count * width, 0.0);
+    if (accessor.sparse.isSparse) apply_sparse(accessor, components, values, where);
+    return values;
+  }
+  const Elements source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType,
+                                   components, true, where);
+  spend(accessor.count, where);
+  std::vector<double> values(accessor.count * width);
+  const std::size_t step = component_size(accessor.componentType);
+  for (std::size_t i = 0; i < accessor.count; ++i)
+    for (std::size_t k = 0; k < width; ++k)
+      values[i * width + k] = load(source.at(i) + k * step, accessor.componentType);
+  if (accessor.sparse.isSparse) apply_sparse(accessor, components, values, where);
+  return values;
+}
+
+std::vector<double> AccessorReader::numbers(int number, int components, const std::string& where) {
+  const std::string place = where + ", accessor " + std::to_string(number);
+  const tinygltf::Accessor& source = accessor(number, where);
+  std::vector<double> values = raw_numbers(source, components, place);
+  if (source.normalized)
+    for (double& value : values) value = normalize(value, source.componentType);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      fail(place, "element " + std::to_string(i / static_cast<std::size_t>(components)) + " is not finite");
+  return values;
+}
+
+std::vector<std::uint32_t> AccessorReader::indices(int number, const std::string& where) {
+  const std::string place = where + ", accessor " + std::to_string(number);
+  const tinygltf::Accessor& source = accessor(number, where);
+  if (!is_unsigned(source.componentType)) fail(place, "indices must be unsigned integers");
+  const std::vector<double> values = raw_numbers(source, 1, place);
+  std::vector<std::uint32_t> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), [](double v) { return static_cast<std::uint32_t>(v); });
+  return result;
+}
+
+}  // namespace papilla::gltf

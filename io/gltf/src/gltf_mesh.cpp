@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_mesh.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "papilla/core/error.hpp"
+#include "papilla/core/units.hpp"
+#include "papilla/io/vertex_welder.hpp"
+
+namespace papilla::gltf {
+namespace {
+
+constexpr Index k_unused = std::numeric_limits<Index>::max();
+
+/// What a primitive's vertices carry; an attribute that is missing is empty.
+struct Vertices {
+  std::size_t count = 0;
+  std::vector<double> positions, normals, uv, uv1, colors;
+  int color_components = 4;
+};
+
+/// The part under construction; attribute values follow the order of first use.
+struct PartBuilder {
+  Part part;
+  VertexWelder welder;
+  bool has_normals = false;
+  std::vector<std::uint8_t> carries;  ///< Per triangle: k_uv, k_uv1, k_colors of its primitive.
+};
+
+constexpr std::uint8_t k_uv = 1, k_uv1 = 2, k_colors = 4;
+
+Vec3 vec3_at(const std::vector<double>& numbers, std::size_t i) {
+  return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+}
+
+/// glTF's v runs down.
+Vec2 uv_at(const std::vector<double>& numbers, std::size_t i) { return {numbers[2 * i], 1 - numbers[2 * i + 1]}; }
+
+Color color_at(const Vertices& vertices, std::size_t i) {
+  const auto width = static_cast<std::size_t>(vertices.color_components);
+  const double* c = &vertices.colors[width * i];
+  const auto clamped = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
+  return {clamped(c[0]), clamped(c[1]), clamped(c[2]), width == 4 ? clamped(c[3]) : 1.0F};
+}
+
+/// The primitive's corners as triangles; see glTF 2.0, 3.7.2.1 for the order in strips and fans.
+std::vector<Triangle> triangles_of(int mode, const std::vector<Index>& corners) {
+  std::vector<Triangle> triangles;
+  const std::size_t n = corners.size();
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    triangles.push_back({corners[a], corners[b], corners[c]});
+  };
+  const auto add_proper = [&](std::size_t a, std::size_t b, std::size_t c) {
+    if (corners[a] != corners[b] && corners[b] != corners[c] && corners[c] != corners[a]) add(a, b, c);
+  };
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    triangles.reserve(n / 3);
+    for (std::size_t i = 0; i + 2 < n; i += 3) add(i, i + 1, i + 2);
+  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+    for (std::size_t i = 0; i + 2 < n; ++i) add_proper(i, i + 1 + i % 2, i + 2 - i % 2);
+  } else {
+    for (std::size_t i = 1; i + 1 < n; ++i) add_proper(i, i + 1, 0);
+  }
+  return triangles;
+}
+
+std::optional<int> attribute(const tinygltf::Primitive& primitive, const char* name) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return std::nullopt;
+  return found->second;
+}
+
+class PrimitiveReader {
+ public:
+  PrimitiveReader(const Document& document, AccessorReader& reader, Scene& scene)
+      : document_(document), reader_(reader), scene_(scene) {}
+
+  void read(const tinygltf::Primitive& primitive, const std::string& where, PartBuilder& builder) {
+    const auto position = attribute(primitive, "POSITION");
+    if (!position) {
+      scene_.losses.push_back(where + " has no positions and draws nothing");
+      return;
+    }
+    const Vertices vertices = read_vertices(primitive, *position, where);
+    const std::vector<Triangle> triangles = read_triangles(primitive, vertices.count, where);
+    append(vertices, triangles, material_slot(primitive.material, where, builder.part), builder);
+  }
+
+ private:
+  std::vector<double> optional_numbers(const tinygltf::Primitive& primitive, const char* name, int components,
+                                       std::size_t count, const std::string& where) {
+    const auto accessor = attribute(primitive, name);
+    if (!accessor) return {};
+    const std::string place = where + ", " + name;
+    std::vector<double> numbers = reader_.numbers(*accessor, components, place);
+    if (numbers.size() != count * static_cast<std::size_t>(components))
+      throw InvalidInput(document_.file + ": " + place + ": has not as many elements as POSITION");
+    return numbers;
+  }
+
+  Vertices read_vertices(const tinygltf::Primitive& primitive, int position, const std::string& where) {
+    Vertices vertices;
+    vertices.positions = reader_.numbers(position, 3, where + ", POSITION");
+    vertices.count = vertices.positions.size() / 3;
+    vertices.normals = optional_numbers(primitive, "NORMAL", 3, vertices.count, where);
+    vertices.uv = optional_numbers(primitive, "TEXCOORD_0", 2, vertices.count, where);
+    vertices.uv1 = optional_numbers(primitive, "TEXCOORD_1", 2, vertices.count, where);
+    if (const auto color = attribute(primitive, "COLOR_0")) {
+      vertices.color_components = reader_.accessor(*color, where).type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+      vertices.colors = optional_numbers(primitive, "COLOR_0", vertices.color_components, vertices.count, where);
+    }
+    return vertices;
+  }
+
+  std::vector<Triangle> read_triangles(const tinygltf::Primitive& primitive, std::size_t vertex_count,
+                                       const std::string& where) {
+    std::vector<Index> corners;
+    if (primitive.indices >= 0) {
+      corners = reader_.indices(primitive.indices, where + ", indices");
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        if (corners[i] >= vertex_count)
+          throw InvalidInput(document_.file + ": " + where + ": index[" + std::to_string(i) +
+                             "] = " + std::to_string(corners[i]) + " is not below the vertex count " +
+                             std::to_string(vertex_count));
+    } else {
+      corners.resize(vertex_count);
+      std::iota(corners.begin(), corners.end(), Index{0});
+    }
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
+      scene_.warnings.push_back(where + ": " + std::to_string(corners.size()) +
+                                " corners are no whole number of triangles; the last are ignored");
+    return triangles_of(primitive.mode, corners);
+  }
+
+  std::uint32_t material_slot(int material, const std::string& where, Part& part) {
+    const std::size_t count = document_.model.materials.size();
+    if (material >= static_cast<int>(count))
+      throw InvalidInput(document_.file + ": " + where + ": material " + std::to_string(material) + " does not exist");
+    const std::uint32_t number = material >= 0 ? static_cast<std::uint32_t>(material) : default_material();
+    const auto found = std::find(part.materials.begin(), part.materials.end(), number);
+    if (found != part.materials.end()) return static_cast<std::uint32_t>(found - part.materials.begin());
+    part.materials.push_back(number);
+    return static_cast<std::uint32_t>(part.materials.size() - 1);
+  }
+
+  std::uint32_t default_material() {
+    if (!default_material_) {
+      Material material;
+      material.name = "default";
+      material.metallic = 1;
+      material.roughness = 1;
+      default_material_ = static_cast<std::uint32_t>(scene_.materials.size());
+      scene_.materials.push_back(std::move(material));
+    }
+    return *default_material_;
+  }
+
+  /// Adds the triangles with all attributes. Values of those that this primitive lacks keep the numbering common.
+  static void append(const Vertices& vertices, const std::vector<Triangle>& triangles, std::uint32_t slot,
+                     PartBuilder& builder) {
+    TriangleMesh& mesh = builder.part.mesh;
+    builder.has_normals |= !vertices.normals.empty();
+    const auto carries = static_cast<std::uint8_t>((vertices.uv.empty() ? 0 : k_uv) | (vertices.uv1.empty() ? 0 : k_uv1) |
+                                                   (vertices.colors.empty() ? 0 : k_colors));
+    builder.carries.insert(builder.carries.end(), triangles.size(), carries);
+    std::vector<Index> welded(vertices.count, k_unused), compact(vertices.count, k_unused);
+    for (const Triangle& triangle : triangles) {
+      Triangle corners{}, values{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index v = triangle[k];
+        if (compact[v] == k_unused) {
+          welded[v] = builder.welder.add(k_mm_per_metre * vec3_at(vertices.positions, v));
+          compact[v] = static_cast<Index>(mesh.uv.values.size());
+          mesh.uv.values.push_back(vertices.uv.empty() ? Vec2{} : uv_at(vertices.uv, v));
+          mesh.uv1.values.push_back(vertices.uv1.empty() ? Vec2{} : uv_at(vertices.uv1, v));
+          mesh.colors.values.push_back(vertices.colors.empty() ? Color{} : color_at(vertices, v));
+          mesh.normals.values.push_back(vertices.normals.empty() ? Vec3{} : normalized(vec3_at(vertices.normals, v)));
+        }
+        corners[k] = welded[v];
+        values[k] = compact[v];
+      }
+      mesh.triangles.push_back(corners);
+      mesh.material.push_back(slot);
+      mesh.uv.indices.push_back(values);
+    }
+  }
+
+  const Document& document_;
+  AccessorReader& reader_;
+  Scene& scene_;
+  std::optional<std::uint32_t> default_material_;
+};
+
+/// A primitive without normals is flat shaded (glTF 2.0, 3.7.2.1): gives corners whose normal is zero their triangle's.
+void fill_flat_normals(TriangleMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 flat = normalized(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
+    for (Index& normal : mesh.normals.indices[t]) {
+      if (!(mesh.normals.values[normal] == Vec3{})) continue;
+      normal = static_cast<Index>(mesh.normals.values.size());
+      mesh.normals.values.push_back(flat);
+    }
+  }
+}
+
+/// Gives an attribute the common corner numbers on the triangles whose primitive carries it.
+template <class T>
+void number_attribute(CornerAttribute<T>& attribute, const std::vector<Triangle>& numbers,
+                      const std::vector<std::uint8_t>& carries, std::uint8_t kind) {
+  const auto carried = [kind](std::uint8_t c) { return (c & kind) != 0; };
+  if (std::none_of(carries.begin(), carries.end(), carried)) {
+    attribute = {};
+    return;
+  }
+  attribute.indices = numbers;
+  for (std::size_t t = 0; t < numbers.size(); ++t)
+    if (!carried(carries[t])) attribute.indices[t] = {k_no_value, k_no_value, k_no_value};
+}
+
+/// Keeps the attributes that at least one primitive has; all share the corner numbers collected in mesh.uv.
+Part finish(PartBuilder builder) {
+  TriangleMesh& mesh = builder.part.mesh;
+  mesh.positions = builder.welder.take_points();
+  const std::vector<Triangle> numbers = std::move(mesh.uv.indices);
+  number_attribute(mesh.uv, numbers, builder.carries, k_uv);
+  number_attribute(mesh.uv1, numbers, builder.carries, k_uv1);
+  number_attribute(mesh.colors, numbers, builder.carries, k_colors);
+  if (builder.has_normals)
+    mesh.normals.indices = numbers;
+  else
+    mesh.normals = {};
+  if (builder.has_normals) fill_flat_normals(mesh);
+  if (builder.part.materials.size() <= 1) mesh.material.clear();
+  return std::move(builder.part);
+}
+
+void note_losses(const tinygltf::Primitive& primitive, const std::string& where, std::set<std::string>& losses) {
+  if (!primitive.targets.empty()) losses.insert("morph targets of " + where);
+  if (!primitive.extras_json_string.empty()) losses.insert("extras of " + where);
+  for (const auto& [name, value] : primitive.extensions) losses.insert(name + " of " + where);
+  for (const auto& [name, accessor] : primitive.attributes) {
+    if (name == "JOINTS_0") losses.insert("skin weights of " + where);
+    if (name.starts_with("_") || name == "TEXCOORD_2" || name == "COLOR_1") losses.insert(name + " of " + where);
+  }
+}
+
+}  // namespace
+
+void read_parts(const Document& document, AccessorReader& reader, Scene& scene) {
+  PrimitiveReader primitives(document, reader, scene);
+  std::set<std::string> losses;
+  for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
+    const tinygltf::Mesh& mesh = document.model.meshes[m];
+    PartBuilder builder;
+    builder.part.name = mesh.name;
+    builder.part.extras_json = mesh.extras_json_string;
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const tinygltf::Primitive& primitive = mesh.primitives[p];
+      const std::string where = "mesh " + std::to_string(m) + ", primitive " + std::to_string(p);
+      if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        throw InvalidInput(document.file + ": " + where + ": mode " + std::to_string(primitive.mode) +
+                           " is not in 0..6");
+      if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        losses.insert("points or lines of " + where);
+        continue;
+      }
+      note_losses(primitive, where, losses);
+      primitives.read(primitive, where, builder);
+    }
+    scene.parts.push_back(finish(std::move(builder)));
+  }
+  scene.losses.insert(scene.losses.end(), losses.begin(), losses.end());
+}
+
+}  // namespace papilla::gltf

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "papilla/texture/height_map.hpp"
+#include "papilla/texture/image.hpp"
+
+namespace papilla {
+
+/// Pictures of more pixels than this are refused before memory is taken for them.
+inline constexpr std::size_t k_max_image_pixels = std::size_t{32768} * 32768;
+
+/// Reads any picture OpenImageIO knows as grey values: integers are divided by their largest value, floats
+/// stay as they are. Colours become their Rec. 709 luminance 0.2126 R + 0.7152 G + 0.0722 B of the stored values
+/// (no gamma is undone); alpha is ignored. `pitch_mm` comes from the file's resolution (dots per inch or
+/// centimetre), 0 when it has none or one pixel would not be square.
+/// @throws IoError when the file can't be read; InvalidInput naming the file when it is no picture, damaged, too
+///         large, or holds a number that is not finite.
+GreyImage read_grey_image(const std::filesystem::path& path);
+
+/// Reads any picture OpenImageIO knows as 8-bit RGB; grey is repeated, alpha ignored.
+/// @throws IoError, InvalidInput as read_grey_image().
+ColorImage read_color_image(const std::filesystem::path& path);
+
+/// The same for a picture in memory, PNG or JPEG; `name` only names it in messages.
+/// @throws InvalidInput as read_color_image().
+ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);
+
+/// The picture as an 8-bit RGB PNG file, without metadata. The same picture gives the same bytes.
+/// @pre pixels.size() == 3 * width * height.
+std::vector<std::byte> encode_png(const ColorImage& image);
+
+/// A height map as a 16-bit grey PNG: h = offset_mm + scale_mm · v / 65535, v = 0 … 65535, white is outward.
+struct EncodedHeight {
+  std::vector<std::byte> png;  ///< Without gamma, colour profile, text or time.
+  double scale_mm = 0;         ///< Range of the heights; 0 for a flat map, whose samples are all 0.
+  double offset_mm = 0;        ///< Lowest height.
+};
+
+/// Quantises to 65536 steps between the lowest and the highest sample: the error is at most scale_mm / 131070.
+/// @throws InvalidInput when the map is empty or a height is not finite.
+EncodedHeight encode_height_png16(const HeightMap& map);
+
+/// Writes a grey picture in the format of the extension; values are clamped to [0, 1] for integer formats.
+/// @param bits  8, 16, or 32 (float; EXR, TIFF).
+/// @throws InvalidInput when the extension names no writable format or it has not that depth; IoError when writing
+/// fails.
+void write_grey_image(const std::filesystem::path& path, const GreyImage& image, int bits);
+
+/// Writes the heights in millimetres as 32-bit floats to .exr, .tif or .tiff, with the pitch as resolution.
+/// @throws InvalidInput, IoError as write_grey_image().
+void write_height_float(const std::filesystem::path& path, const HeightMap& map);
+
+/// @throws InvalidInput, IoError as write_grey_image().
+void write_color_image(const std::filesystem::path& path, const ColorImage& image);
+
+}  // namespace papilla

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "papilla/io/scene.hpp"
+
+namespace papilla {
+
+/// How files are read that leave something open. Formats ignore what does not concern them.
+struct ReadOptions {
+  double millimetres_per_unit = 1;  ///< Of STL and OBJ, which state no unit; in (0, 1e9].
+  std::optional<UpAxis> up;         ///< Overrides the format's habit: STL, STEP, IGES, BREP z; OBJ and glTF y.
+  double chord_mm = 0.1;            ///< CAD surfaces: largest distance between surface and triangle.
+  double angle_deg = 20;            ///< CAD surfaces: largest angle between neighbouring normals.
+};
+
+}  // namespace papilla

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "glb_material.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using Json = GlbBuffer::Json;
+
+constexpr int k_max_tex_coords = 2;
+
+double in_unit_range(double value, const std::string& where) {
+  if (!std::isfinite(value)) throw InvalidInput(where + ": a factor is not finite");
+  return std::clamp(value, 0.0, 1.0);
+}
+
+/// The largest "texCoord" anywhere in an extension's textures, −1 without any texture.
+int largest_tex_coord(const Json& json) {
+  int largest = -1;
+  if (json.is_object() && json.contains("index") && json["index"].is_number_integer())
+    largest = json.value("texCoord", 0);
+  if (json.is_structured())
+    for (const auto& child : json) largest = std::max(largest, largest_tex_coord(child));
+  return largest;
+}
+
+void add_name_and_extras(Json& json, const std::string& name, const std::string& extras, const std::string& where) {
+  if (!name.empty()) json["name"] = name;
+  if (!extras.empty()) json["extras"] = parse_scene_json(extras, where + ".extras");
+}
+
+template <std::size_t N>
+Json numbers(const std::array<double, N>& values, const std::string& where) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(in_unit_range(value, where));
+  return array;
+}
+
+Json texture_transform(const TextureTransform& transform) {
+  Json json = Json::object();
+  if (!(transform.offset == Vec2{0, 0})) json["offset"] = {transform.offset.x, transform.offset.y};
+  if (transform.rotation != 0) json["rotation"] = transform.rotation;
+  if (!(transform.scale == Vec2{1, 1})) json["scale"] = {transform.scale.x, transform.scale.y};
+  return json;
+}
+
+}  // namespace
+
+Json parse_scene_json(const std::string& text, const std::string& where) {
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw InvalidInput("write_glb: " + where + " is no JSON");
+  return json;
+}
+
+void MaterialWriter::write_images(Json& gltf) {
+  image_number_.resize(scene_.images.size());
+  for (std::size_t i = 0; i < scene_.images.size(); ++i) {
+    const EncodedImage& image = scene_.images[i];
+    if (image.bytes.empty()) continue;
+    Json json = {{"bufferView", buffer_.add_view(image.bytes, GlbBuffer::Target::none)}, {"mimeType", image.mime_type}};
+    add_name_and_extras(json, image.name, image.extras_json, fmt::format("image {}", i));
+    image_number_[i] = gltf["images"].size();
+    gltf["images"].push_back(std::move(json));
+  }
+}
+
+void MaterialWriter::write_textures(Json& gltf) {
+  for (std::size_t i = 0; i < scene_.textures.size(); ++i) {
+    const Texture& texture = scene_.textures[i];
+    const std::string where = fmt::format("texture {}", i);
+    Json json = Json::object(), sampler = Json::object();
+    if (texture.mag_filter != 0) sampler["magFilter"] = texture.mag_filter;
+    if (texture.min_filter != 0) sampler["minFilter"] = texture.min_filter;
+    if (texture.wrap_s != 10497) sampler["wrapS"] = texture.wrap_s;
+    if (texture.wrap_t != 10497) sampler["wrapT"] = texture.wrap_t;
+    if (!sampler.empty()) {
+      Json& samplers = gltf["samplers"];
+      const auto known = std::find(samplers.begin(), samplers.end(), sampler);
+      json["sampler"] = known - samplers.begin();
+      if (known == samplers.end()) samplers.push_back(std::move(sampler));
+    }
+    if (texture.image && *texture.image >= scene_.images.size())
+      throw InvalidInput(
+          fmt::format("write_glb: {} names image {} of {}", where, *texture.image, scene_.images.size()));
+    if (texture.image && image_number_[*texture.image]) json["source"] = *image_number_[*texture.image];
+    add_name_and_extras(json, texture.name, texture.extras_json, where);
+    if (!texture.extensions_json.empty())
+      json["extensions"] = parse_scene_json(texture.extensions_json, where + ".extensions");
+    gltf["textures"].push_back(std::move(json));
+  }
+}
+
+bool MaterialWriter::is_usable(const TextureReference& reference) const {
+  if (reference.texture >= scene_.textures.size())
+    throw InvalidInput(
+        fmt::format("write_glb: a material names texture {} of {}", reference.texture, scene_.textures.size()));
+  const Texture& texture = scene_.textures[reference.texture];
+  const bool has_picture = texture.image && image_number_[*texture.image];
+  return (has_picture || !texture.extensions_json.empty()) && reference.tex_coord < k_max_tex_coords;
+}
+
+Json MaterialWriter::reference(const TextureReference& reference, const char* factor_name, MaterialNeeds& needs) const {
+  Json json = {{"index", reference.texture}};
+  if (reference.tex_coord != 0) json["texCoord"] = reference.tex_coord;
+  if (*factor_name != '\0' && reference.factor != 1) json[factor_name] = reference.factor;
+  if (reference.transform) json["extensions"]["KHR_texture_transform"] = texture_transform(*reference.transform);
+  needs.tex_coords = std::max(needs.tex_coords, reference.tex_coord + 1);
+  return json;
+}
+
+Json MaterialWriter::material(std::size_t number) {
+  const Material& source = scene_.materials[number];
+  const std::string where = fmt::format("write_glb: material {} '{}'", number, source.name);
+  MaterialNeeds needs;
+  const auto put = [&](Json& owner, const char* name, const std::optional<TextureReference>& texture,
+                       const char* factor_name) {
+    if (texture && is_usable(*texture)) owner[name] = reference(*texture, factor_name, needs);
+  };
+  Json json = Json::object();
+  add_name_and_extras(json, source.name, source.extras_json, where);
+  Json& pbr = json["pbrMetallicRoughness"];
+  pbr["baseColorFactor"] = numbers(source.base_color, where);
+  pbr["metallicFactor"] = in_unit_range(source.metallic, where);
+  pbr["roughnessFactor"] = in_unit_range(source.roughness, where);
+  put(pbr, "baseColorTexture", source.base_color_texture, "");
+  put(pbr, "metallicRoughnessTexture", source.metallic_roughness_texture, "");
+  put(json, "normalTexture", source.normal_texture, "scale");
+  put(json, "occlusionTexture", source.occlusion_texture, "strength");
+  put(json, "emissiveTexture", source.emissive_texture, "");
+  if (source.emissive != std::array<double, 3>{0, 0, 0}) json["emissiveFactor"] = numbers(source.emissive, where);
+  if (source.alpha_mode != "OPAQUE") json["alphaMode"] = source.alpha_mode;
+  if (source.alpha_mode == "MASK") json["alphaCutoff"] = std::max(source.alpha_cutoff, 0.0);
+  if (source.double_sided) json["doubleSided"] = true;
+  if (!source.extensions_json.empty()) {
+    json["extensions"] = parse_scene_json(source.extensions_json, where + ".extensions");
+    needs.tex_coords = std::max(needs.tex_coords, largest_tex_coord(json["extensions"]) + 1);
+  }
+  needs.tex_coords = std::min(needs.tex_coords, k_max_tex_coords);
+  needs.tangents =
+      json.contains("normalTexture") || source.extensions_json.find("clearcoatNormalTexture") != std::string::npos;
+  if (json.contains("normalTexture")) needs.tangent_tex_coord = source.normal_texture->tex_coord;
+  needs_.push_back(needs);
+  return json;
+}
+
+void MaterialWriter::write(Json& gltf) {
+  write_images(gltf);
+  write_textures(gltf);
+  for (std::size_t i = 0; i < scene_.materials.size(); ++i) gltf["materials"].push_back(material(i));
+}
+
+}  // namespace papilla

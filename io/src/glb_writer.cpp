@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/glb_writer.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include "glb_buffer.hpp"
+#include "glb_material.hpp"
+#include "glb_mesh.hpp"
+#include "papilla/core/atomic_file.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/units.hpp"
+#include "trs.hpp"
+
+namespace papilla {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF buffers are written in place");
+
+using Json = GlbBuffer::Json;
+
+Json asset_of(const Scene& scene) {
+  return {{"version", "2.0"},
+          {"generator", std::string("papilla ") + version()},
+          {"extras",
+           {{"sourceFormat", scene.format},
+            {"sourceUnit", scene.unit},
+            {"millimetresPerUnit", scene.millimetres_per_unit}}}};
+}
+
+/// Adds translation, rotation and scale where they are not neutral.
+void put_transform(const Transform& local, const std::string& where, Json& node) {
+  if (!std::all_of(local.begin(), local.end(), [](double x) { return std::isfinite(x); }))
+    throw InvalidInput(where + ": the transform is not finite");
+  const auto trs = decompose(local);
+  if (!trs) throw InvalidInput(where + ": the transform shears, which glTF cannot hold");
+  const Vec3 t = k_metres_per_mm * trs->translation;
+  if (!(t == Vec3{})) node["translation"] = {t.x, t.y, t.z};
+  if (trs->rotation != std::array<double, 4>{0, 0, 0, 1}) node["rotation"] = trs->rotation;
+  if (!(trs->scale == Vec3{1, 1, 1})) node["scale"] = {trs->scale.x, trs->scale.y, trs->scale.z};
+}
+
+/// Writes the meshes and nodes that can be reached from the roots.
+class NodeWriter {
+ public:
+  NodeWriter(const Scene& scene, const GlbWriteOptions& options, const std::vector<MaterialNeeds>& needs,
+             GlbBuffer& buffer, Json& gltf)
+      : scene_(scene), options_(options), needs_(needs), buffer_(buffer), gltf_(gltf) {}
+
+  void write() {
+    const std::vector<Instance> used = instances(scene_);
+    mesh_of_part_.resize(scene_.parts.size());
+    std::set<std::uint32_t> parts;
+    for (const Instance& instance : used) parts.insert(instance.part);
+    for (const std::uint32_t part : parts) write_mesh(part);
+    number_nodes();
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i)
+      if (node_number_[i]) gltf_["nodes"].push_back(node(i));
+    write_scene();
+  }
+
+ private:
+  void write_mesh(std::uint32_t part) {
+    Json mesh = glb_mesh(scene_.parts[part], needs_, options_, buffer_);
+    if (mesh.is_null()) return;
+    mesh_of_part_[part] = gltf_["meshes"].size();
+    gltf_["meshes"].push_back(std::move(mesh));
+  }
+
+  void number_nodes() {
+    node_number_.resize(scene_.nodes.size());
+    std::vector<std::uint32_t> open = scene_.roots;
+    while (!open.empty()) {
+      const std::uint32_t number = open.back();
+      open.pop_back();
+      node_number_[number] = 0;
+      open.insert(open.end(), scene_.nodes[number].children.begin(), scene_.nodes[number].children.end());
+    }
+    std::size_t next = 0;
+    for (auto& number : node_number_)
+      if (number) number = next++;
+  }
+
+  Json node(std::size_t number) const {
+    const Node& source = scene_.nodes[number];
+    const std::string where = fmt::format("write_glb: node {} '{}'", number, source.name);
+    Json json = Json::object();
+    if (!source.name.empty()) json["name"] = source.name;
+    put_transform(source.local, where, json);
+    if (source.part && mesh_of_part_[*source.part]) json["mesh"] = *mesh_of_part_[*source.part];
+    for (const std::uint32_t child : source.children) json["children"].push_back(*node_number_[child]);
+    if (!source.extras_json.empty()) json["extras"] = parse_scene_json(source.extras_json, where + ".extras");
+    return json;
+  }
+
+  void write_scene() {
+    Json roots = Json::array();
+    for (const std::uint32_t root : scene_.roots) roots.push_back(*node_number_[root]);
+    if (scene_.up != UpAxis::y && !roots.empty()) {
+      Json turn = {{"name", "Z up to Y up"}};
+      put_transform(to_y_up(scene_.up), "write_glb", turn);
+      turn["children"] = std::move(roots);
+      roots = Json::array({gltf_["nodes"].size()});
+      gltf_["nodes"].push_back(std::move(turn));
+    }
+    Json scene = Json::object();
+    if (!roots.empty()) scene["nodes"] = std::move(roots);
+    if (!scene_.extras_json.empty()) scene["extras"] = parse_scene_json(scene_.extras_json, "scene.extras");
+    gltf_["scene"] = 0;
+    gltf_["scenes"] = Json::array({std::move(scene)});
+  }
+
+  const Scene& scene_;
+  const GlbWriteOptions& options_;
+  const std::vector<MaterialNeeds>& needs_;
+  GlbBuffer& buffer_;
+  Json& gltf_;
+  std::vector<std::optional<std::size_t>> mesh_of_part_, node_number_;
+};
+
+/// The names below any "extensions" of the document; extras are nobody's business.
+void collect_extensions(const Json& json, std::set<std::string>& names) {
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      if (key == "extras") continue;
+      if (key == "extensions" && value.is_object())
+        for (const auto& [name, content] : value.items()) names.insert(name);
+      collect_extensions(value, names);
+    }
+  } else if (json.is_array()) {
+    for (const Json& value : json) collect_extensions(value, names);
+  }
+}
+
+void append_word(std::string& bytes, std::size_t value) {
+  const auto word = static_cast<std::uint32_t>(value);
+  for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xffU);
+}
+
+void append_chunk(std::string& bytes, std::size_t type, const std::string& content, char padding) {
+  const std::size_t length = (content.size() + 3) / 4 * 4;
+  append_word(bytes, length);
+  append_word(bytes, type);
+  bytes += content;
+  bytes.append(length - content.size(), padding);
+}
+
+/// The container of glTF 2.0, 4.4.
+std::string glb_bytes(const std::string& json, const std::string& binary) {
+  constexpr std::size_t k_json = 0x4e4f534a, k_bin = 0x004e4942;
+  const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
+  const std::size_t length = 12 + 8 + padded(json.size()) + (binary.empty() ? 0 : 8 + padded(binary.size()));
+  if (length > std::numeric_limits<std::uint32_t>::max())
+    throw InvalidInput(fmt::format("write_glb: {} bytes exceed glTF's limit of 4 GiB", length));
+  std::string bytes = "glTF";
+  bytes.reserve(length);
+  append_word(bytes, 2);
+  append_word(bytes, length);
+  append_chunk(bytes, k_json, json, ' ');
+  if (!binary.empty()) append_chunk(bytes, k_bin, binary, '\0');
+  return bytes;
+}
+
+}  // namespace
+
+void write_glb(const Scene& scene, const std::filesystem::path& path, const GlbWriteOptions& options) {
+  Json gltf = {{"asset", asset_of(scene)}};
+  GlbBuffer buffer;
+  MaterialWriter materials(scene, buffer);
+  materials.write(gltf);
+  NodeWriter(scene, options, materials.needs(), buffer, gltf).write();
+  if (!buffer.bytes().empty()) {
+    gltf["buffers"] = Json::array({{{"byteLength", buffer.bytes().size()}}});
+    gltf["bufferViews"] = buffer.views();
+  }
+  if (!buffer.accessors().empty()) gltf["accessors"] = buffer.accessors();
+  std::set<std::string> extensions;
+  collect_extensions(gltf, extensions);
+  if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
+  write_atomically(path, glb_bytes(gltf.dump(-1, ' ', false, Json::error_handler_t::replace), buffer.bytes()));
+}
+
+}  // namespace papilla

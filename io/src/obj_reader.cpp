@@ -1,0 +1,487 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/obj_reader.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "mesh_file_scene.hpp"
+#include "mtl_reader.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/io/read_file.hpp"
+#include "polygon_triangulation.hpp"
+#include "text_scanner.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr Index k_none = std::numeric_limits<Index>::max();
+constexpr std::size_t k_max_elements = k_none - 1;
+
+/// A face's corner: numbers into the file's lists, from 0, k_none when not given.
+struct Corner {
+  Index position = k_none, uv = k_none, normal = k_none;
+};
+
+struct Face {
+  std::size_t first_corner;
+  std::uint32_t corners, line, object, group, material;
+};
+
+/// A name's number in the order of first use.
+class NameTable {
+ public:
+  std::uint32_t number(std::string_view name) {
+    const auto [entry, is_new] = numbers_.try_emplace(std::string(name), static_cast<std::uint32_t>(names_.size()));
+    if (is_new) names_.push_back(entry->first);
+    return entry->second;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::map<std::string, std::uint32_t> numbers_;
+  std::vector<std::string> names_;
+};
+
+float linear_from_srgb(double c) {
+  c = std::clamp(c, 0.0, 1.0);
+  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
+
+/// What the lines say, before anything is put together.
+struct ObjContent {
+  std::vector<Vec3> positions, normals;
+  std::vector<Vec2> uv;
+  std::vector<Color> colors;  ///< As many as positions, or none.
+  std::vector<Corner> corners;
+  std::vector<Face> faces;
+  NameTable objects, groups, materials;
+  std::vector<std::string> libraries;
+};
+
+class ObjParser {
+ public:
+  ObjParser(std::string_view text, const std::string& file, Scene& scene) : text_(text), file_(file), scene_(scene) {}
+
+  ObjContent parse() {
+    object_ = content_.objects.number("");
+    group_ = content_.groups.number("");
+    material_ = content_.materials.number("");
+    std::string joined;
+    for (std::string_view line = next_line(joined); !at_end_; line = next_line(joined)) parse_line(line);
+    warn_of("faces of fewer than three corners are ignored", short_faces_);
+    warn_of("normals are not finite and are ignored", bad_normals_);
+    warn_of("colours are not finite and read as white", bad_colors_);
+    for (const std::string& keyword : losses_) scene_.losses.push_back("'" + keyword + "' statements");
+    return std::move(content_);
+  }
+
+ private:
+  /// How often something odd was met, and where first.
+  struct Oddity {
+    std::size_t count = 0, line = 0;
+  };
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw InvalidInput(fmt::format("{}: line {}: {}", file_, line_, reason));
+  }
+
+  void note(Oddity& oddity) const {
+    if (oddity.count++ == 0) oddity.line = line_;
+  }
+
+  void warn_of(const char* what, const Oddity& oddity) {
+    if (oddity.count > 0)
+      scene_.warnings.push_back(fmt::format("{} {} (first in line {})", oddity.count, what, oddity.line));
+  }
+
+  std::string_view raw_line() {
+    at_end_ = text_.empty();
+    const std::size_t end = std::min(text_.find('\n'), text_.size());
+    std::string_view line = text_.substr(0, end);
+    text_.remove_prefix(std::min(end + 1, text_.size()));
+    ++line_;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  /// A line; a backslash at its end joins the next one.
+  std::string_view next_line(std::string& joined) {
+    std::string_view line = raw_line();
+    if (!line.ends_with('\\')) return line;
+    joined.clear();
+    for (; line.ends_with('\\') && !text_.empty(); line = raw_line()) {
+      joined += line.substr(0, line.size() - 1);
+      joined += ' ';
+    }
+    joined += line;
+    return joined;
+  }
+
+  void parse_line(std::string_view line) {
+    const std::string_view keyword = next_word(line);
+    if (keyword.empty() || keyword.front() == '#') return;
+    if (keyword == "v")
+      parse_position(line);
+    else if (keyword == "vt")
+      parse_uv(line);
+    else if (keyword == "vn")
+      parse_normal(line);
+    else if (keyword == "f" || keyword == "fo")
+      parse_face(line);
+    else if (keyword == "o")
+      object_ = content_.objects.number(trimmed(line));
+    else if (keyword == "g")
+      group_ = content_.groups.number(trimmed(line));
+    else if (keyword == "usemtl")
+      material_ = content_.materials.number(trimmed(line));
+    else if (keyword == "mtllib")
+      content_.libraries.emplace_back(trimmed(line));
+    else if (is_unsupported(keyword))
+      losses_.insert(std::string(keyword));
+    else if (keyword != "s")
+      fail(fmt::format("unknown keyword '{}'", printable(keyword)));
+  }
+
+  /// Statements of the format that carry no triangles.
+  static bool is_unsupported(std::string_view keyword) {
+    static const std::set<std::string_view> k_keywords = {
+        "p",        "l",    "vp",   "cstype", "deg",    "bmat",   "step",  "curv",  "curv2",      "surf",
+        "parm",     "trim", "hole", "scrv",   "sp",     "end",    "con",   "mg",    "bevel",      "c_interp",
+        "d_interp", "lod",  "call", "csh",    "maplib", "usemap", "ctech", "stech", "shadow_obj", "trace_obj"};
+    return k_keywords.contains(keyword);
+  }
+
+  double number(std::string_view word) const {
+    double value = 0;
+    if (!parse_number(word, value)) fail(fmt::format("'{}' is not a number", printable(word)));
+    return value;
+  }
+
+  /// Up to `limit` numbers of a line; returns how many there are.
+  std::size_t numbers(std::string_view line, double* values, std::size_t limit) const {
+    std::size_t count = 0;
+    for (std::string_view word = next_word(line); !word.empty() && word.front() != '#'; word = next_word(line)) {
+      if (count == limit) fail(fmt::format("more than {} numbers", limit));
+      values[count++] = number(word);
+    }
+    return count;
+  }
+
+  template <class T>
+  void append(std::vector<T>& list, T value) const {
+    if (list.size() >= k_max_elements) fail("more than 2^32 - 2 elements");
+    list.push_back(value);
+  }
+
+  void parse_position(std::string_view line) {
+    double n[8] = {};
+    const std::size_t count = numbers(line, n, 8);
+    if (count < 3) fail(fmt::format("a vertex needs 3 numbers, found {}", count));
+    const Vec3 position{n[0], n[1], n[2]};
+    if (!is_finite(position)) fail(fmt::format("vertex {} is not finite", content_.positions.size() + 1));
+    append(content_.positions, position);
+    if (count >= 6) {
+      content_.colors.resize(content_.positions.size() - 1);
+      const double* c = n + (count == 6 ? 3 : 4);
+      const bool good = std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]);
+      if (!good) note(bad_colors_);
+      content_.colors.push_back(good ? Color{linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2]), 1}
+                                     : Color{});
+    }
+  }
+
+  void parse_uv(std::string_view line) {
+    double n[3] = {};
+    if (numbers(line, n, 3) < 1) fail("a texture vertex needs numbers");
+    const Vec2 uv{n[0], n[1]};
+    if (!is_finite(uv)) fail(fmt::format("texture vertex {} is not finite", content_.uv.size() + 1));
+    append(content_.uv, uv);
+  }
+
+  void parse_normal(std::string_view line) {
+    double n[3] = {};
+    if (const std::size_t count = numbers(line, n, 3); count != 3)
+      fail(fmt::format("a normal needs 3 numbers, found {}", count));
+    Vec3 normal{n[0], n[1], n[2]};
+    if (!is_finite(normal)) {
+      note(bad_normals_);
+      normal = {};
+    }
+    append(content_.normals, normalized(normal));
+  }
+
+  /// 1 is the first of the list, −1 the last so far. Indices that point ahead are checked at the end.
+  Index resolve(std::string_view text, std::size_t list_size, const char* what) const {
+    long long index = 0;
+    if (!parse_number(text, index)) fail(fmt::format("'{}' is not an index", printable(text)));
+    if (index < 0) index += static_cast<long long>(list_size) + 1;
+    if (index < 1 || index > static_cast<long long>(k_max_elements))
+      fail(fmt::format("{} {} does not exist", what, printable(text)));
+    return static_cast<Index>(index - 1);
+  }
+
+  Corner parse_corner(std::string_view word) const {
+    Corner corner;
+    const std::size_t first = std::min(word.find('/'), word.size());
+    corner.position = resolve(word.substr(0, first), content_.positions.size(), "vertex");
+    if (first == word.size()) return corner;
+    word.remove_prefix(first + 1);
+    const std::size_t second = std::min(word.find('/'), word.size());
+    if (second > 0) corner.uv = resolve(word.substr(0, second), content_.uv.size(), "texture vertex");
+    if (second + 1 < word.size()) corner.normal = resolve(word.substr(second + 1), content_.normals.size(), "normal");
+    return corner;
+  }
+
+  void parse_face(std::string_view line) {
+    const std::size_t first = content_.corners.size();
+    for (std::string_view word = next_word(line); !word.empty() && word.front() != '#'; word = next_word(line))
+      content_.corners.push_back(parse_corner(word));
+    const std::size_t count = content_.corners.size() - first;
+    if (count < 3) {
+      note(short_faces_);
+      content_.corners.resize(first);
+      return;
+    }
+    content_.faces.push_back(
+        {first, static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(line_), object_, group_, material_});
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  Scene& scene_;
+  ObjContent content_;
+  std::size_t line_ = 0;
+  bool at_end_ = false;
+  std::uint32_t object_ = 0, group_ = 0, material_ = 0;
+  Oddity short_faces_, bad_normals_, bad_colors_;
+  std::set<std::string> losses_;
+};
+
+void check_indices(const ObjContent& content, const std::string& file) {
+  const auto check = [&](const Face& face, Index index, std::size_t size, const char* what) {
+    if (index != k_none && index >= size)
+      throw InvalidInput(
+          fmt::format("{}: line {}: {} {} of {} does not exist", file, face.line, what, std::size_t{index} + 1, size));
+  };
+  for (const Face& face : content.faces)
+    for (std::size_t i = face.first_corner; i < face.first_corner + face.corners; ++i) {
+      check(face, content.corners[i].position, content.positions.size(), "vertex");
+      check(face, content.corners[i].uv, content.uv.size(), "texture vertex");
+      check(face, content.corners[i].normal, content.normals.size(), "normal");
+    }
+}
+
+/// Materials of the libraries by name; an unknown name becomes a plain material.
+class MaterialTable {
+ public:
+  MaterialTable(const ObjContent& content, const std::filesystem::path& folder, Scene& scene) : scene_(scene) {
+    for (const std::string& library : content.libraries) read_library(library, folder);
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) by_name_.try_emplace(scene.materials[i].name, i);
+  }
+
+  std::uint32_t number(const std::string& name) {
+    const auto found = by_name_.find(name);
+    if (found != by_name_.end()) return found->second;
+    if (!name.empty()) scene_.warnings.push_back("material '" + name + "' is not defined");
+    Material material;
+    material.name = name.empty() ? "default" : name;
+    scene_.materials.push_back(std::move(material));
+    return by_name_[name] = static_cast<std::uint32_t>(scene_.materials.size() - 1);
+  }
+
+ private:
+  /// The whole rest of the line is a name with spaces, or else a list of names.
+  void read_library(const std::string& names, const std::filesystem::path& folder) {
+    if (std::filesystem::is_regular_file(folder / names)) return read_mtl(folder / names, scene_);
+    std::string_view rest = names;
+    for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest)) {
+      if (std::filesystem::is_regular_file(folder / name))
+        read_mtl(folder / name, scene_);
+      else
+        scene_.warnings.push_back("material library '" + std::string(name) + "' is missing");
+    }
+  }
+
+  Scene& scene_;
+  std::map<std::string, std::uint32_t> by_name_;
+};
+
+/// Which of a file list's entries a part uses, renumbered in their order.
+class Renumbering {
+ public:
+  explicit Renumbering(std::size_t size) : numbers_(size, k_none) {}
+
+  void use(Index index) {
+    if (numbers_[index] != k_none) return;
+    numbers_[index] = 0;
+    used_.push_back(index);
+  }
+
+  template <class T>
+  std::vector<T> finish(const std::vector<T>& list) {
+    std::sort(used_.begin(), used_.end());
+    std::vector<T> result;
+    result.reserve(used_.size());
+    for (const Index index : used_) {
+      numbers_[index] = static_cast<Index>(result.size());
+      result.push_back(list[index]);
+    }
+    return result;
+  }
+
+  Index operator[](Index index) const { return numbers_[index]; }
+
+  void clear() {
+    for (const Index index : used_) numbers_[index] = k_none;
+    used_.clear();
+  }
+
+ private:
+  std::vector<Index> numbers_, used_;
+};
+
+class PartAssembler {
+ public:
+  PartAssembler(const ObjContent& content, const std::string& file, double unit)
+      : content_(content),
+        file_(file),
+        unit_(unit),
+        positions_(content.positions.size()),
+        uv_(content.uv.size()),
+        normals_(content.normals.size()) {}
+
+  /// @param slots  the part's slot of every material number of the content.
+  Part assemble(const std::vector<const Face*>& faces, const std::map<std::uint32_t, std::uint32_t>& slots) {
+    Part part;
+    TriangleMesh& mesh = part.mesh;
+    collect(faces, mesh);
+    bool several_groups = false, several_slots = false;
+    for (const Face* face : faces) {
+      several_groups |= face->group != faces.front()->group;
+      several_slots |= face->material != faces.front()->material;
+      append_face(*face, mesh);
+      mesh.face.resize(mesh.triangles.size(), face->group);
+      mesh.material.resize(mesh.triangles.size(), slots.at(face->material));
+    }
+    if (!several_groups) mesh.face.clear();
+    if (!several_slots) mesh.material.clear();
+    if (!content_.colors.empty()) mesh.colors.indices = mesh.triangles;
+    positions_.clear();
+    uv_.clear();
+    normals_.clear();
+    return part;
+  }
+
+ private:
+  /// Fills the value lists. Corners without uv or normal use a neutral value behind the others.
+  void collect(const std::vector<const Face*>& faces, TriangleMesh& mesh) {
+    has_uv_ = has_normals_ = false;
+    bool lacks_uv = false, lacks_normals = false;
+    for (const Face* face : faces)
+      for (std::size_t i = face->first_corner; i < face->first_corner + face->corners; ++i) {
+        const Corner& corner = content_.corners[i];
+        positions_.use(corner.position);
+        (corner.uv == k_none ? lacks_uv : has_uv_) = true;
+        (corner.normal == k_none ? lacks_normals : has_normals_) = true;
+        if (corner.uv != k_none) uv_.use(corner.uv);
+        if (corner.normal != k_none) normals_.use(corner.normal);
+      }
+    mesh.positions = positions_.finish(content_.positions);
+    for (Vec3& position : mesh.positions) position = unit_ * position;
+    if (!content_.colors.empty()) {
+      mesh.colors.values = positions_.finish(content_.colors);
+    }
+    mesh.uv.values = uv_.finish(content_.uv);
+    mesh.normals.values = normals_.finish(content_.normals);
+    no_uv_ = static_cast<Index>(mesh.uv.values.size());
+    no_normal_ = static_cast<Index>(mesh.normals.values.size());
+    if (has_uv_ && lacks_uv) mesh.uv.values.emplace_back();
+    if (has_normals_ && lacks_normals) mesh.normals.values.emplace_back();
+  }
+
+  void append_face(const Face& face, TriangleMesh& mesh) {
+    points_.clear();
+    for (std::size_t i = 0; i < face.corners; ++i)
+      points_.push_back(content_.positions[content_.corners[face.first_corner + i].position]);
+    for (const auto& triangle : cut(face)) {
+      Triangle positions{}, uv{}, normals{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Corner& corner = content_.corners[face.first_corner + triangle[k]];
+        positions[k] = positions_[corner.position];
+        uv[k] = corner.uv == k_none ? no_uv_ : uv_[corner.uv];
+        normals[k] = corner.normal == k_none ? no_normal_ : normals_[corner.normal];
+      }
+      mesh.triangles.push_back(positions);
+      if (has_uv_) mesh.uv.indices.push_back(uv);
+      if (has_normals_) mesh.normals.indices.push_back(normals);
+    }
+  }
+
+  std::vector<std::array<std::size_t, 3>> cut(const Face& face) const {
+    try {
+      return triangulate_polygon(points_);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(fmt::format("{}: line {}: {}", file_, face.line, error.what()));
+    }
+  }
+
+  const ObjContent& content_;
+  const std::string& file_;
+  double unit_;
+  Renumbering positions_, uv_, normals_;
+  bool has_uv_ = false, has_normals_ = false;
+  Index no_uv_ = 0, no_normal_ = 0;
+  std::vector<Vec3> points_;
+};
+
+/// Faces by object, or by group in a file without objects, in the order of first use.
+void assemble_parts(ObjContent content, const std::filesystem::path& path, const std::string& file, double unit,
+                    Scene& scene) {
+  content.colors.resize(content.colors.empty() ? 0 : content.positions.size());
+  const bool by_object = content.objects.names().size() > 1;
+  const auto& names = by_object ? content.objects.names() : content.groups.names();
+  std::vector<std::vector<const Face*>> faces(names.size());
+  for (const Face& face : content.faces) faces[by_object ? face.object : face.group].push_back(&face);
+
+  MaterialTable materials(content, path.parent_path(), scene);
+  const bool has_materials = content.materials.names().size() > 1;
+  PartAssembler assembler(content, file, unit);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (faces[i].empty()) continue;
+    std::map<std::uint32_t, std::uint32_t> slots;
+    std::vector<std::uint32_t> part_materials;
+    for (const Face* face : faces[i]) {
+      const auto [slot, is_new] = slots.try_emplace(face->material, static_cast<std::uint32_t>(slots.size()));
+      if (is_new && has_materials)
+        part_materials.push_back(materials.number(content.materials.names()[face->material]));
+    }
+    Part part = assembler.assemble(faces[i], slots);
+    part.name = names[i];
+    part.materials = std::move(part_materials);
+    scene.parts.push_back(std::move(part));
+  }
+}
+
+}  // namespace
+
+Scene read_obj(const std::filesystem::path& path, const ReadOptions& options) {
+  const std::string file = path.string();
+  Scene scene = unitless_scene("OBJ", options, UpAxis::y);
+  const std::string text = read_file(path);
+  if (text.empty()) throw InvalidInput(file + ": is empty");
+  ObjContent content = ObjParser(text, file, scene).parse();
+  if (content.positions.empty()) throw InvalidInput(file + ": holds no vertices; is it an OBJ file?");
+  check_indices(content, file);
+  assemble_parts(std::move(content), path, file, options.millimetres_per_unit, scene);
+  add_part_nodes(scene, path.stem().string());
+  return scene;
+}
+
+}  // namespace papilla

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/scene_file.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "papilla/core/error.hpp"
+#include "papilla/io/cad_reader.hpp"
+#include "papilla/io/glb_writer.hpp"
+#include "papilla/io/gltf_reader.hpp"
+#include "papilla/io/obj_reader.hpp"
+#include "papilla/io/obj_writer.hpp"
+#include "papilla/io/read_file.hpp"
+#include "papilla/io/stl_reader.hpp"
+#include "papilla/io/stl_writer.hpp"
+
+namespace papilla {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c; });
+  return extension;
+}
+
+Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+  CadReadOptions cad;
+  cad.chord_mm = options.chord_mm;
+  cad.angle_deg = options.angle_deg;
+  cad.brep_mm_per_unit = options.millimetres_per_unit;
+  CadReport report;
+  Scene scene = read_cad(path, cad, &report, progress);
+  scene.up = options.up.value_or(scene.up);
+  for (const CadFaceNote& note : report.failed_faces)
+    scene.losses.push_back("part '" + note.part + "', CAD face " + std::to_string(note.face) + ": " + note.reason);
+  return scene;
+}
+
+Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".stl") return read_stl(path, options);
+  if (extension == ".obj") return read_obj(path, options);
+  if (extension == ".glb" || extension == ".gltf") {
+    Scene scene = read_gltf(path);
+    scene.up = options.up.value_or(scene.up);
+    return scene;
+  }
+  if (is_cad_extension(path)) return read_cad_scene(path, options, progress);
+  throw InvalidInput(path.string() + ": the extension '" + extension +
+                     "' is unknown; known are .step .stp .p21 .iges .igs .brep .brp .stl .obj .glb .gltf");
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+  require_file(path);
+  if (progress) progress("read", 0);
+  Scene scene = read_by_extension(path, options, progress);
+  if (progress) progress("read", 1);
+  return scene;
+}
+
+void write_scene(const Scene& scene, const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".glb") return write_glb(scene, path);
+  if (extension == ".obj") return write_obj(scene, path);
+  if (extension == ".stl") return write_stl(scene, path);
+  throw InvalidInput(path.string() + ": the extension '" + extension + "' can't be written; .glb .obj .stl can");
+}
+
+}  // namespace papilla

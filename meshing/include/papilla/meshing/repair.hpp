@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "papilla/core/progress.hpp"
+#include "papilla/meshing/triangle_mesh.hpp"
+
+namespace papilla {
+
+/// Options of repair(). The defaults are relative to the part, so they serve any size.
+struct RepairOptions {
+  std::optional<double> weld_mm;  ///< Weld tolerance; not given: 1e-6 of the bounding diagonal.
+  std::size_t max_passes = 8;     ///< At least 1.
+  Progress progress;              ///< Told the fraction done; may be empty.
+};
+
+/// What each operation did, summed over the passes.
+struct RepairCounts {
+  std::size_t welded_equal = 0;      ///< Positions that another one equalled.
+  std::size_t welded_near = 0;       ///< Vertices moved onto another one to close a crack.
+  std::size_t repeated_corners = 0;  ///< Triangles dropped because they named a vertex twice.
+  std::size_t collapsed_needles = 0;
+  std::size_t flipped_caps = 0;
+  std::size_t duplicates = 0;      ///< Triangles dropped because an earlier one ran the same way.
+  std::size_t opposites = 0;       ///< Back sides of double sheets dropped.
+  std::size_t walls = 0;           ///< Triangles dropped between touching solids.
+  std::size_t t_junctions = 0;     ///< Vertices inserted into boundary edges.
+  std::size_t border_slivers = 0;  ///< Border triangles dropped because their apex lay on their boundary edge.
+  std::size_t reversed = 0;        ///< Triangles turned over.
+  std::size_t parted_edges = 0;    ///< Non-manifold edges and cuts through non-orientable surfaces.
+  std::size_t added_vertices = 0;  ///< Copies made to part them.
+  friend bool operator==(const RepairCounts&, const RepairCounts&) = default;
+};
+
+struct RepairResult {
+  TriangleMesh mesh;
+  RepairCounts counts;
+  double weld_tolerance_mm = 0;
+  double max_deviation_mm = 0;  ///< Upper bound: the sum over all operations of the furthest each moved the surface.
+  std::size_t passes = 0;
+  bool settled = false;  ///< The last pass found nothing left to do. Otherwise max_passes ended the work.
+};
+
+/// Makes a clean, oriented, manifold mesh of a triangle soup: welds, drops duplicates, removes degenerate triangles,
+/// splits T-junctions, orients, parts what is not manifold, and repeats until nothing changes.
+///
+/// Guarantees when `settled`: no degenerate or duplicate triangle, no edge of more than two triangles, no neighbours
+/// running opposite senses, no T-junction, every vertex with one fan of triangles (indices; sheets that touch in a
+/// point keep equal positions there); repairing the result again changes nothing. Closed input stays closed unless it
+/// was a double sheet. Positions, normals, uv, colours, materials and CAD faces are carried through.
+/// Holes are not filled.
+///
+/// Cost: O(n log n), a few linear passes for CAD soups; about 250 bytes per triangle. Deterministic.
+/// @throws InvalidInput when an index is out of range, a position is not finite, `weld_mm` is negative or not finite,
+///         or max_passes is 0.
+RepairResult repair(TriangleMesh mesh, const RepairOptions& options = {});
+
+}  // namespace papilla

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "papilla/meshing/triangle_mesh.hpp"
+
+namespace papilla {
+
+/// Options of weld(). The defaults close the noise of single-precision coordinates at any size of part.
+struct WeldOptions {
+  double relative_tolerance = 1e-6;    ///< Of the part's bounding diagonal; used when `tolerance_mm` is not given.
+  std::optional<double> tolerance_mm;  ///< Overrides the relative tolerance.
+  double feature_fraction = 0.45;  ///< No vertex moves further than this fraction of its shortest edge, in [0, 0.5):
+                                   ///< below 0.5 no real edge can collapse. Edges of degenerate length don't count.
+};
+
+struct WeldResult {
+  TriangleMesh mesh;
+  std::size_t merged_equal = 0;  ///< Positions that another one equalled.
+  std::size_t merged_near = 0;   ///< Vertices moved onto another one within the tolerance.
+  double tolerance_mm = 0;       ///< The tolerance that was used.
+  double max_deviation_mm = 0;   ///< The furthest that a vertex moved, at most `tolerance_mm`.
+};
+
+/// Makes positions that are exactly equal one vertex. Triangles, their order and all attributes stay; positions that
+/// no triangle names are dropped. O(n) expected; deterministic.
+/// @throws InvalidInput when an index is out of range or a position is not finite.
+WeldResult weld_equal(TriangleMesh mesh);
+
+/// weld_equal(), then moves every boundary vertex onto the nearest earlier boundary vertex p with
+/// |v - p| <= min(tolerance, feature_fraction · shortest edge at v, the same at p): cracks along shared borders close,
+/// while inner vertices, thin walls and short real edges stay. Triangles that repeat a corner afterwards are dropped.
+/// Cost: O(n) plus O(b log b) for b boundary vertices. Deterministic: the first vertex in the mesh's order stays.
+/// @throws InvalidInput as weld_equal(), and when an option is negative, not finite or feature_fraction >= 0.5.
+WeldResult weld(TriangleMesh mesh, const WeldOptions& options = {});
+
+}  // namespace papilla

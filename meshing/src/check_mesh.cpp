@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "check_mesh.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "mesh_attributes.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla::detail {
+namespace {
+
+[[noreturn]] void fail(std::string_view function, std::string_view what, std::size_t place) {
+  throw InvalidInput(std::string(function) + ": " + std::string(what) + "[" + std::to_string(place) + "]");
+}
+
+void check_indices(const std::vector<Triangle>& triangles, std::size_t limit, std::string_view function,
+                   std::string_view what, bool may_lack) {
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const Index v : triangles[t])
+      if (v >= limit && !(may_lack && v == k_no_value))
+        fail(function, std::string(what) + " index " + std::to_string(v) + " out of range at triangle", t);
+}
+
+/// Keeps volumes and squared areas finite.
+bool is_usable(const Vec3& p) noexcept {
+  constexpr double k_largest = 1e100;
+  return std::abs(p.x) <= k_largest && std::abs(p.y) <= k_largest && std::abs(p.z) <= k_largest;
+}
+
+}  // namespace
+
+void check_mesh(const TriangleMesh& mesh, std::string_view function) {
+  const std::size_t count = mesh.triangles.size();
+  constexpr std::size_t k_limit = std::numeric_limits<Index>::max();
+  if (count > k_limit / 3 - 1 || mesh.positions.size() >= k_limit) fail(function, "too many triangles", count);
+  check_indices(mesh.triangles, mesh.positions.size(), function, "position", false);
+  for (std::size_t t = 0; t < count; ++t)
+    for (const Index v : mesh.triangles[t])
+      if (!is_usable(mesh.positions[v])) fail(function, "coordinate is not finite or beyond 1e100 at positions", v);
+  for_each_corner_attribute(mesh, [&](const auto& attribute) {
+    if (attribute.empty()) return;
+    if (attribute.indices.size() != count)
+      fail(function, "attribute count differs from triangles", attribute.indices.size());
+    check_indices(attribute.indices, attribute.values.size(), function, "attribute", true);
+  });
+  for_each_label(mesh, [&](const auto& labels) {
+    if (!labels.empty() && labels.size() != count) fail(function, "label count differs from triangles", labels.size());
+  });
+}
+
+}  // namespace papilla::detail

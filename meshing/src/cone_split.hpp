@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "papilla/meshing/segmentation.hpp"
+#include "surface.hpp"
+
+namespace papilla::detail {
+
+/// Per half-edge: is it a border, or bent by more than the feature angle?
+std::vector<std::uint8_t> feature_halfedges(const Surface& surface, double feature_angle_deg);
+
+/// Labels of the pieces that half-edges which are no feature connect; `count` tells how many.
+std::vector<std::uint32_t> feature_patches(const Surface& surface, const std::vector<std::uint8_t>& feature,
+                                           std::uint32_t& count);
+
+/// Splits patches until each keeps to a cone of normals, as segment_charts() tells. Returns the number of labels.
+std::uint32_t split_by_cones(const Surface& surface, const std::vector<std::uint8_t>& feature,
+                             const SegmentationOptions& options, std::vector<std::uint32_t>& labels);
+
+}  // namespace papilla::detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "edge_table.hpp"
+
+namespace papilla::detail {
+
+/// A boundary vertex that lies inside another boundary edge.
+struct TJunction {
+  Index halfedge = 0;  ///< The boundary edge, running as in its triangle.
+  Index vertex = 0;
+  double s = 0;  ///< Where on the half-edge, in (0, 1).
+};
+
+/// All T-junctions: boundary vertices (of edges with one half-edge) nearer than `tolerance` to another boundary edge
+/// and further than twice that from its ends. Sorted by (half-edge, s, vertex). Each vertex must have its own position.
+/// O(n log n) for n boundary edges whose neighbourhoods are bounded; deterministic, parallel.
+std::vector<TJunction> find_t_junctions(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                                        const EdgeTable& edges, double tolerance);
+
+}  // namespace papilla::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "edge_table.hpp"
+
+namespace papilla::detail {
+
+/// What the segmentation asks of a mesh, computed once.
+struct Surface {
+  explicit Surface(const TriangleMesh& mesh);
+
+  const std::vector<Vec3>& positions;
+  const std::vector<Triangle>& triangles;
+  EdgeTable edges;
+  std::vector<Index> opposite;  ///< Per half-edge; k_none at borders.
+  std::vector<Vec3> normal;     ///< Per triangle, of length one, or zero when it has no area.
+  std::vector<double> area;
+
+  std::size_t size() const noexcept { return triangles.size(); }
+  Vec3 area_vector(Index t) const noexcept { return area[t] * normal[t]; }
+  double length(Index h) const noexcept {
+    return norm(positions[to_vertex(triangles, h)] - positions[from_vertex(triangles, h)]);
+  }
+};
+
+/// Renumbers labels 0, 1, ... in the order of their first triangles; returns how many there are.
+std::uint32_t renumber(std::vector<std::uint32_t>& labels);
+
+/// Gives every connected piece of every label its own number, in the order of first triangles; returns how many.
+std::uint32_t split_into_components(std::span<const Index> opposite, std::vector<std::uint32_t>& labels);
+
+}  // namespace papilla::detail

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/visibility.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "check_distance_input.hpp"
+#include "convex_piece.hpp"
+#include "papilla/core/error.hpp"
+#include "triangle_bvh.hpp"
+
+namespace papilla {
+namespace {
+
+Vec3 transformed(const std::array<double, 16>& m, const Vec3& p) noexcept {
+  return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
+          m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
+}
+
+/// The parts' triangles in the scene's space, one part after the other.
+struct WorldScene {
+  std::vector<TriangleMesh> parts;
+  detail::Bounds bounds;
+};
+
+WorldScene place(std::span<const PlacedMesh> parts, const std::string& function) {
+  WorldScene scene;
+  scene.parts.resize(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string name = function + ": parts[" + std::to_string(i) + "]";
+    if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
+    detail::Bounds own;
+    detail::check_distance_input(*parts[i].mesh, name + ".mesh", own);
+    TriangleMesh& world = scene.parts[i];
+    world.triangles = parts[i].mesh->triangles;
+    for (const Vec3& p : parts[i].mesh->positions) world.positions.push_back(transformed(parts[i].world, p));
+    detail::check_distance_input(world, name + ", placed", scene.bounds);
+  }
+  return scene;
+}
+
+void check(const Volume& volume, const std::string& function) {
+  if (const auto* box = std::get_if<BoxVolume>(&volume)) {
+    const bool ordered = box->low.x <= box->high.x && box->low.y <= box->high.y && box->low.z <= box->high.z;
+    if (!ordered || !is_finite(box->low) || !is_finite(box->high))
+      throw InvalidInput(function + ": the box is not finite or its low corner exceeds its high one");
+  } else {
+    const auto& sphere = std::get<SphereVolume>(volume);
+    if (!is_finite(sphere.centre) || !std::isfinite(sphere.radius_mm) || sphere.radius_mm < 0)
+      throw InvalidInput(function + ": the sphere is not finite or has a negative radius");
+  }
+}
+
+/// Point i of a low-discrepancy sequence in [0, 1)^d: multiples of the powers of 1 / phi_d, phi_d the root of
+/// x^(d + 1) = x + 1 [Roberts 2018].
+double spread(std::uint64_t i, double step) noexcept {
+  const double x = 0.5 + step * static_cast<double>(i % (std::uint64_t{1} << 40));
+  return x - std::floor(x);
+}
+constexpr double k_phi2 = 1.32471795724474602596, k_phi3 = 1.22074408460575947536;
+
+Vec3 eye(const Volume& volume, std::uint64_t i) noexcept {
+  const double u = spread(i, 1 / k_phi3), v = spread(i, 1 / (k_phi3 * k_phi3)),
+               w = spread(i, 1 / (k_phi3 * k_phi3 * k_phi3));
+  if (const auto* box = std::get_if<BoxVolume>(&volume)) {
+    const Vec3 d = box->high - box->low;
+    return box->low + Vec3{u * d.x, v * d.y, w * d.z};
+  }
+  const auto& sphere = std::get<SphereVolume>(volume);
+  const double z = 2 * u - 1, flat = std::sqrt(std::max(0.0, 1 - z * z)), angle = 2 * 3.14159265358979323846 * v;
+  return sphere.centre + (sphere.radius_mm * std::cbrt(w)) * Vec3{flat * std::cos(angle), flat * std::sin(angle), z};
+}
+
+/// Points spread evenly over a surface's area.
+class AreaSampler {
+ public:
+  explicit AreaSampler(const TriangleMesh& mesh) : mesh_(mesh) {
+    double sum = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      sum += norm(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
+      cumulative_.push_back(sum);
+    }
+  }
+  bool empty() const noexcept { return cumulative_.empty() || !(cumulative_.back() > 0); }
+
+  struct Sample {
+    std::size_t triangle;
+    Vec3 point;
+  };
+  Sample operator()(std::uint64_t i, std::uint64_t count) const {
+    const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * cumulative_.back();
+    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at);
+    const auto t = std::min(static_cast<std::size_t>(found - cumulative_.begin()), cumulative_.size() - 1);
+    double u = spread(i, 1 / k_phi2), v = spread(i, 1 / (k_phi2 * k_phi2));
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
+    const Vec3 a = mesh_.corner(t, 0);
+    return {t, a + u * (mesh_.corner(t, 1) - a) + v * (mesh_.corner(t, 2) - a)};
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<double> cumulative_;  ///< Twice the area of the triangles up to each.
+};
+
+/// Wilson's score interval for `hits` of `count` at 95 %.
+void set_interval(PartVisibility& part) noexcept {
+  constexpr double z = 1.959964;
+  const auto n = static_cast<double>(part.samples);
+  if (part.samples == 0) {
+    part.high = 1;
+    return;
+  }
+  const double p = static_cast<double>(part.visible_samples) / n, z2 = z * z / n;
+  const double middle = (p + z2 / 2) / (1 + z2), half = z / (1 + z2) * std::sqrt(p * (1 - p) / n + z2 / (4 * n));
+  part.visible_fraction = p;
+  part.low = part.visible_samples == 0 ? 0 : std::max(0.0, middle - half);
+  part.high = part.visible_samples == part.samples ? 1 : std::min(1.0, middle + half);
+}
+
+/// What of the piece lies behind a plane or on it.
+detail::ConvexPiece not_ahead(const detail::ConvexPiece& piece, const Vec3& origin, const Vec3& normal) noexcept {
+  const auto halves = piece.cut(origin, normal, 0);
+  if (halves.behind.size() > 0) return halves.behind;
+  detail::ConvexPiece touching;
+  for (const Vec3& p : piece.corners())
+    if (dot(p - origin, normal) <= 0) touching.add(p);
+  return touching;
+}
+
+bool touches(detail::ConvexPiece piece, const BoxVolume& box) noexcept {
+  for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+    for (const auto& [corner, outwards] : {std::pair{box.low, -n}, std::pair{box.high, n}}) {
+      piece = not_ahead(piece, corner, outwards);
+      if (piece.size() == 0) return false;
+    }
+  return true;
+}
+
+bool touches(const TriangleMesh& mesh, std::size_t t, const Volume& volume) noexcept {
+  if (const auto* box = std::get_if<BoxVolume>(&volume))
+    return touches(detail::ConvexPiece(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)), *box);
+  const auto& sphere = std::get<SphereVolume>(volume);
+  const detail::TriangleFrame frame(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  return detail::squared_distance(sphere.centre, frame) <= sphere.radius_mm * sphere.radius_mm;
+}
+
+}  // namespace
+
+std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts, const Volume& eyes,
+                                               const VisibilityOptions& options) {
+  check(eyes, "measure_visibility");
+  if (options.samples_per_part == 0 || options.eyes_per_sample == 0)
+    throw InvalidInput("measure_visibility: samples_per_part and eyes_per_sample must be positive");
+  const WorldScene scene = place(parts, "measure_visibility");
+  TriangleMesh opaque;
+  std::vector<Index> first(parts.size(), k_no_value);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!parts[i].opaque) continue;
+    first[i] = static_cast<Index>(opaque.triangles.size());
+    const auto offset = static_cast<Index>(opaque.positions.size());
+    opaque.positions.insert(opaque.positions.end(), scene.parts[i].positions.begin(), scene.parts[i].positions.end());
+    for (const Triangle& t : scene.parts[i].triangles)
+      opaque.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
+  const detail::TriangleBvh bvh(opaque.positions, opaque.triangles);
+  const double start = 1e-6 * scene.bounds.diagonal();
+
+  std::vector<PartVisibility> result(parts.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    const AreaSampler sampler(scene.parts[i]);
+    if (sampler.empty()) return;
+    const std::uint64_t count = options.samples_per_part;
+    std::vector<std::uint8_t> seen(count, 0);
+    oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t s) {
+      const auto sample = sampler(s, count);
+      const Index own = first[i] == k_no_value ? k_no_value : first[i] + static_cast<Index>(sample.triangle);
+      for (std::uint64_t e = 0; e < options.eyes_per_sample && !seen[s]; ++e) {
+        const Vec3 to = eye(eyes, s * options.eyes_per_sample + e), way = to - sample.point;
+        const double length = norm(way);
+        seen[s] = length <= start || !bvh.blocks(sample.point + (start / length) * way, to, own);
+      }
+    });
+    result[i].samples = count;
+    result[i].visible_samples = static_cast<std::uint64_t>(std::count(seen.begin(), seen.end(), 1));
+  });
+  for (PartVisibility& part : result) set_interval(part);
+  return result;
+}
+
+std::vector<PartReach> measure_reach(std::span<const PlacedMesh> parts, const Volume& reach) {
+  check(reach, "measure_reach");
+  const WorldScene scene = place(parts, "measure_reach");
+  std::vector<PartReach> result(parts.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    const TriangleMesh& mesh = scene.parts[i];
+    result[i].triangles = mesh.triangles.size();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) result[i].triangles_inside += touches(mesh, t, reach);
+  });
+  return result;
+}
+
+}  // namespace papilla

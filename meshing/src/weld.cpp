@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/weld.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "check_mesh.hpp"
+#include "edge_table.hpp"
+#include "exact_positions.hpp"
+#include "papilla/core/error.hpp"
+#include "point_tree.hpp"
+#include "triangle_shape.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace detail;
+
+void check_options(const WeldOptions& options) {
+  const auto require = [](bool valid, const char* name, double value) {
+    if (!valid) throw InvalidInput(std::string("weld: ") + name + " " + std::to_string(value) + " is out of range");
+  };
+  const double tolerance = options.tolerance_mm.value_or(0);
+  require(tolerance >= 0 && std::isfinite(tolerance), "tolerance_mm", tolerance);
+  require(options.relative_tolerance >= 0 && options.relative_tolerance < 1, "relative_tolerance",
+          options.relative_tolerance);
+  require(options.feature_fraction >= 0 && options.feature_fraction < 0.5, "feature_fraction",
+          options.feature_fraction);
+}
+
+std::size_t merge_equal(TriangleMesh& mesh) {
+  const ExactPositions exact = exact_positions(mesh);
+  std::vector<Vec3> positions;
+  positions.reserve(exact.first.size());
+  for (const Index v : exact.first) positions.push_back(mesh.positions[v]);
+  const std::size_t merged = mesh.positions.size() - positions.size();
+  mesh.positions = std::move(positions);
+  for (Triangle& t : mesh.triangles)
+    for (Index& v : t) v = exact.of_position[v];
+  return merged;
+}
+
+/// How far each boundary vertex may move; negative for inner vertices.
+std::vector<double> reach_of_vertices(const TriangleMesh& mesh, double tolerance, const WeldOptions& options) {
+  const EdgeTable edges(mesh.triangles, mesh.positions.size());
+  std::vector<double> reach(mesh.positions.size(), -1);
+  bool any = false;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.halfedges(e);
+    if (h.size() != 1) continue;
+    any = true;
+    reach[from_vertex(mesh.triangles, h.front())] = reach[to_vertex(mesh.triangles, h.front())] = tolerance;
+  }
+  if (!any) return {};
+  const double shortest_feature = k_degenerate_altitude * bounding_diagonal(mesh);
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = t[k], b = t[next_corner(k)];
+      if (reach[a] < 0 && reach[b] < 0) continue;
+      const double length = norm(mesh.positions[b] - mesh.positions[a]);
+      if (length <= shortest_feature) continue;
+      reach[a] = std::min(reach[a], options.feature_fraction * length);
+      reach[b] = std::min(reach[b], options.feature_fraction * length);
+    }
+  return reach;
+}
+
+/// The vertex each vertex moves onto; itself when it stays.
+std::vector<Index> nearest_earlier(const std::vector<Vec3>& positions, const std::vector<double>& reach) {
+  std::vector<Index> members;
+  for (Index v = 0; v < reach.size(); ++v)
+    if (reach[v] >= 0) members.push_back(v);
+  const PointTree tree(positions, members);
+  std::vector<Index> target(positions.size());
+  std::iota(target.begin(), target.end(), Index{0});
+  for (const Index v : members) {
+    double nearest = std::numeric_limits<double>::infinity();
+    tree.near_point(positions[v], reach[v], [&](Index p, const Vec3& place) {
+      const double distance = norm(place - positions[v]);
+      if (p >= v || distance > reach[v] || distance > reach[p] || target[p] != p) return;
+      if (distance < nearest || (distance == nearest && p < target[v])) {
+        nearest = distance;
+        target[v] = p;
+      }
+    });
+  }
+  return target;
+}
+
+}  // namespace
+
+WeldResult weld_equal(TriangleMesh mesh) {
+  check_mesh(mesh, "weld_equal");
+  WeldResult result{std::move(mesh), 0, 0, 0, 0};
+  result.merged_equal = merge_equal(result.mesh);
+  return result;
+}
+
+WeldResult weld(TriangleMesh mesh, const WeldOptions& options) {
+  check_options(options);
+  WeldResult result = weld_equal(std::move(mesh));
+  TriangleMesh& welded = result.mesh;
+  result.tolerance_mm = options.tolerance_mm.value_or(options.relative_tolerance * bounding_diagonal(welded));
+  if (!(result.tolerance_mm > 0)) return result;
+
+  const std::vector<double> reach = reach_of_vertices(welded, result.tolerance_mm, options);
+  if (reach.empty()) return result;
+  const std::vector<Index> target = nearest_earlier(welded.positions, reach);
+  for (Index v = 0; v < target.size(); ++v) {
+    if (target[v] == v) continue;
+    ++result.merged_near;
+    result.max_deviation_mm =
+        std::max(result.max_deviation_mm, norm(welded.positions[v] - welded.positions[target[v]]));
+  }
+  if (result.merged_near == 0) return result;
+  for (Triangle& t : welded.triangles)
+    for (Index& v : t) v = target[v];
+  drop_repeated_corners(welded);
+  drop_unused(welded);
+  return result;
+}
+
+}  // namespace papilla

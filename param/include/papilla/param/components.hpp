@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "papilla/meshing/chart_set.hpp"
+#include "papilla/meshing/triangle_mesh.hpp"
+
+namespace papilla {
+
+/// Every connected piece of the mesh as one chart, numbered by its first triangle. Triangles are connected over edges
+/// of exactly two triangles that run it in opposite directions. O(n).
+/// @throws InvalidInput when a position is not finite or an index is out of range.
+ChartSet components_as_charts(const TriangleMesh& mesh);
+
+}  // namespace papilla

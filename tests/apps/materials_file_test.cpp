@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/materials_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MaterialsFileTest : public testing::Test {
+ protected:
+  MaterialsFileTest() { fs::create_directories(folder_); }
+  ~MaterialsFileTest() override { fs::remove_all(folder_); }
+
+  MaterialsFile read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return read_materials_file(path_);
+  }
+  /// The message that reading `text` ends with.
+  std::string complaint(const std::string& text) {
+    try {
+      read(text);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("papilla-materials-" + std::to_string(::getpid()));
+  const fs::path path_ = folder_ / "materials.json";
+};
+
+TEST_F(MaterialsFileTest, ReadsTheDocumentedExample) {
+  const MaterialsFile file = read(R"({"materials": {
+      "grain": {"texture": "grain.png", "size_mm": [40, 30], "stiffness": 900, "damping": 0.4, "staticFriction": 0.45,
+                "dynamicFriction": 0.35, "height": {"method": "auto", "depth_mm": 0.3, "scale": 2}, "unwrap": "auto"},
+      "chrome": {"stiffness": 2000}},
+    "assign": [{"part": "dash*", "material": "grain"}, {"cad_colour": "#20FFa0", "material": "grain"},
+               {"gltf_material": "Leather", "material": null}]})");
+  const MaterialRule& grain = file.materials.at("grain");
+  EXPECT_EQ(grain.texture, folder_ / "grain.png");
+  EXPECT_EQ(grain.size_mm[0], 40);
+  EXPECT_EQ(grain.size_mm[1], 30);
+  EXPECT_EQ(grain.stiffness, 900);
+  EXPECT_EQ(grain.height.depth_mm, 0.3);
+  EXPECT_EQ(grain.height.scale, 2);
+  EXPECT_TRUE(file.materials.at("chrome").texture.empty());
+  ASSERT_EQ(file.assign.size(), 3U);
+  EXPECT_EQ(file.assign[1].cad_colour, "#20ffa0");
+  EXPECT_TRUE(file.assign[2].material.empty());
+}
+
+TEST_F(MaterialsFileTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {
+  const MaterialsFile file = read(R"({"materials": {"a": {}, "b": {}, "c": {}}, "assign": [
+      {"part": "dash*", "cad_colour": "#000000", "material": "a"}, {"part": "dash_?", "material": "b"},
+      {"gltf_material": "Lea*", "material": "c"}]})");
+  EXPECT_EQ(match_rule(file, "dash_1", "#000000", "")->material, "a");
+  EXPECT_EQ(match_rule(file, "dash_1", "#ffffff", "")->material, "b");
+  EXPECT_EQ(match_rule(file, "dash_12", "#ffffff", "Leather")->material, "c");
+  EXPECT_EQ(match_rule(file, "seat", "#000000", "Wood"), nullptr);
+}
+
+TEST_F(MaterialsFileTest, NamesTheJsonPointerOfWhatIsWrong) {
+  EXPECT_NE(complaint(R"({"materials": {"a/b": {"stiffness": -3}}})").find("/materials/a~1b/stiffness"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"size_mm": [40]}}})").find("/materials/a/size_mm"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"textur": "x"}}})").find("unknown key 'textur'"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {}, "assign": [{"part": "x", "material": "a"}]})").find("/assign/0/material"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {}, "assign": [{"material": null}]})").find("/assign/0"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"height": {"method": "magic"}}}})").find("/materials/a/height/method"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"staticFriction": 0.2, "dynamicFriction": 0.3}}})").find("/materials/a"), std::string::npos);
+  EXPECT_NE(complaint(R"({"version": 2, "materials": {}})").find("/version"), std::string::npos);
+  EXPECT_NE(complaint("[1, 2").find("is no valid JSON"), std::string::npos);
+  EXPECT_NE(complaint("[]").find("must be an object"), std::string::npos);
+}
+
+TEST_F(MaterialsFileTest, AMissingFileOrAFolderIsAnIoError) {
+  EXPECT_THROW(read_materials_file(folder_ / "none.json"), IoError);
+  EXPECT_THROW(read_materials_file(folder_), IoError);
+}
+
+}  // namespace
+}  // namespace papilla::app

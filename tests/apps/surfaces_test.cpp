@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace papilla::app {
+namespace {
+
+/// A square of 10 mm whose uv runs over `units`.
+Part square(const std::string& name, double units) {
+  Part part;
+  part.name = name;
+  part.mesh.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  part.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  if (units > 0) {
+    part.mesh.uv.values = {{0, 0}, {units, 0}, {units, units}, {0, units}};
+    part.mesh.uv.indices = part.mesh.triangles;
+  }
+  return part;
+}
+
+MaterialsFile rules() {
+  MaterialsFile file;
+  file.materials["grain"].name = "grain";
+  file.materials["grain"].texture = "grain.png";
+  file.materials["hard"].name = "hard";
+  file.materials["hard"].stiffness = 2000;
+  AssignRule grain, hard;
+  grain.part = "dash*";
+  grain.material = "grain";
+  hard.part = "knob";
+  hard.material = "hard";
+  file.assign = {grain, hard};
+  return file;
+}
+
+TEST(Surfaces, LeaveOutWhatAPartDoesNotNeed) {
+  const MaterialsFile file = rules();
+  Scene scene;
+  scene.format = "STL";
+  scene.parts = {square("dash", 0), square("knob", 0), square("floor", 0)};
+  const auto surfaces = plan_surfaces(scene, file);
+  ASSERT_EQ(surfaces.size(), 3U);
+  EXPECT_TRUE(decision(surfaces[0].plan, Stage::unwrap).run);
+  EXPECT_FALSE(decision(surfaces[1].plan, Stage::unwrap).run);
+  EXPECT_TRUE(decision(surfaces[1].plan, Stage::tag).run);
+  for (const Decision& stage : surfaces[2].plan) EXPECT_FALSE(stage.run);
+}
+
+TEST(Surfaces, MeasureTheScaleOfUsableUv) {
+  const MaterialsFile file = rules();
+  Scene scene;
+  scene.parts = {square("dash", 0.25)};
+  const auto surfaces = plan_surfaces(scene, file);
+  EXPECT_FALSE(decision(surfaces[0].plan, Stage::unwrap).run);
+  EXPECT_DOUBLE_EQ(surfaces[0].uv_mm_per_unit, 40);
+}
+
+TEST(Surfaces, ReplaceUvThatIsCollapsedMirroredStretchedOrNotANumber) {
+  const MaterialsFile file = rules();
+  Scene scene;
+  scene.parts = {square("dash 1", 1), square("dash 2", 1), square("dash 3", 1), square("dash 4", 1)};
+  for (Vec2& uv : scene.parts[0].mesh.uv.values) uv.y = 0;
+  scene.parts[1].mesh.uv.values[3] = {1, 0};  // mirrors the second triangle
+  for (Vec2& uv : scene.parts[2].mesh.uv.values) uv.y *= 0.1;
+  scene.parts[3].mesh.uv.values[2].x = std::numeric_limits<double>::quiet_NaN();
+  for (const Surface& surface : plan_surfaces(scene, file))
+    EXPECT_TRUE(decision(surface.plan, Stage::unwrap).run) << surface.label << ": " << surface.uv_note;
+}
+
+TEST(Surfaces, APartWithTwoMaterialsHasTwoSurfaces) {
+  const MaterialsFile file = rules();
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[0].name = "a";
+  scene.materials[1].name = "b";
+  scene.parts = {square("dash", 0)};
+  scene.parts[0].materials = {1, 0};
+  scene.parts[0].mesh.material = {1, 0};
+  const auto surfaces = plan_surfaces(scene, file);
+  ASSERT_EQ(surfaces.size(), 2U);
+  EXPECT_EQ(surfaces[0].label, "dash/b");
+  EXPECT_EQ(surfaces[0].triangles, (std::vector<std::uint32_t>{1}));
+  EXPECT_EQ(surfaces[1].label, "dash/a");
+}
+
+TEST(Surfaces, ColoursRoundTripThroughSrgb) {
+  for (const std::string hex : {"#000000", "#ffffff", "#20a0c8", "#010203"}) EXPECT_EQ(hex_colour(linear_colour(hex)), hex);
+}
+
+}  // namespace
+}  // namespace papilla::app

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bench/bench_json.hpp"
+#include "papilla/texture/feature_matrix.hpp"
+#include "papilla/texture/probability_dimension.hpp"
+#include "papilla/texture/stein_surface.hpp"
+
+// The peers are the definitions, coded for the vector units of the machine the benchmark runs on.
+#if defined(__x86_64__)
+#define PAPILLA_FOR_EACH_CPU __attribute__((target_clones("avx2", "default")))
+#else
+#define PAPILLA_FOR_EACH_CPU
+#endif
+
+namespace papilla {
+namespace {
+
+std::vector<std::uint8_t> bytes_of(const GreyImage& image) {
+  std::vector<std::uint8_t> bytes;
+  for (const float grey : image.pixels)
+    bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * static_cast<double>(grey))));
+  return bytes;
+}
+
+PAPILLA_FOR_EACH_CPU
+std::int64_t squared_difference(const std::uint8_t* a, const std::uint8_t* b, int count) {
+  std::int32_t sum = 0;  // At most 2^15 · 255², below 2^31.
+  for (int i = 0; i < count; ++i) {
+    const int d = static_cast<int>(a[i]) - static_cast<int>(b[i]);
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Numerators of the feature matrix for dy ≥ 0, row by row.
+std::vector<std::int64_t> direct_feature_matrix(const std::vector<std::uint8_t>& bytes, int n) {
+  std::vector<std::int64_t> sums;
+  for (int dy = 0; dy <= n / 2; ++dy)
+    for (int dx = -(n / 2); dx <= n / 2; ++dx) {
+      std::int64_t sum = 0;
+      for (int y = 0; y + dy < n; ++y) {
+        const std::uint8_t* here = bytes.data() + y * n + std::max(0, -dx);
+        sum += squared_difference(here, here + dy * n + dx, n - std::abs(dx));
+      }
+      sums.push_back(sum);
+    }
+  return sums;
+}
+
+/// Adds to `points` of a row of centres whether the pixels at one offset lie within the cube.
+PAPILLA_FOR_EACH_CPU
+void add_points(const std::uint8_t* centres, const std::uint8_t* others, int count, int radius, std::uint16_t* points) {
+  for (int x = 0; x < count; ++x) {
+    const int d = static_cast<int>(centres[x]) - static_cast<int>(others[x]);
+    points[x] = static_cast<std::uint16_t>(points[x] + (d <= radius && -d <= radius ? 1 : 0));
+  }
+}
+
+std::vector<std::int64_t> direct_cubes(const std::vector<std::uint8_t>& bytes, int n, int side) {
+  const int r = (side - 1) / 2, count = n - 2 * r;
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(side * side + 1), 0);
+  std::vector<std::uint16_t> points(static_cast<std::size_t>(count));
+  for (int y = r; y < n - r; ++y) {
+    std::fill(points.begin(), points.end(), std::uint16_t{0});
+    const std::uint8_t* centres = bytes.data() + y * n + r;
+    for (int j = -r; j <= r; ++j)
+      for (int i = -r; i <= r; ++i) add_points(centres, centres + j * n + i, count, r, points.data());
+    for (const std::uint16_t m : points) ++counts[m];
+  }
+  return counts;
+}
+
+void require(bool equal, const char* what) {
+  if (!equal) throw std::runtime_error(std::string(what) + ": the methods disagree");
+}
+
+void add_feature_matrix(bench::BenchReport& report, const GreyImage& image, const std::vector<std::uint8_t>& bytes) {
+  const int n = image.width;
+  const std::string input = "brownian surface " + std::to_string(n);
+  report.add({.method = "feature_matrix", .solver = "fft", .input = input},
+             [&](bench::Recorder&) { bench::keep(feature_matrix(image).distortion.data()); });
+  report.add({.method = "feature_matrix", .solver = "direct", .input = input}, [&, n](bench::Recorder& recorder) {
+    std::vector<std::int64_t> sums;
+    recorder.time([&] { sums = direct_feature_matrix(bytes, n); });
+    const FeatureMatrix matrix = feature_matrix(image);
+    std::size_t i = 0;
+    for (int dy = 0; dy <= matrix.reach_y; ++dy)
+      for (int dx = -matrix.reach_x; dx <= matrix.reach_x; ++dx, ++i) {
+        const double overlap = static_cast<double>(n - std::abs(dx)) * (n - dy);
+        require(std::llround(matrix.at(dx, dy) * 255 * 255 * overlap) == sums[i], "feature matrix");
+      }
+  });
+  report.compare("feature_matrix/fft", "feature_matrix/direct");
+}
+
+void add_probability(bench::BenchReport& report, const GreyImage& image, const std::vector<std::uint8_t>& bytes) {
+  const int n = image.width;
+  const std::string input = "brownian surface " + std::to_string(n);
+  report.add({.method = "probability", .solver = "running-counts", .input = input},
+             [&](bench::Recorder&) { bench::keep(cube_histograms(image).data()); });
+  report.add({.method = "probability", .solver = "direct", .input = input}, [&, n](bench::Recorder& recorder) {
+    const std::vector<CubeHistogram> expected = cube_histograms(image);
+    for (const CubeHistogram& histogram : expected) {
+      std::vector<std::int64_t> counts;
+      recorder.time([&] { counts = direct_cubes(bytes, n, histogram.side); });
+      require(counts == histogram.counts, "cube counts");
+    }
+  });
+  report.compare("probability/running-counts", "probability/direct");
+}
+
+}  // namespace
+}  // namespace papilla
+
+int main(int argc, char** argv) {
+  using namespace papilla;
+  return bench::run_benchmark("texture", "Feature matrix and probability dimension against their definitions", argc,
+                              argv, [](bench::BenchReport& report) {
+                                const int size = report.options().quick ? 96 : 512;
+                                const GreyImage image = to_grey_image(brownian_surface_exact({size, 0.5, 1}), 8);
+                                const std::vector<std::uint8_t> bytes = bytes_of(image);
+                                add_feature_matrix(report, image, bytes);
+                                add_probability(report, image, bytes);
+                                report.measure();
+                              });
+}

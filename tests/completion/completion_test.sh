@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Completes command lines of a program whose help has the shape that CLI11 prints, and of the real ones.
+# usage: completion_test.sh COMPLETION_FILE [PROGRAM...]
+set -euo pipefail
+# shellcheck source=/dev/null
+source "$1"
+shift
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+# completed WORD...: what the last word of the command line may become, on one line.
+completed() {
+  COMP_WORDS=("$@")
+  COMP_CWORD=$(($# - 1))
+  COMPREPLY=()
+  _papilla
+  echo "${COMPREPLY[*]}"
+}
+
+# expect TEXT WORD...
+expect() {
+  local got
+  got=$(completed "${@:2}")
+  if [[ $got != "$1" ]]; then
+    printf 'completing "%s": expected "%s", got "%s"\n' "${*:2}" "$1" "$got"
+    failures=$((failures + 1))
+  fi
+}
+
+cat >"$folder/papilla" <<'PROGRAM'
+#!/bin/sh
+case "$1" in
+  inspect) cat <<'TEXT'
+What a file holds
+Usage: papilla inspect [OPTIONS] FILE
+
+Positionals:
+  FILE TEXT REQUIRED          The file
+
+Options:
+  -h,--help                   Print this help message and exit
+  -m,--method TEXT:{lscm,triplanar}
+                              The method, not --other
+[Option Group: Common]
+  --progress TEXT:{auto,json,none} [auto]
+                              How
+TEXT
+  ;;
+  *) cat <<'TEXT'
+Usage: papilla [OPTIONS] SUBCOMMAND
+
+Options:
+  -h,--help                   Print this help message and exit
+  --version                   Print the version
+
+Subcommands:
+  inspect                     What a file holds
+  plan                        What bake would do
+  synthesize                  Fractal surfaces
+
+Exit codes: 0 done
+TEXT
+  ;;
+esac
+PROGRAM
+chmod +x "$folder/papilla"
+expect 'inspect plan synthesize' "$folder/papilla" ''
+expect 'plan' "$folder/papilla" p
+expect '--help --version' "$folder/papilla" --
+expect '--help --method --progress' "$folder/papilla" inspect --
+expect 'auto json none' "$folder/papilla" inspect --progress ''
+expect 'triplanar' "$folder/papilla" inspect a.stl -m t
+expect 'lscm triplanar' "$folder/papilla" inspect --method ''
+expect '' "$folder/papilla" inspect ''
+expect '' "$folder/missing" ''
+
+for program in "$@"; do
+  expect '--help' "$program" --hel
+  for verb in $(completed "$program" ''); do
+    expect '--json' "$program" "$verb" --jso
+  done
+done
+
+echo "$failures failures"
+((failures == 0))

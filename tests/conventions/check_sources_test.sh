@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Shows that check_sources.sh finds each kind of breach, and nothing in a tree without one.
+# usage: check_sources_test.sh
+set -euo pipefail
+check=$(cd "$(dirname "$0")" && pwd)/check_sources.sh
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+cd "$tree"
+
+failures=0
+
+# write FILE LICENCE [LINE ...]
+write() {
+  mkdir -p "$(dirname "$1")"
+  printf '// SPDX-License-Identifier: %s\n' "$2" >"$1"
+  if (($# > 2)); then printf '%s\n' "${@:3}" >>"$1"; fi
+}
+
+# expect TEXT: the check must fail with exactly one line, which holds TEXT. Then the tree is emptied.
+expect() {
+  local output
+  if output=$("$check" "$tree") || [[ $output != *"$1"* || $output == *$'\n'* ]]; then
+    printf 'expected one breach "%s", got: %s\n' "$1" "$output"
+    failures=$((failures + 1))
+  fi
+  rm -rf "${tree:?}"/*
+}
+
+write core/src/a.cpp MIT '#include <vector>' '#include "papilla/core/error.hpp"'
+write param/src/b.cpp GPL-3.0-or-later '#include <CGAL/Surface_mesh.h>' '#include "papilla/meshing/triangle_mesh.hpp"'
+write apps/papilla/main.cpp GPL-3.0-or-later
+"$check" "$tree" || { echo 'a tree without breach is refused'; failures=$((failures + 1)); }
+rm -rf "${tree:?}"/*
+
+mkdir -p core && echo 'int a;' >core/a.cpp && expect 'core/a.cpp: has no SPDX-License-Identifier'
+write core/a.cpp Apache-2.0 && expect 'unknown licence'
+write core/a.cpp GPL-3.0-or-later && expect 'this folder is MIT'
+write apps/papilla/a.cpp MIT && expect 'apps/papilla is GPL-3.0-or-later'
+write meshing/a.cpp MIT '#include <CGAL/Surface_mesh.h>' && expect ', which is GPL, but says MIT'
+write texture/a.cpp MIT '#  include <fftw3.h>' && expect ', which is GPL, but says MIT'
+write haptic/a.cpp MIT '#include <Eigen/Core>' && expect 'the player side must not include <Eigen/Core>'
+write io/gltf/a.cpp MIT '#include <gp_Pnt.hxx>' && expect 'must not include <gp_Pnt.hxx>'
+write apps/player/a.cpp MIT '#include <OpenImageIO/imageio.h>' && expect 'must not include <OpenImageIO/imageio.h>'
+write param/include/papilla/param/a.hpp MIT '#include <Eigen/Core>' && expect 'a public header must not include <Eigen/Core>'
+write io/include/papilla/io/a.hpp MIT '#include "helper.hpp"' && expect 'a public header must not include "helper.hpp"'
+write meshing/a.cpp MIT '#include "papilla/param/lscm.hpp"' && expect 'meshing must not include "papilla/param/lscm.hpp"'
+write core/a.cpp MIT '#include "papilla/meshing/triangle_mesh.hpp"' && expect 'core must not include'
+write texture/a.cpp MIT '#include "papilla/haptic/model.hpp"' && expect 'texture must not include'
+
+echo "$failures failures"
+((failures == 0))

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+namespace papilla {
+
+/// One point of a log-log plot: the value of the measure at one scale.
+struct ScalePoint {
+  double scale = 0;    ///< Side of the box or window, or lag, in pixels.
+  double measure = 0;  ///< What the method counts at that scale, in the method's own unit.
+};
+
+/// What every estimator of the fractal dimension of a grey picture read as height map returns.
+/// D = 3 − H. A picture of a single grey value is a plane: D = 2 with an interval of width 0.
+struct FractalEstimate {
+  double dimension = 2;
+  double hurst = 1;               ///< 3 − dimension; outside [0, 1] when the picture is no fractal surface.
+  double low = 2, high = 2;       ///< 95 % interval of the dimension; each method says from what it comes.
+  std::vector<ScalePoint> curve;  ///< The points of the log-log plot, by rising scale.
+};
+
+}  // namespace papilla

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "papilla/texture/surface.hpp"
+
+namespace papilla {
+
+/// Options of spectral_surface().
+struct SpectralSurfaceOptions {
+  int size = 256;                      ///< Samples a side, 2 to 8192.
+  double hurst = 0.7;                  ///< H in (0, 1).
+  double shortest_wavelength_px = 2;   ///< Waves shorter than this are left out; at least 2.
+  double longest_wavelength_px = 1e9;  ///< Waves longer than this are left out.
+  std::uint64_t seed = 1;
+};
+
+/// Periodic Gaussian surface with spectral density ∝ |k|^(−2H−2) between the two wavelengths and rms height 1:
+/// tiles exactly. It approaches dimension 3 − H over the wavelengths present, but it is smoother than a
+/// fractional Brownian surface at pixel scale (no aliased power): take brownian_surface_exact() as ground truth.
+/// Cost: two FFTs. Deterministic for a seed.
+/// @throws InvalidInput when an option is out of range or no wave lies within the two wavelengths.
+/// Saupe in The Science of Fractal Images, 1988.
+Surface spectral_surface(const SpectralSurfaceOptions& options);
+
+}  // namespace papilla

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "papilla/texture/image.hpp"
+#include "papilla/texture/lattice.hpp"
+
+namespace papilla {
+
+/// Taxonomy of textures [Rao, A Taxonomy for Texture Description and Identification, 1990].
+enum class TextureKind { disordered, weakly_ordered, strongly_ordered_symmetric, composite };
+
+/// The kind's name as reports print it, for example "strongly_ordered_symmetric".
+std::string_view to_string(TextureKind kind) noexcept;
+
+/// Shares of a picture's variance by order; they add up to 1.
+struct TextureClass {
+  TextureKind kind = TextureKind::disordered;
+  double disordered = 1;        ///< The rest: roughness.
+  double weakly_ordered = 0;    ///< What the lattice leaves, times the coherence of the picture's orientation.
+  double strongly_ordered = 0;  ///< Explained by the mean cell of the lattice.
+};
+
+/// The source's tests of whether grey values may be read as a fractal height map (its section 6.2).
+struct Suitability {
+  bool homogeneous = false;  ///< Mean and contrast of the picture's 16 blocks agree.
+  bool directional = false;  ///< The grey gradient prefers a direction.
+  bool symmetric = false;    ///< The picture has a lattice.
+  bool flat = false;         ///< All pixels are equal.
+};
+
+/// One step of the analysis of a texture and whether its class needs it.
+struct PlanStep {
+  std::string step;
+  bool run = false;
+  std::string reason;
+};
+using AnalysisPlan = std::vector<PlanStep>;
+
+/// Class of a picture from the variance its lattice explains (0 without lattice) and the coherence of its structure
+/// tensor. strongly_ordered_symmetric from 0.5 on, composite from 0.15 on, weakly_ordered from
+/// a coherence of 0.4 on. Strongly ordered textures without symmetry are not told apart from disordered ones.
+/// Cost: O(pixels). @throws InvalidInput when the picture is empty or not finite.
+TextureClass classify(const GreyImage& image, double explained_variance);
+
+/// See Suitability. Cost: O(pixels). @throws InvalidInput when the picture is empty or not finite.
+Suitability measure_suitability(const GreyImage& image, const Lattice& lattice);
+
+/// Which steps from picture to height map a texture of that class needs, in order, each with its reason.
+AnalysisPlan plan_analysis(const TextureClass& texture_class, const Suitability& suitability);
+
+/// True when the colours of a picture differ from grey or one hue by little: mean distance of the pixels from the
+/// straight line through their mean colour that fits them best, below 3 % of the range.
+/// @throws InvalidInput when the picture is empty.
+bool is_monochrome(const ColorImage& image);
+
+}  // namespace papilla

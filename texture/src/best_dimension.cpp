@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/texture/best_dimension.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "checks.hpp"
+#include "line_fit.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr int k_least_side = 32;
+constexpr int k_blocks_a_side = 4, k_blocks = k_blocks_a_side * k_blocks_a_side;
+constexpr int k_longest_lag = 32;
+
+struct Direction {
+  int dx, dy;
+  double length;
+};
+constexpr std::array<Direction, 4> k_directions = {
+    {{1, 0, 1}, {0, 1, 1}, {1, 1, 1.4142135623730951}, {1, -1, 1.4142135623730951}}};
+
+/// Squared second differences of one lag and direction, summed by block.
+struct BlockSums {
+  std::array<double, k_blocks> squares{}, counts{};
+
+  /// The mean without one block, or of all with skipped = −1.
+  double mean(int skipped) const {
+    double sum = 0, count = 0;
+    for (int b = 0; b < k_blocks; ++b) {
+      if (b == skipped) continue;
+      sum += squares[static_cast<std::size_t>(b)];
+      count += counts[static_cast<std::size_t>(b)];
+    }
+    return count > 0 ? sum / count : 0;
+  }
+};
+
+BlockSums second_differences(const GreyImage& image, const Direction& direction, int lag) {
+  BlockSums sums;
+  const int reach_x = lag * direction.dx, reach_y = lag * std::abs(direction.dy);
+  const auto step =
+      static_cast<std::ptrdiff_t>(lag) * (static_cast<std::ptrdiff_t>(direction.dy) * image.width + direction.dx);
+  for (int y = reach_y; y < image.height - reach_y; ++y) {
+    const int block_row = y * k_blocks_a_side / image.height * k_blocks_a_side;
+    const float* row = image.pixels.data() + image.index(0, y);
+    for (int column = 0; column < k_blocks_a_side; ++column) {
+      const int begin = std::max(reach_x, column * image.width / k_blocks_a_side);
+      const int end = std::min(image.width - reach_x, (column + 1) * image.width / k_blocks_a_side);
+      double squares = 0;
+      for (int x = begin; x < end; ++x) {
+        const double d =
+            static_cast<double>(row[x + step]) - 2 * static_cast<double>(row[x]) + static_cast<double>(row[x - step]);
+        squares += d * d;
+      }
+      const auto block = static_cast<std::size_t>(block_row + column);
+      sums.squares[block] += squares;
+      sums.counts[block] += std::max(0, end - begin);
+    }
+  }
+  return sums;
+}
+
+/// Least step between the grey values in use, when the picture was rounded to `bits`; 0 for floating point.
+double grey_step(const GreyImage& image) {
+  if (image.bits != 8 && image.bits != 16) return 0;
+  const int top = image.bits == 8 ? 255 : 65535;
+  const int first = static_cast<int>(std::lround(static_cast<double>(image.pixels.front()) * top));
+  int step = 0;
+  for (const float value : image.pixels)
+    step = std::gcd(step, std::abs(static_cast<int>(std::lround(static_cast<double>(value) * top)) - first));
+  return static_cast<double>(step) / top;
+}
+
+/// sums[lag − 1][direction].
+using LagTable = std::vector<std::array<BlockSums, k_directions.size()>>;
+
+LagTable lag_table(const GreyImage& image, int lags) {
+  LagTable table(static_cast<std::size_t>(lags));
+  for (int lag = 1; lag <= lags; ++lag)
+    for (std::size_t d = 0; d < k_directions.size(); ++d)
+      table[static_cast<std::size_t>(lag) - 1][d] = second_differences(image, k_directions[d], lag);
+  return table;
+}
+
+/// H along one direction: half the slope of log v over log lag. Without usable lags H = 1 (a plane).
+double direction_hurst(const LagTable& table, std::size_t direction, double noise, int skipped_block) {
+  std::vector<double> x, y, weights;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double raw = table[i][direction].mean(skipped_block), corrected = raw - noise;
+    if (!(corrected > 0)) continue;
+    const double lag = static_cast<double>(i + 1), kept = corrected / raw;
+    x.push_back(std::log(lag));
+    y.push_back(std::log(corrected));
+    weights.push_back(kept * kept / (lag * lag));
+  }
+  return x.size() < 2 ? 1 : texture_detail::fit_line(x, y, weights).slope / 2;
+}
+
+std::array<double, 4> directional_hurst(const LagTable& table, double noise, int skipped_block) {
+  std::array<double, 4> hurst{};
+  for (std::size_t d = 0; d < k_directions.size(); ++d) hurst[d] = direction_hurst(table, d, noise, skipped_block);
+  return hurst;
+}
+
+double mean_of(const std::array<double, 4>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double jackknife_half_width(const LagTable& table, double noise) {
+  std::array<double, k_blocks> estimates{};
+  for (int block = 0; block < k_blocks; ++block)
+    estimates[static_cast<std::size_t>(block)] = mean_of(directional_hurst(table, noise, block));
+  const double mean = std::accumulate(estimates.begin(), estimates.end(), 0.0) / k_blocks;
+  double squares = 0;
+  for (const double value : estimates) squares += (value - mean) * (value - mean);
+  return texture_detail::student_quantile(k_blocks - 1) * std::sqrt(squares * (k_blocks - 1) / k_blocks);
+}
+
+double mean_variance(const std::array<BlockSums, 4>& sums) {
+  double total = 0;
+  for (const BlockSums& direction : sums) total += direction.mean(-1);
+  return total / 4;
+}
+
+}  // namespace
+
+BestDimension best_dimension(const GreyImage& image) {
+  texture_detail::require_image(image, "best_dimension", k_least_side);
+  BestDimension result;
+  result.quantization_step = grey_step(image);
+  const double noise = result.quantization_step * result.quantization_step / 2;  // (1 + 4 + 1) q²/12
+  LagTable table = lag_table(image, 2);
+  if (!(mean_variance(table[0]) + mean_variance(table[1]) > 0)) {
+    result.directional_hurst.fill(1);
+    return result;
+  }
+  // With less than this share of noise in the first lag the two shortest lags are the better estimate.
+  constexpr double k_tolerable_noise = 0.1;
+  if (noise > k_tolerable_noise * mean_variance(table[0]))
+    table = lag_table(image, std::min(k_longest_lag, std::min(image.width, image.height) / 8));
+
+  result.directional_hurst = directional_hurst(table, noise, -1);
+  FractalEstimate& estimate = result.estimate;
+  estimate.hurst = mean_of(result.directional_hurst);
+  estimate.dimension = 3 - estimate.hurst;
+  const double half_width = jackknife_half_width(table, noise);
+  estimate.low = estimate.dimension - half_width;
+  estimate.high = estimate.dimension + half_width;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    estimate.curve.push_back({static_cast<double>(i + 1), std::sqrt(std::max(0.0, mean_variance(table[i]) - noise))});
+  return result;
+}
+
+}  // namespace papilla

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/texture/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "correlation_map.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using texture_detail::CorrelationMap;
+
+struct Basis {
+  Vec2 a, b;
+  double area() const { return std::abs(cross(a, b)); }
+};
+
+/// Gauss' reduction: the shortest basis of the same lattice, |a| ≤ |b|.
+Basis reduced(Basis basis) {
+  Vec2 a = basis.a, b = basis.b;
+  if (norm(a) > norm(b)) std::swap(a, b);
+  for (int round = 0; round < 64; ++round) {  // Each round shortens b at least by the factor √3.
+    b = b - std::round(dot(a, b) / dot(a, a)) * a;
+    if (norm(b) >= norm(a)) break;
+    std::swap(a, b);
+  }
+  return {a, b};
+}
+
+/// The order and orientation of Lattice::vectors_px.
+std::array<Vec2, 2> oriented(Basis basis) {
+  const auto flatness = [](Vec2 v) { return std::abs(v.x) / norm(v); };
+  if (flatness(basis.b) > flatness(basis.a)) std::swap(basis.a, basis.b);
+  if (basis.a.x < 0) basis.a = -1.0 * basis.a;
+  if (cross(basis.a, basis.b) < 0) basis.b = -1.0 * basis.b;
+  return {basis.a, basis.b};
+}
+
+struct Node {
+  int m, n;
+  Vec2 t;
+};
+
+/// The nodes m·a + n·b of the half plane (n > 0, or n = 0 and m > 0) up to `radius`, within the map, nearest first.
+std::vector<Node> lattice_nodes(const CorrelationMap& map, const Basis& basis, double radius, std::size_t most) {
+  std::vector<Node> nodes;
+  // |m a + n b| ≥ |m| · area / |b|, so these bounds miss no node.
+  const int reach_m = static_cast<int>(std::min(1e4, radius * norm(basis.b) / basis.area()));
+  const int reach_n = static_cast<int>(std::min(1e4, radius * norm(basis.a) / basis.area()));
+  for (int n = 0; n <= reach_n; ++n)
+    for (int m = n == 0 ? 1 : -reach_m; m <= reach_m; ++m) {
+      const Vec2 t = static_cast<double>(m) * basis.a + static_cast<double>(n) * basis.b;
+      if (norm(t) <= radius && map.contains(t)) nodes.push_back({m, n, t});
+    }
+  std::stable_sort(nodes.begin(), nodes.end(), [](const Node& p, const Node& q) { return norm(p.t) < norm(q.t); });
+  if (nodes.size() > most) nodes.resize(most);
+  return nodes;
+}
+
+double whole_radius(const CorrelationMap& map) { return std::hypot(map.reach_x(), map.reach_y()); }
+
+constexpr std::size_t k_scored_nodes =
+    40;  // Enough to tell a repetition from chance; near ones suffer least from drift.
+
+/// Mean correlation over the nearest nodes; −1 when fewer than three lie within the map.
+double score(const CorrelationMap& map, const Basis& basis) {
+  const double radius = std::min(whole_radius(map), 6 * std::sqrt(basis.area()) + norm(basis.b));
+  const std::vector<Node> nodes = lattice_nodes(map, basis, radius, k_scored_nodes);
+  if (nodes.size() < 3) return -1;
+  double sum = 0;
+  for (const Node& node : nodes) sum += map.sample(node.t);
+  return sum / static_cast<double>(nodes.size());
+}
+
+bool is_plausible(const Basis& basis) {
+  constexpr double k_least_length = 2.5, k_least_sine = 0.15;
+  return norm(basis.a) >= k_least_length && basis.area() >= k_least_sine * norm(basis.a) * norm(basis.b);
+}
+
+struct Peak {
+  Vec2 t;
+  double correlation;
+};
+
+std::vector<Peak> deepest_first(const CorrelationMap& map) {
+  std::vector<Peak> peaks;
+  for (const Vec2 t : map.peaks())
+    if (map.contains(t)) peaks.push_back({t, map.sample(t)});
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Peak& p, const Peak& q) { return p.correlation > q.correlation; });
+  return peaks;
+}
+
+/// The smallest cell among the pairs of short good peaks whose nodes repeat nearly as well as those of the best pair.
+std::optional<Basis> best_pair(const CorrelationMap& map, const std::vector<Peak>& peaks,
+                               const LatticeOptions& options) {
+  std::vector<Peak> good;
+  for (const Peak& peak : peaks)
+    if (peak.correlation >= options.node_tolerance * peaks.front().correlation) good.push_back(peak);
+  std::stable_sort(good.begin(), good.end(), [](const Peak& p, const Peak& q) { return norm(p.t) < norm(q.t); });
+  if (good.size() > static_cast<std::size_t>(options.most_candidates))
+    good.resize(static_cast<std::size_t>(options.most_candidates));
+
+  std::vector<std::pair<Basis, double>> candidates;
+  double best = 0;
+  for (std::size_t i = 0; i < good.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Basis basis = reduced({good[i].t, good[j].t});
+      if (!is_plausible(basis)) continue;
+      candidates.emplace_back(basis, score(map, basis));
+      best = std::max(best, candidates.back().second);
+    }
+  std::optional<Basis> chosen;
+  for (const auto& [basis, quality] : candidates)
+    if (quality > 0 && quality >= options.node_tolerance * best && (!chosen || basis.area() < chosen->area()))
+      chosen = basis;
+  return chosen;
+}
+
+/// Least squares fit of the basis to the peaks next to its nodes, over a growing neighbourhood.
+Basis refined(const CorrelationMap& map, Basis basis) {
+  constexpr double k_growth = 1.6;
+  constexpr double k_most_shift = 0.25;  // Of |a|: a peak further from its node belongs to another one.
+  constexpr std::size_t k_most_nodes = 2000;
+  for (double radius = 1.5 * norm(basis.b);; radius *= k_growth) {
+    double mm = 0, mn = 0, nn = 0;
+    Vec2 mt{}, nt{};
+    for (const Node& node : lattice_nodes(map, basis, radius, k_most_nodes)) {
+      const Vec2 peak = map.climb(node.t);
+      if (peak == node.t || norm(peak - node.t) > k_most_shift * norm(basis.a)) continue;
+      mm += node.m * node.m;
+      mn += node.m * node.n;
+      nn += node.n * node.n;
+      mt = mt + static_cast<double>(node.m) * peak;
+      nt = nt + static_cast<double>(node.n) * peak;
+    }
+    const double determinant = mm * nn - mn * mn;
+    if (determinant > 0.5) {  // Integers: singular or at least 1.
+      const Basis fitted{(1 / determinant) * (nn * mt - mn * nt), (1 / determinant) * (mm * nt - mn * mt)};
+      if (is_plausible(reduced(fitted))) basis = fitted;
+    }
+    if (radius > whole_radius(map)) return reduced(basis);
+  }
+}
+
+/// The lattices that hold `basis` as a sublattice of prime index p.
+std::vector<Basis> finer_lattices(const Basis& basis, int p) {
+  const double part = 1.0 / p;
+  std::vector<Basis> finer = {{part * basis.a, basis.b}};
+  for (int k = 0; k < p; ++k) finer.push_back({basis.a, part * (basis.b + static_cast<double>(k) * basis.a)});
+  return finer;
+}
+
+/// The sublattices of prime index p.
+std::vector<Basis> coarser_lattices(const Basis& basis, int p) {
+  const double times = p;
+  std::vector<Basis> coarser = {{times * basis.a, basis.b}};
+  for (int k = 0; k < p; ++k) coarser.push_back({basis.a + static_cast<double>(k) * basis.b, times * basis.b});
+  return coarser;
+}
+
+/// Mean correlation at the nodes of `fine` that are no nodes of `coarse`, relative to those that are.
+double relative_correlation(const CorrelationMap& map, const Basis& fine, const Basis& coarse) {
+  const double area = cross(coarse.a, coarse.b);
+  const auto whole = [](double x) { return std::abs(x - std::round(x)) < 0.01; };
+  double own = 0, other = 0;
+  int own_count = 0, other_count = 0;
+  for (const Node& node : lattice_nodes(map, fine, whole_radius(map), 400)) {
+    const bool shared = whole(cross(node.t, coarse.b) / area) && whole(cross(coarse.a, node.t) / area);
+    (shared ? own : other) += map.sample(node.t);
+    ++(shared ? own_count : other_count);
+  }
+  if (own_count < 2 || other_count == 0 || own <= 0) return 1;
+  return (other / other_count) / (own / own_count);
+}
+
+/// Replaces the basis by a finer lattice as long as all its new nodes repeat as well, and by a
+/// coarser one where only that repeats fully.
+Basis with_right_index(const CorrelationMap& map, Basis basis, const LatticeOptions& options) {
+  for (int round = 0; round < 8; ++round) {
+    bool changed = false;
+    for (const int p : {2, 3, 5})
+      for (const Basis& finer : finer_lattices(basis, p)) {
+        const Basis candidate = reduced(finer);
+        if (changed || !is_plausible(candidate)) continue;
+        if (relative_correlation(map, candidate, basis) < options.node_tolerance) continue;
+        basis = refined(map, candidate);
+        changed = true;
+      }
+    if (!changed) break;
+  }
+  for (const int p : {2, 3})
+    for (const Basis& coarser : coarser_lattices(basis, p))
+      if (relative_correlation(map, basis, coarser) < options.node_tolerance) return refined(map, reduced(coarser));
+  return basis;
+}
+
+/// How far the correlation rises at a node above its mean over the cell around it.
+double contrast(const CorrelationMap& map, const Basis& basis, Vec2 node) {
+  constexpr int k_samples = 8;
+  double sum = 0;
+  int count = 0;
+  for (int j = 0; j < k_samples; ++j)
+    for (int i = 0; i < k_samples; ++i) {
+      const double u = (i + 0.5) / k_samples - 0.5, v = (j + 0.5) / k_samples - 0.5;
+      const Vec2 t = node + u * basis.a + v * basis.b;
+      if (!map.contains(t)) continue;
+      sum += map.sample(t);
+      ++count;
+    }
+  return count > 0 ? map.sample(node) - sum / count : 0;
+}
+
+/// See Lattice::significance. Pictures of more than 90 % pixel noise can't reach 1.
+double significance(const CorrelationMap& map, const Basis& basis, const std::vector<Node>& nodes) {
+  constexpr double k_least_signal = 0.1;
+  if (nodes.empty()) return 0;
+  double sum = 0;
+  for (const Node& node : nodes) sum += contrast(map, basis, node.t);
+  return std::max(0.0, sum / static_cast<double>(nodes.size()) / std::max(map.attainable(), k_least_signal));
+}
+
+/// True when the correlation stays up all the way to some neighbouring node.
+bool is_striped(const CorrelationMap& map, const Basis& basis) {
+  constexpr double k_least_dip = 0.1;  // Of the correlation at the node.
+  for (const Vec2 node : {basis.a, basis.b, basis.a + basis.b, basis.a - basis.b}) {
+    if (!map.contains(node)) continue;
+    double lowest = map.sample(node);
+    for (int k = 1; k < 16; ++k) lowest = std::min(lowest, map.sample((k / 16.0) * node));
+    if (lowest > (1 - k_least_dip) * map.sample(node)) return true;
+  }
+  return false;
+}
+
+void require_input(const FeatureMatrix& matrix, const LatticeOptions& options) {
+  const auto share = [](double value) { return value > 0 && value <= 1; };
+  if (!share(options.least_significance) || !share(options.node_tolerance) || options.most_candidates < 2)
+    throw InvalidInput("find_lattice: thresholds must be in (0, 1] and candidates at least 2");
+  const std::size_t expected = matrix.reach_x < 0 || matrix.reach_y < 0 ? 0
+                                                                        : static_cast<std::size_t>(matrix.width()) *
+                                                                              static_cast<std::size_t>(matrix.height());
+  const bool finite = std::all_of(matrix.distortion.begin(), matrix.distortion.end(),
+                                  [](double value) { return std::isfinite(value) && value >= 0; });
+  if (expected == 0 || matrix.distortion.size() != expected || !finite)
+    throw InvalidInput("find_lattice: the feature matrix has a wrong size or values that are not finite");
+}
+
+}  // namespace
+
+Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options) {
+  require_input(matrix, options);
+  Lattice lattice;
+  const CorrelationMap map(matrix);
+  if (!map.usable()) {
+    lattice.reason = "the picture is flat or smaller than 8 pixels";
+    return lattice;
+  }
+  const std::vector<Peak> peaks = deepest_first(map);
+  constexpr std::size_t k_reported_minima = 500;
+  for (std::size_t i = 0; i < std::min(peaks.size(), k_reported_minima); ++i) lattice.minima.push_back(peaks[i].t);
+  const std::optional<Basis> pair = peaks.empty() ? std::nullopt : best_pair(map, peaks, options);
+  if (!pair) {
+    lattice.reason = "no two shifts repeat the picture";
+    return lattice;
+  }
+  const Basis basis = with_right_index(map, refined(map, *pair), options);
+  const std::vector<Node> nodes = lattice_nodes(map, basis, whole_radius(map), 2000);
+  lattice.nodes = static_cast<int>(nodes.size());
+  lattice.significance = significance(map, basis, nodes);
+  if (lattice.significance < options.least_significance) {
+    lattice.reason = "the best lattice is not significant";
+    return lattice;
+  }
+  if (is_striped(map, basis)) {
+    lattice.reason = "the picture repeats in one direction only";
+    return lattice;
+  }
+  lattice.found = true;
+  lattice.vectors_px = oriented(basis);
+  lattice.reason = "the picture repeats at " + std::to_string(2 * lattice.nodes) + " shifts";
+  return lattice;
+}
+
+}  // namespace papilla

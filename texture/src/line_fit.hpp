@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "papilla/texture/fractal.hpp"
+
+namespace papilla::texture_detail {
+
+/// The line through (x_i, y_i) by weighted least squares.
+struct LineFit {
+  double slope = 0, intercept = 0;
+  double half_width = 0;  ///< Half of the 95 % interval of the slope (Student), 0 for two points.
+};
+
+/// Weights may be empty (all 1). @pre at least two different x.
+LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& weights = {});
+
+/// The 97.5 % quantile of Student's distribution with that many degrees of freedom.
+double student_quantile(int degrees_of_freedom);
+
+/// Dimension from a curve whose log measure falls with −D in log scale: the regression's slope and interval.
+FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve);
+
+}  // namespace papilla::texture_detail

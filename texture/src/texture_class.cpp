@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/texture/texture_class.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "checks.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/vec.hpp"
+#include "structure_tensor.hpp"
+
+namespace papilla {
+namespace {
+
+struct Moments {
+  double mean = 0, deviation = 0;
+};
+
+Moments moments(const GreyImage& image, int left, int top, int right, int bottom) {
+  double sum = 0, squares = 0;
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x) {
+      const double grey = static_cast<double>(image.at(x, y));
+      sum += grey;
+      squares += grey * grey;
+    }
+  const double pixels = std::max(1.0, static_cast<double>(right - left) * (bottom - top));
+  const double mean = sum / pixels;
+  return {mean, std::sqrt(std::max(0.0, squares / pixels - mean * mean))};
+}
+
+/// Block means within one standard deviation of the whole, block contrasts within a factor of two.
+bool is_homogeneous(const GreyImage& image, const Moments& whole) {
+  constexpr int k_blocks = 4;
+  constexpr double k_most_contrast_ratio = 2;
+  for (int row = 0; row < k_blocks; ++row)
+    for (int column = 0; column < k_blocks; ++column) {
+      const Moments block = moments(image, column * image.width / k_blocks, row * image.height / k_blocks,
+                                    (column + 1) * image.width / k_blocks, (row + 1) * image.height / k_blocks);
+      if (std::abs(block.mean - whole.mean) > whole.deviation) return false;
+      if (block.deviation > k_most_contrast_ratio * whole.deviation ||
+          block.deviation * k_most_contrast_ratio < whole.deviation)
+        return false;
+    }
+  return true;
+}
+
+constexpr double k_directional_coherence = 0.4;  // Beyond half of what oblique light on an isotropic relief causes.
+
+}  // namespace
+
+std::string_view to_string(TextureKind kind) noexcept {
+  switch (kind) {
+    case TextureKind::disordered: return "disordered";
+    case TextureKind::weakly_ordered: return "weakly_ordered";
+    case TextureKind::strongly_ordered_symmetric: return "strongly_ordered_symmetric";
+    case TextureKind::composite: return "composite";
+  }
+  return "unknown";
+}
+
+TextureClass classify(const GreyImage& image, double explained_variance) {
+  texture_detail::require_image(image, "classify");
+  constexpr double k_strong = 0.5, k_composite = 0.15;
+  const double coherence = texture_detail::structure_tensor(image).coherence();
+  TextureClass result;
+  result.strongly_ordered = std::clamp(explained_variance, 0.0, 1.0);
+  result.weakly_ordered = (1 - result.strongly_ordered) * coherence;
+  result.disordered = 1 - result.strongly_ordered - result.weakly_ordered;
+  if (result.strongly_ordered >= k_strong)
+    result.kind = TextureKind::strongly_ordered_symmetric;
+  else if (result.strongly_ordered >= k_composite)
+    result.kind = TextureKind::composite;
+  else if (coherence >= k_directional_coherence)
+    result.kind = TextureKind::weakly_ordered;
+  return result;
+}
+
+Suitability measure_suitability(const GreyImage& image, const Lattice& lattice) {
+  texture_detail::require_image(image, "measure_suitability");
+  const Moments whole = moments(image, 0, 0, image.width, image.height);
+  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+  Suitability suitability;
+  suitability.flat = !(*low < *high);
+  suitability.homogeneous = is_homogeneous(image, whole);
+  suitability.directional = texture_detail::structure_tensor(image).coherence() >= k_directional_coherence;
+  suitability.symmetric = lattice.found;
+  return suitability;
+}
+
+AnalysisPlan plan_analysis(const TextureClass& texture_class, const Suitability& suitability) {
+  const bool flat = suitability.flat;
+  const bool ordered = !flat && texture_class.kind == TextureKind::strongly_ordered_symmetric;
+  const bool mixed = !flat && texture_class.kind == TextureKind::composite;
+  const bool rough = !flat && texture_class.kind != TextureKind::strongly_ordered_symmetric;
+  const std::string lattice_reason = ordered ? "the mean cell of the lattice explains at least half of the variance"
+                                     : mixed ? "the mean cell of the lattice explains part of the variance"
+                                     : flat  ? "the picture is flat"
+                                             : "the picture has no significant lattice";
+  AnalysisPlan plan;
+  plan.push_back({"fractal_dimension", rough,
+                  flat    ? "the picture is flat"
+                  : rough ? "part of the texture is disordered; its roughness is a fractal dimension and an rms height"
+                          : "the texture is symmetric; a fractal dimension describes what is disordered"});
+  plan.push_back({"primitive", ordered || mixed, lattice_reason});
+  plan.push_back({"shape_from_shading", ordered || mixed,
+                  ordered || mixed ? "the repeating elements are relief that is lit" : lattice_reason});
+  plan.push_back({"intensity_as_height", rough && !mixed,
+                  flat              ? "the picture is flat"
+                  : rough && !mixed ? "without repeating elements the grey value is the only reading of height"
+                                    : "shape from shading gives the relief"});
+  plan.push_back({"roughness", rough,
+                  flat    ? "the picture is flat"
+                  : rough ? "what the lattice leaves is felt as roughness"
+                          : "little is left of the picture beside the lattice"});
+  return plan;
+}
+
+bool is_monochrome(const ColorImage& image) {
+  if (image.width < 1 || image.height < 1 ||
+      image.pixels.size() != 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+    throw InvalidInput("is_monochrome: the picture is empty or its buffer has the wrong size");
+  const auto color = [&](std::size_t i) {
+    return Vec3{image.pixels[3 * i] / 255.0, image.pixels[3 * i + 1] / 255.0, image.pixels[3 * i + 2] / 255.0};
+  };
+  const std::size_t count = image.pixels.size() / 3;
+  Vec3 mean;
+  for (std::size_t i = 0; i < count; ++i) mean = mean + (1.0 / static_cast<double>(count)) * color(i);
+  // Principal axis by power iteration on the covariance, started along grey.
+  Vec3 axis{1, 1, 1};
+  for (int round = 0; round < 8; ++round) {
+    Vec3 next;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 deviation = color(i) - mean;
+      next = next + dot(deviation, axis) * deviation;
+    }
+    if (!(norm(next) > 0)) return true;  // One colour.
+    axis = normalized(next);
+  }
+  double distance = 0;
+  for (std::size_t i = 0; i < count; ++i) distance += norm(cross(color(i) - mean, axis));
+  constexpr double k_most_distance = 0.03;
+  return distance / static_cast<double>(count) < k_most_distance;
+}
+
+}  // namespace papilla
