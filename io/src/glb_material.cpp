@@ -143,8 +143,8 @@ Json MaterialWriter::material(std::size_t number) {
     needs.tex_coords = std::max(needs.tex_coords, largest_tex_coord(json["extensions"]) + 1);
   }
   needs.tex_coords = std::min(needs.tex_coords, k_max_tex_coords);
-  needs.tangents = json.contains("normalTexture") || source.extensions_json.find("anisotropy") != std::string::npos ||
-                   source.extensions_json.find("clearcoatNormalTexture") != std::string::npos;
+  needs.tangents =
+      json.contains("normalTexture") || source.extensions_json.find("clearcoatNormalTexture") != std::string::npos;
   if (json.contains("normalTexture")) needs.tangent_tex_coord = source.normal_texture->tex_coord;
   needs_.push_back(needs);
   return json;

@@ -4,6 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/core.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/read_file.hpp"
+#include "text_scanner.hpp"
 
 namespace papilla {
 namespace {
@@ -48,9 +50,34 @@ void check_size(const ImageSpec& spec, const fs::path& path) {
                                    spec.width, spec.height, std::min(k_max_image_pixels, holdable)));
 }
 
+std::uint32_t big_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char c : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(c);
+  return value;
+}
+
+/// libpng tells stderr about damaged files, where our one message is to stand alone: finds the damage first.
+void check_png(const fs::path& path) {
+  constexpr std::size_t k_frame = 12;  // Length, type and checksum around a chunk's content.
+  const std::string bytes = read_file(path);
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return;
+  for (std::string_view rest = std::string_view(bytes).substr(8);;) {
+    if (rest.size() < k_frame || rest.size() - k_frame < big_endian(rest))
+      throw InvalidInput(path.string() + ": is truncated");
+    const std::size_t length = big_endian(rest);
+    const std::string_view checked = rest.substr(4, 4 + length);
+    if (crc32_z(0, reinterpret_cast<const unsigned char*>(checked.data()), checked.size()) !=
+        big_endian(rest.substr(8 + length)))
+      throw InvalidInput(fmt::format("{}: is damaged in chunk {}", path.string(), printable(checked.substr(0, 4))));
+    if (checked.starts_with("IEND")) return;
+    rest.remove_prefix(k_frame + length);
+  }
+}
+
 std::unique_ptr<ImageInput> open_picture(const fs::path& path) {
   require_file(path);
   if (fs::file_size(path) == 0) throw InvalidInput(path.string() + ": is empty");
+  check_png(path);
   ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);  // Values as stored, not multiplied by alpha.
   auto input = ImageInput::open(path.string(), &wishes);
@@ -80,6 +107,14 @@ double pitch_of(const ImageSpec& spec) {
   return length_mm / x;
 }
 
+/// libpng complains on stderr about a file that is opened and not written, so this is asked first.
+bool can_hold(const ImageOutput& output, TypeDesc type) {
+  const std::string_view format = output.format_name();
+  if (format == "png") return type != TypeDesc::FLOAT;
+  if (format == "jpeg") return type == TypeDesc::UINT8;
+  return format != "openexr" || type == TypeDesc::FLOAT;
+}
+
 /// The file's bytes; `path` only names it and chooses the format.
 std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
   const auto output = ImageOutput::create(path.string());
@@ -87,11 +122,11 @@ std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, T
     OIIO::geterror();
     throw InvalidInput(path.string() + ": pictures can be written as .png, .tif, .exr and .jpg");
   }
+  if (!can_hold(*output, spec.format))
+    throw InvalidInput(fmt::format("{}: the format cannot hold {}", path.string(), spec.format.c_str()));
   OIIO::Filesystem::IOVecOutput memory;
   if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec))
     throw InvalidInput(path.string() + ": " + first_line(output->geterror()));
-  if (output->spec().format != spec.format)
-    throw InvalidInput(fmt::format("{}: the format cannot hold {}", path.string(), spec.format.c_str()));
   if (!output->write_image(source, pixels) || !output->close())
     throw IoError(path.string() + ": " + first_line(output->geterror()));
   return memory.buffer();
@@ -103,9 +138,10 @@ void write_bytes(const fs::path& path, const std::vector<unsigned char>& data) {
 
 void set_pitch(ImageSpec& spec, double pitch_mm_x, double pitch_mm_y) {
   if (!(pitch_mm_x > 0) || !(pitch_mm_y > 0)) return;
-  spec.attribute("ResolutionUnit", "cm");
-  spec.attribute("XResolution", static_cast<float>(10 / pitch_mm_x));
-  spec.attribute("YResolution", static_cast<float>(10 / pitch_mm_y));
+  spec.attribute("ResolutionUnit", "in");  // OpenEXR knows no other unit.
+  spec.attribute("XResolution", static_cast<float>(k_mm_per_inch / pitch_mm_x));
+  spec.attribute("YResolution", static_cast<float>(k_mm_per_inch / pitch_mm_y));
+  spec.attribute("PixelAspectRatio", static_cast<float>(pitch_mm_x / pitch_mm_y));
 }
 
 void check_pixels(int width, int height, std::size_t values, std::size_t channels, const char* function) {

@@ -72,7 +72,7 @@ class MtlReader {
   double number(std::string_view& text) const {
     const std::string_view word = next_word(text);
     double value = 0;
-    if (!parse_number(word, value) || !std::isfinite(value)) fail(fmt::format("'{}' is not a number", word));
+    if (!parse_number(word, value) || !std::isfinite(value)) fail(fmt::format("'{}' is not a number", printable(word)));
     return value;
   }
 
@@ -201,10 +201,14 @@ class MtlReader {
     return {};
   }
 
+  void warn_missing(const std::string& name) {
+    if (missing_.insert(name).second) scene_.warnings.push_back("texture '" + name + "' is missing");
+  }
+
   bool is_normal_map(const std::string& name) {
     const fs::path file = locate(name);
     if (file.empty()) {
-      scene_.warnings.push_back("texture '" + name + "' is missing");
+      warn_missing(name);
       return false;
     }
     try {
@@ -233,7 +237,7 @@ class MtlReader {
     if (const auto known = images_.find(name); known != images_.end()) return known->second;
     const fs::path file = locate(name);
     if (file.empty()) {
-      scene_.warnings.push_back("texture '" + name + "' is missing");
+      warn_missing(name);
       return std::nullopt;
     }
     try {
@@ -268,7 +272,7 @@ class MtlReader {
   Scene& scene_;
   std::size_t line_ = 0;
   bool open_ = false, has_roughness_ = false;
-  std::set<std::string> unused_;
+  std::set<std::string> unused_, missing_;
   std::map<std::pair<std::string, bool>, std::uint32_t> textures_;
   std::map<std::string, std::uint32_t> images_;
 };

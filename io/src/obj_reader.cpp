@@ -149,13 +149,6 @@ class ObjParser {
       fail(fmt::format("unknown keyword '{}'", printable(keyword)));
   }
 
-  static std::string printable(std::string_view word) {
-    std::string text(word.substr(0, 40));
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, '?');
-    return text;
-  }
-
   /// Statements of the format that carry no triangles.
   static bool is_unsupported(std::string_view keyword) {
     static const std::set<std::string_view> k_keywords = {

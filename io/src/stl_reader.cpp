@@ -80,12 +80,13 @@ class AsciiReader {
  public:
   AsciiReader(std::string_view text, const std::string& file, double unit) : text_(text), file_(file), unit_(unit) {}
 
-  std::vector<Part> read() {
+  std::vector<Part> read(std::vector<std::string>& warnings) {
     std::vector<Part> parts;
     for (std::string_view word = next(); !word.empty(); word = next()) {
-      if (!equals_ignoring_case(word, "solid")) fail_at("'solid' expected, found '" + std::string(word) + "'");
+      if (!equals_ignoring_case(word, "solid")) fail_at("'solid' expected, found '" + printable(word) + "'");
       parts.push_back(read_solid());
     }
+    if (large_facets_ > 0) warnings.push_back(std::to_string(large_facets_) + " facets have more than three vertices");
     return parts;
   }
 
@@ -108,20 +109,21 @@ class AsciiReader {
     return rest;
   }
 
-  void expect(std::string_view keyword) {
-    const std::string_view word = next();
+  void expect(std::string_view keyword) { expect(next(), keyword); }
+
+  void expect(std::string_view word, std::string_view keyword) const {
     if (word.empty())
       fail(file_, "truncated in triangle " + std::to_string(triangles_) + ": '" + std::string(keyword) +
                       "' expected at the end of the file");
     if (!equals_ignoring_case(word, keyword))
-      fail_at("'" + std::string(keyword) + "' expected, found '" + std::string(word.substr(0, 40)) + "'");
+      fail_at("'" + std::string(keyword) + "' expected, found '" + printable(word) + "'");
   }
 
   double number() {
     const std::string_view word = next();
     double value = 0;
     if (word.empty()) fail(file_, "truncated in triangle " + std::to_string(triangles_) + ": a number expected");
-    if (!parse_number(word, value)) fail_at("'" + std::string(word.substr(0, 40)) + "' is not a number");
+    if (!parse_number(word, value)) fail_at("'" + printable(word) + "' is not a number");
     return value;
   }
 
@@ -130,40 +132,54 @@ class AsciiReader {
     part.name = std::string(rest_of_line());
     VertexWelder welder;
     std::string_view word = next();
-    for (; equals_ignoring_case(word, "facet"); word = next()) {
-      part.mesh.triangles.push_back(read_facet(welder));
-      ++triangles_;
-    }
+    for (; equals_ignoring_case(word, "facet"); word = next()) read_facet(welder, part.mesh.triangles);
     if (word.empty()) fail(file_, "truncated after triangle " + std::to_string(triangles_) + ": 'endsolid' expected");
     if (!equals_ignoring_case(word, "endsolid"))
-      fail_at("'facet' or 'endsolid' expected, found '" + std::string(word.substr(0, 40)) + "'");
+      fail_at("'facet' or 'endsolid' expected, found '" + printable(word) + "'");
     rest_of_line();
     part.mesh.positions = welder.take_points();
     return part;
   }
 
-  Triangle read_facet(VertexWelder& welder) {
+  Vec3 read_vertex() {
+    Vec3 vertex;
+    vertex.x = number();
+    vertex.y = number();
+    vertex.z = number();
+    if (!is_finite(vertex)) fail_at("triangle " + std::to_string(triangles_) + ": a coordinate is not finite");
+    return unit_ * vertex;
+  }
+
+  /// Appends a facet. One with more than three vertices, which STL forbids, is read as a fan.
+  void read_facet(VertexWelder& welder, std::vector<Triangle>& triangles) {
     expect("normal");
     for (int i = 0; i < 3; ++i) next();  // Some writers put NaN or words here; the winding tells the side.
     expect("outer");
     expect("loop");
-    std::array<Vec3, 3> corners;
-    for (Vec3& corner : corners) {
+    Triangle triangle{};
+    for (Index& corner : triangle) {
       expect("vertex");
-      corner.x = number();
-      corner.y = number();
-      corner.z = number();
-      if (!is_finite(corner)) fail_at("triangle " + std::to_string(triangles_) + ": a coordinate is not finite");
+      corner = welder.add(read_vertex());
     }
-    expect("endloop");
+    triangles.push_back(triangle);
+    ++triangles_;
+    std::string_view word = next();
+    large_facets_ += equals_ignoring_case(word, "vertex");
+    for (; equals_ignoring_case(word, "vertex"); word = next()) {
+      const Index corner = welder.add(read_vertex());
+      if (corner == triangle[2] || corner == triangle[0]) continue;
+      triangle = {triangle[0], triangle[2], corner};
+      triangles.push_back(triangle);
+      ++triangles_;
+    }
+    expect(word, "endloop");
     expect("endfacet");
-    return {welder.add(unit_ * corners[0]), welder.add(unit_ * corners[1]), welder.add(unit_ * corners[2])};
   }
 
   std::string_view text_;
   const std::string& file_;
   double unit_;
-  std::size_t line_ = 1, triangles_ = 0;
+  std::size_t line_ = 1, triangles_ = 0, large_facets_ = 0;
 };
 
 }  // namespace
@@ -177,7 +193,7 @@ Scene read_stl(const std::filesystem::path& path, const ReadOptions& options) {
   if (is_binary(bytes))
     scene.parts.push_back(read_binary(bytes, file, unit, scene.warnings));
   else
-    scene.parts = AsciiReader(bytes, file, unit).read();
+    scene.parts = AsciiReader(bytes, file, unit).read(scene.warnings);
   add_part_nodes(scene, path.stem().string());
   return scene;
 }

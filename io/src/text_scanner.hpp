@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
+#include <string>
 #include <string_view>
 
 namespace papilla {
@@ -23,6 +25,14 @@ constexpr std::string_view next_word(std::string_view& text) noexcept {
   const std::string_view word = text.substr(begin, end - begin);
   text.remove_prefix(end);
   return word;
+}
+
+/// The beginning of a word as messages quote it: printable ASCII, the rest as '?'.
+inline std::string printable(std::string_view word) {
+  std::string text(word.substr(0, 40));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
 }
 
 /// Reads the whole word as a number, independent of the locale. "nan" and "inf" are numbers.

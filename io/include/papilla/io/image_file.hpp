@@ -31,7 +31,7 @@ std::vector<std::byte> encode_png(const ColorImage& image);
 
 /// A height map as a 16-bit grey PNG: h = offset_mm + scale_mm · v / 65535, v = 0 … 65535, white is outward.
 struct EncodedHeight {
-  std::vector<std::byte> png;  ///< Only IHDR, IDAT and IEND: no gamma, no colour profile.
+  std::vector<std::byte> png;  ///< Without gamma, colour profile, text or time.
   double scale_mm = 0;         ///< Range of the heights; 0 for a flat map, whose samples are all 0.
   double offset_mm = 0;        ///< Lowest height.
 };

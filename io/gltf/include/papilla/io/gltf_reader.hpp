@@ -14,9 +14,10 @@ namespace papilla {
 /// targets, animations, cameras, lights, points and lines are listed in `losses`; pictures that are missing in
 /// `warnings`. Links no library but tinygltf, so that the player can use it.
 ///
-/// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says; memory stays
-/// within about 100 times the file's size.
-/// Cost: one pass over the file, about 200 bytes per triangle. Deterministic.
+/// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says. No count is believed before
+/// it is held against the bytes that are there; what accessors hand out, all their uses together, is limited to 64
+/// elements per byte of the buffers plus 2^20, and to 2^28. Cost: one pass over the file, about 200 bytes per triangle.
+/// Deterministic.
 /// @throws IoError when the file can't be read; InvalidInput naming file, place and reason when it is no
 ///         valid glTF 2, truncated, or needs an extension that is not supported (Draco, meshopt, basisu, ...).
 Scene read_gltf(const std::filesystem::path& path);

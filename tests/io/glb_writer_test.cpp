@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/glb_writer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/scene_fixtures.hpp"
+#include "io/temporary_folder.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/io/gltf_reader.hpp"
+
+namespace papilla {
+namespace {
+
+using nlohmann::json;
+using test::content_of;
+using test::message_of;
+using test::TemporaryFolder;
+
+class GlbWriter : public testing::Test {
+ protected:
+  Scene round_trip(const Scene& scene) const {
+    write_glb(scene, folder_ / "a.glb");
+    return read_gltf(folder_ / "a.glb");
+  }
+
+  json document(const Scene& scene) const {
+    write_glb(scene, folder_ / "a.glb");
+    const std::string bytes = content_of(folder_ / "a.glb");
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, 4);
+    return json::parse(bytes.substr(20, length));
+  }
+
+  std::string refusal(const Scene& scene) const {
+    return message_of<InvalidInput>([&] { write_glb(scene, folder_ / "bad.glb"); });
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(GlbWriter, GeometryComesBack) {
+  const Scene scene = test::rich_scene();
+  const Scene back = round_trip(scene);
+  ASSERT_EQ(back.parts.size(), 1U);
+  EXPECT_EQ(back.parts[0].mesh.triangles.size(), 12U);
+  EXPECT_EQ(back.parts[0].mesh.positions.size(), 8U);
+  const auto before = instances(scene), after = instances(back);
+  ASSERT_EQ(after.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t t = 0; t < 12; ++t)
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 there =
+            transform_point(multiply(to_y_up(UpAxis::z), before[i].world), scene.parts[0].mesh.corner(t, k));
+        const Vec3 here = transform_point(after[i].world, back.parts[0].mesh.corner(t, k));
+        EXPECT_NEAR(norm(there - here), 0, 1e-4);
+        const auto& uv = scene.parts[0].mesh.uv;
+        const auto& uv_back = back.parts[0].mesh.uv;
+        const auto at = static_cast<std::size_t>(k);
+        EXPECT_NEAR(norm(uv.values[uv.indices[t][at]] - uv_back.values[uv_back.indices[t][at]]), 0, 1e-6);
+      }
+  }
+  EXPECT_EQ(back.parts[0].mesh.material, scene.parts[0].mesh.material);
+}
+
+TEST_F(GlbWriter, MaterialsTexturesAndExtrasComeBack) {
+  const Scene scene = test::rich_scene();
+  const Scene back = round_trip(scene);
+  ASSERT_EQ(back.materials.size(), 2U);
+  const Material& grain = back.materials[0];
+  EXPECT_EQ(json::parse(grain.extras_json), json::parse(scene.materials[0].extras_json));
+  EXPECT_EQ(json::parse(grain.extensions_json), json::parse(scene.materials[0].extensions_json));
+  EXPECT_EQ(grain.base_color, scene.materials[0].base_color);
+  EXPECT_TRUE(grain.double_sided);
+  EXPECT_EQ(grain.normal_texture->factor, 0.5);
+  EXPECT_EQ(grain.normal_texture->transform->offset, (Vec2{0.5, 0}));
+  EXPECT_EQ(back.materials[1].alpha_mode, "MASK");
+  ASSERT_EQ(back.images.size(), 2U);
+  EXPECT_EQ(back.images[0].bytes, scene.images[0].bytes);
+  EXPECT_EQ(back.images[0].name, "picture ä");
+  EXPECT_EQ(back.images[1].name, "haptic.height") << "a picture that only extras name is kept";
+  EXPECT_EQ(back.images[1].extras_json, R"({"i":[]})");
+  EXPECT_EQ(back.textures.at(0).wrap_s, 33071);
+  EXPECT_EQ(back.textures[0].extras_json, R"({"t":true})");
+  EXPECT_EQ(json::parse(back.extras_json), json::parse(scene.extras_json));
+  EXPECT_EQ(back.nodes[0].extras_json, scene.nodes[0].extras_json);
+  EXPECT_EQ(back.parts[0].extras_json, scene.parts[0].extras_json);
+  EXPECT_EQ(back.parts[0].name, scene.parts[0].name);
+}
+
+TEST_F(GlbWriter, DeclaresExactlyTheExtensionsInUse) {
+  EXPECT_EQ(document(test::rich_scene())["extensionsUsed"], json({"KHR_materials_clearcoat", "KHR_texture_transform"}));
+  Scene plain = test::rich_scene();
+  plain.materials[0].extensions_json.clear();
+  plain.materials[0].normal_texture->transform.reset();
+  plain.extras_json = R"({"extensions":{"none":{}}})";
+  EXPECT_FALSE(document(plain).contains("extensionsUsed"));
+}
+
+TEST_F(GlbWriter, SharesPartsAndStatesTheSource) {
+  const json gltf = document(test::rich_scene());
+  EXPECT_EQ(gltf["meshes"].size(), 1U);
+  EXPECT_EQ(gltf["nodes"].size(), 4U) << "three and the turn from Z up to Y up";
+  EXPECT_EQ(gltf["asset"]["extras"]["sourceFormat"], "test");
+  EXPECT_EQ(gltf["asset"]["generator"], std::string("papilla ") + version());
+  EXPECT_FALSE(gltf["nodes"][0].contains("matrix") || gltf["nodes"][0].contains("rotation")) << "identity";
+}
+
+TEST_F(GlbWriter, TangentsOnlyWhereANormalTextureNeedsThem) {
+  const json primitives = document(test::rich_scene())["meshes"][0]["primitives"];
+  ASSERT_EQ(primitives.size(), 2U);
+  EXPECT_TRUE(primitives[0]["attributes"].contains("TANGENT"));
+  EXPECT_FALSE(primitives[1]["attributes"].contains("TANGENT"));
+}
+
+TEST_F(GlbWriter, SameSceneSameBytes) {
+  write_glb(test::rich_scene(), folder_ / "a.glb");
+  write_glb(test::rich_scene(), folder_ / "b.glb");
+  EXPECT_EQ(content_of(folder_ / "a.glb"), content_of(folder_ / "b.glb"));
+}
+
+TEST_F(GlbWriter, WideIndicesFromTheRestartValueOn) {
+  for (const std::size_t vertices : {65535U, 65536U}) {
+    Part part;
+    for (std::size_t i = 0; i < vertices; ++i)
+      part.mesh.positions.push_back({double(i % 256), double(i / 256), double(i % 7)});
+    for (Index i = 0; i + 2 < vertices; ++i) part.mesh.triangles.push_back({i, i + 1, i + 2});
+    part.mesh.normals.values = {{0, 0, 1}};
+    part.mesh.normals.indices.assign(part.mesh.triangles.size(), {0, 0, 0});
+    const json gltf = document(single_part_scene(part, "test"));
+    const json indices = gltf["accessors"][gltf["meshes"][0]["primitives"][0]["indices"].get<std::size_t>()];
+    EXPECT_EQ(indices["componentType"], vertices == 65535 ? 5123 : 5125);
+  }
+}
+
+TEST_F(GlbWriter, MissingUvAndNormalsAreMade) {
+  Scene scene = test::rich_scene();
+  scene.parts[0].mesh.uv = {};
+  const Scene back = round_trip(scene);
+  EXPECT_FALSE(back.parts[0].mesh.uv.empty()) << "the texture needs coordinates";
+  ASSERT_FALSE(back.parts[0].mesh.normals.empty());
+  for (const Vec3& normal : back.parts[0].mesh.normals.values) EXPECT_NEAR(norm(normal), 1, 1e-6);
+}
+
+TEST_F(GlbWriter, ColoursAndSecondChannelComeBack) {
+  Scene scene = test::rich_scene();
+  TriangleMesh& mesh = scene.parts[0].mesh;
+  mesh.colors.values = {{0.25F, 0.5F, 1, 0.75F}};
+  mesh.colors.indices.assign(12, {0, 0, 0});
+  mesh.uv1.values = {{3, -2}};
+  mesh.uv1.indices.assign(12, {0, 0, 0});
+  mesh.uv = {};
+  const Scene back = round_trip(scene);
+  const Color color = back.parts[0].mesh.colors.values.at(0);
+  EXPECT_NEAR(color.r, 0.25, 1e-5);
+  EXPECT_NEAR(color.a, 0.75, 1e-5);
+  EXPECT_EQ(back.parts[0].mesh.uv1.values.at(0), (Vec2{3, -2}));
+}
+
+TEST_F(GlbWriter, AnEmptySceneIsAValidFile) {
+  const json gltf = document(Scene{});
+  EXPECT_FALSE(gltf.contains("buffers") || gltf.contains("nodes") || gltf.contains("meshes"));
+  EXPECT_TRUE(read_gltf(folder_ / "a.glb").parts.empty());
+}
+
+TEST_F(GlbWriter, ReferencesToMissingPicturesAreLeftOut) {
+  Scene scene = test::rich_scene();
+  scene.images[0].bytes.clear();
+  scene.materials[0].extensions_json.clear();
+  const json gltf = document(scene);
+  EXPECT_EQ(gltf["images"].size(), 1U);
+  EXPECT_FALSE(gltf["materials"][0].contains("normalTexture"));
+}
+
+TEST_F(GlbWriter, RefusesWhatGltfCannotHold) {
+  Scene shear = test::rich_scene();
+  shear.nodes[1].local[0] = 0.5;
+  EXPECT_NE(refusal(shear).find("shears"), std::string::npos);
+  Scene nan = test::rich_scene();
+  nan.parts[0].mesh.positions[3].y = std::nan("");
+  EXPECT_NE(refusal(nan).find("position 3"), std::string::npos);
+  Scene huge = test::rich_scene();
+  huge.parts[0].mesh.positions[0].x = 1e300;
+  EXPECT_NE(refusal(huge), "");
+  Scene index = test::rich_scene();
+  index.parts[0].mesh.triangles[0][0] = 8;
+  EXPECT_NE(refusal(index), "");
+  Scene slot = test::rich_scene();
+  slot.parts[0].mesh.material[0] = 2;
+  EXPECT_NE(refusal(slot), "");
+  Scene material = test::rich_scene();
+  material.parts[0].materials[1] = 9;
+  EXPECT_NE(refusal(material), "");
+  Scene extras = test::rich_scene();
+  extras.materials[0].extras_json = "{";
+  EXPECT_NE(refusal(extras).find("grain"), std::string::npos);
+  EXPECT_EQ(folder_.files(), 0U) << "nothing is left behind";
+}
+
+TEST_F(GlbWriter, AFullDiskIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  EXPECT_THROW(write_glb(test::rich_scene(), "/dev/full"), IoError);
+}
+
+TEST_F(GlbWriter, PrefixesOfItsOutputAreRefused) {
+  write_glb(test::rich_scene(), folder_ / "a.glb");
+  const std::string whole = content_of(folder_ / "a.glb");
+  for (std::size_t length = 0; length < whole.size(); length += 17)
+    ASSERT_THROW(read_gltf(folder_.write("cut.glb", whole.substr(0, length))), InvalidInput) << length;
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/gltf_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "io/temporary_folder.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+
+/// Binary content and the JSON of its bufferViews and accessors.
+class Binary {
+ public:
+  template <class T>
+  int view(const std::vector<T>& values) {
+    bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
+    views_ += (views_.empty() ? "" : ",") + std::string(R"({"buffer":0,"byteOffset":)") +
+              std::to_string(bytes_.size()) + R"(,"byteLength":)" + std::to_string(values.size() * sizeof(T)) + "}";
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    return view_count_++;
+  }
+
+  int accessor(int view, int component_type, std::size_t count, const std::string& type, const std::string& more = "") {
+    accessors_ += (accessors_.empty() ? "" : ",") + std::string("{") +
+                  (view >= 0 ? R"("bufferView":)" + std::to_string(view) + "," : "") + R"("componentType":)" +
+                  std::to_string(component_type) + R"(,"count":)" + std::to_string(count) + R"(,"type":")" + type +
+                  "\"" + more + "}";
+    return accessor_count_++;
+  }
+
+  int positions(const std::vector<float>& values) { return accessor(view(values), 5126, values.size() / 3, "VEC3"); }
+
+  /// The GLB with these further members of the root, each followed by a comma.
+  std::string glb(const std::string& members) const {
+    std::string json = "{" + members + R"("asset":{"version":"2.0"},"bufferViews":[)" + views_ + R"(],"accessors":[)" +
+                       accessors_ + R"(],"buffers":[{"byteLength":)" + std::to_string(bytes_.size()) + "}]}";
+    std::string bin = bytes_;
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    bin.resize((bin.size() + 3) / 4 * 4, '\0');
+    return "glTF" + word(2) + word(12 + 8 + json.size() + 8 + bin.size()) + word(json.size()) + "JSON" + json +
+           word(bin.size()) + std::string("BIN\0", 4) + bin;
+  }
+
+  static std::string word(std::size_t value) {
+    const auto narrow = static_cast<std::uint32_t>(value);
+    std::string bytes(4, '\0');
+    std::memcpy(bytes.data(), &narrow, 4);
+    return bytes;
+  }
+
+ private:
+  std::string bytes_, views_, accessors_;
+  int view_count_ = 0, accessor_count_ = 0;
+};
+
+std::string mesh_of(const std::string& primitive) {
+  return R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" + primitive + "]}],";
+}
+
+/// (i, 0, 0) metres, so that a position tells its vertex number.
+std::vector<float> row_of_points(int count) {
+  std::vector<float> values;
+  for (int i = 0; i < count; ++i) values.insert(values.end(), {float(i), 0, 0});
+  return values;
+}
+
+/// The x of every triangle corner in metres.
+std::vector<int> corner_numbers(const Scene& scene) {
+  std::vector<int> numbers;
+  const TriangleMesh& mesh = scene.parts.at(0).mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) numbers.push_back(static_cast<int>(mesh.corner(t, k).x / 1000));
+  return numbers;
+}
+
+class GltfReader : public testing::Test {
+ protected:
+  Scene read(const std::string& glb) const { return read_gltf(folder_.write("a.glb", glb)); }
+  std::string refusal(const std::string& glb) const {
+    return message_of<InvalidInput>([&] { read(glb); });
+  }
+
+  std::string triangle_glb(const std::string& attributes = "", const std::string& members = "") const {
+    Binary binary;
+    binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    return binary.glb(members + mesh_of(R"({"attributes":{"POSITION":0)" + attributes + "}}"));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(GltfReader, MetresBecomeMillimetres) {
+  const Scene scene = read(triangle_glb());
+  EXPECT_EQ(scene.format, "glTF");
+  EXPECT_EQ(scene.up, UpAxis::y);
+  ASSERT_EQ(scene.parts.size(), 1U);
+  EXPECT_EQ(scene.parts[0].mesh.corner(0, 1), (Vec3{1000, 0, 0}));
+  EXPECT_EQ(instances(scene).size(), 1U);
+}
+
+TEST_F(GltfReader, StripsAndFansInTheOrderOfTheSpecification) {
+  Binary binary;
+  binary.positions(row_of_points(5));
+  EXPECT_EQ(corner_numbers(read(binary.glb(mesh_of(R"({"attributes":{"POSITION":0},"mode":5})")))),
+            (std::vector<int>{0, 1, 2, 1, 3, 2, 2, 3, 4}));
+  EXPECT_EQ(corner_numbers(read(binary.glb(mesh_of(R"({"attributes":{"POSITION":0},"mode":6})")))),
+            (std::vector<int>{1, 2, 0, 2, 3, 0, 3, 4, 0}));
+}
+
+TEST_F(GltfReader, ReadsAllIndexWidths) {
+  for (const int type : {5121, 5123, 5125}) {
+    Binary binary;
+    binary.positions(row_of_points(4));
+    const int view = type == 5121   ? binary.view(std::vector<std::uint8_t>{3, 1, 2})
+                     : type == 5123 ? binary.view(std::vector<std::uint16_t>{3, 1, 2})
+                                    : binary.view(std::vector<std::uint32_t>{3, 1, 2});
+    binary.accessor(view, type, 3, "SCALAR");
+    const Scene scene = read(binary.glb(mesh_of(R"({"attributes":{"POSITION":0},"indices":1})")));
+    EXPECT_EQ(corner_numbers(scene), (std::vector<int>{3, 1, 2}));
+    EXPECT_EQ(scene.parts[0].mesh.positions.size(), 3U) << "unused vertices are left out";
+  }
+}
+
+TEST_F(GltfReader, SparseValuesReplaceTheBase) {
+  Binary binary;
+  const int base = binary.view(row_of_points(3));
+  const int at = binary.view(std::vector<std::uint16_t>{1});
+  const int values = binary.view(std::vector<float>{7, 0, 0});
+  binary.accessor(base, 5126, 3, "VEC3",
+                  R"(,"sparse":{"count":1,"indices":{"bufferView":)" + std::to_string(at) +
+                      R"(,"componentType":5123},"values":{"bufferView":)" + std::to_string(values) + "}}");
+  const std::string members = mesh_of(R"({"attributes":{"POSITION":0}})");
+  EXPECT_EQ(corner_numbers(read(binary.glb(members))), (std::vector<int>{0, 7, 2}));
+}
+
+TEST_F(GltfReader, SparseWithoutBaseStartsFromZero) {
+  Binary binary;
+  const int at = binary.view(std::vector<std::uint8_t>{2});
+  const int values = binary.view(std::vector<float>{7, 0, 0});
+  const auto with_index = [&](const std::string& count) {
+    Binary copy = binary;
+    copy.accessor(-1, 5126, 3, "VEC3",
+                  R"(,"sparse":{"count":)" + count + R"(,"indices":{"bufferView":)" + std::to_string(at) +
+                      R"(,"componentType":5121},"values":{"bufferView":)" + std::to_string(values) + "}}");
+    return copy.glb(mesh_of(R"({"attributes":{"POSITION":0}})"));
+  };
+  EXPECT_EQ(corner_numbers(read(with_index("1"))), (std::vector<int>{0, 0, 7}));
+  EXPECT_NE(refusal(with_index("2")), "");
+  EXPECT_NE(refusal(with_index("-1")), "");
+  EXPECT_NE(refusal(with_index("2000000000")), "");
+}
+
+TEST_F(GltfReader, NormalizedIntegersAndQuantizedPositions) {
+  Binary binary;
+  binary.accessor(binary.view(std::vector<std::int16_t>{0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0, 0}), 5122, 3, "VEC3");
+  // 16-bit positions are padded to 8 bytes; without byteStride they are tight: take a second view for uv.
+  binary.accessor(binary.view(std::vector<std::uint8_t>{0, 255, 255, 0, 51, 0}), 5121, 3, "VEC2",
+                  R"(,"normalized":true)");
+  binary.accessor(binary.view(std::vector<std::int8_t>{-128, 0, 0, 127, 0, 0, -127, 0, 0}), 5120, 3, "VEC3",
+                  R"(,"normalized":true)");
+  const Scene scene =
+      read(binary.glb(R"("extensionsRequired":["KHR_mesh_quantization"],"extensionsUsed":["KHR_mesh_quantization"],)" +
+                      mesh_of(R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"NORMAL":2}})")));
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  EXPECT_EQ(mesh.corner(0, 1), (Vec3{0, 2000, 0}));
+  EXPECT_EQ(mesh.corner(0, 2), (Vec3{0, 0, 0})) << "read tightly";
+  const auto uv = [&](std::size_t k) { return mesh.uv.values[mesh.uv.indices[0][k]]; };
+  EXPECT_EQ(uv(0), (Vec2{0, 0})) << "v runs up in a scene";
+  EXPECT_EQ(uv(1), (Vec2{1, 1}));
+  EXPECT_EQ(uv(2), (Vec2{0.2, 1}));
+  EXPECT_EQ(mesh.normals.values[mesh.normals.indices[0][0]], (Vec3{-1, 0, 0}));
+  EXPECT_EQ(mesh.normals.values[mesh.normals.indices[0][1]], (Vec3{1, 0, 0}));
+}
+
+TEST_F(GltfReader, NodeTransformsByMatrixAndTrs) {
+  Binary binary;
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const std::string mesh = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"scenes":[{"nodes":[0]}],)";
+  // A quarter turn about z, scale 2, then (1, 2, 3) m: (1, 0, 0) m goes to (1, 4, 3) m.
+  const Scene trs = read(binary.glb(
+      mesh +
+      R"("nodes":[{"mesh":0,"translation":[1,2,3],"rotation":[0,0,0.7071067811865476,0.7071067811865476],"scale":[2,2,2]}],)"));
+  const Scene matrix = read(binary.glb(mesh + R"("nodes":[{"mesh":0,"matrix":[0,2,0,0,-2,0,0,0,0,0,2,0,1,2,3,1]}],)"));
+  for (const Scene* scene : {&trs, &matrix}) {
+    const Vec3 moved = transform_point(instances(*scene)[0].world, {1000, 0, 0});
+    EXPECT_NEAR(norm(moved - Vec3{1000, 4000, 3000}), 0, 1e-9);
+  }
+}
+
+TEST_F(GltfReader, RefusesBadNodeTrees) {
+  Binary binary;
+  const auto tree = [&](const std::string& nodes) {
+    return binary.glb(R"("scenes":[{"nodes":[0]}],"nodes":)" + nodes + ",");
+  };
+  binary.positions(row_of_points(3));
+  EXPECT_NE(refusal(tree(R"([{"children":[1]},{"children":[0]}])")), "");
+  EXPECT_NE(refusal(tree(R"([{"children":[1,2]},{"children":[2]},{}])")), "");
+  EXPECT_NE(refusal(tree(R"([{"children":[5]}])")), "");
+  EXPECT_NE(refusal(tree(R"([{"mesh":5}])")), "");
+  EXPECT_NE(refusal(tree(R"([{"rotation":[0,0,0]}])")), "");
+  EXPECT_NE(refusal(tree(R"([{"rotation":[0,0,0,0]}])")), "");
+  EXPECT_NE(refusal(tree(R"([{"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]}])")), "");
+  EXPECT_NE(refusal(tree(R"([{},{"children":[2]},{"children":[1]}])")), "") << "a cycle that no scene uses";
+}
+
+TEST_F(GltfReader, NamesRequiredExtensions) {
+  const std::string message =
+      refusal(triangle_glb("", R"("extensionsRequired":["KHR_draco_mesh_compression","KHR_materials_unlit"],)"));
+  EXPECT_NE(message.find("KHR_draco_mesh_compression"), std::string::npos);
+  EXPECT_EQ(message.find("unlit"), std::string::npos);
+  EXPECT_NE(message.find("a.glb"), std::string::npos);
+}
+
+TEST_F(GltfReader, ChecksCountsBeforeTakingMemory) {
+  for (const std::string count : {"4000000000", "9000000000000000000", "4"}) {
+    Binary binary;
+    const int view = binary.view(row_of_points(3));
+    binary.accessor(view, 5126, std::stoull(count), "VEC3");
+    EXPECT_NE(refusal(binary.glb(mesh_of(R"({"attributes":{"POSITION":0}})"))), "") << count;
+  }
+  Binary zeros;
+  zeros.view(row_of_points(3));
+  zeros.accessor(-1, 5126, 4000000000U, "VEC3");
+  EXPECT_NE(refusal(zeros.glb(mesh_of(R"({"attributes":{"POSITION":0}})"))), "");
+}
+
+TEST_F(GltfReader, RefusesWrongReferences) {
+  EXPECT_NE(refusal(triangle_glb(R"(,"NORMAL":7)")), "");
+  Binary index_too_large;
+  index_too_large.positions(row_of_points(3));
+  index_too_large.accessor(index_too_large.view(std::vector<std::uint16_t>{0, 1, 3}), 5123, 3, "SCALAR");
+  EXPECT_NE(refusal(index_too_large.glb(mesh_of(R"({"attributes":{"POSITION":0},"indices":1})"))), "");
+  Binary not_finite;
+  not_finite.positions({0, 0, 0, 1, 0, 0, 0, std::numeric_limits<float>::quiet_NaN(), 0});
+  EXPECT_NE(refusal(not_finite.glb(mesh_of(R"({"attributes":{"POSITION":0}})"))).find("element 2"), std::string::npos);
+  Binary fewer_normals;
+  fewer_normals.positions(row_of_points(3));
+  fewer_normals.positions(row_of_points(2));
+  EXPECT_NE(refusal(fewer_normals.glb(mesh_of(R"({"attributes":{"POSITION":0,"NORMAL":1}})"))), "");
+}
+
+TEST_F(GltfReader, RefusesDeepJson) {
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  EXPECT_NE(refusal(triangle_glb("", R"("extras":)" + deep + ",")).find("nested"), std::string::npos);
+}
+
+TEST_F(GltfReader, EveryPrefixThrowsOrSucceeds) {
+  const std::string whole = triangle_glb();
+  read(whole);
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    EXPECT_NE(refusal(whole.substr(0, length)), "") << length;
+}
+
+TEST_F(GltfReader, DamagedBytesNeverCrash) {
+  const std::string whole = triangle_glb();
+  const std::string values(
+      "\0\xff"
+      "9-{\"",
+      6);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = values[i % values.size()];
+    try {
+      const Scene scene = read(damaged);
+      for (const Part& part : scene.parts)
+        for (const Vec3& position : part.mesh.positions) ASSERT_TRUE(is_finite(position));
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST_F(GltfReader, MixedPrimitivesFillMissingAttributes) {
+  Binary binary;
+  binary.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  binary.accessor(binary.view(std::vector<float>{0, 0, 1, 0, 0, 1}), 5126, 3, "VEC2");
+  binary.positions({1, 0, 0, 1, 0, 0, 1, 0, 0});
+  const Scene scene = read(binary.glb(
+      R"("materials":[{"name":"m"}],)" +
+      mesh_of(
+          R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"NORMAL":2},"material":0},{"attributes":{"POSITION":0}})")));
+  const Part& part = scene.parts[0];
+  EXPECT_EQ(part.mesh.positions.size(), 3U) << "equal positions are merged";
+  EXPECT_EQ(part.mesh.triangles.size(), 2U);
+  EXPECT_EQ(part.mesh.uv.indices.size(), 2U);
+  EXPECT_EQ(part.mesh.normals.values[part.mesh.normals.indices[0][0]], (Vec3{1, 0, 0}));
+  EXPECT_EQ(part.mesh.normals.values[part.mesh.normals.indices[1][0]], (Vec3{0, 0, 1})) << "flat shading";
+  EXPECT_EQ(part.mesh.material, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(scene.materials.at(part.materials.at(1)).name, "default");
+}
+
+TEST_F(GltfReader, MaterialsKeepEverything) {
+  const std::string members =
+      R"("materials":[{"name":"m","extras":{"haptic":{"empty":[],"none":null,"big":4294967296}},
+      "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"baseColorTexture":{"index":0,"texCoord":1,
+      "extensions":{"KHR_texture_transform":{"offset":[0.5,0],"scale":[2,3],"rotation":0.25}}}},
+      "normalTexture":{"index":0,"scale":0.5},"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1}}}],
+      "textures":[{"source":0,"sampler":0,"extras":{"t":1}}],"samplers":[{"wrapS":33071,"magFilter":9728}],
+      "images":[{"uri":"data:image/png;base64,iVBORw0KGgo=","name":"i","extras":{"i":2}}],)";
+  const Scene scene = read(triangle_glb("", members));
+  ASSERT_EQ(scene.materials.size(), 2U) << "the primitive without material wears the default one";
+  const Material& material = scene.materials[0];
+  EXPECT_EQ(material.extras_json, R"({"haptic":{"big":4294967296,"empty":[],"none":null}})");
+  EXPECT_EQ(material.extensions_json, R"({"KHR_materials_clearcoat":{"clearcoatFactor":1}})");
+  EXPECT_EQ(material.base_color, (std::array<double, 4>{0.1, 0.2, 0.3, 0.4}));
+  ASSERT_TRUE(material.base_color_texture && material.base_color_texture->transform);
+  EXPECT_EQ(material.base_color_texture->tex_coord, 1);
+  EXPECT_EQ(material.base_color_texture->transform->scale, (Vec2{2, 3}));
+  EXPECT_EQ(material.base_color_texture->transform->rotation, 0.25);
+  EXPECT_EQ(material.normal_texture->factor, 0.5);
+  EXPECT_EQ(scene.textures.at(0).wrap_s, 33071);
+  EXPECT_EQ(scene.textures[0].mag_filter, 9728);
+  EXPECT_EQ(scene.textures[0].extras_json, R"({"t":1})");
+  EXPECT_EQ(scene.images.at(0).bytes.size(), 8U) << "kept as it is, though it is no whole picture";
+  EXPECT_EQ(scene.images[0].mime_type, "image/png");
+  EXPECT_EQ(scene.images[0].extras_json, R"({"i":2})");
+}
+
+TEST_F(GltfReader, ExternalFilesWithSpacesAndUmlauts) {
+  const std::vector<float> points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder_.write("b in ä.bin", {reinterpret_cast<const char*>(points.data()), 36});
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"b%20in%20ä.bin"}],
+      "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,
+      "type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],
+      "images":[{"uri":"missing.png"}]})";
+  const Scene scene = read_gltf(folder_.write("Ü 1.gltf", text));
+  EXPECT_EQ(scene.parts.at(0).mesh.triangles.size(), 1U);
+  EXPECT_EQ(scene.roots.size(), 1U) << "without a scene the nodes without parent are the roots";
+  EXPECT_FALSE(scene.warnings.empty());
+  EXPECT_EQ(scene.images.at(0).uri, "missing.png");
+}
+
+TEST_F(GltfReader, ListsWhatIsLost) {
+  const Scene scene = read(triangle_glb(R"(},"mode":1},{"attributes":{"POSITION":0)",
+                                        R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)"));
+  EXPECT_EQ(scene.parts[0].mesh.triangles.size(), 1U);
+  EXPECT_EQ(scene.losses.size(), 2U);
+}
+
+TEST_F(GltfReader, MissingAndWrongFiles) {
+  EXPECT_THROW(read_gltf(folder_ / "none.glb"), IoError);
+  EXPECT_THROW(read_gltf(folder_ / ""), IoError);
+  EXPECT_THROW(read_gltf(folder_.write("empty.glb", "")), InvalidInput);
+  EXPECT_THROW(read_gltf(folder_.write("text.gltf", "hello")), InvalidInput);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/obj_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "io/png_fixtures.hpp"
+#include "io/temporary_folder.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+
+const std::string k_square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+class ObjReader : public testing::Test {
+ protected:
+  Scene read(const std::string& text, const ReadOptions& options = {}) const {
+    return read_obj(folder_.write("a.obj", text), options);
+  }
+  std::string refusal(const std::string& text) const {
+    return message_of<InvalidInput>([&] { read(text); });
+  }
+  void write_png(const std::string& name) const {
+    folder_.write(name, {reinterpret_cast<const char*>(test::k_grey8_png), sizeof test::k_grey8_png});
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(ObjReader, PolygonsAndNegativeIndices) {
+  const Scene scene = read(k_square + "f 1 2 3 4\nf -4 -3 -2\n");
+  const TriangleMesh& mesh = scene.parts.at(0).mesh;
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+  EXPECT_EQ(mesh.positions[2], (Vec3{1, 1, 0}));
+  EXPECT_EQ(scene.up, UpAxis::y);
+}
+
+TEST_F(ObjReader, AttributesAreIndexedByThemselves) {
+  const Scene scene =
+      read(k_square + "vt 0.25 0.5\nvt 1\nvt 0 0 0\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\nf 1//1 3//1 4//1\nf 1/3 2/2 3/1\n");
+  const TriangleMesh& mesh = scene.parts.at(0).mesh;
+  EXPECT_EQ(mesh.uv.values, (std::vector<Vec2>{{0.25, 0.5}, {1, 0}, {0, 0}, {0, 0}}));
+  EXPECT_EQ(mesh.uv.indices, (std::vector<Triangle>{{0, 1, 2}, {3, 3, 3}, {2, 1, 0}}));
+  EXPECT_EQ(mesh.normals.values, (std::vector<Vec3>{{0, 0, 1}, {0, 0, 0}}));
+  EXPECT_EQ(mesh.normals.indices, (std::vector<Triangle>{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}}));
+}
+
+TEST_F(ObjReader, ObjectsBecomePartsAndGroupsFaceNumbers) {
+  const Scene scene =
+      read(k_square + "o first one\ng a\nf 1 2 3\ng b\nf 1 3 4\no ünïcode\nf 2 3 4\no first one\nf 1 2 4\n");
+  ASSERT_EQ(scene.parts.size(), 2U);
+  EXPECT_EQ(scene.parts[0].name, "first one");
+  EXPECT_EQ(scene.parts[1].name, "ünïcode");
+  ASSERT_EQ(scene.parts[0].mesh.face.size(), 3U);
+  EXPECT_NE(scene.parts[0].mesh.face[0], scene.parts[0].mesh.face[1]);
+  EXPECT_EQ(scene.parts[1].mesh.positions, (std::vector<Vec3>{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(instances(scene).size(), 2U);
+}
+
+TEST_F(ObjReader, GroupsBecomePartsWithoutObjects) {
+  const Scene scene = read(k_square + "f 1 2 3\ng x\nf 1 3 4\n");
+  ASSERT_EQ(scene.parts.size(), 2U);
+  EXPECT_EQ(scene.parts[0].name, "a");
+  EXPECT_EQ(scene.parts[1].name, "x");
+}
+
+TEST_F(ObjReader, ContinuedLinesCommentsAndForwardIndices) {
+  const Scene scene = read("f 1 2 \\\n 3 # comment\nv 0 0 0 # origin\r\nv +1 0 0\nv 0 1.5e0 0 1\n");
+  EXPECT_EQ(scene.parts.at(0).mesh.corner(0, 2), (Vec3{0, 1.5, 0}));
+}
+
+TEST_F(ObjReader, ErrorsNameTheLine) {
+  EXPECT_NE(refusal("v 0 0 0\nv 1 abc 0\n").find("line 2: 'abc'"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0 0\nv 1 0,5 0\n").find("line 2"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0\n").find("line 1"), std::string::npos);
+  EXPECT_NE(refusal("v 0 0 nan\n").find("line 1"), std::string::npos);
+  EXPECT_NE(refusal(k_square + "f 1 2 5\n").find("line 5: vertex 5"), std::string::npos);
+  EXPECT_NE(refusal(k_square + "f 0 1 2\n").find("line 5"), std::string::npos);
+  EXPECT_NE(refusal(k_square + "f -5 1 2\n").find("line 5"), std::string::npos);
+  EXPECT_NE(refusal(k_square + "f 1/1 2/1 3/1\n").find("texture vertex 1"), std::string::npos);
+  EXPECT_NE(refusal(k_square + "f 1 2 99999999999999999999\n").find("line 5"), std::string::npos);
+  EXPECT_NE(refusal("hello world\n").find("line 1"), std::string::npos);
+  EXPECT_NE(refusal("# nothing\n"), "");
+}
+
+TEST_F(ObjReader, OddThingsAreWarnings) {
+  const Scene scene = read(k_square + "vn nan 0 0\nf 1 2\nl 1 2\nusemtl none\nmtllib no.mtl\nf 1//1 2//1 3//1\n");
+  EXPECT_EQ(scene.parts.at(0).mesh.triangles.size(), 1U);
+  EXPECT_EQ(scene.warnings.size(), 4U);
+  EXPECT_EQ(scene.losses.size(), 1U);
+  EXPECT_EQ(scene.materials.at(0).name, "none");
+}
+
+TEST_F(ObjReader, VertexColoursAreLinear) {
+  const Scene scene = read("v 0 0 0 1 0 0.5\nv 1 0 0 nan 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto& colors = scene.parts.at(0).mesh.colors;
+  ASSERT_EQ(colors.values.size(), 3U);
+  EXPECT_FLOAT_EQ(colors.values[0].r, 1);
+  EXPECT_NEAR(colors.values[0].b, 0.21404, 1e-5) << "sRGB 0.5";
+  EXPECT_EQ(colors.values[1], Color{});
+}
+
+TEST_F(ObjReader, MaterialsAndTextures) {
+  write_png("wood grain.png");
+  folder_.write("my lib.mtl",
+                "newmtl dark wood\nKd 0.1 0.2 0.3\nKa 0 0 0\nKs 1 1 1\nd 0.5\nNs 250\nmap_Kd -s 2 3 1 -o 0.5 0.25 wood "
+                "grain.png\nnewmtl pbr\nTr 0.25\nNs 10\nPr 0.4\nPm 1\nKe 1 0 0\nmap_Kd gone.png\nmap_d x.png\n");
+  const Scene scene = read("mtllib my lib.mtl\n" + k_square + "usemtl dark wood\nf 1 2 3\nusemtl pbr\nf 1 3 4\n");
+  ASSERT_EQ(scene.materials.size(), 2U);
+  const Material& wood = scene.materials[0];
+  EXPECT_EQ(wood.base_color, (std::array<double, 4>{0.1, 0.2, 0.3, 0.5}));
+  EXPECT_EQ(wood.alpha_mode, "BLEND");
+  EXPECT_DOUBLE_EQ(wood.roughness, 0.5);
+  ASSERT_TRUE(wood.base_color_texture && wood.base_color_texture->transform);
+  // OBJ: v' = 3 v + 0.25. The lower left corner goes to (0.5, 0.25), the upper right to (2.5, 3.25).
+  const TextureTransform& transform = *wood.base_color_texture->transform;
+  EXPECT_EQ(transform_uv(transform, {0, 0}), (Vec2{0.5, 0.25}));
+  EXPECT_EQ(transform_uv(transform, {1, 1}), (Vec2{2.5, 3.25}));
+  EXPECT_EQ(scene.images.at(0).bytes.size(), sizeof test::k_grey8_png);
+  EXPECT_EQ(scene.images[0].uri, "wood grain.png");
+  const Material& pbr = scene.materials[1];
+  EXPECT_EQ(pbr.base_color[3], 0.75);
+  EXPECT_EQ(pbr.roughness, 0.4);
+  EXPECT_EQ(pbr.metallic, 1);
+  EXPECT_FALSE(pbr.base_color_texture);
+  EXPECT_EQ(scene.warnings.size(), 1U);
+  EXPECT_EQ(scene.losses.size(), 1U);
+  EXPECT_EQ(scene.parts.at(0).mesh.material, (std::vector<std::uint32_t>{0, 1}));
+}
+
+TEST_F(ObjReader, MtlErrorsNameTheLine) {
+  folder_.write("bad.mtl", "newmtl a\nKd 1 x 1\n");
+  EXPECT_NE(refusal("mtllib bad.mtl\n" + k_square + "usemtl a\nf 1 2 3\n").find("bad.mtl: line 2"), std::string::npos);
+  folder_.write("bad.mtl", "Kd 1 1 1\n");
+  EXPECT_NE(refusal("mtllib bad.mtl\n" + k_square + "usemtl a\nf 1 2 3\n").find("bad.mtl: line 1"), std::string::npos);
+}
+
+TEST_F(ObjReader, EveryPrefixThrowsOrSucceeds) {
+  const std::string whole = k_square + "vt 0 0\nvn 0 0 1\no part\nusemtl m\nf 1/1/1 2/1/1 3/1/1 4/1/1\n";
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    try {
+      for (const Part& part : read(whole.substr(0, length)).parts)
+        for (const Triangle& triangle : part.mesh.triangles)
+          for (const Index index : triangle) ASSERT_LT(index, part.mesh.positions.size());
+    } catch (const InvalidInput& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace papilla

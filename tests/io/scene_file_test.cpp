@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "io/scene_fixtures.hpp"
+#include "io/temporary_folder.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+
+TEST(SceneFile, WritesAndReadsByExtension) {
+  const TemporaryFolder folder;
+  const Scene scene = test::rich_scene();
+  for (const char* name : {"a.GLB", "ä b.obj", "a.Stl"}) {
+    write_scene(scene, folder / name);
+    double last = -1;
+    const Scene back = read_scene(folder / name, {}, [&](std::string_view, double fraction) { last = fraction; });
+    EXPECT_EQ(last, 1);
+    std::size_t triangles = 0;
+    for (const Instance& instance : instances(back)) triangles += back.parts[instance.part].mesh.triangles.size();
+    EXPECT_EQ(triangles, 24U) << name;
+  }
+}
+
+TEST(SceneFile, TheUpAxisCanBeOverridden) {
+  const TemporaryFolder folder;
+  write_scene(test::rich_scene(), folder / "a.glb");
+  ReadOptions options;
+  options.up = UpAxis::z;
+  EXPECT_EQ(read_scene(folder / "a.glb", options).up, UpAxis::z);
+}
+
+TEST(SceneFile, UnknownExtensionsListTheKnownOnes) {
+  const TemporaryFolder folder;
+  const auto read = message_of<InvalidInput>([&] { read_scene(folder.write("a.foo", "x")); });
+  EXPECT_NE(read.find(".obj"), std::string::npos);
+  const auto write = message_of<InvalidInput>([&] { write_scene(Scene{}, folder / "b.foo"); });
+  EXPECT_NE(write.find(".glb"), std::string::npos);
+  EXPECT_THROW(read_scene(folder / "none.foo"), IoError);
+  EXPECT_THROW(read_scene(folder / "."), IoError);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/stl_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "io/temporary_folder.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+
+std::string binary_stl(const std::vector<float>& corners, std::uint32_t claimed, const std::string& header = "") {
+  std::string bytes = header;
+  bytes.resize(80, '\0');
+  bytes.append(reinterpret_cast<const char*>(&claimed), 4);
+  for (std::size_t t = 0; t < corners.size() / 9; ++t) {
+    bytes.append(12, '\0');
+    bytes.append(reinterpret_cast<const char*>(&corners[9 * t]), 36);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+const std::vector<float> k_square = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
+
+const std::string k_ascii =
+    "solid first part\r\n FACET normal 0 0 nan\r\n outer loop\r\n vertex 0 0 0\r\n vertex 1.5 0 0\r\n"
+    " vertex 0 1e0 +0.25\r\n endloop\r\n endfacet\r\nendsolid first part\r\nsolid\nendsolid\n";
+
+class StlReader : public testing::Test {
+ protected:
+  Scene read(const std::string& bytes, const ReadOptions& options = {}) const {
+    return read_stl(folder_.write("a.stl", bytes), options);
+  }
+  std::string refusal(const std::string& bytes) const {
+    return message_of<InvalidInput>([&] { read(bytes); });
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(StlReader, BinaryMergesEqualPositions) {
+  const Scene scene = read(binary_stl(k_square, 2));
+  ASSERT_EQ(scene.parts.size(), 1U);
+  EXPECT_EQ(scene.parts[0].name, "a");
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(scene.up, UpAxis::z);
+}
+
+TEST_F(StlReader, BinaryThatBeginsWithSolid) {
+  EXPECT_EQ(read(binary_stl(k_square, 2, "solid of an exporter")).parts[0].mesh.triangles.size(), 2U);
+}
+
+TEST_F(StlReader, UnitAndAxis) {
+  const Scene scene = read(binary_stl(k_square, 2), {25.4, UpAxis::y, 0.1, 20});
+  EXPECT_EQ(scene.parts[0].mesh.positions[1], (Vec3{25.4, 0, 0}));
+  EXPECT_EQ(scene.unit, "in");
+  EXPECT_EQ(scene.up, UpAxis::y);
+  EXPECT_THROW(read(binary_stl(k_square, 2), {-1, {}, 0.1, 20}), InvalidInput);
+}
+
+TEST_F(StlReader, HugeClaimsAreRefused) {
+  std::string bytes = binary_stl({}, 4000000000U);
+  bytes.resize(100, '\0');
+  const std::string message = refusal(bytes);
+  EXPECT_NE(message.find("4000000000"), std::string::npos);
+  EXPECT_NE(message.find("0 found"), std::string::npos);
+}
+
+TEST_F(StlReader, EveryPrefixOfABinaryFileIsRefused) {
+  const std::string whole = binary_stl(k_square, 2);
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    EXPECT_NE(refusal(whole.substr(0, length)), "") << length;
+  EXPECT_EQ(read(whole + "x").warnings.size(), 1U);
+}
+
+TEST_F(StlReader, NamesTheTriangleThatIsNotFinite) {
+  std::vector<float> corners = k_square;
+  corners[13] = std::numeric_limits<float>::infinity();
+  EXPECT_NE(refusal(binary_stl(corners, 2)).find("triangle 1"), std::string::npos);
+}
+
+TEST_F(StlReader, AsciiWithSeveralSolids) {
+  const Scene scene = read(k_ascii);
+  ASSERT_EQ(scene.parts.size(), 2U);
+  EXPECT_EQ(scene.parts[0].name, "first part");
+  EXPECT_EQ(scene.parts[1].name, "a");
+  ASSERT_EQ(scene.parts[0].mesh.triangles.size(), 1U);
+  EXPECT_EQ(scene.parts[0].mesh.corner(0, 2), (Vec3{0, 1, 0.25}));
+  EXPECT_TRUE(scene.parts[1].mesh.triangles.empty());
+}
+
+TEST_F(StlReader, AsciiNumbersDoNotDependOnTheLocale) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  bool found = false;
+  for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"})
+    found |= std::setlocale(LC_ALL, name) != nullptr;
+  if (!found) GTEST_SKIP() << "no locale with a decimal comma is installed";
+  const Scene scene = read(k_ascii);
+  std::setlocale(LC_ALL, before.c_str());
+  EXPECT_EQ(scene.parts[0].mesh.corner(0, 1), (Vec3{1.5, 0, 0}));
+}
+
+TEST_F(StlReader, EveryPrefixOfAnAsciiFileThrowsOrSucceeds) {
+  std::size_t good = 0;
+  for (std::size_t length = 0; length < k_ascii.size(); ++length) {
+    try {
+      read(k_ascii.substr(0, length));
+      ++good;
+    } catch (const InvalidInput&) {
+    }
+  }
+  // Complete are only those that end behind an "endsolid".
+  EXPECT_LE(good, std::string(" first part\r\n").size() + 1 + 2);
+}
+
+TEST_F(StlReader, AsciiErrorsNameTheLine) {
+  EXPECT_NE(refusal("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0").find("line 4: 'zero'"),
+            std::string::npos);
+  EXPECT_NE(refusal("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0").find("triangle 0"), std::string::npos);
+  EXPECT_NE(refusal("solid x\nfaucet").find("line 2"), std::string::npos);
+}
+
+TEST_F(StlReader, FacetsOfMoreThanThreeVertices) {
+  const Scene scene = read(
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 1 1 0\nvertex 0 1 "
+      "0\nendloop\nendfacet\nendsolid");
+  EXPECT_EQ(scene.parts[0].mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(scene.warnings.size(), 1U);
+}
+
+}  // namespace
+}  // namespace papilla
