@@ -21,6 +21,10 @@ using namespace detail;
 /// split of a cap would leave an edge that short, and with it the next needle.
 constexpr double k_needle_tolerances = 4;
 
+/// How far a pushed apex lies from its edge afterwards, and how often one may be pushed.
+constexpr double k_push_tolerances = 2;
+constexpr int k_most_pushes = 4;
+
 class DegenerateResolver {
  public:
   DegenerateResolver(TriangleMesh& mesh, double tolerance, DegenerateResult& result)
@@ -87,10 +91,12 @@ class DegenerateResolver {
                 apex = corners[previous_corner(s.longest_corner)];
     const double to_a = norm(mesh_.positions[apex] - mesh_.positions[a]);
     const double to_b = norm(mesh_.positions[apex] - mesh_.positions[b]);
-    if (std::min(to_a, to_b) > k_needle_tolerances * tolerance_ && may_flip(a, b))
+    if (std::min(to_a, to_b) <= k_needle_tolerances * tolerance_)
+      collapse(to_a <= to_b ? a : b, apex);
+    else if (may_flip(a, b))
       replace_long_edge(t, a, b, apex, s.altitude);
     else
-      collapse(to_a <= to_b ? a : b, apex);
+      push_off(t, a, b, apex);
   }
 
   /// An edge that was flipped away and came back sits in a quadrangle that is flat either way round: flipping it again
@@ -138,6 +144,30 @@ class DegenerateResolver {
     }
   }
 
+  /// Moves the apex of a cap away from its long edge, to the side that the edge's other triangle doesn't lie on.
+  void push_off(Index cap, Index a, Index b, Index apex) {
+    const auto [place, is_new] = start_of_pushed_.try_emplace(apex, Pushed{mesh_.positions[apex], 0});
+    const Vec3 origin = mesh_.positions[a], along = normalized(mesh_.positions[b] - origin);
+    Vec3 away{};
+    for (const Index t : star(a)) {
+      if (t == cap || !touches(t, a) || !touches(t, b)) continue;
+      for (const Index v : mesh_.triangles[t]) {
+        const Vec3 w = mesh_.positions[v] - origin;
+        if (v != a && v != b) away = away - normalized(w - dot(w, along) * along);
+      }
+    }
+    if (norm(away) < 0.5 || place->second.times++ == k_most_pushes) {
+      ++result_.left;
+      return;
+    }
+    const Vec3 foot = origin + dot(mesh_.positions[apex] - origin, along) * along;
+    mesh_.positions[apex] = foot + k_push_tolerances * tolerance_ * normalized(away);
+    ++result_.pushed;
+    result_.max_deviation_mm = std::max(result_.max_deviation_mm, norm(mesh_.positions[apex] - place->second.start));
+    for (const Index t : star(apex))
+      if (touches(t, apex)) enqueue(t);
+  }
+
   void split_at(Index t, Index a, Index b, Index apex, double s) {
     const Triangle corners = mesh_.triangles[t];
     std::size_t k = 0;
@@ -164,6 +194,11 @@ class DegenerateResolver {
     }
   }
 
+  struct Pushed {
+    Vec3 start;
+    int times;
+  };
+
   TriangleMesh& mesh_;
   double tolerance_;
   DegenerateResult& result_;
@@ -174,6 +209,7 @@ class DegenerateResolver {
   std::vector<std::pair<Index, Index>> moves_;
   std::unordered_set<std::uint64_t> flipped_away_;
   std::size_t flips_left_ = 0;
+  std::unordered_map<Index, Pushed> start_of_pushed_;
 };
 
 std::vector<Index> degenerate_triangles(const TriangleMesh& mesh, double tolerance) {

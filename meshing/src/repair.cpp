@@ -47,6 +47,7 @@ void drop_degenerate(RepairResult& all) {
   all.counts.repeated_corners += step.repeated;
   all.counts.collapsed_needles += step.collapsed;
   all.counts.flipped_caps += step.flipped;
+  all.counts.pushed_apexes += step.pushed;
   all.max_deviation_mm += step.max_deviation_mm;
 }
 

@@ -149,6 +149,23 @@ TEST(Degenerate, StripOfCapsEnds) {
   EXPECT_NEAR(area(result.mesh), 200 * 50, 1e-6);
 }
 
+TEST(Degenerate, QuadrangleFlatEitherWayMovesByTolerancesOnly) {
+  // c lies on a-b and b on c-d: either diagonal of a-c-b-d leaves a cap.
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {100, 0, 0}, {99, 6e-6, 0}, {105, -3e-5, 0}, {50, 50, 0}, {50, -50, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {0, 5, 3}};
+  const DegenerateResult result = remove_degenerate(mesh);
+  EXPECT_GE(result.found, 1u);
+  EXPECT_GE(result.pushed, 1u);
+  EXPECT_EQ(result.left, 0u);
+  EXPECT_LT(result.max_deviation_mm, 1e-4);
+  const MeshStatistics s = mesh_statistics(result.mesh);
+  EXPECT_EQ(s.degenerate_triangles, 0u);
+  EXPECT_EQ(s.boundary_loops, 1u);
+  EXPECT_EQ(s.nonmanifold_edges, 0u);
+  EXPECT_NEAR(area(result.mesh), area(mesh), 1e-2);
+}
+
 TEST(TJunctions, SharedEdgeClosesAndAttributesFollow) {
   TriangleMesh mesh = joined(grid(4, 1), TriangleMesh{});
   mesh.positions.push_back({2, -3, 0});

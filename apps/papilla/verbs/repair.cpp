@@ -46,6 +46,7 @@ Json operations_json(const std::vector<RepairResult>& results) {
           {"repeated_corners", sum(&RepairCounts::repeated_corners)},
           {"collapsed_needles", sum(&RepairCounts::collapsed_needles)},
           {"flipped_caps", sum(&RepairCounts::flipped_caps)},
+          {"pushed_apexes", sum(&RepairCounts::pushed_apexes)},
           {"duplicates", sum(&RepairCounts::duplicates)},
           {"opposites", sum(&RepairCounts::opposites)},
           {"walls", sum(&RepairCounts::walls)},

@@ -23,6 +23,7 @@ struct RepairCounts {
   std::size_t repeated_corners = 0;  ///< Triangles dropped because they named a vertex twice.
   std::size_t collapsed_needles = 0;
   std::size_t flipped_caps = 0;
+  std::size_t pushed_apexes = 0;   ///< Vertices pushed off an edge they lay on.
   std::size_t duplicates = 0;      ///< Triangles dropped because an earlier one ran the same way.
   std::size_t opposites = 0;       ///< Back sides of double sheets dropped.
   std::size_t walls = 0;           ///< Triangles dropped between touching solids.
