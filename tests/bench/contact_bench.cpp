@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <string>
 
 #include "bench/bench_json.hpp"
 #include "haptic/contact_shapes.hpp"
+#include "papilla/haptic/contact_audit.hpp"
 #include "papilla/haptic/histogram.hpp"
 #include "papilla/haptic/proxy.hpp"
 #ifdef PAPILLA_HAVE_EMBREE
@@ -54,9 +54,9 @@ struct Shape {
   bool relief;
 };
 
-/// Runs `tick` on every probe position and records its thread CPU time.
-template <class Probe, class Tick>
-void measure_ticks(Probe probe, int ticks, Recorder& recorder, Tick&& tick) {
+/// Runs `tick` on every probe position and records its thread CPU time; `after` is not timed.
+template <class Probe, class Tick, class After>
+void measure_ticks(Probe probe, int ticks, Recorder& recorder, Tick&& tick, After&& after) {
   Histogram times;
   recorder.time([&] {
     for (int i = 0; i < ticks; ++i) {
@@ -64,6 +64,7 @@ void measure_ticks(Probe probe, int ticks, Recorder& recorder, Tick&& tick) {
       const double before = bench::thread_cpu_seconds();
       tick(at);
       times.add(1e6 * (bench::thread_cpu_seconds() - before));
+      after(at);
     }
   });
   recorder.record("tick_us_p50", times.quantile(0.5));
@@ -75,11 +76,19 @@ void measure_ticks(Probe probe, int ticks, Recorder& recorder, Tick&& tick) {
 template <class Probe>
 void run_proxy(const ContactSurface& surface, std::uint64_t seed, int ticks, Recorder& recorder) {
   Proxy proxy(surface);
-  Probe first(seed);
-  const Vec3 start = first.next();
-  proxy.reset(start + 0.02 * (surface.low().z < -0.05 ? normalized(start) : Vec3{0, 0, 1}));
-  int lost = 0;
-  measure_ticks(Probe(seed), ticks, recorder, [&](Vec3 at) { lost += !proxy.update(at, k_period).in_contact; });
+  ContactAudit audit(surface);
+  const Vec3 start = Probe(seed).next();
+  const Vec3 outside = start + 0.02 * (surface.low().z < -0.05 ? normalized(start) : Vec3{0, 0, 1});
+  proxy.reset(outside);
+  audit.lost(outside, false);
+  int lost = 0, contact = 0;
+  measure_ticks(
+      Probe(seed), ticks, recorder, [&](Vec3 at) { proxy.update(at, k_period); },
+      [&](Vec3 at) {
+        contact += proxy.state().in_contact;
+        lost += audit.lost(at, proxy.state().in_contact);
+      });
+  recorder.record("contact_ticks", contact);
   recorder.record("lost_ticks", lost);
 }
 
@@ -110,8 +119,9 @@ void add_shape(bench::BenchReport& report, Inputs& inputs, Shape shape, int tick
       {.method = "closest-point", .solver = "embree", .input = kept.name, .notes = "lower bound: one query a tick"},
       [embree, relief = kept.relief, ticks, seed = std::uint64_t{1}](Recorder& recorder) mutable {
         const auto query = [&](Vec3 at) { bench::keep(embree->distance(at, 6e-3)); };
-        relief ? measure_ticks(ReliefProbe(seed++), ticks, recorder, query)
-               : measure_ticks(SphereProbe(seed++), ticks, recorder, query);
+        const auto nothing = [](Vec3) {};
+        relief ? measure_ticks(ReliefProbe(seed++), ticks, recorder, query, nothing)
+               : measure_ticks(SphereProbe(seed++), ticks, recorder, query, nothing);
       });
 #endif
 }
