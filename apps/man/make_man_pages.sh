@@ -13,7 +13,7 @@ page() {
   local command
   printf -v command '%q ' "$program" "${@:2}"
   help2man --no-info --no-discard-stderr --section 1 --manual 'Papilla' --source "$version" \
-    --name "$(summary "${@:2}")" --version-string "$version" --output "$folder/$1.1" "${command% }"
+    --name "$(summary "${@:2}")" --version-string "$1 ${version##* }" --output "$folder/$1.1" "${command% }"
 }
 
 # The first line of a help text without "NAME: ".
