@@ -15,6 +15,7 @@
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/levels_of_detail.hpp"
 #include "scene_options.hpp"
+#include "verb.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
