@@ -49,9 +49,10 @@ class Builder {
       result.mesh.triangles.push_back({base + corner[0], base + corner[1], base + corner[2]});
       result.mesh.material.push_back(*felt_[source]);
       const auto& uv = tex_coord_[source] == 1 ? mesh.uv1 : mesh.uv;
+      const bool has_uv = uv.has_value(t);
       for (std::size_t k = 0; k < 3; ++k)
-        result.mesh.corner_uv.push_back(uv.empty() ? Vec2{} : uv.values[uv.indices[t][k]]);
-      if (result.materials[*felt_[source]].height) check_uv(source, uv.empty());
+        result.mesh.corner_uv.push_back(has_uv ? gltf_uv(uv.values[uv.indices[t][k]]) : Vec2{});
+      if (result.materials[*felt_[source]].height) check_uv(source, !has_uv);
     }
     if (!used) return;
     for (const Vec3& p : mesh.positions)
@@ -108,6 +109,9 @@ class Builder {
   void check_uv(std::uint32_t source, bool missing) {
     if (missing) ++without_uv_[source];
   }
+
+  /// A scene's uv has v upwards, a height field samples as glTF does.
+  static Vec2 gltf_uv(Vec2 uv) { return {uv.x, 1 - uv.y}; }
 
   static bool mirrors(const Transform& t) {
     return dot(Vec3{t[0], t[4], t[8]}, cross(Vec3{t[1], t[5], t[9]}, Vec3{t[2], t[6], t[10]})) < 0;

@@ -19,6 +19,7 @@ constexpr double k_least_skin_share = 2e-6;  // Of the extent: thirty times the 
 constexpr double k_close = 1e-7;
 // Share of a triangle by which a way may miss it in crossings(), so that an edge is met from one side at least.
 constexpr double k_edge = 1e-9;
+constexpr double k_above = 1 - 1e-6;  // Cosine of less than 1.5 mrad off a triangle's normal.
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
@@ -254,8 +255,11 @@ ContactSurface::Clearance ContactSurface::clearance_of(std::uint32_t place, cons
   cosine = f.on == Foot::On::face ? 1 : std::min(1.0, cosine / norm(area));
   Vec3 slope;
   result.value -= cosine * relief_at(place, t, f, &slope);
-  if (f.on == Foot::On::edge) slope = (dot(slope, f.edge) / dot(f.edge, f.edge)) * f.edge;
-  if (f.on != Foot::On::corner) result.gradient = result.gradient - cosine * slope;
+  // Beside the triangle the foot moves along its edge only, or not at all. Right above the edge it moves both ways:
+  // there a neighbour goes on.
+  const bool above = f.on == Foot::On::face || cosine > k_above;
+  if (f.on == Foot::On::edge && !above) slope = (dot(slope, f.edge) / dot(f.edge, f.edge)) * f.edge;
+  if (f.on != Foot::On::corner || above) result.gradient = result.gradient - cosine * slope;
   return result;
 }
 

@@ -56,8 +56,8 @@ HeightField::HeightField(int width, int height, std::vector<std::uint16_t> sampl
 
   metres_per_step_ = (options.white_is_outward ? 1 : -1) * options.scale_m / 65535;
   base_m_ = options.offset_m + (options.white_is_outward ? 0 : options.scale_m);
-  const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
-  const double one = base_m_ + metres_per_step_ * *low, other = base_m_ + metres_per_step_ * *high;
+  const auto [low, high] = range();
+  const double one = base_m_ + metres_per_step_ * low, other = base_m_ + metres_per_step_ * high;
   min_m_ = std::min(one, other);
   max_m_ = std::max(one, other);
 
@@ -74,6 +74,30 @@ HeightField::HeightField(int width, int height, std::vector<std::uint16_t> sampl
 std::uint16_t HeightField::texel(long x, long y) const noexcept {
   const long column = wrapped(x, width_, options_.wrap[0]), row = wrapped(y, height_, options_.wrap[1]);
   return samples_[static_cast<std::size_t>(row * width_ + column)];
+}
+
+/// Least and largest sample; with bicubic interpolation also of the values halfway between samples, where it goes
+/// beyond them the most.
+std::pair<double, double> HeightField::range() const {
+  const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
+  double least = *low, most = *high;
+  if (options_.interpolation != Interpolation::bicubic) return {least, most};
+  const auto halfway = [](double a, double b, double c, double d) { return (9 * (b + c) - a - d) / 16; };
+  const auto take = [&](double v) {
+    least = std::min(least, v);
+    most = std::max(most, v);
+  };
+  for (long y = 0; y < height_; ++y)
+    for (long x = 0; x < width_; ++x) {
+      double row[4];
+      for (long j = 0; j < 4; ++j)
+        row[j] =
+            halfway(texel(x - 1, y + j - 1), texel(x, y + j - 1), texel(x + 1, y + j - 1), texel(x + 2, y + j - 1));
+      take(row[1]);
+      take(halfway(texel(x, y - 1), texel(x, y), texel(x, y + 1), texel(x, y + 2)));
+      take(halfway(row[0], row[1], row[2], row[3]));
+    }
+  return {least, most};
 }
 
 HeightSample HeightField::sample(Vec2 uv) const noexcept {

@@ -8,6 +8,12 @@
 #include "constraint_set.hpp"
 
 namespace papilla {
+namespace {
+
+/// Of the shortest step. Near the end a step of s brings only s²/2·depth.
+constexpr double k_least_gain = 0.02;
+
+}  // namespace
 
 /// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
 struct Proxy::Planes {
@@ -74,7 +80,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     } else {
       free = wanted == 0;
       // A round that started from here and came back no nearer: converged to within the tolerance.
-      if (free || (planes.count == 0 && wanted > nearest - shortest)) break;
+      if (free || (planes.count == 0 && wanted > nearest - k_least_gain * shortest)) break;
       if (planes.count == 0) nearest = wanted;
     }
     if (next.sweeps == k_steps) break;

@@ -97,7 +97,7 @@ const T& value_at(const Part& part, const CornerAttribute<T>& attribute, std::si
 }
 
 std::array<float, 2> uv_at(const Part& part, const CornerAttribute<Vec2>& attribute, std::size_t t, std::size_t k) {
-  if (attribute.empty()) return {0, 0};
+  if (!attribute.has_value(t)) return {0, 0};
   const Vec2 uv = value_at(part, attribute, t, k, "texture coordinate");
   const std::array<float, 2> result = {to_float(uv.x), to_float(1 - uv.y)};
   if (!all_finite(result)) fail(part, fmt::format("a texture coordinate of triangle {} is not finite", t));
@@ -105,7 +105,7 @@ std::array<float, 2> uv_at(const Part& part, const CornerAttribute<Vec2>& attrib
 }
 
 std::array<std::uint16_t, 4> color_at(const Part& part, std::size_t t, std::size_t k) {
-  const Color& c = value_at(part, part.mesh.colors, t, k, "colour");
+  const Color c = part.mesh.colors.has_value(t) ? value_at(part, part.mesh.colors, t, k, "colour") : Color{};
   const auto quantised = [](float x) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(double{x}, 0.0, 1.0) * 65535));
   };
@@ -121,6 +121,12 @@ float handedness_of(const std::array<Vertex, 3>& corners, int tex_coord) {
   return tangent_handedness(uv);
 }
 
+/// A primitive carries an attribute only when one of its triangles has it.
+template <class T>
+bool any_value(const CornerAttribute<T>& attribute, const std::vector<std::size_t>& triangles) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](std::size_t t) { return attribute.has_value(t); });
+}
+
 Primitive collect(const Part& part, const std::vector<std::size_t>& triangles, const CornerAttribute<Vec3>& normals,
                   const Layout& layout) {
   const TriangleMesh& mesh = part.mesh;
@@ -132,7 +138,8 @@ Primitive collect(const Part& part, const std::vector<std::size_t>& triangles, c
     std::array<Vertex, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k].position = position_of(part, mesh.triangles[t][k]);
-      corners[k].normal = unit_floats(value_at(part, normals, t, k, "normal"), flat == Vec3{} ? Vec3{0, 0, 1} : flat);
+      const Vec3 normal = normals.has_value(t) ? value_at(part, normals, t, k, "normal") : flat;
+      corners[k].normal = unit_floats(normal, flat == Vec3{} ? Vec3{0, 0, 1} : flat);
       if (layout.tex_coords > 0) corners[k].uv0 = uv_at(part, mesh.uv, t, k);
       if (layout.tex_coords > 1) corners[k].uv1 = uv_at(part, mesh.uv1, t, k);
       if (layout.colors) corners[k].color = color_at(part, t, k);
@@ -263,8 +270,9 @@ Json glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, con
   const auto slots = triangles_by_slot(part);
   for (std::size_t slot = 0; slot < slots.size(); ++slot) {
     if (slots[slot].empty()) continue;
-    Layout layout{part.mesh.uv.empty() ? 0 : 1, !part.mesh.colors.empty(), false, 0};
-    if (!part.mesh.uv1.empty()) layout.tex_coords = 2;
+    const TriangleMesh& triangles = part.mesh;
+    Layout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0, any_value(triangles.colors, slots[slot]), false, 0};
+    if (any_value(triangles.uv1, slots[slot])) layout.tex_coords = 2;
     if (slot < part.materials.size()) {
       const std::uint32_t number = part.materials[slot];
       if (number >= materials.size()) fail(part, fmt::format("names material {} of {}", number, materials.size()));

@@ -196,10 +196,11 @@ ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_pictur
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
   check_png({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
   OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-  const ImageSpec wishes = stored_values();
-  // The extension only starts OpenImageIO's search; the content decides.
-  const auto input = ImageInput::open("picture.png", &wishes, &memory);
-  if (!input) throw InvalidInput(name + ": is no picture: " + first_line(OIIO::geterror()));
+  const bool jpeg = bytes.size() > 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
+  const auto input = ImageInput::create(jpeg ? "jpeg" : "png");
+  ImageSpec spec;
+  if (!input || !input->set_ioproxy(&memory) || !input->open(name, spec, stored_values()))
+    throw InvalidInput(name + ": is no picture: " + first_line(input ? input->geterror() : OIIO::geterror()));
   check_size(input->spec(), name, bytes.size());
   return read_rgb(*input, name);
 }

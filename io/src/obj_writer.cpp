@@ -185,9 +185,10 @@ class ObjWriter {
 
   void write_corner(const TriangleMesh& mesh, std::size_t t, std::size_t k) {
     fmt::format_to(out_, " {}", first_position_ + mesh.triangles[t][k]);
-    if (!mesh.uv.empty()) fmt::format_to(out_, "/{}", first_uv_ + mesh.uv.indices[t][k]);
-    if (!mesh.normals.empty())
-      fmt::format_to(out_, "{}{}", mesh.uv.empty() ? "//" : "/", first_normal_ + mesh.normals.indices[t][k]);
+    const bool has_uv = mesh.uv.has_value(t);
+    if (has_uv) fmt::format_to(out_, "/{}", first_uv_ + mesh.uv.indices[t][k]);
+    if (mesh.normals.has_value(t))
+      fmt::format_to(out_, "{}{}", has_uv ? "/" : "//", first_normal_ + mesh.normals.indices[t][k]);
   }
 
   const Scene& scene_;

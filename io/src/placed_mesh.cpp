@@ -25,7 +25,7 @@ void check(const CornerAttribute<T>& attribute, const Part& part, const char* na
                                    attribute.indices.size(), part.mesh.triangles.size()));
   for (const Triangle& indices : attribute.indices)
     for (const Index index : indices)
-      if (index >= attribute.values.size())
+      if (index >= attribute.values.size() && index != k_no_value)
         throw InvalidInput(
             fmt::format("part '{}': {} {} of {} does not exist", part.name, name, index, attribute.values.size()));
 }

@@ -86,13 +86,13 @@ std::vector<NormalBins> normal_bins(const Surface& surface, const std::vector<st
                                     std::uint32_t count) {
   std::vector<std::tuple<std::uint32_t, Index, Index>> keys;
   keys.reserve(labels.size());
-  for (Index t = 0; t < labels.size(); ++t) keys.emplace_back(labels[t], bin_of(surface.area_vector[t]), t);
+  for (Index t = 0; t < labels.size(); ++t) keys.emplace_back(labels[t], bin_of(surface.area_vector(t)), t);
   std::sort(keys.begin(), keys.end());
   std::vector<NormalBins> bins(count);
   for (const auto& [label, bin, t] : keys) {
     NormalBins& chart = bins[label];
     if (chart.empty() || chart.back().first != bin) chart.emplace_back(bin, Vec3{});
-    chart.back().second = chart.back().second + surface.area_vector[t];
+    chart.back().second = chart.back().second + surface.area_vector(t);
   }
   return bins;
 }
@@ -120,8 +120,18 @@ std::uint32_t apply(UnionFind& sets, std::vector<std::uint32_t>& labels) {
 
 std::vector<double> chart_areas(const Surface& surface, const std::vector<std::uint32_t>& labels, std::uint32_t count) {
   std::vector<double> area(count, 0);
-  for (Index t = 0; t < labels.size(); ++t) area[labels[t]] += surface.area(t);
+  for (Index t = 0; t < labels.size(); ++t) area[labels[t]] += surface.area[t];
   return area;
+}
+
+/// Per triangle: the area below which a chart of its component is a speck.
+std::vector<double> speck_areas(const Surface& surface, const SegmentationOptions& options) {
+  std::vector<std::uint32_t> component(surface.size(), 0);
+  const std::uint32_t count = split_into_components(surface.opposite, component);
+  const std::vector<double> area = chart_areas(surface, component, count);
+  std::vector<double> limit(surface.size());
+  for (Index t = 0; t < limit.size(); ++t) limit[t] = options.speck_area_fraction * area[component[t]];
+  return limit;
 }
 
 std::uint32_t count_of(const std::vector<std::uint32_t>& labels) {
@@ -165,18 +175,22 @@ std::uint32_t merge_fitting(const Surface& surface, const std::vector<std::uint8
 std::uint32_t absorb_small(const Surface& surface, const std::vector<std::uint8_t>& feature,
                            const SegmentationOptions& options, std::vector<std::uint32_t>& labels) {
   std::uint32_t count = count_of(labels);
+  const std::vector<double> speck_area = speck_areas(surface, options);
   for (bool merged = true; merged;) {
     merged = false;
     const std::vector<double> area = chart_areas(surface, labels, count);
+    std::vector<double> speck(count);
+    for (Index t = 0; t < labels.size(); ++t) speck[labels[t]] = speck_area[t];
     std::vector<Border> longest(count);  // per small chart: the best neighbour in b
     for (const Border& border : find_borders(surface, feature, labels))
       for (const auto& [small, large] : {std::pair(border.a, border.b), std::pair(border.b, border.a)})
-        if (area[small] <= options.small_area_fraction * area[large] && border.length > longest[small].length)
+        if ((area[small] <= options.small_area_fraction * area[large] || area[small] <= speck[small]) &&
+            border.length > longest[small].length)
           longest[small] = {small, large, border.length, 0};
     UnionFind sets(count);
     for (const Border& border : longest) {
       if (!(border.length > 0)) continue;
-      sets.unite(border.a, border.b);  // always into something a thousand times larger, so chains stay small
+      sets.unite(border.a, border.b);
       merged = true;
     }
     count = apply(sets, labels);

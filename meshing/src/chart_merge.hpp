@@ -14,7 +14,8 @@ namespace papilla::detail {
 std::uint32_t merge_fitting(const Surface& surface, const std::vector<std::uint8_t>& feature,
                             const SegmentationOptions& options, std::vector<std::uint32_t>& labels);
 
-/// Lets charts below `small_area_fraction` of a neighbour's area join the one with the longest common border.
+/// Lets charts below `small_area_fraction` of a neighbour's area, or below `speck_area_fraction` of their component's,
+/// join the neighbour with the longest common border.
 /// Labels must be dense; returns the new count.
 std::uint32_t absorb_small(const Surface& surface, const std::vector<std::uint8_t>& feature,
                            const SegmentationOptions& options, std::vector<std::uint32_t>& labels);

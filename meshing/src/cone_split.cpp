@@ -90,26 +90,24 @@ class ConeSplitter {
   Cone measure(const std::vector<Index>& chart) const {
     Cone cone;
     Vec3 sum{};
-    for (const Index t : chart) sum = sum + surface_.area_vector[t];
+    for (const Index t : chart) sum = sum + surface_.area_vector(t);
     cone.axis = normalized(sum);
     for (const Index t : chart) {
-      const double area = surface_.area(t);
+      const double area = surface_.area[t];
       cone.area += area;
       if (is_outside(t, cone.axis)) cone.outside += area;
     }
     return cone;
   }
 
-  bool is_outside(Index t, const Vec3& axis) const {
-    return dot(surface_.area_vector[t], axis) < least_cosine_ * surface_.area(t);
-  }
+  bool is_outside(Index t, const Vec3& axis) const { return dot(surface_.normal[t], axis) < least_cosine_; }
 
   /// The direction in which the normals spread most, by power iteration on their covariance.
   Vec3 spread_direction(const std::vector<Index>& chart, const Vec3& mean) const {
     double m[6] = {};
     for (const Index t : chart) {
-      const Vec3 n = surface_.normal(t) - mean;
-      const double area = surface_.area(t);
+      const Vec3 n = surface_.normal[t] - mean;
+      const double area = surface_.area[t];
       m[0] += area * n.x * n.x, m[1] += area * n.x * n.y, m[2] += area * n.x * n.z;
       m[3] += area * n.y * n.y, m[4] += area * n.y * n.z, m[5] += area * n.z * n.z;
     }
@@ -128,7 +126,7 @@ class ConeSplitter {
   bool bisect(const std::vector<Index>& chart, const Cone& cone, std::vector<std::vector<Index>>& pending) {
     const Vec3 direction = spread_direction(chart, cone.axis);
     const double middle = dot(cone.axis, direction);
-    for (const Index t : chart) side_[t] = dot(surface_.normal(t), direction) > middle;
+    for (const Index t : chart) side_[t] = dot(surface_.normal[t], direction) > middle;
     for (int round = 0; round < k_lloyd_rounds; ++round) grow(chart, mean_normals(chart));
 
     std::array<std::vector<Index>, 2> halves;
@@ -146,13 +144,13 @@ class ConeSplitter {
 
   std::array<Vec3, 2> mean_normals(const std::vector<Index>& chart) const {
     std::array<Vec3, 2> sum{};
-    for (const Index t : chart) sum[side_[t]] = sum[side_[t]] + surface_.area_vector[t];
+    for (const Index t : chart) sum[side_[t]] = sum[side_[t]] + surface_.area_vector(t);
     return {normalized(sum[0]), normalized(sum[1])};
   }
 
   /// sin(angle / 2) between a triangle's normal and an axis.
   double cost(Index t, const Vec3& axis) const {
-    return std::sqrt(std::clamp(0.5 * (1 - dot(surface_.normal(t), axis)), 0.0, 1.0));
+    return std::sqrt(std::clamp(0.5 * (1 - dot(surface_.normal[t], axis)), 0.0, 1.0));
   }
 
   /// Grows two regions from the triangles that fit the axes best, always the best fitting triangle first.
@@ -194,7 +192,7 @@ class ConeSplitter {
       if (side_[seed] == k_unset) continue;
       std::vector<Index> piece = take_piece(seed, label);
       double area = 0;
-      for (const Index t : piece) area += surface_.area(t);
+      for (const Index t : piece) area += surface_.area[t];
       if (area >= options_.small_area_fraction * cone.area)
         pieces.push_back(std::move(piece));
       else
@@ -268,7 +266,7 @@ std::vector<std::uint8_t> feature_halfedges(const Surface& surface, double featu
   for (Index h = 0; h < feature.size(); ++h) {
     const Index other = surface.opposite[h];
     if (other == k_none || other < h) continue;
-    const Vec3 a = surface.normal(triangle_of(h)), b = surface.normal(triangle_of(other));
+    const Vec3 a = surface.normal[triangle_of(h)], b = surface.normal[triangle_of(other)];
     feature[h] = feature[other] = dot(a, b) < least_cosine;
   }
   return feature;

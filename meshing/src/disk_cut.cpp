@@ -204,26 +204,47 @@ class LoopCutter {
     }
   }
 
-  /// Kruskal over the edges where the catchments of two loops meet; cuts along the paths of the spanning tree.
+  /// A way from loop to loop over an edge where their catchments meet.
+  struct Link {
+    double cost;
+    EdgeHandle edge;
+    bool deferred;
+    bool operator>(const Link& other) const { return std::tie(cost, edge) > std::tie(other.cost, other.edge); }
+  };
+
+  /// Kruskal over all links; cuts along the paths of the spanning tree. A tree that is a chain lets one bisection part
+  /// all its cuts, so a third path at a loop is taken only when it saves half the length.
   void join_loops() {
-    std::vector<std::pair<double, EdgeHandle>> meetings;
+    std::priority_queue<Link, std::vector<Link>, std::greater<>> links;
     for (const EdgeHandle e : mesh_.edges()) {
-      const HalfedgeHandle h = mesh_.halfedge_handle(e, 0);
-      const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
+      const auto [a, b] = ends(e);
       if (loop_[at(a)] == loop_[at(b)]) continue;
-      meetings.emplace_back(distance_[at(a)] + mesh_.calc_edge_length(e) + distance_[at(b)], e);
+      links.push({distance_[at(a)] + mesh_.calc_edge_length(e) + distance_[at(b)], e, false});
     }
-    std::sort(meetings.begin(), meetings.end());
     UnionFind joined(loops_);
-    for (const auto& [length, e] : meetings) {
-      const HalfedgeHandle h = mesh_.halfedge_handle(e, 0);
-      const VertexHandle a = mesh_.from_vertex_handle(h), b = mesh_.to_vertex_handle(h);
-      if (joined.find(loop_[at(a)]) == joined.find(loop_[at(b)])) continue;
-      joined.unite(loop_[at(a)], loop_[at(b)]);
-      cut(h);
+    std::vector<int> paths(loops_, 0);
+    while (!links.empty()) {
+      const Link link = links.top();
+      links.pop();
+      const auto [a, b] = ends(link.edge);
+      const Index p = loop_[at(a)], q = loop_[at(b)];
+      if (joined.find(p) == joined.find(q)) continue;
+      if (!link.deferred && std::max(paths[p], paths[q]) >= 2) {
+        links.push({2 * link.cost, link.edge, true});
+        continue;
+      }
+      joined.unite(p, q);
+      ++paths[p];
+      ++paths[q];
+      cut(mesh_.halfedge_handle(link.edge, 0));
       for (VertexHandle v : {a, b})
         for (; way_[at(v)].is_valid(); v = mesh_.to_vertex_handle(way_[at(v)])) cut(way_[at(v)]);
     }
+  }
+
+  std::pair<VertexHandle, VertexHandle> ends(EdgeHandle e) const {
+    const HalfedgeHandle h = mesh_.halfedge_handle(e, 0);
+    return {mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)};
   }
 
   void cut(HalfedgeHandle h) {

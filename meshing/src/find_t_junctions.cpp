@@ -44,8 +44,8 @@ std::vector<TJunction> find_t_junctions(const std::vector<Vec3>& positions, cons
     const Vec3 a = positions[from_vertex(triangles, h)], d = positions[to_vertex(triangles, h)] - a;
     const double length = norm(d);
     if (length <= 4 * tolerance) return;
-    tree.near_segment(a, a + d, tolerance, [&](Index v) {
-      const Vec3 w = positions[v] - a;
+    tree.near_segment(a, a + d, tolerance, [&](Index v, const Vec3& p) {
+      const Vec3 w = p - a;
       const double s = dot(w, d) / (length * length);
       if (s * length > 2 * tolerance && (1 - s) * length > 2 * tolerance && norm(w - s * d) < tolerance)
         found.push_back({h, v, s});

@@ -2,15 +2,19 @@
 #include "papilla/meshing/manifold.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
 
 #include "check_mesh.hpp"
 #include "edge_table.hpp"
 #include "papilla/core/error.hpp"
+#include "point_tree.hpp"
 #include "union_find.hpp"
 
 namespace papilla {
@@ -20,6 +24,9 @@ using namespace detail;
 
 /// Copies move by at most this fraction of the shortest edge around, so that no triangle turns over.
 constexpr double k_largest_move = 0.2;
+
+/// Copies keep this fraction of the gap from every other vertex: twice the weld's tolerance at the default gap.
+constexpr double k_clearance = 0.6;
 
 bool is_bad(std::span<const Index> halfedges, const std::vector<Triangle>& triangles) {
   return halfedges.size() > 2 ||
@@ -68,6 +75,50 @@ void pair_around(const TriangleMesh& mesh, std::span<const Index> halfedges, std
     }
 }
 
+/// Finds places for copies that keep clear of all vertices and of each other, so that no weld joins them again.
+class FreePlaces {
+ public:
+  FreePlaces(const std::vector<Vec3>& positions, double clearance)
+      : clearance_(clearance), tree_(positions, all_of(positions)) {}
+
+  /// start + m · step for the smallest m from 1 that is clear; m = 16 when none is.
+  Vec3 along(const Vec3& start, const Vec3& step) {
+    constexpr int k_tries = 16;
+    Vec3 place = start + step;
+    for (int m = 1; m < k_tries && !is_clear(place); ++m) place = place + step;
+    placed_.emplace(cell_of(place, 0, 0, 0), place);
+    return place;
+  }
+
+ private:
+  using Cell = std::array<double, 3>;  // whole numbers, whatever their size
+
+  static std::vector<Index> all_of(const std::vector<Vec3>& positions) {
+    std::vector<Index> all(positions.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    return all;
+  }
+
+  Cell cell_of(const Vec3& p, int dx, int dy, int dz) const {
+    const auto index = [this](double value, int d) { return std::floor(value / clearance_) + d; };
+    return {index(p.x, dx), index(p.y, dy), index(p.z, dz)};
+  }
+
+  bool is_clear(const Vec3& p) const {
+    bool clear = true;
+    tree_.near_point(p, clearance_, [&](Index, const Vec3& q) { clear = clear && norm(q - p) >= clearance_; });
+    for (int i = 0; i < 27 && clear; ++i) {
+      const auto [begin, end] = placed_.equal_range(cell_of(p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+      for (auto other = begin; other != end && clear; ++other) clear = norm(other->second - p) >= clearance_;
+    }
+    return clear;
+  }
+
+  double clearance_;
+  PointTree tree_;
+  std::multimap<Cell, Vec3> placed_;
+};
+
 class Splitter {
  public:
   Splitter(TriangleMesh& mesh, double gap, ManifoldResult& result)
@@ -88,6 +139,15 @@ class Splitter {
     Index vertex, fan, corner;
     auto operator<=>(const Copy&) const = default;
   };
+
+  /// Where a vertex goes that is parted from another one at `start`.
+  Vec3 place(const Vec3& start, const Vec3& step) {
+    if (!(gap_ > 0)) return start;
+    if (!places_) places_.emplace(mesh_.positions, k_clearance * gap_);
+    const Vec3 free = places_->along(start, step);
+    result_.max_deviation_mm = std::max(result_.max_deviation_mm, norm(free - start));
+    return free;
+  }
 
   void find_bad_edges() {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -114,12 +174,10 @@ class Splitter {
     const std::vector<std::uint8_t> at_bad_edge = corners_at_bad_edges(fans);
     const std::vector<double> shortest = shortest_edges(copies);
 
-    std::size_t moved_of_vertex = 0;
     std::vector<std::pair<Index, Index>> new_corners;  // corner, vertex
     std::vector<std::pair<Index, Vec3>> moves;
     for (std::size_t begin = 0, end = 0; begin < copies.size(); begin = end) {
       const auto [v, fan, corner] = copies[begin];
-      if (begin == 0 || copies[begin - 1].vertex != v) moved_of_vertex = 0;
       const Index copy = static_cast<Index>(mesh_.positions.size());
       mesh_.positions.push_back(Vec3{mesh_.positions[v]});
       ++result_.added_vertices;
@@ -129,15 +187,11 @@ class Splitter {
         inward = inward + towards_opposite_side(copies[end].corner);
       }
       if (!at_bad_edge[fan]) continue;
-      ++moved_of_vertex;
-      const double step = std::min(gap_ * static_cast<double>(moved_of_vertex), k_largest_move * shortest[v]);
+      const double step = std::min(gap_, k_largest_move * shortest[v]);
       moves.emplace_back(copy, step * normalized(inward));
     }
     for (const auto& [corner, vertex] : new_corners) mesh_.triangles[triangle_of(corner)][corner_of(corner)] = vertex;
-    for (const auto& [vertex, move] : moves) {
-      mesh_.positions[vertex] = mesh_.positions[vertex] + move;
-      result_.max_deviation_mm = std::max(result_.max_deviation_mm, norm(move));
-    }
+    for (const auto& [vertex, step] : moves) mesh_.positions[vertex] = place(mesh_.positions[vertex], step);
   }
 
   /// Per fan (its first corner): does it touch a bad edge at its vertex?
@@ -183,14 +237,14 @@ class Splitter {
         const std::pair<Index, Index> ends =
             std::minmax({from_vertex(mesh_.triangles, h), to_vertex(mesh_.triangles, h)});
         if (uses[ends]++ == 0) continue;
-        split_in_the_middle(h, static_cast<double>(uses[ends] - 1));
+        split_in_the_middle(h);
         changed[triangle_of(h)] = 1;
         if (other != k_none) changed[triangle_of(other)] = 1;
       }
     }
   }
 
-  void split_in_the_middle(Index h, double ordinal) {
+  void split_in_the_middle(Index h) {
     const Vec3 a = mesh_.positions[from_vertex(mesh_.triangles, h)], b = mesh_.positions[to_vertex(mesh_.triangles, h)];
     const Vec3 middle = 0.5 * (a + b);
     const auto apex = [&](Index halfedge) {
@@ -198,10 +252,8 @@ class Splitter {
     };
     Vec3 inward = normalized(apex(h) - middle);
     if (opposite_[h] != k_none) inward = inward + normalized(apex(opposite_[h]) - middle);
-    const Vec3 move = std::min(gap_ * ordinal, k_largest_move * norm(b - a)) * normalized(inward);
     const Index vertex = static_cast<Index>(mesh_.positions.size());
-    mesh_.positions.push_back(middle + move);
-    result_.max_deviation_mm = std::max(result_.max_deviation_mm, norm(move));
+    mesh_.positions.push_back(place(middle, std::min(gap_, k_largest_move * norm(b - a)) * normalized(inward)));
     ++result_.split_edges;
     split_triangle(mesh_, triangle_of(h), corner_of(h), vertex, 0.5);
     if (opposite_[h] != k_none) split_triangle(mesh_, triangle_of(opposite_[h]), corner_of(opposite_[h]), vertex, 0.5);
@@ -213,6 +265,7 @@ class Splitter {
   EdgeTable edges_;
   std::vector<Index> opposite_;
   std::vector<std::size_t> bad_edges_;
+  std::optional<FreePlaces> places_;
 };
 
 }  // namespace

@@ -10,17 +10,19 @@ double coordinate(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x : a
 
 }  // namespace
 
-PointTree::PointTree(const std::vector<Vec3>& positions, std::vector<Index> members) : members_(std::move(members)) {
-  if (members_.empty()) return;
-  nodes_.reserve(members_.size() / 2 + 4);
-  build(positions, 0, static_cast<Index>(members_.size()));
+PointTree::PointTree(const std::vector<Vec3>& positions, const std::vector<Index>& members) {
+  if (members.empty()) return;
+  members_.reserve(members.size());
+  for (const Index v : members) members_.push_back({positions[v], v});
+  nodes_.reserve(members.size() / 2 + 4);
+  build(0, static_cast<Index>(members_.size()));
 }
 
-Index PointTree::build(const std::vector<Vec3>& positions, Index begin, Index end) {
+Index PointTree::build(Index begin, Index end) {
   const Index index = static_cast<Index>(nodes_.size());
-  Vec3 low = positions[members_[begin]], high = low;
+  Vec3 low = members_[begin].position, high = low;
   for (Index i = begin; i < end; ++i) {
-    const Vec3& p = positions[members_[i]];
+    const Vec3& p = members_[i].position;
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
@@ -31,11 +33,11 @@ Index PointTree::build(const std::vector<Vec3>& positions, Index begin, Index en
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const Index middle = begin + (end - begin) / 2;
   const auto at = [&](Index i) { return members_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [&](Index a, Index b) {
-    return std::pair(coordinate(positions[a], axis), a) < std::pair(coordinate(positions[b], axis), b);
+  std::nth_element(at(begin), at(middle), at(end), [axis](const Member& a, const Member& b) {
+    return std::pair(coordinate(a.position, axis), a.index) < std::pair(coordinate(b.position, axis), b.index);
   });
-  build(positions, begin, middle);
-  const Index right = build(positions, middle, end);
+  build(begin, middle);
+  const Index right = build(middle, end);
   nodes_[index].right = right;
   return index;
 }

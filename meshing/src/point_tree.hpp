@@ -16,16 +16,16 @@ namespace papilla::detail {
 /// the points are spread, which a uniform grid can't promise.
 class PointTree {
  public:
-  /// `members` are indices into `positions`, which must outlive the tree.
-  PointTree(const std::vector<Vec3>& positions, std::vector<Index> members);
+  /// `members` are indices into `positions`.
+  PointTree(const std::vector<Vec3>& positions, const std::vector<Index>& members);
 
-  /// Calls visit(index) for a superset of the members within `radius` of the segment a-b.
+  /// Calls visit(index, position) for a superset of the members within `radius` of the segment a-b.
   template <class Visit>
   void near_segment(const Vec3& a, const Vec3& b, double radius, const Visit& visit) const {
     if (!nodes_.empty()) descend(0, a, b - a, radius, visit);
   }
 
-  /// Calls visit(index) for a superset of the members within `radius` of p.
+  /// Calls visit(index, position) for a superset of the members within `radius` of p.
   template <class Visit>
   void near_point(const Vec3& p, double radius, const Visit& visit) const {
     near_segment(p, p, radius, visit);
@@ -60,16 +60,21 @@ class PointTree {
     const Node& node = nodes_[node_index];
     if (!touches(node, a, d, radius)) return;
     if (node.right == 0) {
-      for (Index i = node.begin; i < node.end; ++i) visit(members_[i]);
+      for (Index i = node.begin; i < node.end; ++i) visit(members_[i].index, members_[i].position);
       return;
     }
     descend(node_index + 1, a, d, radius, visit);
     descend(node.right, a, d, radius, visit);
   }
 
-  Index build(const std::vector<Vec3>& positions, Index begin, Index end);
+  struct Member {
+    Vec3 position;
+    Index index;
+  };
 
-  std::vector<Index> members_;
+  Index build(Index begin, Index end);
+
+  std::vector<Member> members_;  ///< In the order of the leaves.
   std::vector<Node> nodes_;
 };
 

@@ -17,6 +17,9 @@ namespace {
 
 using namespace detail;
 
+/// Three times what counts as degenerate, so that writing single precision doesn't make a triangle degenerate again.
+constexpr double k_repaired_altitude = 3e-7;
+
 void weld_mesh(RepairResult& all, const RepairOptions& options) {
   WeldOptions weld_options;
   weld_options.tolerance_mm = options.weld_mm;
@@ -37,7 +40,9 @@ void drop_duplicates(RepairResult& all) {
 }
 
 void drop_degenerate(RepairResult& all) {
-  DegenerateResult step = remove_degenerate(std::move(all.mesh));
+  DegenerateOptions degenerate_options;
+  degenerate_options.relative_altitude = k_repaired_altitude;
+  DegenerateResult step = remove_degenerate(std::move(all.mesh), degenerate_options);
   all.mesh = std::move(step.mesh);
   all.counts.repeated_corners += step.repeated;
   all.counts.collapsed_needles += step.collapsed;

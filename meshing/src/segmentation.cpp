@@ -25,6 +25,7 @@ void check_options(const SegmentationOptions& options) {
   require(is_angle(options.feature_angle_deg), "feature_angle_deg", options.feature_angle_deg);
   require(is_angle(options.max_normal_deviation_deg), "max_normal_deviation_deg", options.max_normal_deviation_deg);
   require(is_fraction(options.outlier_area_fraction), "outlier_area_fraction", options.outlier_area_fraction);
+  require(is_fraction(options.speck_area_fraction), "speck_area_fraction", options.speck_area_fraction);
   require(is_fraction(options.small_area_fraction), "small_area_fraction", options.small_area_fraction);
 }
 

@@ -12,9 +12,13 @@ Surface::Surface(const TriangleMesh& mesh)
       triangles(mesh.triangles),
       edges(mesh.triangles, mesh.positions.size()),
       opposite(opposite_halfedges(mesh.triangles, edges)) {
-  area_vector.reserve(triangles.size());
-  for (const Triangle& t : triangles)
-    area_vector.push_back(0.5 * detail::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]));
+  normal.reserve(triangles.size());
+  area.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    const Vec3 vector = 0.5 * detail::area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+    area.push_back(norm(vector));
+    normal.push_back(normalized(vector));
+  }
 }
 
 std::uint32_t renumber(std::vector<std::uint32_t>& labels) {

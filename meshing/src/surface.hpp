@@ -14,12 +14,12 @@ struct Surface {
   const std::vector<Vec3>& positions;
   const std::vector<Triangle>& triangles;
   EdgeTable edges;
-  std::vector<Index> opposite;    ///< Per half-edge; k_none at borders.
-  std::vector<Vec3> area_vector;  ///< Per triangle: unit normal times area.
+  std::vector<Index> opposite;  ///< Per half-edge; k_none at borders.
+  std::vector<Vec3> normal;     ///< Per triangle, of length one, or zero when it has no area.
+  std::vector<double> area;
 
   std::size_t size() const noexcept { return triangles.size(); }
-  double area(Index t) const noexcept { return norm(area_vector[t]); }
-  Vec3 normal(Index t) const noexcept { return normalized(area_vector[t]); }
+  Vec3 area_vector(Index t) const noexcept { return area[t] * normal[t]; }
   double length(Index h) const noexcept {
     return norm(positions[to_vertex(triangles, h)] - positions[from_vertex(triangles, h)]);
   }

@@ -77,10 +77,9 @@ std::vector<Index> nearest_earlier(const std::vector<Vec3>& positions, const std
   std::iota(target.begin(), target.end(), Index{0});
   for (const Index v : members) {
     double nearest = std::numeric_limits<double>::infinity();
-    tree.near_point(positions[v], reach[v], [&](Index p) {
-      if (p >= v || target[p] != p) return;
-      const double distance = norm(positions[p] - positions[v]);
-      if (distance > std::min(reach[v], reach[p])) return;
+    tree.near_point(positions[v], reach[v], [&](Index p, const Vec3& place) {
+      const double distance = norm(place - positions[v]);
+      if (p >= v || distance > reach[v] || distance > reach[p] || target[p] != p) return;
       if (distance < nearest || (distance == nearest && p < target[v])) {
         nearest = distance;
         target[v] = p;

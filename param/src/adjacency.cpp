@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 /// Vertices with more corners than this are matched by sorting instead of scanning.
@@ -97,4 +97,4 @@ Adjacency connect_triangles(const TriangleMesh& mesh) {
   return across;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

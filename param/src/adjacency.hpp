@@ -5,7 +5,7 @@
 
 #include "papilla/meshing/triangle_mesh.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 inline constexpr Index k_no_triangle = ~Index{0};
 
@@ -17,4 +17,4 @@ using Adjacency = std::vector<Index>;
 /// Cost: O(n) for bounded valence, O(n log n) for any.
 Adjacency connect_triangles(const TriangleMesh& mesh);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -14,7 +14,7 @@
 namespace papilla {
 namespace {
 
-using namespace detail;
+using namespace param_detail;
 
 constexpr const char* k_function = "align_phase";
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 Index find_root(std::vector<Index>& parent, Index i) {
@@ -82,4 +82,4 @@ ChartSurface ChartCutter::cut(std::uint32_t chart, std::span<const Index> triang
   return surface;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -9,7 +9,7 @@
 #include "papilla/meshing/chart_set.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// The triangles of each chart, in mesh order within a chart.
 struct TrianglesOfCharts {
@@ -50,4 +50,4 @@ class ChartCutter {
   std::vector<Index> local_;
 };
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -6,11 +6,11 @@
 
 #include "papilla/core/error.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
-/// Fourth powers of such lengths and their sums over a mesh stay finite.
-constexpr double k_largest_coordinate = 1e60;
+/// A million kilometres in micrometres: areas fit a float, fourth powers and their sums a double.
+constexpr double k_largest_coordinate = 1e15;
 
 [[noreturn]] void fail(std::string_view function, const std::string& what) {
   throw InvalidInput(std::string(function) + ": " + what);
@@ -27,7 +27,7 @@ void check_mesh(const TriangleMesh& mesh, std::string_view function) {
     // A comparison with NaN is false.
     if (!(std::abs(p.x) <= k_largest_coordinate && std::abs(p.y) <= k_largest_coordinate &&
           std::abs(p.z) <= k_largest_coordinate))
-      fail(function, "position[" + std::to_string(v) + "] is not a finite number below 1e60");
+      fail(function, "position[" + std::to_string(v) + "] is not a finite number below 1e15");
   }
   const std::size_t count = mesh.positions.size();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -53,10 +53,10 @@ void check_uv(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, std::st
                        std::to_string(mesh.triangles.size()) + " triangles");
   for (std::size_t i = 0; i < uv.values.size(); ++i)
     if (!(std::abs(uv.values[i].x) <= k_largest_coordinate && std::abs(uv.values[i].y) <= k_largest_coordinate))
-      fail(function, "uv[" + std::to_string(i) + "] is not a finite number below 1e60");
+      fail(function, "uv[" + std::to_string(i) + "] is not a finite number below 1e15");
   for (std::size_t t = 0; t < uv.indices.size(); ++t)
     for (const Index i : uv.indices[t])
       if (i >= uv.values.size()) fail(function, "triangle[" + std::to_string(t) + "] names a uv that does not exist");
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

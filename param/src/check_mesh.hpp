@@ -6,7 +6,7 @@
 #include "papilla/meshing/chart_set.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// @throws InvalidInput naming `function` and the first vertex or triangle when a position is not finite or too large
 ///         to be squared, an index is out of range, or the mesh has 2^30 triangles or more.
@@ -18,4 +18,4 @@ void check_charts(const TriangleMesh& mesh, const ChartSet& charts, std::string_
 /// @throws InvalidInput unless every triangle has three uv that exist and are finite.
 void check_uv(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, std::string_view function);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

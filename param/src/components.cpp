@@ -8,10 +8,10 @@
 namespace papilla {
 
 ChartSet components_as_charts(const TriangleMesh& mesh) {
-  detail::check_mesh(mesh, "components_as_charts");
+  param_detail::check_mesh(mesh, "components_as_charts");
   // Sheets of equal label: with one label for all, the components.
-  detail::Sheets sheets =
-      detail::connect_sheets(detail::connect_triangles(mesh), std::vector<std::uint8_t>(mesh.triangles.size(), 0));
+  param_detail::Sheets sheets = param_detail::connect_sheets(param_detail::connect_triangles(mesh),
+                                                             std::vector<std::uint8_t>(mesh.triangles.size(), 0));
   return {std::move(sheets.of_triangle), sheets.count, 0};
 }
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <span>
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 /// Fraction of the longer edge by which triangles may run into one another and still count as touching.
@@ -237,4 +237,4 @@ UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, int rows) {
   return result;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -7,7 +7,7 @@
 
 #include "papilla/core/vec.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 struct UvTriangle {
   std::array<Vec2, 3> corners;  ///< Counter-clockwise.
@@ -22,4 +22,4 @@ struct UvOverlap {
 /// @param triangles with positive area.
 UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, int rows);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -14,7 +14,7 @@
 namespace papilla {
 namespace {
 
-using namespace detail;
+using namespace param_detail;
 
 constexpr const char* k_function = "flatten_lscm";
 
@@ -200,7 +200,7 @@ void append(const MappedChart& chart, std::span<const Index> triangles, Flatteni
 
 }  // namespace
 
-namespace detail {
+namespace param_detail {
 
 std::vector<std::vector<Index>> border_loops(const ChartSurface& chart) {
   std::vector<Index> after(chart.positions.size(), k_no_triangle);
@@ -230,7 +230,7 @@ std::vector<std::vector<Index>> border_loops(const ChartSurface& chart) {
   return loops;
 }
 
-}  // namespace detail
+}  // namespace param_detail
 
 Flattening flatten_lscm(const TriangleMesh& mesh, const ChartSet& charts, const LscmOptions& options) {
   check_mesh(mesh, k_function);

@@ -8,7 +8,7 @@
 
 #include "lscm_solvers.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 namespace smp = CGAL::Surface_mesh_parameterization;
@@ -59,4 +59,4 @@ ConformalMap solve_lscm_cgal(const ChartSurface& chart) {
   }
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

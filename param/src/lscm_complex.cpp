@@ -7,7 +7,7 @@
 
 #include "lscm_solvers.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 using Complex = std::complex<double>;
@@ -96,4 +96,4 @@ ConformalMap solve_lscm_hermitian(const ChartSurface& chart) {
   return map;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

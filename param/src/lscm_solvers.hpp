@@ -7,7 +7,7 @@
 
 #include "chart_pieces.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// The map of one chart up to similarity, or why there is none.
 struct ConformalMap {
@@ -22,4 +22,4 @@ std::vector<std::vector<Index>> border_loops(const ChartSurface& chart);
 ConformalMap solve_lscm_cgal(const ChartSurface& chart);
 ConformalMap solve_lscm_hermitian(const ChartSurface& chart);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

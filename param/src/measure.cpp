@@ -20,9 +20,9 @@
 namespace papilla {
 namespace {
 
-using detail::find_uv_overlap;
-using detail::UvOverlap;
-using detail::UvTriangle;
+using param_detail::find_uv_overlap;
+using param_detail::UvOverlap;
+using param_detail::UvTriangle;
 
 constexpr const char* k_function = "measure_distortion";
 
@@ -511,12 +511,12 @@ DistortionReport measure_those_with_uv(const TriangleMesh& mesh, const CornerAtt
 DistortionReport measure_distortion(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
                                     const MeasureOptions& options) {
   check_options(options);
-  detail::check_mesh(mesh, k_function);
+  param_detail::check_mesh(mesh, k_function);
   if (!options.part.empty() && options.part.size() != mesh.triangles.size())
     throw InvalidInput(std::string(k_function) + ": part has " + std::to_string(options.part.size()) + " entries for " +
                        std::to_string(mesh.triangles.size()) + " triangles");
   if (uv.indices.size() == mesh.triangles.size() && !all_have_uv(uv)) return measure_those_with_uv(mesh, uv, options);
-  detail::check_uv(mesh, uv, k_function);
+  param_detail::check_uv(mesh, uv, k_function);
   return Measurement(mesh, uv, options).run();
 }
 

@@ -12,7 +12,7 @@
 namespace papilla {
 namespace {
 
-using namespace detail;
+using namespace param_detail;
 
 constexpr const char* k_function = "pack_atlas";
 

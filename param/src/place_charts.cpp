@@ -6,7 +6,7 @@
 #include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 CornerAttribute<Vec2> move_charts(const CornerAttribute<Vec2>& uv, const ChartSet& charts,
                                   const std::vector<Vec2>& offset, std::string_view function) {
@@ -33,4 +33,4 @@ void check_flattening(const CornerAttribute<Vec2>& uv, const ChartSet& charts, s
   check_uv(triangles_only, uv, function);
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -7,7 +7,7 @@
 #include "papilla/meshing/chart_set.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// The uv with offset[chart] added to every value of the chart.
 /// @throws InvalidInput naming `function` when two charts share a value.
@@ -17,4 +17,4 @@ CornerAttribute<Vec2> move_charts(const CornerAttribute<Vec2>& uv, const ChartSe
 /// @throws InvalidInput unless every triangle has a chart below the count and three finite uv.
 void check_flattening(const CornerAttribute<Vec2>& uv, const ChartSet& charts, std::string_view function);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -7,12 +7,12 @@
 
 #include "adjacency.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
-/// Fraction of the sheet's extent below which contact is not overlap: far above the rounding of coordinates, far
-/// below anything that can be seen.
-constexpr double k_contact = 1e-10;
+/// Fraction of the sheet's extent below which contact is not overlap: above the rounding of cross products of
+/// coordinates, which are taken as exact, and far below anything that can be seen.
+constexpr double k_contact = 1e-13;
 
 struct Box {
   Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -261,4 +261,4 @@ std::vector<std::uint32_t> split_overlaps(const PlaneSheet& sheet) {
   return piece;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

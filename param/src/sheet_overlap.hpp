@@ -8,7 +8,7 @@
 #include "papilla/core/vec.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// A directed border edge of a sheet in the plane; the sheet lies on its left.
 struct BorderEdge {
@@ -30,7 +30,7 @@ bool interiors_meet(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b, 
 /// Since no triangle is flipped, a point's number of triangles is the winding number of the border around it.
 bool border_proves_injective(const std::vector<BorderEdge>& border);
 
-/// Whether some point of the plane lies inside two triangles of the sheet, up to 1e-10 of the sheet's extent.
+/// Whether some point of the plane lies inside two triangles of the sheet, up to 1e-13 of the sheet's extent.
 /// Wherever two triangles overlap, the overlap region is bounded by images of the border, whose own triangle is one of
 /// the overlapping ones: border triangles are tested against all, not all against all.
 bool overlaps_itself(const PlaneSheet& sheet);
@@ -39,4 +39,4 @@ bool overlaps_itself(const PlaneSheet& sheet);
 /// that is left. @return the piece of each triangle, counted from 0.
 std::vector<std::uint32_t> split_overlaps(const PlaneSheet& sheet);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -7,7 +7,7 @@
 #include "chart_pieces.hpp"
 #include "sheet_overlap.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 constexpr std::uint32_t k_no_sheet = ~std::uint32_t{0};
@@ -122,7 +122,7 @@ class LoneTriangles {
   /// How many triangles may be looked at in all searches together, per triangle of the mesh.
   static constexpr std::size_t k_searches = 16;
   /// Penetration, as a fraction of the triangle's size, that counts as touching.
-  static constexpr double k_touching = 1e-10;
+  static constexpr double k_touching = 1e-13;
 
   void move(Index t, std::uint32_t sheet, std::uint8_t label) {
     --size_[sheets_.of_triangle[t]];
@@ -322,4 +322,4 @@ void renumber(Sheets& sheets) {
   sheets.count = count;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -9,7 +9,7 @@
 #include "papilla/param/grain_frame.hpp"
 #include "triplanar_labels.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// Connected pieces of equal label: the piece of each triangle, numbered by their first triangle.
 struct Sheets {
@@ -44,4 +44,4 @@ inline Vec2 project(const Vec3& p, const ProjectionAxes& axes) {
   return {axes.u_sign * coordinate(p, axes.u_axis), axes.v_sign * coordinate(p, axes.v_axis)};
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -5,7 +5,7 @@
 
 #include "papilla/meshing/triangle_mesh.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// The same difference of texture coordinates up to whole repeats, nearest to zero. A tile size of 0 wraps nothing.
 inline Vec2 wrap_to_tile(Vec2 difference, Vec2 tile) {
@@ -35,4 +35,4 @@ inline SeamEdge seam_edge(const TriangleMesh& mesh, const CornerAttribute<Vec2>&
   return edge;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

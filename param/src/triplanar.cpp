@@ -16,7 +16,7 @@
 namespace papilla {
 namespace {
 
-using namespace detail;
+using namespace param_detail;
 
 constexpr const char* k_function = "flatten_triplanar";
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 namespace {
 
 /// Relative distance below which two normal components count as equal, so that rounding does not decide.
@@ -14,8 +14,8 @@ constexpr double k_tie = 1 + 1e-6;
 constexpr double k_no_area = 1e-12;
 
 struct Normal {
-  Vec3 direction;           ///< Of length doubled_area.
-  double doubled_area = 0;  ///< 0 when the triangle is without area.
+  Vec3 direction;             ///< Of the length of the doubled area.
+  double squared_length = 0;  ///< 0 when the triangle is without area.
 };
 
 inline Normal normal_of(const TriangleMesh& mesh, std::size_t t) {
@@ -23,15 +23,17 @@ inline Normal normal_of(const TriangleMesh& mesh, std::size_t t) {
   const Vec3 a = mesh.positions[corners[0]];
   const Vec3 p = mesh.positions[corners[1]] - a, q = mesh.positions[corners[2]] - a;
   const Vec3 n = cross(p, q);
-  const double area = norm(n);
-  return {n, area > k_no_area * (dot(p, p) + dot(q, q)) ? area : 0};
+  const double square = dot(n, n), longest = dot(p, p) + dot(q, q);
+  return {n, square > k_no_area * k_no_area * longest * longest ? square : 0};
 }
 
 std::uint8_t dominant_label(const Vec3& n) {
   const double ax = std::abs(n.x), ay = std::abs(n.y), az = std::abs(n.z);
-  std::uint8_t axis = ay > k_tie * ax ? 1 : 0;
-  axis = az > k_tie * (axis == 0 ? ax : ay) ? 2 : axis;
-  const double along = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
+  const bool y = ay > k_tie * ax;
+  const double axy = y ? ay : ax;
+  const bool z = az > k_tie * axy;
+  const double along = z ? n.z : y ? n.y : n.x;
+  const int axis = z ? 2 : y ? 1 : 0;
   return static_cast<std::uint8_t>(2 * axis + (along < 0 ? 1 : 0));
 }
 
@@ -42,8 +44,9 @@ LabelledTriangles label_triangles(const TriangleMesh& mesh) {
   LabelledTriangles result{std::vector<std::uint8_t>(count), std::vector<float>(count)};
   for (std::size_t t = 0; t < count; ++t) {
     const Normal n = normal_of(mesh, t);
-    result.label[t] = n.doubled_area > 0 ? dominant_label(n.direction) : k_no_label;
-    result.doubled_area[t] = static_cast<float>(n.doubled_area);
+    const std::uint8_t label = dominant_label(n.direction);
+    result.label[t] = n.squared_length > 0 ? label : k_no_label;
+    result.doubled_area[t] = static_cast<float>(std::sqrt(n.squared_length));
   }
   return result;
 }
@@ -52,7 +55,7 @@ bool accepts(const TriangleMesh& mesh, Index t, std::uint8_t label, double cosin
   const Normal n = normal_of(mesh, t);
   const int axis = label >> 1;
   const double along = axis == 0 ? n.direction.x : axis == 1 ? n.direction.y : n.direction.z;
-  return n.doubled_area == 0 || (label & 1 ? -along : along) >= cosine * n.doubled_area;
+  return n.squared_length == 0 || (label & 1 ? -along : along) >= cosine * std::sqrt(n.squared_length);
 }
 
 void fill_missing_labels(const Adjacency& across, LabelledTriangles& triangles) {
@@ -121,4 +124,4 @@ std::size_t count_lone_triangles(const Adjacency& across, const LabelledTriangle
   return lone;
 }
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -8,7 +8,7 @@
 #include "papilla/meshing/triangle_mesh.hpp"
 #include "papilla/param/triplanar.hpp"
 
-namespace papilla::detail {
+namespace papilla::param_detail {
 
 /// Label of a triangle without area until a neighbour gives it one.
 inline constexpr std::uint8_t k_no_label = 6;
@@ -37,4 +37,4 @@ std::size_t smooth_labels_once(const TriangleMesh& mesh, const Adjacency& across
 /// Triangles that have a neighbour, but none of their own label.
 std::size_t count_lone_triangles(const Adjacency& across, const LabelledTriangles& triangles);
 
-}  // namespace papilla::detail
+}  // namespace papilla::param_detail

@@ -23,51 +23,61 @@ sources() {
 }
 cpp_sources() { sources "$@" | grep -E '\.([ch]pp|h|c)$' || true; }
 
-# What a file includes, one name a line, with its brackets.
-includes() { sed -n 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*\([<"][^">]*[">]\).*/\1/p' "$1"; }
+# What the files named on stdin include: "FILE NAME" a line, NAME with its brackets.
+includes() {
+  xargs -r grep -HE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' |
+    sed -nE 's/^([^:]+):[^<"]*([<"][^">]*[">]).*/\1 \2/p'
+}
 
-readonly gpl_headers='^<(CGAL/|fftw3)'
-readonly heavy_headers='^[<"](CGAL/|OpenMesh/|OpenImageIO/|Eigen/|ceres/|fftw3|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
+# Reports every "FILE NAME" of stdin; the reason's %s stands for NAME.
+breach_each() {
+  local file name
+  while read -r file name; do breach "$file" "${1/\%s/$name}"; done
+}
+
+# The licence of each file named on stdin: "FILE LICENCE" a line, without LICENCE when the first three lines name none.
+licences() {
+  xargs -r awk 'FNR == 1 { if (file != "") print file, licence; file = FILENAME; licence = "" }
+    FNR <= 3 && match($0, /SPDX-License-Identifier: [^ ]+/) { licence = substr($0, RSTART + 25, RLENGTH - 25) }
+    END { if (file != "") print file, licence }'
+}
+
+readonly gpl_headers=' <(CGAL/|fftw3)'
+readonly heavy_headers=' [<"](CGAL/|OpenMesh/|OpenImageIO/|Eigen/|ceres/|fftw3|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
 
 check_licence_lines() {
-  local file line
-  while read -r file; do
-    line=$(head -n 3 "$file" | grep -oE 'SPDX-License-Identifier: [^ ]+' | head -n 1) || true
-    case ${line#SPDX-License-Identifier: } in
+  local file licence
+  while read -r file licence; do
+    case $licence in
       MIT)
-        if [[ $file == apps/papilla/* ]]; then
-          breach "$file" "apps/papilla is GPL-3.0-or-later, the file says MIT"
-        elif includes "$file" | grep -qE "$gpl_headers"; then
-          breach "$file" "includes a GPL library, but says MIT"
-        fi ;;
+        if [[ $file == apps/papilla/* ]]; then breach "$file" "apps/papilla is GPL-3.0-or-later, the file says MIT"; fi ;;
       GPL-3.0-or-later)
         if [[ $file =~ ^(core|haptic|io/gltf|apps/player)/ ]]; then
           breach "$file" "this folder is MIT, the file says GPL-3.0-or-later"
         fi ;;
       '') breach "$file" "has no SPDX-License-Identifier in its first three lines" ;;
-      *) breach "$file" "unknown licence: $line" ;;
+      *) breach "$file" "unknown licence: $licence" ;;
     esac
-  done < <(sources run .ci CMakeLists.txt cmake core haptic io meshing param texture apps tests data)
+  done < <(sources run .ci CMakeLists.txt cmake core haptic io meshing param texture apps tests data | licences)
+}
+
+check_gpl_users() {
+  local all
+  all=$(cpp_sources core haptic io meshing param texture apps tests data)
+  breach_each "includes %s, which is GPL, but says MIT" < <(licences <<<"$all" | awk '$2 == "MIT" {print $1}' | includes |
+    grep -E "$gpl_headers")
 }
 
 # The player and everything it links: no library but hidapi, tinygltf, and small ones for JSON and the command line.
 check_light_folders() {
-  local file name
-  while read -r file; do
-    while read -r name; do
-      breach "$file" "the player side must not include $name"
-    done < <(includes "$file" | grep -E "$heavy_headers")
-  done < <(cpp_sources core haptic io/gltf apps/player)
+  breach_each "the player side must not include %s" < <(cpp_sources core haptic io/gltf apps/player | includes |
+    grep -E "$heavy_headers")
 }
 
 # Public headers: the standard library and papilla only, so that no user needs our libraries to compile.
 check_public_headers() {
-  local file name
-  while read -r file; do
-    while read -r name; do
-      breach "$file" "a public header must not include $name"
-    done < <(includes "$file" | grep -vE '^(<[a-z0-9_]+>|"papilla/.*")$')
-  done < <(cpp_sources core haptic io meshing param texture | grep /include/)
+  breach_each "a public header must not include %s" < <(cpp_sources core haptic io meshing param texture |
+    grep /include/ | includes | grep -vE ' (<[a-z0-9_]+>|"papilla/.*")$')
 }
 
 # Which folders the files of a folder may include.
@@ -83,18 +93,15 @@ allowed_modules() {
 }
 
 check_directions() {
-  local folder file name allowed
+  local folder
   for folder in core meshing param texture haptic io; do
-    allowed=$(allowed_modules "$folder")
-    while read -r file; do
-      while read -r name; do
-        breach "$file" "$folder must not include $name"
-      done < <(includes "$file" | grep '^"papilla/' | grep -vE "^\"papilla/($allowed)/")
-    done < <(cpp_sources "$folder")
+    breach_each "$folder must not include %s" < <(cpp_sources "$folder" | includes | grep ' "papilla/' |
+      grep -vE " \"papilla/($(allowed_modules "$folder"))/")
   done
 }
 
 check_licence_lines
+check_gpl_users
 check_light_folders
 check_public_headers
 check_directions

@@ -28,16 +28,16 @@ bool runs(const Surface& surface, Stage stage) { return decision(surface.plan, s
 /// A surface on its way through the stages.
 struct Work {
   const Surface* surface = nullptr;
-  TriangleMesh mesh;  ///< uv in units of glTF: repeats of the grain when new, as they were when kept.
+  TriangleMesh mesh;  ///< uv: repeats of the grain when new, as they were when kept.
   BakedSurface report;
   double repair = 0, charts = 0, unwrap = 0, measure = 0;
 };
 
-/// uv in millimetres, v upwards -> repeats of the grain, v downwards. Whole repeats are taken off chart by
-/// chart, so that float coordinates keep their precision.
+/// uv in millimetres -> repeats of the grain. Whole repeats are taken off chart by chart, so that float coordinates
+/// keep their precision.
 CornerAttribute<Vec2> repeats_of(const Flattening& flattening, const double (&size_mm)[2]) {
   CornerAttribute<Vec2> uv = flattening.uv;
-  for (Vec2& value : uv.values) value = {value.x / size_mm[0], -value.y / size_mm[1]};
+  for (Vec2& value : uv.values) value = {value.x / size_mm[0], value.y / size_mm[1]};
   std::vector<Vec2> low(flattening.charts.count, {HUGE_VAL, HUGE_VAL});
   std::vector<std::uint32_t> chart_of_value(uv.values.size(), 0);
   for (std::size_t t = 0; t < uv.indices.size(); ++t) {

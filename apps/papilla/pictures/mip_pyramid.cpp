@@ -49,7 +49,7 @@ Vec3 MipPyramid::sample(Vec2 uv, double texels) const {
   const double lod = 0.5 * std::log2(std::max(texels, 1.0));
   const auto number = static_cast<std::size_t>(std::clamp(std::lround(lod), 0L, static_cast<long>(levels_.size()) - 1));
   const Level& level = levels_[number];
-  const double x = (uv.x - std::floor(uv.x)) * level.width - 0.5, y = (uv.y - std::floor(uv.y)) * level.height - 0.5;
+  const double x = (uv.x - std::floor(uv.x)) * level.width - 0.5, y = (1 - (uv.y - std::floor(uv.y))) * level.height - 0.5;
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   const double fx = x - x0, fy = y - y0;
   std::array<double, 3> sum{};

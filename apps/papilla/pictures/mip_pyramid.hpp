@@ -15,7 +15,7 @@ class MipPyramid {
   MipPyramid(const ColorImage& image, bool encoded_srgb);
 
   /// The mean colour over about `texels` texels of the full picture (an area), components in [0, 1]. uv (0, 0) is the
-  /// top left corner, v grows downwards, as in glTF.
+  /// bottom left corner, v grows upwards, as in scenes.
   Vec3 sample(Vec2 uv, double texels) const;
 
   double texel_count() const { return static_cast<double>(levels_[0].width) * levels_[0].height; }

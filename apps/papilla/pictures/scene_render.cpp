@@ -45,12 +45,6 @@ struct Sample {
   float r = 0.93F, g = 0.94F, b = 0.95F;  // background, linear
 };
 
-Vec2 transformed(const TextureTransform& t, Vec2 uv) {
-  const Vec2 scaled{t.scale.x * uv.x, t.scale.y * uv.y};
-  const double c = std::cos(t.rotation), s = std::sin(t.rotation);
-  return Vec2{c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y} + t.offset;
-}
-
 class Pyramids {
  public:
   explicit Pyramids(const Scene& scene) : scene_(scene), color_(scene.textures.size()), raw_(scene.textures.size()) {}
@@ -124,14 +118,14 @@ struct TriangleSetup {
   double uv_area_per_sample = 0;
 };
 
-/// The direction in the surface in which u grows, and that in which v shrinks (glTF's tangent-space y).
+/// The directions in the surface in which u and v grow: x and y of a normal map.
 void tangent_frame(TriangleSetup& t) {
   const Vec3 e1 = t.v[1].world - t.v[0].world, e2 = t.v[2].world - t.v[0].world;
   const Vec2 d1 = t.v[1].uv - t.v[0].uv, d2 = t.v[2].uv - t.v[0].uv;
   const double det = cross(d1, d2);
   if (det == 0) return;
   t.tangent = normalized((1 / det) * (d2.y * e1 - d1.y * e2));
-  t.bitangent = normalized((-1 / det) * (d1.x * e2 - d2.x * e1));
+  t.bitangent = normalized((1 / det) * (d1.x * e2 - d2.x * e1));
 }
 
 Vec3 checker_color(const TriangleSetup& t, Vec2 uv, double checker_mm) {
@@ -157,13 +151,13 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
     if (surface.color_map) {
       const TextureTransform& map = surface.color_transform;
       const double texels = t.uv_area_per_sample * std::abs(map.scale.x * map.scale.y) * surface.color_map->texel_count();
-      const Vec3 texel = surface.color_map->sample(transformed(map, uv), texels);
+      const Vec3 texel = surface.color_map->sample(transform_uv(map, uv), texels);
       color = {color.x * texel.x, color.y * texel.y, color.z * texel.z};
     }
     if (surface.normal_map && norm(t.tangent) > 0) {
       const TextureTransform& map = surface.normal_transform;
       const double texels = t.uv_area_per_sample * std::abs(map.scale.x * map.scale.y) * surface.normal_map->texel_count();
-      const Vec3 texel = surface.normal_map->sample(transformed(map, uv), texels);
+      const Vec3 texel = surface.normal_map->sample(transform_uv(map, uv), texels);
       const Vec3 tangent = normalized(t.tangent - dot(t.tangent, normal) * normal);
       const Vec3 side = cross(normal, tangent);
       const Vec3 bitangent = dot(side, t.bitangent) < 0 ? -side : side;

@@ -2,6 +2,7 @@
 #include "unwrap/unwrap.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 
 #include "papilla/core/error.hpp"
@@ -41,6 +42,14 @@ void scatter(const CornerAttribute<Vec2>& uv, std::vector<UnwrappedPart>& parts)
   }
 }
 
+/// Half a percent of the side of a square that holds the area of all charts.
+double relative_gutter(const CornerAttribute<Vec2>& uv) {
+  double area = 0;
+  for (const Triangle& t : uv.indices)
+    area += 0.5 * std::abs(cross(uv.values[t[1]] - uv.values[t[0]], uv.values[t[2]] - uv.values[t[0]]));
+  return 0.005 * std::sqrt(area);
+}
+
 void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& report) {
   for (std::size_t p = 0; p < report.parts.size(); ++p) {
     Flattening& f = report.parts[p].flattening;
@@ -49,7 +58,8 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
   }
   if (options.layout == UvLayout::tile) return;
   const AllCharts all = gather(report.parts);
-  const Atlas atlas = pack_atlas(all.uv, all.charts, {.gutter_mm = options.gutter_mm, .tile_mm = options.tile_mm});
+  const double gutter = options.gutter_mm.value_or(relative_gutter(all.uv));
+  const Atlas atlas = pack_atlas(all.uv, all.charts, {.gutter_mm = gutter, .tile_mm = options.tile_mm});
   report.fill_rate = atlas.fill_rate;
   scatter(atlas.uv, report.parts);
 }
@@ -82,6 +92,8 @@ Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOption
 
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress) {
   const Stopwatch clock;
+  if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
+    throw InvalidInput("no part has triangles to unwrap");
   UnwrapReport report;
   report.parts.resize(scene.parts.size());
   const GrainUp up = scene.up == UpAxis::z ? GrainUp::z : GrainUp::y;
@@ -98,9 +110,12 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
       report.seconds.solve += clock.seconds() - start - (report.seconds.segment - before);
       add_trace(result.flattening, start, report);
       any = true;
-    } catch (const Error& error) {
+    } catch (const SolverFailure& error) {
       result.failure = "part '" + part.name + "': " + error.what();
-      if (!first_failure) first_failure = std::current_exception();
+      if (!first_failure) first_failure = std::make_exception_ptr(SolverFailure(result.failure));
+    } catch (const InvalidInput& error) {
+      result.failure = "part '" + part.name + "': " + error.what();
+      if (!first_failure) first_failure = std::make_exception_ptr(InvalidInput(result.failure));
     }
   }
   if (!any && first_failure) std::rethrow_exception(first_failure);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ struct UnwrapOptions {
   LscmSolver solver = LscmSolver::cgal;
   SegmentationOptions segmentation;
   UvLayout layout = UvLayout::atlas;
-  double gutter_mm = 1;
-  Vec2 tile_mm{0, 0};  ///< Of the grain; 0: unknown.
+  std::optional<double> gutter_mm;  ///< Not given: 0.5 % of the side of a square with the area of all charts.
+  Vec2 tile_mm{0, 0};               ///< Of the grain; 0: unknown.
 };
 
 /// The part's charts and uv in millimetres, not placed yet. Equal positions must be one vertex.
@@ -56,6 +57,7 @@ struct UnwrapReport {
 
 /// Welds equal positions of every part and gives it uv (channel 0, millimetres). Parts whose method fails keep
 /// what they had and say why; when all fail, the first failure is thrown.
+/// @throws InvalidInput when there is no triangle.
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress = {});
 
 }  // namespace papilla::app

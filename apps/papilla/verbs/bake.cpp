@@ -34,7 +34,8 @@ void prepare_folder(const fs::path& folder) {
 }
 
 Json run_bake(const Options& options, VerbContext& context) {
-  if (fs::path(options.output).extension() != ".glb") throw UsageError("--output: '" + options.output + "' must end in .glb");
+  if (fs::path(options.output).extension() != ".glb")
+    throw UsageError("--output: '" + options.output + "' must end in .glb");
   if (!options.report.empty()) prepare_folder(options.report);
   const Stopwatch total;
   const MaterialsFile rules = read_materials_file(options.materials);
@@ -75,12 +76,14 @@ Json run_bake(const Options& options, VerbContext& context) {
 
 void add_bake(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"bake", "The main job: grain and touch onto a scene, as one GLB.",
-                             "papilla bake data/cockpit.step -m data/cockpit.materials.json -o cockpit.glb --report report"},
-                            [options](VerbContext& context) { return run_bake(*options, context); });
+  CLI::App* verb =
+      add_verb(program,
+               {"bake", "The main job: grain and touch onto a scene, as one GLB.",
+                "papilla bake data/cockpit.step -m data/cockpit.materials.json -o cockpit.glb --report report"},
+               [options](VerbContext& context) { return run_bake(*options, context); });
   verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
-  verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")->required();
+  verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")
+      ->required();
   verb->add_option("-o,--output", options->output, "GLB to write")->required();
   verb->add_option("--report", options->report, "Folder for report.json and pictures")->type_name("DIR");
   options->scene.add_to(*verb);

@@ -66,12 +66,24 @@ void check_usage(const Options& options) {
     throw UsageError("-o " + options.output + ": STL has no place for texture coordinates");
 }
 
+/// unwrap_scene() with the file's name in front of what it throws.
+UnwrapReport unwrap_named(const std::string& file, Scene& scene, const UnwrapOptions& options,
+                          const Progress& progress) {
+  try {
+    return unwrap_scene(scene, options, progress);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(file + ": " + error.what());
+  } catch (const SolverFailure& error) {
+    throw SolverFailure(file + ": " + error.what());
+  }
+}
+
 Json run(const Options& options, VerbContext& context) {
   check_usage(options);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   UnwrapOptions unwrap = options.unwrap;
   unwrap.tile_mm = {options.tile[0], options.tile[1]};
-  const UnwrapReport report = unwrap_scene(scene, unwrap, context.progress);
+  const UnwrapReport report = unwrap_named(options.input, scene, unwrap, context.progress);
   const SceneDistortion distortion =
       measure_scene(scene, {}, [&](std::size_t p) { return report.parts[p].failure.empty(); });
   write_scene(scene, options.output);
@@ -132,10 +144,9 @@ void add_unwrap(CLI::App& program) {
       ->expected(2)
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("MM");
-  verb->add_option("--gutter", unwrap.gutter_mm, "Least distance of charts in the atlas")
+  verb->add_option("--gutter", unwrap.gutter_mm, "Least distance of charts in the atlas; default: 0.5 % of its side")
       ->check(CLI::Range(0.0, 1e6))
-      ->type_name("MM")
-      ->capture_default_str();
+      ->type_name("MM");
   verb->add_option("--trace", options->trace, "Write error over run time as CSV: seconds,error")->type_name("FILE");
   verb->add_option("--picture", options->picture, "Draw the layout, coloured by distortion")->type_name("PNG");
   options->scene.add_to(*verb);

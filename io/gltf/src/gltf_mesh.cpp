@@ -27,8 +27,11 @@ struct Vertices {
 struct PartBuilder {
   Part part;
   VertexWelder welder;
-  bool has_normals = false, has_uv = false, has_uv1 = false, has_colors = false;
+  bool has_normals = false;
+  std::vector<std::uint8_t> carries;  ///< Per triangle: k_uv, k_uv1, k_colors of its primitive.
 };
+
+constexpr std::uint8_t k_uv = 1, k_uv1 = 2, k_colors = 4;
 
 Vec3 vec3_at(const std::vector<double>& numbers, std::size_t i) {
   return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
@@ -156,14 +159,14 @@ class PrimitiveReader {
     return *default_material_;
   }
 
-  /// Adds the triangles with all attributes, giving those that others lack a neutral value.
+  /// Adds the triangles with all attributes. Values of those that this primitive lacks keep the numbering common.
   static void append(const Vertices& vertices, const std::vector<Triangle>& triangles, std::uint32_t slot,
                      PartBuilder& builder) {
     TriangleMesh& mesh = builder.part.mesh;
     builder.has_normals |= !vertices.normals.empty();
-    builder.has_uv |= !vertices.uv.empty();
-    builder.has_uv1 |= !vertices.uv1.empty();
-    builder.has_colors |= !vertices.colors.empty();
+    const auto carries = static_cast<std::uint8_t>((vertices.uv.empty() ? 0 : k_uv) | (vertices.uv1.empty() ? 0 : k_uv1) |
+                                                   (vertices.colors.empty() ? 0 : k_colors));
+    builder.carries.insert(builder.carries.end(), triangles.size(), carries);
     std::vector<Index> welded(vertices.count, k_unused), compact(vertices.count, k_unused);
     for (const Triangle& triangle : triangles) {
       Triangle corners{}, values{};
@@ -204,19 +207,32 @@ void fill_flat_normals(TriangleMesh& mesh) {
   }
 }
 
+/// Gives an attribute the common corner numbers on the triangles whose primitive carries it.
+template <class T>
+void number_attribute(CornerAttribute<T>& attribute, const std::vector<Triangle>& numbers,
+                      const std::vector<std::uint8_t>& carries, std::uint8_t kind) {
+  const auto carried = [kind](std::uint8_t c) { return (c & kind) != 0; };
+  if (std::none_of(carries.begin(), carries.end(), carried)) {
+    attribute = {};
+    return;
+  }
+  attribute.indices = numbers;
+  for (std::size_t t = 0; t < numbers.size(); ++t)
+    if (!carried(carries[t])) attribute.indices[t] = {k_no_value, k_no_value, k_no_value};
+}
+
 /// Keeps the attributes that at least one primitive has; all share the corner numbers collected in mesh.uv.
 Part finish(PartBuilder builder) {
   TriangleMesh& mesh = builder.part.mesh;
   mesh.positions = builder.welder.take_points();
   const std::vector<Triangle> numbers = std::move(mesh.uv.indices);
-  const auto keep = [&](auto& attribute, bool wanted) {
-    attribute.indices = wanted ? numbers : std::vector<Triangle>{};
-    if (!wanted) attribute.values = {};
-  };
-  keep(mesh.uv, builder.has_uv);
-  keep(mesh.uv1, builder.has_uv1);
-  keep(mesh.colors, builder.has_colors);
-  keep(mesh.normals, builder.has_normals);
+  number_attribute(mesh.uv, numbers, builder.carries, k_uv);
+  number_attribute(mesh.uv1, numbers, builder.carries, k_uv1);
+  number_attribute(mesh.colors, numbers, builder.carries, k_colors);
+  if (builder.has_normals)
+    mesh.normals.indices = numbers;
+  else
+    mesh.normals = {};
   if (builder.has_normals) fill_flat_normals(mesh);
   if (builder.part.materials.size() <= 1) mesh.material.clear();
   return std::move(builder.part);

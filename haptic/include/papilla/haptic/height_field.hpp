@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
@@ -44,7 +44,8 @@ struct HeightSample {
 /// A relief that is a function of texture coordinates, held in 16 bits a sample.
 ///
 /// Texel (x, y) of a w × h picture has its centre at uv = ((x+½)/w, (y+½)/h), row 0 on top, as glTF samples
-/// pictures. Bicubic values are cut to the range of the samples, so that min_m() and max_m() hold everywhere.
+/// pictures. Bicubic values are cut to the range of the samples and of the values halfway
+/// between them, so that min_m() and max_m() hold everywhere.
 /// sample() is noexcept, allocates nothing, and costs 4 (bilinear) or 16 (bicubic) reads. A uv that is not finite
 /// is read as 0.
 class HeightField {
@@ -72,6 +73,7 @@ class HeightField {
 
  private:
   std::uint16_t texel(long x, long y) const noexcept;
+  std::pair<double, double> range() const;
 
   int width_, height_;
   std::vector<std::uint16_t> samples_;

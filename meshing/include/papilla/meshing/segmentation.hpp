@@ -15,8 +15,11 @@ struct SegmentationOptions {
   double max_normal_deviation_deg = 60;  ///< Half-angle of the cone that holds a chart's normals; in (0, 180].
   double outlier_area_fraction = 0.01;   ///< Of a chart's area may lie outside its cone: noise, not shape; in [0, 1].
   double small_area_fraction = 1e-3;     ///< A chart below this fraction of a neighbour's area joins it; in [0, 1].
-  bool disks = true;                     ///< Cut charts until each is a disk.
-  Progress progress;                     ///< Told the fraction done; may be empty.
+  double speck_area_fraction =
+      1e-5;           ///< A chart below this fraction of its component's area joins its longest
+                      ///< neighbour whatever that one's size, which bounds the number of charts; in [0, 1].
+  bool disks = true;  ///< Cut charts until each is a disk.
+  Progress progress;  ///< Told the fraction done; may be empty.
 };
 
 struct SegmentationResult {

@@ -14,7 +14,7 @@ struct MeasureOptions {
   Vec2 uv_per_texture{1, 1};    ///< How many uv units one repeat of the texture covers: 1 for texture
                                 ///< coordinates of files, the tile size in mm for uv in millimetres.
   /// Per triangle: the part it belongs to; empty: one part. Charts, seams and overlap end at parts.
-  std::vector<std::uint32_t> part;
+  std::vector<std::uint32_t> part = {};
   int overlap_rows = 4096;  ///< Rows in which the area of an overlap is summed; 64 to 65536.
 };
 

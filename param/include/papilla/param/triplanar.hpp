@@ -56,7 +56,7 @@ struct TriplanarResult {
 /// neighbour's area join that neighbour when |n·axis| >= absorption_cosine on all of the piece.
 /// Each class is then cut into connected sheets, and a sheet that folds over itself in projection is split.
 ///
-/// Guarantees: no flipped and no mirrored triangle; every chart is injective up to 1e-9 of its extent; no
+/// Guarantees: no flipped and no mirrored triangle; every chart is injective up to 1e-12 of its extent; no
 /// chart of one triangle, unless the triangle has no neighbour that can join it; triangles without area
 /// follow their neighbours. Scale: an edge is never longer in uv than in space, at 0.577 the shortest direction
 /// of an unsmoothed triangle is 0.577 of its length.

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <ctime>
+#include <memory>
+#include <string>
+
+#include "bench/bench_json.hpp"
+#include "haptic/contact_shapes.hpp"
+#include "papilla/haptic/histogram.hpp"
+#include "papilla/haptic/proxy.hpp"
+#ifdef PAPILLA_HAVE_EMBREE
+#include "embree_closest.hpp"
+#endif
+
+namespace {
+
+using namespace papilla;
+using bench::Recorder;
+
+constexpr double k_size = 0.2, k_speed = 0.2, k_period = 1e-3;
+
+/// The probe wanders at 0.2 m/s, 1 to 3 mm deep.
+class ReliefProbe {
+ public:
+  explicit ReliefProbe(std::uint64_t seed) : wanderer_(seed, k_size, 0.1 * k_size, k_speed * k_period) {}
+  Vec3 next() {
+    const Vec2 at = wanderer_.next();
+    return {at.x, at.y, testing::rough_relief(at.x, at.y) - 0.002 + 0.001 * std::cos(0.01 * tick_++)};
+  }
+
+ private:
+  testing::Wanderer wanderer_;
+  int tick_ = 0;
+};
+
+class SphereProbe {
+ public:
+  explicit SphereProbe(std::uint64_t seed) : wanderer_(seed, 2 * k_size, 0.1, k_speed * k_period) {}
+  Vec3 next() {
+    const Vec2 at = wanderer_.next();
+    const double around = at.x / 0.1, up = 0.5 * std::sin(at.y / 0.1);
+    return (0.098 + 0.001 * std::cos(0.01 * tick_++)) *
+           Vec3{std::cos(around) * std::cos(up), std::sin(around) * std::cos(up), std::sin(up)};
+  }
+
+ private:
+  testing::Wanderer wanderer_;
+  int tick_ = 0;
+};
+
+struct Shape {
+  std::string name;
+  ContactMesh mesh;
+  bool relief;
+};
+
+/// Runs `tick` on every probe position and records its thread CPU time.
+template <class Probe, class Tick>
+void measure_ticks(Probe probe, int ticks, Recorder& recorder, Tick&& tick) {
+  Histogram times;
+  recorder.time([&] {
+    for (int i = 0; i < ticks; ++i) {
+      const Vec3 at = probe.next();
+      const double before = bench::thread_cpu_seconds();
+      tick(at);
+      times.add(1e6 * (bench::thread_cpu_seconds() - before));
+    }
+  });
+  recorder.record("tick_us_p50", times.quantile(0.5));
+  recorder.record("tick_us_p99", times.quantile(0.99));
+  recorder.record("tick_us_p999", times.quantile(0.999));
+  recorder.record("tick_us_max", times.max());
+}
+
+template <class Probe>
+void run_proxy(const ContactSurface& surface, std::uint64_t seed, int ticks, Recorder& recorder) {
+  Proxy proxy(surface);
+  Probe first(seed);
+  const Vec3 start = first.next();
+  proxy.reset(start + 0.02 * (surface.low().z < -0.05 ? normalized(start) : Vec3{0, 0, 1}));
+  int lost = 0;
+  measure_ticks(Probe(seed), ticks, recorder, [&](Vec3 at) { lost += !proxy.update(at, k_period).in_contact; });
+  recorder.record("lost_ticks", lost);
+}
+
+/// Shapes and surfaces stay alive until the report is measured.
+struct Inputs {
+  std::vector<std::unique_ptr<Shape>> shapes;
+  std::vector<std::unique_ptr<ContactSurface>> surfaces;
+};
+
+void add_shape(bench::BenchReport& report, Inputs& inputs, Shape shape, int ticks) {
+  const Shape& kept = *inputs.shapes.emplace_back(std::make_unique<Shape>(std::move(shape)));
+  for (const double radius : {0.0, 1e-3}) {
+    const ContactSurface& surface = *inputs.surfaces.emplace_back(std::make_unique<ContactSurface>(
+        kept.mesh, std::vector<ContactMaterial>(1), std::vector<HeightField>{}, radius));
+    report.add(
+        {.method = "proxy",
+         .solver = radius > 0 ? "ball 1 mm" : "point",
+         .input = kept.name,
+         .options = {{"triangles", surface.triangles()}, {"bytes", surface.bytes()}, {"speed_m_per_s", k_speed}}},
+        [&surface, relief = kept.relief, ticks, seed = std::uint64_t{1}](Recorder& recorder) mutable {
+          relief ? run_proxy<ReliefProbe>(surface, seed++, ticks, recorder)
+                 : run_proxy<SphereProbe>(surface, seed++, ticks, recorder);
+        });
+  }
+#ifdef PAPILLA_HAVE_EMBREE
+  auto embree = std::make_shared<bench::EmbreeClosest>(kept.mesh);
+  report.add(
+      {.method = "closest-point", .solver = "embree", .input = kept.name, .notes = "lower bound: one query a tick"},
+      [embree, relief = kept.relief, ticks, seed = std::uint64_t{1}](Recorder& recorder) mutable {
+        const auto query = [&](Vec3 at) { bench::keep(embree->distance(at, 6e-3)); };
+        relief ? measure_ticks(ReliefProbe(seed++), ticks, recorder, query)
+               : measure_ticks(SphereProbe(seed++), ticks, recorder, query);
+      });
+#endif
+}
+
+void body(bench::BenchReport& report) {
+  const bool quick = report.options().quick;
+  const int ticks = quick ? 500 : 20000;
+  Inputs inputs;
+  for (const int n : quick ? std::vector<int>{20} : std::vector<int>{100, 316, 1000}) {
+    const std::string size = std::to_string(2 * n * n / 1000) + "k";
+    add_shape(report, inputs,
+              {"relief " + size, testing::height_grid(n, n, k_size, k_size, testing::rough_relief), true}, ticks);
+    add_shape(report, inputs, {"sphere " + size, testing::sphere(n, 0.1), false}, ticks);
+  }
+#ifdef PAPILLA_HAVE_EMBREE
+  report.compare("proxy/point", "closest-point/embree", "tick_us_p50");
+#endif
+  report.measure();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return bench::run_benchmark("contact", "Time of a contact tick", argc, argv, body); }

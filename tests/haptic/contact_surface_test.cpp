@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/contact_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "haptic/contact_shapes.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using testing::box;
+using testing::plate;
+using testing::sphere;
+
+TEST(ContactSurface, SweepStopsAtTheSkinAbovePlane) {
+  const ContactSurface surface(plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
+  const auto hit = surface.sweep({0.033, 0.042, 0.01}, {0.053, 0.042, -0.01});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(0.01 - 0.02 * hit->t, surface.skin_m(), 1e-10);
+  EXPECT_NEAR(hit->normal.z, 1, 1e-12);
+}
+
+TEST(ContactSurface, FromBehindTheNormalPointsBack) {
+  const ContactSurface surface(plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 1e-3);
+  const auto hit = surface.sweep({0.033, 0.042, -0.01}, {0.033, 0.042, 0.01});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(-0.01 + 0.02 * hit->t, -surface.contact_radius_m(), 1e-10);
+  EXPECT_NEAR(hit->normal.z, -1, 1e-12);
+}
+
+TEST(ContactSurface, BallRollsOverAnEdge) {
+  const ContactSurface surface(box({0, 0, 0}, {0.1, 0.1, 0.1}), {ContactMaterial{}}, {}, 2e-3);
+  const double r = surface.contact_radius_m(), s = r / std::sqrt(2.0);
+  const auto hit =
+      surface.sweep({-0.01, 0.05, 0.11}, {0.01, 0.05, 0.09});  // Towards the edge x = 0, z = 0.1 at 45 degrees.
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(-0.01 + 0.02 * hit->t, -s, 1e-9);
+  EXPECT_NEAR(hit->normal.x, -std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(hit->normal.z, std::sqrt(0.5), 1e-6);
+}
+
+TEST(ContactSurface, LeavingAndSlidingAreFree) {
+  const ContactSurface surface(plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
+  const double s = surface.skin_m();
+  EXPECT_FALSE(surface.sweep({0.03, 0.03, s}, {0.06, 0.07, s}));
+  EXPECT_FALSE(surface.sweep({0.03, 0.03, s * 0.99}, {0.03, 0.03, 0.01}));
+  EXPECT_TRUE(surface.sweep({0.03, 0.03, s}, {0.06, 0.07, 0}));
+}
+
+TEST(ContactSurface, ClosestPointIsTheSpheres) {
+  const ContactSurface surface(sphere(200, 0.1), {ContactMaterial{}}, {}, 0);
+  const Vec3 p{0.03, 0.05, 0.04};
+  const auto near = surface.closest_point(p, 0.1);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(near->distance_m, 0.1 - norm(p), 5e-5);
+  EXPECT_GT(dot(near->face_normal, normalized(p)), 0.99);
+  EXPECT_FALSE(surface.closest_point(p, 0.01));
+}
+
+TEST(ContactSurface, ReliefReachesBelowThePlate) {
+  ContactMaterial material;
+  material.height = 0;
+  HeightFieldOptions options;
+  options.scale_m = 2e-4;
+  options.offset_m = -1e-4;
+  const std::vector<std::uint16_t> samples = {0, 65535, 0, 65535};  // Stripes along v.
+  const ContactSurface surface(plate(10, 10, 0.1, 0.1), {material}, {HeightField(2, 2, samples, options)}, 0);
+  const double s = surface.skin_m();
+  // uv = 0.25 is a valley at −0.1 mm, uv = 0.75 a ridge at +0.1 mm.
+  EXPECT_NEAR(surface.clearance({0.025, 0.05, s - 1e-4}, 0.01), 0, 1e-9);
+  EXPECT_NEAR(surface.clearance({0.075, 0.05, s + 1e-4}, 0.01), 0, 1e-9);
+  const auto hit = surface.sweep({0.075, 0.05, 0.01}, {0.075, 0.05, -0.01});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(0.01 - 0.02 * hit->t, s + 1e-4, surface.tolerance_m());
+}
+
+TEST(ContactSurface, CrossingsCountWallsOnceAtEdgesAndDuplicates) {
+  ContactMesh mesh = box({0, 0, 0}, {0.1, 0.1, 0.1});
+  const auto once = mesh.triangles;
+  mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
+  const ContactSurface surface(mesh, {ContactMaterial{}}, {}, 0);
+  EXPECT_EQ(surface.crossings({0.05, 0.05, 0.2}, {0.05, 0.05, 0.05}), 1);  // Through the diagonal of the lid.
+  EXPECT_EQ(surface.crossings({0.05, 0.05, 0.2}, {0.05, 0.05, -0.2}), 2);
+  EXPECT_EQ(surface.crossings({0.2, 0.2, 0.2}, {0.3, 0.2, 0.2}), 0);
+}
+
+TEST(ContactSurface, LeavesOutTrianglesWithoutArea) {
+  ContactMesh mesh = plate(2, 2, 0.1, 0.1);
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.triangles.push_back({0, 1, 2});  // Three vertices on a line.
+  mesh.positions.push_back({std::nan(""), 0, 0});
+  mesh.triangles.push_back({0, 1, static_cast<std::uint32_t>(mesh.positions.size() - 1)});
+  mesh.corner_uv.clear();
+  const ContactSurface surface(mesh, {ContactMaterial{}}, {}, 0);
+  EXPECT_EQ(surface.triangles(), 8U);
+  EXPECT_EQ(surface.skipped_triangles(), 3U);
+}
+
+TEST(ContactSurface, RefusesBrokenInput) {
+  const ContactMesh good = plate(2, 2, 0.1, 0.1);
+  const std::vector<ContactMaterial> materials(1);
+  EXPECT_THROW(ContactSurface(ContactMesh{}, materials, {}, 0), InvalidInput);
+  EXPECT_THROW(ContactSurface(good, {}, {}, 0), InvalidInput);
+  EXPECT_THROW(ContactSurface(good, materials, {}, -1), InvalidInput);
+  ContactMesh mesh = good;
+  mesh.triangles[0][0] = 1000;
+  EXPECT_THROW(ContactSurface(mesh, materials, {}, 0), InvalidInput);
+  mesh = good;
+  mesh.material.assign(mesh.triangles.size(), 3);
+  EXPECT_THROW(ContactSurface(mesh, materials, {}, 0), InvalidInput);
+  std::vector<ContactMaterial> odd(1);
+  odd[0].stiffness = std::nan("");
+  EXPECT_THROW(ContactSurface(good, odd, {}, 0), InvalidInput);
+  odd[0] = ContactMaterial{};
+  odd[0].static_friction = -0.1;
+  EXPECT_THROW(ContactSurface(good, odd, {}, 0), InvalidInput);
+  odd[0] = ContactMaterial{};
+  odd[0].height = 0;
+  EXPECT_THROW(ContactSurface(good, odd, {}, 0), InvalidInput);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "haptic/contact_shapes.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/safety.hpp"
+#include "papilla/haptic/sim_device.hpp"
+#include "papilla/haptic/stability.hpp"
+
+namespace papilla {
+namespace {
+
+Trajectory rest() { return Trajectory(std::vector<Trajectory::Sample>{{0, {0, 0, 0}}}); }
+
+DeviceCaps device(double mass, double damping, double friction, double step, double delay) {
+  return {"test", 10, 0.1, {mass, damping, friction, step, delay}};
+}
+
+double last_position(SimDevice& sim, int ticks, Vec3 force) {
+  DeviceState state;
+  sim.read(state);
+  for (int i = 0; i < ticks; ++i) {
+    sim.write(force);
+    sim.read(state);
+  }
+  return state.position.x;
+}
+
+TEST(SimDevice, FreeMassWithDamperHasItsClosedForm) {
+  const double m = 0.1, b = 0.5, f = 0.2, t = 0.4;
+  const Trajectory hand = rest();
+  SimDevice sim(device(m, b, 0, 0, 0), hand, 1e-3, {0, 0});
+  const double x = last_position(sim, 400, {f, 0, 0});
+  EXPECT_NEAR(x, f / b * (t - m / b * (1 - std::exp(-b * t / m))), 1e-12);
+  EXPECT_NEAR(sim.velocity().x, f / b * (1 - std::exp(-b * t / m)), 1e-12);
+}
+
+TEST(SimDevice, FrictionHoldsUpToItsForceAndBrakesByIt) {
+  const Trajectory hand = rest();
+  SimDevice held(device(0.1, 0, 0.3, 0, 0), hand, 1e-3, {0, 0});
+  EXPECT_EQ(last_position(held, 100, {0.29, 0, 0}), 0);
+  SimDevice pushed(device(0.1, 0, 0.3, 0, 0), hand, 1e-3, {0, 0});
+  EXPECT_NEAR(last_position(pushed, 100, {0.5, 0, 0}), 0.5 * (0.5 - 0.3) / 0.1 * 0.1 * 0.1, 1e-4);
+  // Without the push it comes to rest and stays.
+  DeviceState state;
+  for (int i = 0; i < 300; ++i) {
+    pushed.write({});
+    pushed.read(state);
+  }
+  EXPECT_EQ(pushed.velocity(), Vec3{});
+}
+
+TEST(SimDevice, HandSpringSwingsWithItsFrequency) {
+  const Trajectory hand = rest();
+  const double m = 0.1, k = 100, c = 0.4, f = 1;
+  SimDevice sim(device(m, c, 0, 0, 0), hand, 1e-3, {k, 0});
+  const double t = 0.15, d = c / (2 * m), w = std::sqrt(k / m - d * d);
+  const double expected = f / k * (1 - std::exp(-d * t) * (std::cos(w * t) + d / w * std::sin(w * t)));
+  EXPECT_NEAR(last_position(sim, 150, {f, 0, 0}), expected, 0.005 * expected);
+}
+
+TEST(SimDevice, ForceArrivesAfterTheDelayAndPositionsAreSteps) {
+  const Trajectory hand = rest();
+  SimDevice sim(device(0.1, 1, 0, 1e-6, 3e-3), hand, 1e-3, {0, 0});
+  DeviceState state;
+  sim.read(state);
+  int first_move = 0;
+  for (int i = 1; i <= 10 && first_move == 0; ++i) {
+    sim.write({5, 0, 0});
+    sim.read(state);
+    if (sim.velocity().x > 0) first_move = i;
+    EXPECT_NEAR(std::remainder(state.position.x, 1e-6), 0, 1e-15);
+  }
+  EXPECT_EQ(first_move, 4);
+}
+
+TEST(SimDevice, EveryPresetIsCompleteAndSaysItsSources) {
+  ASSERT_EQ(device_presets().size(), 7U);
+  EXPECT_EQ(device_presets().front().name, "touch");
+  for (const DevicePreset& p : device_presets())
+    for (const Sourced& s :
+         {p.max_force_n, p.workspace_radius_m, p.mass_kg, p.damping, p.friction_n, p.encoder_step_m, p.delay_s}) {
+      EXPECT_GT(s.value, 0) << p.name;
+      EXPECT_FALSE(s.source.empty()) << p.name;
+    }
+  EXPECT_EQ(device_preset("falcon").max_force_n.value, 8);
+  EXPECT_THROW(device_preset("nothing"), DeviceError);
+}
+
+TEST(SimDevice, RefusesImpossibleNumbers) {
+  const Trajectory hand = rest();
+  EXPECT_THROW(SimDevice(device(0, 1, 0, 0, 0), hand, 1e-3), InvalidInput);
+  EXPECT_THROW(SimDevice(device(1, -1, 0, 0, 0), hand, 1e-3), InvalidInput);
+  EXPECT_THROW(SimDevice(device(1, 1, 0, 0, std::nan("")), hand, 1e-3), InvalidInput);
+  EXPECT_THROW(SimDevice(device(1, 1, 0, 0, 1), hand, 1e-3), InvalidInput);
+  EXPECT_THROW(SimDevice(device(1, 1, 0, 0, 0), hand, 0), InvalidInput);
+}
+
+TEST(Stability, LimitIsTheFormula) {
+  EXPECT_DOUBLE_EQ(stiffness_limit({0.1, 0.5, 1e9, 1e-6, 0}, 1e-3, 0), 1000);  // 2b/T.
+  EXPECT_DOUBLE_EQ(stiffness_limit({0.1, 0.5, 1e9, 1e-6, 1e-3}, 1e-3, 0),
+                   1000.0 / 3);  // A frame of delay costs a factor 3.
+  EXPECT_DOUBLE_EQ(stiffness_limit({0.1, 0.5, 1e9, 1e-6, 0}, 1e-3, 0.2), 600);
+  EXPECT_DOUBLE_EQ(stiffness_limit({0.1, 0.5, 1e9, 1e-6, 0}, 1e-3, -0.2), 600);
+  EXPECT_DOUBLE_EQ(stiffness_limit({0.1, 50, 0.2, 1e-3, 0}, 1e-3, 0), 400);  // 2 f_c/Δ.
+  EXPECT_EQ(stiffness_limit({0.1, 0.5, 1, 1e-6, 0}, 1e-3, 0.7), 0);
+  EXPECT_DOUBLE_EQ(stiffness_limit({0.1, 0.5, 0, 0, 0}, 1e-3, 0), 1000);
+}
+
+TEST(Stability, ClampsOnlyWhatIsTooStiff) {
+  ContactMaterial soft, hard, damped;
+  soft.stiffness = 200;
+  hard.stiffness = 3000;
+  damped.stiffness = 100;
+  damped.damping = 9;
+  ContactSurface surface(testing::plate(2, 2, 0.1, 0.1), {soft, hard, damped}, {}, 0);
+  const auto clamps = clamp_to_stable(surface, {0.1, 0.5, 1e9, 1e-6, 0}, 1e-3);
+  ASSERT_EQ(clamps.size(), 2U);
+  EXPECT_EQ(clamps[0].material, 1U);
+  EXPECT_EQ(clamps[0].stiffness_wanted, 3000);
+  EXPECT_DOUBLE_EQ(surface.material(1).stiffness, 1000);
+  EXPECT_EQ(clamps[1].material, 2U);
+  EXPECT_DOUBLE_EQ(surface.material(2).damping, 0.25);
+  EXPECT_DOUBLE_EQ(surface.material(2).stiffness, 100);
+  EXPECT_EQ(surface.material(0).stiffness, 200);
+}
+
+SafetyLimits sharp() { return {.max_force_n = 2, .slew_n_per_s = 1e9, .soft_start_s = 0, .watchdog_s = 0.01}; }
+
+TEST(ForceGuard, LimitsTheLengthAndKeepsTheDirection) {
+  ForceGuard guard(sharp());
+  const Vec3 out = guard.apply({30, 40, 0}, 1e-3, 0);
+  EXPECT_NEAR(out.x, 1.2, 1e-12);
+  EXPECT_NEAR(out.y, 1.6, 1e-12);
+}
+
+TEST(ForceGuard, LimitsTheChange) {
+  SafetyLimits limits = sharp();
+  limits.slew_n_per_s = 100;
+  ForceGuard guard(limits);
+  for (int i = 1; i <= 15; ++i) EXPECT_NEAR(guard.apply({0, 0, 5}, 1e-3, 0).z, std::min(2.0, 0.1 * i), 1e-12);
+  EXPECT_NEAR(guard.apply({0, 0, -5}, 1e-3, 0).z, 1.5 - 0.1, 1e-12);
+}
+
+TEST(ForceGuard, FadesInTheFirstForceAndAfterAResume) {
+  SafetyLimits limits = sharp();
+  limits.soft_start_s = 0.01;
+  ForceGuard guard(limits);
+  for (int i = 0; i < 5; ++i) guard.apply({}, 1e-3, 0);
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 1; i <= 10; ++i) EXPECT_NEAR(guard.apply({1, 0, 0}, 1e-3, 0).x, 0.1 * i, 1e-12);
+    EXPECT_EQ(guard.apply({1, 0, 0}, 1e-3, 0).x, 1);
+    guard.resume();
+  }
+}
+
+TEST(ForceGuard, NoNumberAndOldInputMeanNoForceUntilResumed) {
+  for (const double odd : {std::nan(""), std::numeric_limits<double>::infinity(), 1e308}) {
+    ForceGuard guard(sharp());
+    guard.apply({1, 0, 0}, 1e-3, 0);
+    EXPECT_EQ(guard.apply({odd, odd, 0}, 1e-3, 0), Vec3{});
+    EXPECT_EQ(guard.fault(), ForceGuard::Fault::not_finite);
+    EXPECT_EQ(guard.apply({1, 0, 0}, 1e-3, 0), Vec3{});
+    guard.resume();
+    EXPECT_EQ(guard.apply({1, 0, 0}, 1e-3, 0).x, 1);
+  }
+  ForceGuard guard(sharp());
+  EXPECT_EQ(guard.apply({1, 0, 0}, 1e-3, 0.02), Vec3{});
+  EXPECT_EQ(guard.fault(), ForceGuard::Fault::stale_input);
+  EXPECT_EQ(ForceGuard(sharp()).apply({1, 0, 0}, 1e-3, std::nan("")), Vec3{});
+}
+
+}  // namespace
+}  // namespace papilla

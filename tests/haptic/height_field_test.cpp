@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/height_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/roughness_field.hpp"
+
+namespace papilla {
+namespace {
+
+std::vector<std::uint16_t> noise(int width, int height, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::uint16_t> samples(static_cast<std::size_t>(width * height));
+  for (auto& v : samples) v = static_cast<std::uint16_t>(20000 + random() % 20000);
+  return samples;
+}
+
+HeightFieldOptions options(Interpolation interpolation) {
+  HeightFieldOptions o;
+  o.scale_m = 2e-4;
+  o.offset_m = -1e-4;
+  o.interpolation = interpolation;
+  return o;
+}
+
+class Gradient : public ::testing::TestWithParam<Interpolation> {};
+
+TEST_P(Gradient, EqualsFiniteDifferences) {
+  HeightFieldOptions o = options(GetParam());
+  o.uv_transform = {{0.13, -0.4}, 0.7, {1.7, 0.6}};
+  o.wrap = {Wrap::repeat, Wrap::mirror};
+  const HeightField field(17, 11, noise(17, 11, 3), o);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uv(-3, 3);
+  const double e = 1e-7;
+  int compared = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 at{uv(random), uv(random)};
+    const HeightSample s = field.sample(at);
+    if (s.height_m <= field.min_m() || s.height_m >= field.max_m()) continue;
+    const double du = (field.sample({at.x + e, at.y}).height_m - field.sample({at.x - e, at.y}).height_m) / (2 * e);
+    const double dv = (field.sample({at.x, at.y + e}).height_m - field.sample({at.x, at.y - e}).height_m) / (2 * e);
+    // A difference across the kink between two cells is not the slope of either.
+    if (GetParam() == Interpolation::bilinear &&
+        (std::abs(du - s.gradient_m.x) > 1e-6 || std::abs(dv - s.gradient_m.y) > 1e-6))
+      continue;
+    ++compared;
+    EXPECT_NEAR(s.gradient_m.x, du, 1e-6);
+    EXPECT_NEAR(s.gradient_m.y, dv, 1e-6);
+  }
+  EXPECT_GT(compared, 450);
+}
+
+INSTANTIATE_TEST_SUITE_P(HeightField, Gradient, ::testing::Values(Interpolation::bilinear, Interpolation::bicubic));
+
+TEST(HeightField, TexelCentresHaveTheSamplesHeight) {
+  const auto samples = noise(7, 5, 1);
+  for (const Interpolation interpolation : {Interpolation::bilinear, Interpolation::bicubic}) {
+    const HeightField field(7, 5, samples, options(interpolation));
+    for (int y = 0; y < 5; ++y)
+      for (int x = 0; x < 7; ++x)
+        EXPECT_NEAR(field.sample({(x + 0.5) / 7, (y + 0.5) / 5}).height_m,
+                    -1e-4 + 2e-4 * samples[static_cast<std::size_t>(7 * y + x)] / 65535, 1e-15);
+  }
+}
+
+TEST(HeightField, BicubicFollowsASineOf16SamplesWithinHalfAPercent) {
+  std::vector<std::uint16_t> samples(64);
+  for (int i = 0; i < 64; ++i)
+    samples[static_cast<std::size_t>(i)] =
+        static_cast<std::uint16_t>(std::lround(32767.5 + 32767 * std::sin(2 * std::numbers::pi * (i + 0.5) / 16)));
+  const HeightField field(64, 1, samples, options(Interpolation::bicubic));
+  for (double u = 0; u < 1; u += 1e-3)
+    EXPECT_NEAR(field.sample({u, 0.5}).height_m, 1e-4 * std::sin(2 * std::numbers::pi * 4 * u), 5e-7);
+}
+
+TEST(HeightField, WrapModes) {
+  HeightFieldOptions o = options(Interpolation::bilinear);
+  const std::vector<std::uint16_t> ramp = {0, 20000, 40000, 60000};
+  const auto at = [&](Wrap wrap, double u) {
+    o.wrap = {wrap, wrap};
+    return HeightField(4, 1, ramp, o).sample({u, 0.5}).height_m;
+  };
+  EXPECT_NEAR(at(Wrap::repeat, 1.125), at(Wrap::repeat, 0.125), 1e-15);
+  EXPECT_NEAR(at(Wrap::repeat, -5.875), at(Wrap::repeat, 0.125), 1e-15);
+  EXPECT_NEAR(at(Wrap::clamp, 1.6), at(Wrap::clamp, 0.875), 1e-15);
+  EXPECT_NEAR(at(Wrap::mirror, 1.125), at(Wrap::mirror, 0.875), 1e-15);
+  EXPECT_NEAR(at(Wrap::mirror, -0.125), at(Wrap::mirror, 0.125), 1e-15);
+}
+
+TEST(HeightField, BlackOutwardTurnsTheReliefOver) {
+  HeightFieldOptions white = options(Interpolation::bilinear), black = white;
+  black.white_is_outward = false;
+  const HeightField a(2, 1, {0, 65535}, white), b(2, 1, {65535, 0}, black);
+  for (double u = 0; u < 1; u += 0.05) EXPECT_NEAR(a.sample({u, 0}).height_m, b.sample({u, 0}).height_m, 1e-15);
+}
+
+// The example of KHR_texture_transform: the lower left quarter of the picture, rotated clockwise by a quarter turn.
+TEST(HeightField, UvTransformIsTheExtensions) {
+  HeightFieldOptions o = options(Interpolation::bilinear);
+  o.uv_transform = {{0, 1}, std::numbers::pi / 2, {0.5, 0.5}};
+  o.wrap = {Wrap::clamp, Wrap::clamp};
+  const auto samples = noise(4, 4, 9);
+  const HeightField turned(4, 4, samples, o);
+  o.uv_transform = {};
+  const HeightField plain(4, 4, samples, o);
+  for (double u = 0; u <= 1; u += 0.25)
+    for (double v = 0; v <= 1; v += 0.25)
+      EXPECT_NEAR(turned.sample({u, v}).height_m, plain.sample({0.5 * v, 1 - 0.5 * u}).height_m, 1e-12);
+}
+
+TEST(HeightField, OddTextureCoordinatesGiveFiniteHeights) {
+  const HeightField field(8, 8, noise(8, 8, 2), options(Interpolation::bicubic));
+  for (const double odd : {std::nan(""), 1e300, -1e300, std::numeric_limits<double>::infinity()}) {
+    const HeightSample s = field.sample({odd, 0.5});
+    EXPECT_GE(s.height_m, field.min_m());
+    EXPECT_LE(s.height_m, field.max_m());
+    EXPECT_TRUE(is_finite(s.gradient_m));
+  }
+}
+
+TEST(HeightField, RefusesWrongSizes) {
+  EXPECT_THROW(HeightField(2, 2, {1, 2, 3}, {}), InvalidInput);
+  EXPECT_THROW(HeightField(0, 2, {}, {}), InvalidInput);
+  HeightFieldOptions o;
+  o.scale_m = std::nan("");
+  EXPECT_THROW(HeightField(1, 1, {1}, o), InvalidInput);
+}
+
+TEST(HeightField, DilationOfASpikeIsTheBall) {
+  const int n = 41;
+  std::vector<std::uint16_t> samples(n * n, 0);
+  samples[static_cast<std::size_t>(20 * n + 20)] = 65535;
+  HeightFieldOptions o;
+  o.scale_m = 3e-4;
+  o.interpolation = Interpolation::bilinear;
+  const double side = 2e-3, r = 1e-3;
+  const HeightField wide = HeightField(n, n, samples, o).dilated(r, {side, side});
+  for (int i = 0; i < n; ++i) {
+    const double d = (i - 20) * side / n;
+    const double expected = std::max(0.0, std::abs(d) <= r ? 3e-4 + std::sqrt(r * r - d * d) - r : 0.0);
+    EXPECT_NEAR(wide.sample({(i + 0.5) / n, 20.5 / n}).height_m, expected, 3e-4 / 65535);
+  }
+}
+
+TEST(HeightField, DilationOfAPlaneIsThePlaneAndNeverLowers) {
+  const HeightField flat = HeightField(5, 5, std::vector<std::uint16_t>(25, 700), options(Interpolation::bilinear))
+                               .dilated(1e-3, {0.01, 0.01});
+  EXPECT_NEAR(flat.sample({0.3, 0.3}).height_m, -1e-4 + 2e-4 * 700 / 65535, 1e-12);
+  const HeightField rough(16, 16, noise(16, 16, 4), options(Interpolation::bilinear));
+  const HeightField wide = rough.dilated(5e-4, {0.005, 0.005});
+  for (double u = 0; u < 1; u += 0.05) EXPECT_GE(wide.sample({u, u}).height_m, rough.sample({u, u}).height_m - 1e-8);
+}
+
+TEST(RoughnessField, HasTheHeightAskedForAndRepeats) {
+  const RoughnessTag tag{2.3, 2e-5, {2e-4, 1e-2}};
+  const HeightField field = roughness_field(tag, {0.04, 0.04}, 7);
+  double sum = 0, sum2 = 0;
+  int n = 0;
+  for (double u = 0; u < 0.25; u += 1.0 / 1024)
+    for (double v = 0; v < 0.25; v += 1.0 / 1024, ++n) {
+      const double h = field.sample({u, v}).height_m;
+      sum += h;
+      sum2 += h * h;
+    }
+  EXPECT_NEAR(sum / n, 0, 1e-7);
+  EXPECT_NEAR(std::sqrt(sum2 / n), 2e-5, 2e-7);
+  EXPECT_NEAR(field.sample({0.1, 0.1}).height_m, field.sample({0.35, 0.1}).height_m, 1e-12);
+  EXPECT_EQ(roughness_field(tag, {0.04, 0.04}, 7).sample({0.11, 0.2}).height_m, field.sample({0.11, 0.2}).height_m);
+}
+
+}  // namespace
+}  // namespace papilla

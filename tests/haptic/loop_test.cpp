@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/haptic_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "haptic/contact_shapes.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/contact_audit.hpp"
+#include "papilla/haptic/sim_device.hpp"
+#include "papilla/haptic/stability.hpp"
+#include "papilla/haptic/stroke.hpp"
+
+namespace papilla {
+namespace {
+
+ContactSurface stable_plate() {
+  ContactMaterial material;
+  material.stiffness = 2000;
+  material.static_friction = 0.3;
+  material.dynamic_friction = 0.2;
+  ContactSurface surface(testing::plate(20, 20, 0.1, 0.1), {material}, {}, 0);
+  clamp_to_stable(surface, device_preset("touch").caps().dynamics, 1e-3);
+  return surface;
+}
+
+struct Played {
+  LoopResult result;
+  std::vector<RecordRow> rows;
+};
+
+Played play(const ContactSurface& surface, const Trajectory& hand, std::uint64_t ticks) {
+  SimDevice device(device_preset("touch").caps(), hand, 1e-3);
+  Played run;
+  LoopOptions options;
+  options.ticks = ticks;
+  options.paced = false;
+  options.hand = &hand;
+  options.record = &run.rows;
+  run.result = run_haptic_loop(device, surface, options);
+  return run;
+}
+
+TEST(HapticLoop, StrokeIsFeltAndNeverLost) {
+  const ContactSurface surface = stable_plate();
+  const Trajectory hand = press_and_stroke(surface, 0, {0.05, 0.05, 0}, {});
+  const Played run = play(surface, hand, 2000);
+  EXPECT_EQ(run.result.ticks, 2000U);
+  EXPECT_GT(run.result.contact_ticks, 1700U);
+  EXPECT_EQ(run.result.lost_contact_ticks, 0U);
+  EXPECT_EQ(run.result.tick_us.count(), 2000U);
+  // At rest the hand's spring (1000 N/m) and the wall (400 N/m) share the millimetre; friction holds the rest.
+  EXPECT_NEAR(run.result.max_force_n, 1e-3 * 400 * 1000 / 1400, 0.15);
+  EXPECT_FALSE(run.result.device_lost);
+}
+
+TEST(HapticLoop, RecordingPlayedAgainGivesTheSameBits) {
+  const ContactSurface surface = stable_plate();
+  const Trajectory hand = press_and_stroke(surface, 0, {0.05, 0.05, 0}, {});
+  const std::string first = record_csv(play(surface, hand, 1000).rows);
+  const std::string second = record_csv(play(surface, parse_trajectory(first, "first"), 1000).rows);
+  EXPECT_EQ(first, second);
+}
+
+TEST(HapticLoop, StopEndsItAndLeavesNoForce) {
+  class Counting final : public HapticDevice {
+   public:
+    const DeviceCaps& caps() const noexcept override { return caps_; }
+    bool read(DeviceState& state) noexcept override {
+      state.position = {0.05, 0.05, reads_ == 0 ? 0.01 : -0.001};
+      if (++reads_ == 50) stop_flag = true;
+      return reads_ < fail_at;
+    }
+    bool write(Vec3 force) noexcept override {
+      last = force;
+      largest = std::max(largest, norm(force));
+      return true;
+    }
+    void stop() noexcept override { ++stops; }
+    std::atomic<bool> stop_flag{false};
+    int fail_at = 1000, stops = 0;
+    Vec3 last;
+    double largest = 0;
+
+   private:
+    DeviceCaps caps_{"counting", 3, 0.1, {}};
+    int reads_ = 0;
+  };
+  const ContactSurface surface = stable_plate();
+  LoopOptions options;
+  options.paced = false;
+  Counting stopped;
+  options.stop = &stopped.stop_flag;
+  EXPECT_EQ(run_haptic_loop(stopped, surface, options).ticks, 50U);
+  EXPECT_GT(stopped.largest, 0);
+  EXPECT_EQ(stopped.last, Vec3{});
+  EXPECT_EQ(stopped.stops, 1);
+
+  Counting lost;
+  lost.fail_at = 20;
+  options.stop = nullptr;
+  const LoopResult result = run_haptic_loop(lost, surface, options);
+  EXPECT_TRUE(result.device_lost);
+  EXPECT_EQ(result.ticks, 19U);
+  EXPECT_EQ(lost.last, Vec3{});
+  EXPECT_EQ(lost.stops, 1);
+}
+
+TEST(HapticLoop, RefusesImpossibleRates) {
+  const ContactSurface surface = stable_plate();
+  const Trajectory hand(std::vector<Trajectory::Sample>{{0, {}}});
+  SimDevice device(device_preset("touch").caps(), hand, 1e-3);
+  for (const double rate : {0.0, -1.0, std::nan(""), 1e9}) {
+    LoopOptions options;
+    options.rate_hz = rate;
+    EXPECT_THROW(run_haptic_loop(device, surface, options), InvalidInput);
+  }
+}
+
+TEST(ContactAudit, SeesAProxyThatLetsGo) {
+  const ContactSurface surface(testing::box({0, 0, 0}, {0.1, 0.1, 0.1}), {ContactMaterial{}}, {}, 0);
+  ContactAudit audit(surface);
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.12}, false));
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.099}, true));
+  EXPECT_TRUE(audit.lost({0.03, 0.04, 0.098}, false));
+  EXPECT_TRUE(audit.lost({0.04, 0.04, 0.050}, false));
+  EXPECT_FALSE(audit.lost({0.04, 0.04, 0.12}, false));
+}
+
+TEST(ContactAudit, SeesAProxyInTheRelief) {
+  ContactMaterial material;
+  material.height = 0;
+  HeightFieldOptions options;
+  options.scale_m = 1e-3;
+  const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {material}, {HeightField(1, 1, {65535}, options)}, 0);
+  ContactAudit audit(surface);
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 2e-3}, false));
+  EXPECT_TRUE(audit.lost({0.03, 0.04, 5e-4}, false));
+}
+
+TEST(Stroke, StaysAtItsDepthAndSpeedOnASphere) {
+  const ContactSurface surface(testing::sphere(200, 0.05), {ContactMaterial{}}, {}, 0);
+  const Trajectory hand = press_and_stroke(surface, 0, {0, 0, 0.06}, {});
+  EXPECT_GE(hand.end_s(), 2);
+  const auto& samples = hand.samples();
+  for (std::size_t i = 2; i < samples.size(); ++i) {
+    EXPECT_NEAR(norm(samples[i].position), 0.049, 2e-4);
+    EXPECT_NEAR(norm(samples[i].position - samples[i - 1].position) / (samples[i].t - samples[i - 1].t), 0.1, 1e-6);
+  }
+  EXPECT_THROW(press_and_stroke(surface, 1, {}, {}), InvalidInput);
+}
+
+TEST(Trajectory, ReadsCsvWithHeadingCommentsAndFurtherColumns) {
+  const Trajectory t = parse_trajectory("t,x,y,z\n# comment\n0,1,2,3\r\n\n 0.5 , 2, 2 ,3, 9, text\n", "T.csv");
+  ASSERT_EQ(t.samples().size(), 2U);
+  EXPECT_EQ(t.position(0.25), (Vec3{1.5, 2, 3}));
+  EXPECT_EQ(t.position(-1), (Vec3{1, 2, 3}));
+  EXPECT_EQ(t.position(7), (Vec3{2, 2, 3}));
+}
+
+TEST(Trajectory, NamesTheLineThatIsWrong) {
+  const auto message = [](const char* csv) -> std::string {
+    try {
+      parse_trajectory(csv, "T.csv");
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("0,1,2,3\n0,1,2,3\n").find("T.csv:2: the time"), std::string::npos);
+  EXPECT_NE(message("0,1,2,3\n1,1,2\n").find("T.csv:2: column 4"), std::string::npos);
+  EXPECT_NE(message("0,1,2,3\n1;1;2;3\n").find("T.csv:2: column 1"), std::string::npos);
+  EXPECT_NE(message("0,nan,2,3\n").find("T.csv:1"), std::string::npos);
+  EXPECT_NE(message("0,1,2,1e999\n").find("T.csv:1"), std::string::npos);
+  EXPECT_NE(message("").find("T.csv: holds no line"), std::string::npos);
+  EXPECT_NE(message("t,x\nheading,again\n").find("T.csv:2"), std::string::npos);
+}
+
+TEST(Histogram, QuantilesOfKnownNumbers) {
+  Histogram h;
+  for (int i = 1; i <= 1000; ++i) h.add(i);
+  EXPECT_NEAR(h.quantile(0.5), 500, 500 * 0.011);
+  EXPECT_NEAR(h.quantile(0.99), 990, 990 * 0.011);
+  EXPECT_EQ(h.max(), 1000);
+  EXPECT_EQ(h.quantile(1), 1000);
+  EXPECT_EQ(Histogram().quantile(0.5), 0);
+}
+
+}  // namespace
+}  // namespace papilla

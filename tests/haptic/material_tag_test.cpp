@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/material_tag.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+bool has(const std::vector<HapticWarning>& warnings, const std::string& code) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const HapticWarning& w) { return w.code == code; });
+}
+
+MaterialTag full_tag() {
+  MaterialTag tag;
+  tag.stiffness = 900.1;
+  tag.damping = 0.4;
+  tag.static_friction = 0.45;
+  tag.dynamic_friction = 0.35;
+  tag.stribeck_velocity = 0.02;
+  HeightTag height;
+  height.uri = "grain \xC3\xA4.png";
+  height.image = "haptic.height.grain";
+  height.sha256 = std::string(64, 'a');
+  height.size = {640, 480};
+  height.scale_m = 2.0e-4 / 3;
+  height.offset_m = -1.0e-4;
+  height.white_is_outward = false;
+  height.tex_coord = 1;
+  height.uv_transform = {{0.1, 0.2}, 0.3, {2, 3}};
+  height.metres_per_uv = {0.5, 0.25};
+  height.wrap = {Wrap::mirror, Wrap::clamp};
+  height.rms_m = 2.1e-5;
+  tag.height = height;
+  tag.roughness = RoughnessTag{2.31, 2.1e-5, {2e-4, 2e-2}};
+  tag.symmetry = SymmetryTag{"pmm", {Vec2{0.012, 0}, Vec2{0, 0.012}}};
+  tag.provenance = ProvenanceTag{"papilla 0.1.0", "shape-from-shading", "variational"};
+  return tag;
+}
+
+TEST(MaterialTag, RoundTripKeepsEveryBit) {
+  std::vector<HapticWarning> warnings;
+  EXPECT_EQ(parse_material_tag(to_json(full_tag()), warnings), full_tag());
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(MaterialTag, NamesAreThoseOfTheFormat) {
+  const auto json = nlohmann::json::parse(to_json(full_tag()));
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["staticFriction"], 0.45);
+  EXPECT_EQ(json["stribeckVelocity"], 0.02);
+  EXPECT_EQ(json["height"]["outward"], "black");
+  EXPECT_EQ(json["height"]["wrap"], nlohmann::json::parse(R"(["mirror","clamp"])"));
+  EXPECT_EQ(json["height"]["uvTransform"]["rotation"], 0.3);
+  EXPECT_EQ(json["height"]["metresPerUV"], nlohmann::json::parse("[0.5,0.25]"));
+  EXPECT_EQ(json["roughness"]["wavelengthRange"][1], 2e-2);
+  EXPECT_EQ(json["symmetry"]["period"][0][0], 0.012);
+}
+
+TEST(MaterialTag, DefaultsOfTheLeastTag) {
+  std::vector<HapticWarning> warnings;
+  const MaterialTag tag = parse_material_tag(R"({"version":1,"stiffness":700})", warnings);
+  EXPECT_TRUE(warnings.empty());
+  MaterialTag expected;
+  expected.stiffness = 700;
+  EXPECT_EQ(tag, expected);
+}
+
+TEST(MaterialTag, OneFrictionServesForBoth) {
+  std::vector<HapticWarning> warnings;
+  EXPECT_EQ(parse_material_tag(R"({"version":1,"stiffness":1,"dynamicFriction":0.2})", warnings).static_friction, 0.2);
+  EXPECT_EQ(parse_material_tag(R"({"version":1,"stiffness":1,"staticFriction":0.3})", warnings).dynamic_friction, 0.3);
+}
+
+struct Odd {
+  const char* json;
+  const char* code;
+};
+
+class OddValue : public ::testing::TestWithParam<Odd> {};
+
+TEST_P(OddValue, IsReportedAndReplacedByTheDefault) {
+  std::vector<HapticWarning> warnings;
+  const MaterialTag tag = parse_material_tag(GetParam().json, warnings);
+  EXPECT_TRUE(has(warnings, GetParam().code)) << GetParam().json;
+  EXPECT_GE(tag.stiffness, 0);
+  EXPECT_GE(tag.dynamic_friction, 0);
+  EXPECT_LE(tag.dynamic_friction, tag.static_friction);
+  EXPECT_GT(tag.stribeck_velocity, 0);
+  for (const HapticWarning& warning : warnings) EXPECT_EQ(warning.message.find('\n'), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MaterialTag, OddValue,
+    ::testing::Values(Odd{R"({"version":1,"stiffness":"NaN"})", "tag_stiffness"},
+                      Odd{R"({"version":1,"stiffness":null})", "tag_stiffness"},
+                      Odd{R"({"version":1,"stiffness":-5})", "tag_stiffness"},
+                      Odd{R"({"version":1,"stiffness":1e300})", "tag_stiffness"},
+                      Odd{R"({"version":1,"stiffness":1,"damping":-1})", "tag_damping"},
+                      Odd{R"({"version":1,"stiffness":1,"staticFriction":-0.1})", "tag_friction"},
+                      Odd{R"({"version":1,"stiffness":1,"staticFriction":0.1,"dynamicFriction":0.5})", "tag_friction"},
+                      Odd{R"({"version":1,"stiffness":1,"stribeckVelocity":0})", "tag_stribeck"},
+                      Odd{R"({"version":1,"stiffness":1,"height":"x.png"})", "tag_height"},
+                      Odd{R"({"version":1,"height":{"offset":0}})", "tag_height"},
+                      Odd{R"({"version":1,"height":{"scale":1e-4,"sha256":"12"}})", "tag_height_sha256"},
+                      Odd{R"({"version":1,"height":{"scale":1e-4,"bits":8}})", "tag_height_bits"},
+                      Odd{R"({"version":1,"height":{"scale":1e-4,"metresPerUV":[0,1]}})", "tag_height_uv"},
+                      Odd{R"({"version":1,"height":{"scale":1e-4,"wrap":["repeat"]}})", "tag_height_uv"},
+                      Odd{R"({"version":1,"height":{"scale":1e-4,"uvTransform":7}})", "tag_height_uv"},
+                      Odd{R"({"version":1,"stiffness":1,"roughness":{"rmsHeight":1e-5,"fractalDimension":7}})",
+                          "tag_roughness"},
+                      Odd{R"({"version":1,"stiffness":1,"symmetry":{"period":[1,2]}})", "tag_symmetry"},
+                      Odd{R"({"version":1,"stiffness":1,"provenance":{"tool":3}})", "tag_provenance"}));
+
+TEST(MaterialTag, HeightWithoutScaleIsDropped) {
+  std::vector<HapticWarning> warnings;
+  EXPECT_FALSE(parse_material_tag(R"({"version":1,"height":{"scale":"1"}})", warnings).height);
+  EXPECT_TRUE(has(warnings, "tag_height"));
+}
+
+TEST(MaterialTag, RefusesWhatIsNoTag) {
+  std::vector<HapticWarning> warnings;
+  for (const char* json :
+       {"", "nonsense", "[]", "1", "{}", R"({"version":1})", R"({"version":2,"stiffness":1})",
+        R"({"version":"1","stiffness":1})", R"({"stiffness":1})", R"({"version":1,"stiffness":NaN})"})
+    EXPECT_THROW(parse_material_tag(json, warnings), InvalidInput) << json;
+}
+
+TEST(MaterialTag, RefusedTagInExtrasIsAWarning) {
+  std::vector<HapticWarning> warnings;
+  EXPECT_FALSE(material_tag_of_extras(R"({"haptic":{"version":9,"stiffness":1}})", warnings));
+  EXPECT_TRUE(has(warnings, "tag_refused"));
+}
+
+TEST(MaterialTag, ExtrasWithoutTagAreSilent) {
+  std::vector<HapticWarning> warnings;
+  EXPECT_FALSE(material_tag_of_extras("", warnings));
+  EXPECT_FALSE(material_tag_of_extras(R"({"a":1})", warnings));
+  EXPECT_FALSE(material_tag_of_extras("[1]", warnings));
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(MaterialTag, OtherExtrasStay) {
+  std::vector<HapticWarning> warnings;
+  const std::string extras = with_material_tag(R"({"a":[1,{"b":null}],"haptic":5})", full_tag());
+  EXPECT_EQ(material_tag_of_extras(extras, warnings), full_tag());
+  EXPECT_EQ(nlohmann::json::parse(extras)["a"], nlohmann::json::parse(R"([1,{"b":null}])"));
+  EXPECT_THROW(with_material_tag("[1]", full_tag()), InvalidInput);
+}
+
+TEST(MaterialTag, DamagedTextNeverDoesMoreThanThrow) {
+  const std::string whole = to_json(full_tag());
+  std::mt19937 random(1);
+  int accepted = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = whole;
+    for (int k = 0; k < 3; ++k) text[random() % text.size()] = static_cast<char>(random() % 256);
+    std::vector<HapticWarning> warnings;
+    try {
+      const MaterialTag tag = parse_material_tag(text, warnings);
+      EXPECT_TRUE(std::isfinite(tag.stiffness) && tag.stiffness >= 0);
+      ++accepted;
+    } catch (const InvalidInput&) {
+    }
+  }
+  EXPECT_GT(accepted, 10);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+# The player must stay compact: fails when PLAYER needs or holds one of the toolkit's libraries, or is over 1 MiB stripped.
+# Usage: cmake -D PLAYER=file -D READELF=program -D NM=program -D STRIP=program -P player_links.cmake
+foreach(name PLAYER READELF NM STRIP)
+  if(NOT ${name})
+    message(FATAL_ERROR "player_links.cmake: ${name} is not set")
+  endif()
+endforeach()
+
+execute_process(COMMAND ${READELF} -d ${PLAYER} OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
+if(NOT dynamic MATCHES "libc\\.so")
+  message(FATAL_ERROR "readelf shows no libc: the test would see nothing")
+endif()
+foreach(library CGAL OpenMesh OpenImageIO TK[A-Z] ceres fftw glog tbb gmp mpfr)
+  if(dynamic MATCHES "lib${library}[^]]*")
+    message(FATAL_ERROR "the player links ${CMAKE_MATCH_0}")
+  endif()
+endforeach()
+
+execute_process(COMMAND ${NM} -C ${PLAYER} OUTPUT_VARIABLE symbols ERROR_QUIET COMMAND_ERROR_IS_FATAL ANY)
+if(symbols MATCHES "papilla::" OR NOT symbols)
+  foreach(symbol "CGAL::" "OpenMesh::" "OpenImageIO" "OIIO" "Standard_Transient" "opencascade::" "ceres::" "fftw_" "Eigen::")
+    if(symbols MATCHES "[^\n]*${symbol}[^\n]*")
+      message(FATAL_ERROR "the player holds ${CMAKE_MATCH_0}")
+    endif()
+  endforeach()
+else()
+  message(FATAL_ERROR "nm shows no papilla:: symbol: the test would see nothing")
+endif()
+
+set(stripped ${PLAYER}.stripped)
+execute_process(COMMAND ${STRIP} -o ${stripped} ${PLAYER} COMMAND_ERROR_IS_FATAL ANY)
+file(SIZE ${stripped} size)
+file(REMOVE ${stripped})
+message("stripped size: ${size} bytes")
+if(SIZE_LIMIT AND size GREATER SIZE_LIMIT)
+  message(FATAL_ERROR "the stripped player has ${size} bytes, more than ${SIZE_LIMIT}")
+endif()

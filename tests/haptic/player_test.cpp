@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "haptic/tagged_glb.hpp"
+#include "papilla/haptic/sha256.hpp"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string sum(const std::string& text) { return sha256_hex(std::as_bytes(std::span(text.data(), text.size()))); }
+
+Json tag() {
+  return {{"version", 1},
+          {"stiffness", 900},
+          {"damping", 0.1},
+          {"staticFriction", 0.3},
+          {"dynamicFriction", 0.2},
+          {"height",
+           {{"image", "haptic.height.grain"},
+            {"sha256", sum(testing::sine_png())},
+            {"bits", 16},
+            {"scale", 2e-4},
+            {"offset", -1e-4},
+            {"metresPerUV", {0.04, 0.04}}}}};
+}
+
+struct Outcome {
+  int code = -1;
+  std::string out, error;
+  Json json() const { return Json::parse(out); }
+};
+
+class Player : public ::testing::Test {
+ protected:
+  Player() { fs::create_directories(folder_); }
+  ~Player() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return (folder_ / name).string();
+  }
+  static std::string slurp(const fs::path& path) {
+    std::stringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  Outcome play(const std::string& arguments) const {
+    const fs::path out = folder_ / "out", error = folder_ / "error";
+    const int status = std::system(
+        ("'" PAPILLA_PLAYER "' " + arguments + " >'" + out.string() + "' 2>'" + error.string() + "'").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(error)};
+  }
+  Outcome play_glb(const Json& extras, const std::string& image, const std::string& more = "") const {
+    return play("'" + write("a b.glb", testing::plate_glb(extras, image)) + "' --seconds 0.6 --json - " + more);
+  }
+  static void expect_warning(const Json& report, const std::string& code) {
+    bool found = false;
+    for (const Json& warning : report["warnings"]) found = found || warning["code"] == code;
+    EXPECT_TRUE(found) << code << " in " << report["warnings"];
+  }
+  void expect_refusal(const Outcome& outcome, int code) const {
+    EXPECT_EQ(outcome.code, code) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_EQ(outcome.out, "");
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("papilla-player-test-" + std::to_string(::getpid()));
+};
+
+TEST_F(Player, FeelsThePlateAndReportsEveryKey) {
+  const Outcome outcome = play_glb({{"haptic", tag()}}, testing::sine_png());
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  const Json report = outcome.json();
+  EXPECT_EQ(report["rate_hz"], 1000);
+  EXPECT_EQ(report["ticks"], 600);
+  EXPECT_GT(report["contact_ticks"], 300);
+  EXPECT_EQ(report["lost_contact_ticks"], 0);
+  EXPECT_GT(report["max_force_n"], 0.1);
+  EXPECT_LE(report["max_force_n"], 3.3);
+  EXPECT_NEAR(report["stiffness_limit_n_per_m"].get<double>(), 400, 1e-6);
+  EXPECT_EQ(report["clamped_materials"], Json({"grain"}));
+  EXPECT_EQ(report["height_maps"]["loaded"], 1);
+  EXPECT_EQ(report["height_maps"]["missing"], 0);
+  EXPECT_EQ(report["triangles"], 200);
+  EXPECT_EQ(report["warnings"], Json::array());
+  for (const char* key : {"missed_deadlines", "load_seconds", "rss_mib"}) EXPECT_TRUE(report[key].is_number()) << key;
+  for (const char* key : {"wakeup_us", "tick_us"})
+    for (const char* quantile : {"p50", "p99", "p999", "max"}) EXPECT_TRUE(report[key][quantile].is_number());
+}
+
+TEST_F(Player, FindsTheMapAsDataUriAndAsSidecar) {
+  Json data = tag();
+  data["height"].erase("image");
+  data["height"]["uri"] = "my%20map.png";
+  write("my map.png", testing::sine_png());
+  EXPECT_EQ(play_glb({{"haptic", data}}, "").json()["height_maps"]["loaded"], 1);
+
+  const std::string png = testing::grey16_png(1, 1, {1234});
+  std::string base64;
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (std::size_t i = 0; i < png.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) base64 += i + k > png.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
+  }
+  data["height"]["uri"] = "data:image/png;base64," + base64;
+  data["height"]["sha256"] = sum(png);
+  const Outcome outcome = play_glb({{"haptic", data}}, "");
+  EXPECT_EQ(outcome.json()["height_maps"]["loaded"], 1) << outcome.out;
+}
+
+TEST_F(Player, LostMapsFallBackWithACode) {
+  Json wrong = tag();
+  wrong["height"]["sha256"] = std::string(64, '0');
+  Json report = play_glb({{"haptic", wrong}}, testing::sine_png()).json();
+  EXPECT_EQ(report["height_maps"]["missing"], 1);
+  expect_warning(report, "height_sha256");
+  expect_warning(report, "height_lost");
+
+  wrong["roughness"] = {{"fractalDimension", 2.3}, {"rmsHeight", 2e-5}, {"wavelengthRange", {5e-4, 1e-2}}};
+  report = play_glb({{"haptic", wrong}}, "").json();
+  expect_warning(report, "height_image");
+  expect_warning(report, "height_from_roughness");
+  EXPECT_EQ(report["lost_contact_ticks"], 0);
+
+  Json damaged = tag();
+  damaged["height"]["sha256"] = sum("no picture");
+  expect_warning(play_glb({{"haptic", damaged}}, "no picture").json(), "height_image");
+}
+
+TEST_F(Player, OddTagsGiveWarningsOrAreRefused) {
+  Json odd = tag();
+  odd["stiffness"] = "NaN";
+  odd["staticFriction"] = -1;
+  const Json report = play_glb({{"haptic", odd}}, testing::sine_png()).json();
+  expect_warning(report, "tag_stiffness");
+  expect_warning(report, "tag_friction");
+  odd["version"] = 2;
+  expect_refusal(play_glb({{"haptic", odd}}, ""), 3);
+  expect_refusal(play_glb(Json::object(), ""), 3);
+}
+
+TEST_F(Player, RubbishIsOneLineAndAnExitCode) {
+  const std::string glb = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
+  const std::string good = write("good.glb", glb);
+  for (const std::string& file : {write("cut.glb", glb.substr(0, 900)), write("empty.glb", ""),
+                                  write("text.glb", "hello"), folder_.string(), (folder_ / "missing.glb").string()})
+    expect_refusal(play("'" + file + "'"), 3);
+  expect_refusal(play("'" + good + "' --trajectory '" + write("t.csv", "0,1,2\n") + "'"), 3);
+  expect_refusal(play("'" + good + "' --trajectory '" + folder_.string() + "'"), 3);
+  expect_refusal(play("'" + good + "' --device sim:nothing"), 5);
+  EXPECT_EQ(play("'" + good + "' --device spoon").code, 2);
+  EXPECT_EQ(play("'" + good + "' --rate 0").code, 2);
+  EXPECT_EQ(play("").code, 2);
+  EXPECT_EQ(play("--help").code, 0);
+}
+
+TEST_F(Player, RecordingPlayedAgainGivesTheSameFile) {
+  const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  const fs::path first = folder_ / "1.csv", second = folder_ / "2.csv";
+  ASSERT_EQ(play("'" + glb + "' -q --rate 2000 --seconds 0.5 --record '" + first.string() + "'").code, 0);
+  ASSERT_EQ(
+      play("'" + glb + "' -q --rate 2000 --trajectory '" + first.string() + "' --record '" + second.string() + "'")
+          .code,
+      0);
+  EXPECT_GT(slurp(first).size(), 100000U);
+  EXPECT_EQ(slurp(first), slurp(second));
+}
+
+TEST_F(Player, SignalEndsItWithAReport) {
+  const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  const std::string json = (folder_ / "r.json").string();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl(PAPILLA_PLAYER, PAPILLA_PLAYER, glb.c_str(), "-q", "--seconds", "100", "--json", json.c_str(), nullptr);
+    ::_exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ::kill(child, SIGTERM);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const Json report = Json::parse(slurp(json));
+  EXPECT_GT(report["ticks"], 10);
+  EXPECT_LT(report["ticks"], 50000);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/repair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "meshing/shapes.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/meshing/statistics.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace test;
+
+void expect_clean(const TriangleMesh& mesh) {
+  const MeshStatistics s = mesh_statistics(mesh);
+  EXPECT_EQ(s.degenerate_triangles, 0u);
+  EXPECT_EQ(s.duplicate_triangles, 0u);
+  EXPECT_EQ(s.nonmanifold_edges, 0u);
+  EXPECT_EQ(s.flipped_edges, 0u);
+  EXPECT_EQ(s.t_junctions, 0u);
+}
+
+void expect_idempotent(const RepairResult& once) {
+  const RepairResult twice = repair(once.mesh);
+  EXPECT_EQ(twice.mesh.positions, once.mesh.positions);
+  EXPECT_EQ(twice.mesh.triangles, once.mesh.triangles);
+  EXPECT_EQ(twice.passes, 1u);
+}
+
+TEST(Repair, CleanMeshesStayAsTheyAre) {
+  for (const TriangleMesh& mesh : {cube(3), sphere(6), torus(20, 12), tube(12, 4), double_torus(), terrain(9, 1, 4)}) {
+    const RepairResult result = repair(mesh);
+    EXPECT_TRUE(result.settled);
+    EXPECT_EQ(result.mesh.positions, mesh.positions);
+    EXPECT_EQ(result.mesh.triangles, mesh.triangles);
+    EXPECT_EQ(result.counts, RepairCounts{});
+    EXPECT_EQ(result.max_deviation_mm, 0);
+  }
+}
+
+TEST(Repair, SoupOfSolidComesOutClosed) {
+  const RepairResult result = repair(soup_of(reversed(double_torus())));
+  const MeshStatistics s = mesh_statistics(result.mesh);
+  EXPECT_EQ(s.boundary_edges, 0u);
+  EXPECT_EQ(s.genus, 2);
+  EXPECT_NEAR(*s.volume_mm3, 13, 1e-12);
+  expect_idempotent(result);
+}
+
+class RandomSoup : public testing::TestWithParam<unsigned> {};
+
+TEST_P(RandomSoup, ComesOutCleanAndStaysSo) {
+  for (const int triangles : {5, 20, 60, 150}) {
+    const RepairResult result = repair(lattice_soup(triangles, GetParam()));
+    EXPECT_TRUE(result.settled) << triangles;
+    expect_clean(result.mesh);
+    expect_idempotent(result);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSoup, testing::Range(1u, 41u));
+
+/// Noise far below the size of triangles, every triangle on its own: only cracks.
+class Cracks : public testing::TestWithParam<unsigned> {};
+
+TEST_P(Cracks, CloseAndNeverAddBorderLoops) {
+  std::mt19937 random(GetParam());
+  std::uniform_real_distribution<double> noise(-2e-7, 2e-7);
+  for (const TriangleMesh& clean : {torus(30, 20), tube(20, 9), terrain(20, 0.3, GetParam()), sphere(7)}) {
+    TriangleMesh soup = soup_of(clean);
+    for (Vec3& p : soup.positions) p = p + Vec3{noise(random), noise(random), noise(random)};
+    const RepairResult result = repair(soup);
+    const MeshStatistics before = mesh_statistics(clean), after = mesh_statistics(result.mesh);
+    EXPECT_EQ(after.boundary_loops, before.boundary_loops);
+    EXPECT_EQ(after.vertices, before.vertices);
+    EXPECT_EQ(after.genus, before.genus);
+    EXPECT_LE(result.max_deviation_mm, result.weld_tolerance_mm);
+    expect_clean(result.mesh);
+    expect_idempotent(result);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, Cracks, testing::Range(1u, 6u));
+
+TEST(Repair, MoebiusStripBecomesOrientable) {
+  const RepairResult result = repair(moebius(30));
+  expect_clean(result.mesh);
+  EXPECT_EQ(mesh_statistics(result.mesh).boundary_loops, 1u);
+  expect_idempotent(result);
+}
+
+TEST(Repair, AttributesFollowTheirCorners) {
+  TriangleMesh mesh = soup_of(terrain(12, 0.5, 9));
+  set_uv_to_xy(mesh);
+  mesh.triangles.push_back(mesh.triangles[3]);  // a duplicate, a repeated corner
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.uv.indices = mesh.triangles;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) mesh.face.push_back(static_cast<std::uint32_t>(t));
+  const RepairResult result = repair(mesh);
+  EXPECT_EQ(result.counts.duplicates, 1u);
+  EXPECT_EQ(result.counts.repeated_corners, 1u);
+  ASSERT_EQ(result.mesh.triangles.size(), 288u);
+  ASSERT_EQ(result.mesh.face.size(), 288u);
+  EXPECT_TRUE(uv_is_xy(result.mesh, 1e-6));
+  for (std::size_t t = 0; t < 288; ++t) EXPECT_EQ(result.mesh.face[t], t);
+}
+
+TEST(Repair, ScaleDoesNotMatter) {
+  const TriangleMesh soup = lattice_soup(100, 5);
+  const RepairResult reference = repair(soup);
+  for (const double scale : {std::ldexp(1.0, -20), std::ldexp(1.0, 20)}) {
+    TriangleMesh scaled = soup;
+    for (Vec3& p : scaled.positions) p = scale * p;
+    const RepairResult result = repair(scaled);
+    EXPECT_EQ(result.mesh.triangles, reference.mesh.triangles);
+    EXPECT_EQ(result.counts, reference.counts);
+  }
+}
+
+TEST(Repair, NothingLeftIsNoError) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 0, 0}};
+  const RepairResult result = repair(mesh);
+  EXPECT_TRUE(result.settled);
+  EXPECT_TRUE(result.mesh.triangles.empty());
+  EXPECT_TRUE(repair({}).mesh.triangles.empty());
+}
+
+TEST(Repair, RefusesBadOptions) {
+  RepairOptions options;
+  options.max_passes = 0;
+  EXPECT_THROW(repair(cube(), options), InvalidInput);
+  options = {};
+  options.weld_mm = std::nan("");
+  EXPECT_THROW(repair(cube(), options), InvalidInput);
+}
+
+}  // namespace
+}  // namespace papilla
