@@ -35,7 +35,7 @@ class TriangleBvh {
   /// Does a triangle other than `ignored` cut the open segment from a to b?
   bool blocks(const Vec3& a, const Vec3& b, Index ignored = k_no_value) const noexcept;
 
-  /// The triangle with its number in the list; its corners are bit for bit those of the list's.
+  /// The triangle with this number in the list.
   const TriangleFrame& frame(Index triangle) const noexcept { return prims_[slot_of_[triangle]].frame; }
 
  private:
