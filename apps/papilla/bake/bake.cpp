@@ -81,6 +81,7 @@ void unwrap_surface(Work& work, const Scene& scene, const Grain& grain) {
 void process(Work& work, const Scene& scene, const std::map<std::string, Grain>& grains) {
   const Surface& surface = *work.surface;
   const Grain& grain = grains.at(surface.rule->name);
+  work.report.part = surface.part;
   work.report.label = surface.label;
   work.report.material = surface.rule->name;
   if (runs(surface, Stage::unwrap)) {
@@ -100,7 +101,6 @@ void process(Work& work, const Scene& scene, const std::map<std::string, Grain>&
 class SceneMaterials {
  public:
   SceneMaterials(BakeResult& result) : result_(result), scene_(result.scene) {
-    for (const Material& material : scene_.materials) names_.insert(material.name);
     result_.mm_per_uv.resize(scene_.materials.size());
   }
 
@@ -123,8 +123,7 @@ class SceneMaterials {
   std::uint32_t make(std::uint32_t original, const MaterialRule& rule, bool grain, double kept_mm_per_unit) {
     Material material = original == k_none ? Material{} : scene_.materials[original];
     const std::string original_name = material.name;
-    if (material.name.empty() || material.name.front() == '#') material.name = rule.name;
-    material.name = unique(material.name);
+    material.name = new_name(original_name, rule);
     if (rule.color) material.base_color = linear_colour(*rule.color);
     if (rule.roughness) material.roughness = *rule.roughness;
     if (rule.metallic) material.metallic = *rule.metallic;
@@ -147,6 +146,12 @@ class SceneMaterials {
       result_.mm_per_uv.back() = kept_mm_per_unit > 0 ? Vec2{kept_mm_per_unit, kept_mm_per_unit} : Vec2{relief.size_mm[0], relief.size_mm[1]};
     }
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+  }
+
+  /// Names from a file stay; colours, which stand for a name in CAD, tell variants of the rule's material apart.
+  static std::string new_name(const std::string& original, const MaterialRule& rule) {
+    if (original.empty()) return rule.name;
+    return original.front() == '#' ? rule.name + " " + original : original;
   }
 
   /// New uv: one unit is one repeat. The old pictures no longer fit.
@@ -210,18 +215,77 @@ class SceneMaterials {
     material.extras_json = extras.dump();
   }
 
-  std::string unique(const std::string& name) {
-    std::string candidate = name;
-    for (int i = 2; !names_.insert(candidate).second; ++i) candidate = fmt::format("{} {}", name, i);
-    return candidate;
-  }
-
   BakeResult& result_;
   Scene& scene_;
-  std::set<std::string> names_;
   std::map<std::string, std::uint32_t> textures_;
   std::map<std::tuple<std::uint32_t, std::string, double>, std::uint32_t> made_;
 };
+
+/// Leaves out the materials that no triangle uses any more, and renumbers the rest.
+void drop_unused_materials(BakeResult& result) {
+  Scene& scene = result.scene;
+  std::vector<std::uint8_t> used(scene.materials.size(), 0);
+  for (const Part& part : scene.parts)
+    for (const std::uint32_t material : part.materials) used[material] = 1;
+  std::vector<std::uint32_t> number(scene.materials.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
+    number[m] = count;
+    if (!used[m]) continue;
+    if (m != count) {
+      scene.materials[count] = std::move(scene.materials[m]);
+      result.mm_per_uv[count] = result.mm_per_uv[m];
+    }
+    ++count;
+  }
+  scene.materials.resize(count);
+  result.mm_per_uv.resize(count);
+  for (Part& part : scene.parts)
+    for (std::uint32_t& material : part.materials) material = number[material];
+}
+
+/// Tells materials of one name apart, which may happen when only some uses of one were replaced.
+void make_names_unique(std::vector<Material>& materials) {
+  std::set<std::string> names;
+  for (Material& material : materials) {
+    const std::string name = material.name;
+    for (int i = 2; !name.empty() && !names.insert(material.name).second; ++i) material.name = fmt::format("{} {}", name, i);
+  }
+}
+
+/// Leaves out textures and pictures that nothing shows any more. Extensions name textures by number: where a material
+/// has any, all stay.
+void drop_unused_textures(Scene& scene) {
+  const auto extended = [](const Material& m) { return !m.extensions_json.empty(); };
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), extended)) return;
+  std::vector<std::optional<std::uint32_t>> new_texture(scene.textures.size()), new_image(scene.images.size());
+  std::vector<Texture> textures;
+  std::vector<EncodedImage> images;
+  const auto move_texture = [&](std::optional<TextureReference>& reference) {
+    if (!reference) return;
+    auto& number = new_texture[reference->texture];
+    if (!number) {
+      Texture& texture = scene.textures[reference->texture];
+      if (texture.image) {
+        auto& image = new_image[*texture.image];
+        if (!image) {
+          image = static_cast<std::uint32_t>(images.size());
+          images.push_back(std::move(scene.images[*texture.image]));
+        }
+        texture.image = image;
+      }
+      number = static_cast<std::uint32_t>(textures.size());
+      textures.push_back(std::move(texture));
+    }
+    reference->texture = *number;
+  };
+  for (Material& material : scene.materials)
+    for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                            &material.occlusion_texture, &material.emissive_texture})
+      move_texture(*reference);
+  scene.textures = std::move(textures);
+  scene.images = std::move(images);
+}
 
 /// Makes the grains that the surfaces use.
 std::map<std::string, Grain> make_grains(const std::vector<Surface>& surfaces, const Progress& progress) {
@@ -295,6 +359,9 @@ BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progres
     if (part.materials.size() <= surface->slot) part.materials.resize(surface->slot + 1, material);
     part.materials[surface->slot] = material;
   }
+  drop_unused_materials(result);
+  make_names_unique(result.scene.materials);
+  drop_unused_textures(result.scene);
   for (Work& work : works) {
     result.seconds["repair"] += work.repair;
     result.seconds["charts"] += work.charts;

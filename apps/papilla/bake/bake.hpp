@@ -15,6 +15,7 @@
 namespace papilla::app {
 
 struct BakedSurface {
+  std::uint32_t part = 0;
   std::string label, material;
   std::string method, reason;  ///< Of the unwrap; "kept" when its own uv stays.
   std::uint32_t charts = 0;

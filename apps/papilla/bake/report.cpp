@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "distortion_report.hpp"
@@ -97,6 +98,45 @@ std::vector<const BakedSurface*> largest_surfaces(const std::vector<BakedSurface
   return order;
 }
 
+/// The spot of a surface that is nearest to the middle of its area, with the normal there, in the frame of the scene.
+std::optional<CloseUp> look_at(const Scene& scene, const BakedSurface& surface, double extent_mm) {
+  const TriangleMesh& mesh = surface.mesh;
+  Vec3 sum;
+  double area = 0;
+  const auto center = [&](std::size_t t) { return (1.0 / 3) * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)); };
+  const auto area_vector = [&](std::size_t t) { return cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)); };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    sum = sum + norm(area_vector(t)) * center(t);
+    area += norm(area_vector(t));
+  }
+  if (!(area > 0)) return std::nullopt;
+  std::size_t nearest = 0;
+  for (std::size_t t = 1; t < mesh.triangles.size(); ++t)
+    if (norm(center(t) - (1 / area) * sum) < norm(center(nearest) - (1 / area) * sum)) nearest = t;
+  for (const Instance& use : instances(scene)) {
+    if (use.part != surface.part) continue;
+    CloseUp close_up;
+    close_up.point = transform_point(use.world, center(nearest));
+    close_up.normal = normalized(transform_point(use.world, area_vector(nearest)) - transform_point(use.world, {}));
+    close_up.extent_mm = extent_mm;
+    return close_up;
+  }
+  return std::nullopt;
+}
+
+/// The largest surface of every grain, so near that three repeats fill the picture.
+void add_close_ups(const BakeResult& result, const std::vector<const BakedSurface*>& by_size, RenderOptions render,
+                   PictureFolder& pictures) {
+  render.mode = RenderMode::material;
+  render.width = render.height = 800;
+  for (const auto& [name, grain] : result.grains) {
+    const auto largest = std::find_if(by_size.begin(), by_size.end(), [&](const BakedSurface* s) { return s->material == name; });
+    if (largest == by_size.end()) continue;
+    render.close_up = look_at(result.scene, **largest, 3 * std::max(grain.size_mm[0], grain.size_mm[1]));
+    if (render.close_up) pictures.add("close-up-" + name, render_scene(result.scene, render));
+  }
+}
+
 }  // namespace
 
 ordered_json bake_json(const BakeResult& result, const std::vector<Surface>& planned) {
@@ -143,12 +183,13 @@ std::string bake_table(const BakeResult& result) {
 std::vector<std::string> write_pictures(const BakeResult& result, const std::filesystem::path& folder,
                                         const Progress& progress) {
   const std::vector<const BakedSurface*> surfaces = largest_surfaces(result.surfaces);
-  PictureFolder pictures(folder, 2 + surfaces.size() + 2 * result.grains.size(), progress);
+  PictureFolder pictures(folder, 2 + surfaces.size() + 3 * result.grains.size(), progress);
   RenderOptions render;
   render.mm_per_uv = result.mm_per_uv;
   pictures.add("scene", render_scene(result.scene, render));
   render.mode = RenderMode::checker;
   pictures.add("scene-checker", render_scene(result.scene, render));
+  add_close_ups(result, surfaces, render, pictures);
   for (const BakedSurface* surface : surfaces)
     pictures.add("uv-" + surface->label, draw_uv_layout(surface->mesh.uv, surface->distortion));
   for (const auto& [name, grain] : result.grains) {

@@ -45,6 +45,16 @@ struct Sample {
   float r = 0.93F, g = 0.94F, b = 0.95F;  // background, linear
 };
 
+/// Constants of one triangle: its tangent frame and how many texels a sample covers.
+struct TriangleSetup {
+  Vertex v[3];
+  const Surface* surface = nullptr;
+  double doubled_area = 0;  // in samples, signed
+  Vec3 tangent, bitangent;
+  bool has_uv = false;
+  double uv_area_per_sample = 0;
+};
+
 class Pyramids {
  public:
   explicit Pyramids(const Scene& scene) : scene_(scene), color_(scene.textures.size()), raw_(scene.textures.size()) {}
@@ -83,21 +93,61 @@ Surface make_surface(const Scene& scene, std::size_t index, const RenderOptions&
   return surface;
 }
 
-/// Places the camera so that the bounding sphere of the scene fills the picture.
-Camera place_camera(Vec3 low, Vec3 high, const RenderOptions& options) {
-  const Vec3 center = 0.5 * (low + high);
-  const double radius = std::max(0.5 * norm(high - low), 1e-9);
-  const Vec3 towards = normalized(options.towards_camera);
-  if (norm(towards) == 0) throw InvalidInput("render_scene: towards_camera is the zero vector");
+/// Looks from `position` along `forward`, horizon level.
+Camera aim(Vec3 position, Vec3 forward, const RenderOptions& options) {
   Camera camera;
-  camera.position = center + (radius / std::sin(0.5 * k_field_of_view)) * towards;
-  camera.forward = -towards;
-  const Vec3 pole = std::abs(towards.y) > 0.999 ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
-  camera.right = normalized(cross(camera.forward, pole));
-  camera.up = cross(camera.right, camera.forward);
-  camera.focal = options.zoom * 0.5 * options.height * options.samples / std::tan(0.5 * k_field_of_view);
+  camera.position = position;
+  camera.forward = forward;
+  const Vec3 pole = std::abs(forward.y) > 0.999 ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
+  camera.right = normalized(cross(forward, pole));
+  camera.up = cross(camera.right, forward);
+  camera.focal = 0.5 * options.height * options.samples / std::tan(0.5 * k_field_of_view);
   camera.center_x = 0.5 * options.width * options.samples;
   camera.center_y = 0.5 * options.height * options.samples;
+  return camera;
+}
+
+/// Shifts and scales the picture so that all vertices fill it but for a margin.
+void fit(Camera& camera, const std::vector<TriangleSetup>& triangles, const RenderOptions& options) {
+  constexpr double k_filled = 0.94;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec2 low{infinity, infinity}, high{-infinity, -infinity};
+  for (const TriangleSetup& t : triangles)
+    for (const Vertex& v : t.v) {
+      const Vec3 d = v.world - camera.position;
+      const double depth = dot(d, camera.forward);
+      const Vec2 p{dot(d, camera.right) / depth, dot(d, camera.up) / depth};
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  const double width = options.width * options.samples, height = options.height * options.samples;
+  const Vec2 extent{std::max(high.x - low.x, 1e-9), std::max(high.y - low.y, 1e-9)};
+  camera.focal = k_filled * std::min(width / extent.x, height / extent.y);
+  camera.center_x = 0.5 * width - 0.5 * camera.focal * (low.x + high.x);
+  camera.center_y = 0.5 * height + 0.5 * camera.focal * (low.y + high.y);
+}
+
+Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triangles, const RenderOptions& options) {
+  if (options.close_up) {
+    const Transform turn = to_y_up(scene.up);
+    const Vec3 point = transform_point(turn, options.close_up->point);
+    const Vec3 normal = normalized(transform_point(turn, options.close_up->normal));
+    // From above and a little aside, so that relief casts its shading.
+    const Vec3 towards = normalized(normal + Vec3{0.25, 0.45, 0.25});
+    return aim(point + (0.5 * options.close_up->extent_mm / std::tan(0.5 * k_field_of_view)) * towards, -towards, options);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 low{infinity, infinity, infinity}, high = -low;
+  for (const TriangleSetup& t : triangles)
+    for (const Vertex& v : t.v) {
+      low = {std::min(low.x, v.world.x), std::min(low.y, v.world.y), std::min(low.z, v.world.z)};
+      high = {std::max(high.x, v.world.x), std::max(high.y, v.world.y), std::max(high.z, v.world.z)};
+    }
+  const Vec3 towards = normalized(options.towards_camera);
+  if (norm(towards) == 0) throw InvalidInput("render_scene: towards_camera is the zero vector");
+  const double radius = std::max(0.5 * norm(high - low), 1e-9);
+  Camera camera = aim(0.5 * (low + high) + (radius / std::sin(0.5 * k_field_of_view)) * towards, -towards, options);
+  fit(camera, triangles, options);
   return camera;
 }
 
@@ -107,16 +157,6 @@ void project(const Camera& camera, Vertex& vertex) {
   vertex.x = camera.center_x + camera.focal * dot(d, camera.right) * vertex.inverse_depth;
   vertex.y = camera.center_y - camera.focal * dot(d, camera.up) * vertex.inverse_depth;
 }
-
-/// Constants of one triangle: its tangent frame and how many texels a sample covers.
-struct TriangleSetup {
-  Vertex v[3];
-  const Surface* surface = nullptr;
-  double doubled_area = 0;  // in samples, signed
-  Vec3 tangent, bitangent;
-  bool has_uv = false;
-  double uv_area_per_sample = 0;
-};
 
 /// The directions in the surface in which u and v grow: x and y of a normal map.
 void tangent_frame(TriangleSetup& t) {
@@ -168,7 +208,7 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
 
   const Vec3 key = normalized(0.5 * camera.right + 0.9 * camera.up - 0.6 * camera.forward);
   const Vec3 fill = normalized(-0.9 * camera.right + 0.2 * camera.up - 0.5 * camera.forward);
-  const double diffuse = 0.25 + 0.75 * std::max(0.0, dot(normal, key)) + 0.25 * std::max(0.0, dot(normal, fill));
+  const double diffuse = 0.35 + 1.25 * std::max(0.0, dot(normal, key)) + 0.4 * std::max(0.0, dot(normal, fill));
   const double gloss = 1 - surface.roughness;
   const double exponent = 8 + 120 * gloss * gloss;
   const double highlight = (0.05 + 0.5 * gloss) * std::pow(std::max(0.0, dot(normal, normalized(key + view))), exponent);
@@ -277,14 +317,14 @@ ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
   std::vector<TriangleSetup> triangles = set_up_triangles(scene, instances(scene), surfaces, plain);
   if (triangles.empty()) throw InvalidInput("render_scene: the scene has no triangle");
 
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high = -low;
-  for (const TriangleSetup& t : triangles)
-    for (const Vertex& v : t.v) {
-      low = {std::min(low.x, v.world.x), std::min(low.y, v.world.y), std::min(low.z, v.world.z)};
-      high = {std::max(high.x, v.world.x), std::max(high.y, v.world.y), std::max(high.z, v.world.z)};
-    }
-  const Camera camera = place_camera(low, high, options);
+  const Camera camera = place_camera(scene, triangles, options);
+  // The nearest that is drawn; what is behind it or the camera is cut away triangle by triangle.
+  const double near = options.close_up ? 0.05 * options.close_up->extent_mm : 0;
+  std::erase_if(triangles, [&](const TriangleSetup& t) {
+    return std::any_of(std::begin(t.v), std::end(t.v), [&](const Vertex& v) {
+      return !(dot(v.world - camera.position, camera.forward) > near);
+    });
+  });
   for (TriangleSetup& t : triangles) {
     for (Vertex& v : t.v) project(camera, v);
     t.doubled_area = cross(Vec2{t.v[1].x - t.v[0].x, t.v[1].y - t.v[0].y}, Vec2{t.v[2].x - t.v[0].x, t.v[2].y - t.v[0].y});

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "papilla/core/vec.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/texture/image.hpp"
@@ -12,12 +15,18 @@ enum class RenderMode {
   checker    ///< Squares of `checker_mm` on everything that has uv, to see scale, stretch and seams.
 };
 
+/// A look at one spot, in the scene's own axes and millimetres.
+struct CloseUp {
+  Vec3 point, normal;
+  double extent_mm = 100;  ///< Height of what the picture shows there.
+};
+
 struct RenderOptions {
   RenderMode mode = RenderMode::material;
   int width = 1600, height = 1000;
   int samples = 2;                      ///< Per pixel and axis.
   Vec3 towards_camera{0.5, 0.45, 1.0};  ///< In glTF axes: Y up, Z towards the viewer.
-  double zoom = 1;                      ///< 1 shows the whole scene.
+  std::optional<CloseUp> close_up;      ///< Instead of the whole scene.
   double checker_mm = 20;
   /// Millimetres per unit of uv channel 0, one per material of the scene; 0 or missing: unknown, no checker.
   std::vector<Vec2> mm_per_uv;

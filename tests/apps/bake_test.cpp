@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/bake.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "papilla/haptic/sha256.hpp"
+#include "papilla/io/decode_grey16.hpp"
+#include "papilla/io/glb_writer.hpp"
+#include "papilla/io/gltf_reader.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/io/read_file.hpp"
+#include "papilla/texture/grain.hpp"
+#include "papilla_test/shapes.hpp"
+
+namespace papilla::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A picture of grain on disk and the rules that use it.
+class BakeTest : public testing::Test {
+ protected:
+  BakeTest() {
+    fs::create_directories(folder_);
+    GrainOptions options;
+    options.size_px = 64;
+    write_grey_image(folder_ / "grain.png", synthesize_grain(GrainKind::spheres6, options).picture, 8);
+    MaterialRule grain;
+    grain.name = "grain";
+    grain.texture = folder_ / "grain.png";
+    grain.size_mm[0] = 40;
+    grain.size_mm[1] = 20;
+    grain.height.depth_mm = 0.4;
+    grain.height.scale = 2;
+    grain.stiffness = 900;
+    MaterialRule hard;
+    hard.name = "hard";
+    hard.stiffness = 2000;
+    rules_.materials = {{"grain", grain}, {"hard", hard}};
+    add_rule("dash*", "grain");
+    add_rule("knob", "hard");
+  }
+  ~BakeTest() override { fs::remove_all(folder_); }
+
+  void add_rule(const std::string& part, const std::string& material) {
+    AssignRule rule;
+    rule.part = part;
+    rule.material = material;
+    rules_.assign.push_back(rule);
+  }
+
+  /// A flat square of 100 mm in the xy plane, two triangles.
+  static Part square(const std::string& name) {
+    Part part;
+    part.name = name;
+    part.mesh.positions = {{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}};
+    part.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return part;
+  }
+
+  static Scene scene_of(std::vector<Part> parts) {
+    Scene scene;
+    scene.format = "STL";
+    for (Part& part : parts) {
+      Node node;
+      node.name = part.name;
+      node.part = static_cast<std::uint32_t>(scene.parts.size());
+      scene.roots.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
+      scene.nodes.push_back(node);
+      scene.parts.push_back(std::move(part));
+    }
+    return scene;
+  }
+
+  BakeResult run(Scene scene) {
+    surfaces_ = plan_surfaces(scene, rules_);
+    return bake(std::move(scene), surfaces_, {});
+  }
+
+  static nlohmann::json tag_of(const Material& material) { return nlohmann::json::parse(material.extras_json).at("haptic"); }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("papilla-bake-" + std::to_string(::getpid()));
+  MaterialsFile rules_;
+  std::vector<Surface> surfaces_;
+};
+
+TEST_F(BakeTest, APartWithoutGrainGetsNothingAndCostsNothing) {
+  const BakeResult result = run(scene_of({square("knob"), square("floor")}));
+  EXPECT_TRUE(result.scene.images.empty());
+  EXPECT_TRUE(result.scene.textures.empty());
+  EXPECT_TRUE(result.scene.parts[0].mesh.uv.empty());
+  EXPECT_TRUE(result.scene.parts[1].mesh.uv.empty());
+  EXPECT_TRUE(result.grains.empty());
+  ASSERT_EQ(result.scene.materials.size(), 1U);
+  const auto tag = tag_of(result.scene.materials[0]);
+  EXPECT_EQ(tag.at("stiffness"), 2000);
+  EXPECT_FALSE(tag.contains("height"));
+  EXPECT_TRUE(result.scene.parts[1].materials.empty());
+}
+
+TEST_F(BakeTest, GrainHasItsPhysicalScale) {
+  const BakeResult result = run(scene_of({square("dash")}));
+  const TriangleMesh& mesh = result.scene.parts[0].mesh;
+  ASSERT_EQ(mesh.uv.indices.size(), 2U);
+  // 100 mm are 2.5 repeats of 40 mm and 5 repeats of 20 mm; grain stands upright.
+  double low_u = 1e9, high_u = -1e9, low_v = 1e9, high_v = -1e9;
+  for (const Triangle& t : mesh.uv.indices)
+    for (const Index i : t) {
+      low_u = std::min(low_u, mesh.uv.values[i].x);
+      high_u = std::max(high_u, mesh.uv.values[i].x);
+      low_v = std::min(low_v, mesh.uv.values[i].y);
+      high_v = std::max(high_v, mesh.uv.values[i].y);
+    }
+  EXPECT_NEAR(high_u - low_u, 2.5, 1e-9);
+  EXPECT_NEAR(high_v - low_v, 5.0, 1e-9);
+  EXPECT_NEAR(result.surfaces.at(0).distortion.symmetric_dirichlet.mean, 4, 1e-9);
+}
+
+TEST_F(BakeTest, TheTagDecodesToTheReliefThatTheNormalMapShows) {
+  const BakeResult result = run(scene_of({square("dash")}));
+  const auto height = tag_of(result.scene.materials.at(0)).at("height");
+  EXPECT_EQ(height.at("bits"), 16);
+  EXPECT_NEAR(height.at("scale").get<double>(), 2 * 0.4e-3, 1e-9);
+  EXPECT_EQ(height.at("metresPerUV"), (std::vector<double>{0.04, 0.02}));
+  EXPECT_EQ(height.at("uri").get<std::string>().rfind("data:image/png;base64,", 0), 0U);
+  const Grain& grain = result.grains.at("grain");
+  EXPECT_EQ(height.at("sha256"), sha256_hex(grain.height_png.bytes));
+  const Grey16 samples = decode_grey16(grain.height_png.bytes, "height");
+  EXPECT_EQ(samples.bits, 16);
+  ASSERT_EQ(samples.values.size(), grain.relief.mm.size());
+  const double scale_mm = 1e3 * height.at("scale").get<double>(), offset_mm = 1e3 * height.at("offset").get<double>();
+  for (std::size_t i = 0; i < samples.values.size(); ++i)
+    ASSERT_NEAR(offset_mm + scale_mm * samples.values[i] / 65535, static_cast<double>(grain.relief.mm[i]), scale_mm / 60000);
+  ASSERT_TRUE(result.scene.materials[0].normal_texture.has_value());
+  const Texture& texture = result.scene.textures.at(result.scene.materials[0].normal_texture->texture);
+  const ColorImage normals = decode_color_image(result.scene.images.at(*texture.image).bytes, "normals");
+  EXPECT_EQ(normals.width, grain.relief.width);
+  EXPECT_EQ(normals.height, grain.relief.height);
+}
+
+TEST_F(BakeTest, UsableUvStaysAndTheTextureTransformGivesTheScale) {
+  Part part = square("dash");
+  part.mesh.uv.values = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  part.mesh.uv.indices = part.mesh.triangles;
+  const BakeResult result = run(scene_of({part}));
+  EXPECT_EQ(result.scene.parts[0].mesh.uv.values, part.mesh.uv.values);
+  const auto& reference = result.scene.materials.at(0).normal_texture;
+  ASSERT_TRUE(reference && reference->transform);
+  EXPECT_NEAR(reference->transform->scale.x, 2.5, 1e-9);
+  EXPECT_NEAR(reference->transform->scale.y, 5, 1e-9);
+  const auto height = tag_of(result.scene.materials[0]).at("height");
+  EXPECT_NEAR(height.at("metresPerUV").at(0).get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(height.at("uvTransform").at("scale").at(0).get<double>(), 2.5, 1e-9);
+}
+
+TEST_F(BakeTest, OnlyTheGrainSurfaceOfAPartGetsUv) {
+  Part part = square("dash");
+  Scene scene = scene_of({part});
+  scene.materials.resize(2);
+  scene.materials[0].name = "skin";
+  scene.materials[1].name = "metal";
+  scene.parts[0].materials = {0, 1};
+  scene.parts[0].mesh.material = {0, 1};
+  AssignRule metal;
+  metal.gltf_material = "metal";
+  rules_.assign.insert(rules_.assign.begin(), metal);
+  const BakeResult result = run(std::move(scene));
+  const TriangleMesh& mesh = result.scene.parts[0].mesh;
+  ASSERT_EQ(mesh.triangles.size(), 2U);
+  for (std::size_t t = 0; t < 2; ++t) EXPECT_EQ(mesh.uv.has_value(t), mesh.material[t] == 0);
+
+  write_glb(result.scene, folder_ / "out.glb", {});
+  const Scene back = read_gltf(folder_ / "out.glb");
+  ASSERT_EQ(back.parts.size(), 1U);
+  for (std::size_t t = 0; t < 2; ++t)
+    EXPECT_EQ(back.parts[0].mesh.uv.has_value(t), back.materials[back.parts[0].materials[back.parts[0].mesh.material[t]]].name == "skin");
+}
+
+TEST_F(BakeTest, TheSameInputGivesTheSameScene) {
+  const Part patch = [] {
+    Part part;
+    part.name = "dash";
+    part.mesh = test::uv_sphere(50, 24, 12);
+    return part;
+  }();
+  for (const char* name : {"a.glb", "b.glb"}) write_glb(run(scene_of({patch, square("knob")})).scene, folder_ / name, {});
+  EXPECT_EQ(fs::file_size(folder_ / "a.glb"), fs::file_size(folder_ / "b.glb"));
+  EXPECT_EQ(sha256_hex(std::as_bytes(std::span(read_file(folder_ / "a.glb")))), sha256_hex(std::as_bytes(std::span(read_file(folder_ / "b.glb")))));
+}
+
+TEST_F(BakeTest, NamesThePictureThatIsNone) {
+  rules_.materials.at("grain").texture = folder_ / "missing.png";
+  try {
+    run(scene_of({square("dash")}));
+    FAIL() << "no exception";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("missing.png"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace papilla::app
