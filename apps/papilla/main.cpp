@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
 
   using namespace papilla::app;
   add_inspect(program);
-  // add_tessellate(program);
+  add_tessellate(program);
   add_repair(program);
   add_simplify(program);
   add_unwrap(program);

@@ -106,7 +106,7 @@ TopoDS_Shape glove_box_lid() { return common(face_of(surface()), glove_box_openi
 
 TopoDS_Shape trim_strip() {
   std::vector<gp_Pnt> path;
-  for (double x = 100; x <= 640; x += 30) path.push_back(on_fascia(x, 722).Translated(gp_Vec(0, -0.6, 0)));
+  for (double x = 100; x <= 640; x += 90) path.push_back(on_fascia(x, 722).Translated(gp_Vec(0, -0.6, 0)));
   const TopoDS_Edge spine = curve_through(path);
   BRepOffsetAPI_MakePipeShell sweep(BRepBuilderAPI_MakeWire(spine).Wire());
   const gp_Vec along(path[0], path[1]);

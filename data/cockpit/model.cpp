@@ -2,17 +2,24 @@
 #include "cockpit/model.hpp"
 
 #include <APIHeaderSection_MakeHeader.hxx>
+#include <Interface_Protocol.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Quantity_ColorRGBA.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Writer.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepVisual_MechanicalDesignGeometricPresentationRepresentation.hxx>
+#include <StepVisual_StyledItem.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDataStd_Name.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
@@ -37,6 +44,39 @@ void fill_header(const Handle(StepData_StepModel) & model) {
   header.SetAuthorisation(text("papilla"));
   header.SetOriginatingSystem(text("papilla-make-cockpit"));
   header.SetDescriptionValue(1, text("car cockpit, sample scene"));
+}
+
+bool is_style_list(const Handle(Standard_Transient) & entity) {
+  return entity->IsKind(STANDARD_TYPE(StepVisual_MechanicalDesignGeometricPresentationRepresentation));
+}
+
+/// The number of the shape that a list of styles belongs to.
+int styled_shape(const StepData_StepModel& model, const Handle(Standard_Transient) & entity) {
+  const auto list = Handle(StepVisual_MechanicalDesignGeometricPresentationRepresentation)::DownCast(entity);
+  for (int i = 1; i <= list->NbItems(); ++i) {
+    const auto styled = Handle(StepVisual_StyledItem)::DownCast(list->ItemsValue(i));
+    if (!styled.IsNull()) return model.Number(styled->Item());
+  }
+  return 0;
+}
+
+/// The library appends the styles in the order of shapes' addresses, which differs from run to run:
+/// puts them into the order of the shapes' numbers.
+void sort_styles(const Handle(StepData_StepModel) & model) {
+  std::vector<Handle(Standard_Transient)> others;
+  std::vector<std::pair<int, Handle(Standard_Transient)>> styles;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model->Value(i);
+    if (is_style_list(entity))
+      styles.emplace_back(styled_shape(*model, entity), entity);
+    else if (styles.empty())
+      others.push_back(entity);
+  }
+  std::sort(styles.begin(), styles.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const Handle(Interface_Protocol) protocol = model->Protocol();
+  model->ClearEntities();
+  for (const auto& entity : others) model->AddEntity(entity);
+  for (const auto& [number, entity] : styles) model->AddWithRefs(entity, protocol);
 }
 
 }  // namespace
@@ -74,6 +114,7 @@ void Model::write(const std::filesystem::path& path) {
   Interface_Static::SetIVal("write.surfacecurve.mode", 0);
   STEPCAFControl_Writer writer;
   if (!writer.Transfer(document_, STEPControl_AsIs)) throw papilla::IoError(path.string() + ": can't be converted");
+  sort_styles(writer.ChangeWriter().Model());
   fill_header(writer.ChangeWriter().Model());
   papilla::write_atomically(path, [&](const std::filesystem::path& temporary) {
     if (writer.Write(temporary.c_str()) != IFSelect_RetDone)

@@ -29,11 +29,8 @@ Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& optio
   cad.chord_mm = options.chord_mm;
   cad.angle_deg = options.angle_deg;
   cad.brep_mm_per_unit = options.millimetres_per_unit;
-  CadReport report;
-  Scene scene = read_cad(path, cad, &report, progress);
+  Scene scene = read_cad(path, cad, nullptr, progress);
   scene.up = options.up.value_or(scene.up);
-  for (const CadFaceNote& note : report.failed_faces)
-    scene.losses.push_back("part '" + note.part + "', CAD face " + std::to_string(note.face) + ": " + note.reason);
   return scene;
 }
 

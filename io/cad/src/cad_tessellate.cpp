@@ -41,7 +41,7 @@ IMeshTools_Parameters mesh_parameters(const CadReadOptions& options) {
   parameters.DeflectionInterior = options.chord_mm;
   parameters.Angle = options.angle_deg * k_radians_per_degree;
   parameters.Relative = options.relative;
-  parameters.InParallel = options.threads != 1;
+  parameters.InParallel = true;
   return parameters;
 }
 
