@@ -189,8 +189,7 @@ TEST_F(BakeTest, TheSameInputGivesTheSameScene) {
     return part;
   }();
   for (const char* name : {"a.glb", "b.glb"}) write_glb(run(scene_of({patch, square("knob")})).scene, folder_ / name, {});
-  EXPECT_EQ(fs::file_size(folder_ / "a.glb"), fs::file_size(folder_ / "b.glb"));
-  EXPECT_EQ(sha256_hex(std::as_bytes(std::span(read_file(folder_ / "a.glb")))), sha256_hex(std::as_bytes(std::span(read_file(folder_ / "b.glb")))));
+  EXPECT_TRUE(read_file(folder_ / "a.glb") == read_file(folder_ / "b.glb"));
 }
 
 TEST_F(BakeTest, NamesThePictureThatIsNone) {

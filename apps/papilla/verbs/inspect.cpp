@@ -8,6 +8,7 @@
 #include "mesh_report.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "scene_options.hpp"
+#include "verb.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {

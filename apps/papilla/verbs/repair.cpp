@@ -12,6 +12,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "scene_options.hpp"
+#include "verb.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {

@@ -3,10 +3,12 @@
 
 #include <memory>
 
+#include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "scene_options.hpp"
+#include "verb.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
