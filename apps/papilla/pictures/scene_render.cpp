@@ -74,10 +74,18 @@ class Pyramids {
   std::vector<std::shared_ptr<const MipPyramid>> color_, raw_;
 };
 
+/// Dark surfaces keep their hue, and become bright enough for their relief to be seen.
+Vec3 brightened(Vec3 color) {
+  constexpr double k_visible = 0.3;
+  const double brightest = std::max({color.x, color.y, color.z, 1e-3});
+  return brightest >= k_visible ? color : (k_visible / brightest) * color;
+}
+
 Surface make_surface(const Scene& scene, std::size_t index, const RenderOptions& options, Pyramids& pyramids) {
   const Material& material = scene.materials[index];
   Surface surface;
   surface.color = {material.base_color[0], material.base_color[1], material.base_color[2]};
+  if (options.close_up) surface.color = brightened(surface.color);
   surface.roughness = material.roughness;
   surface.metallic = material.metallic;
   if (index < options.mm_per_uv.size()) surface.mm_per_uv = options.mm_per_uv[index];
@@ -206,7 +214,9 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
     }
   }
 
-  const Vec3 key = normalized(0.5 * camera.right + 0.9 * camera.up - 0.6 * camera.forward);
+  // A close-up is lit at a grazing angle, which brings relief out.
+  const double towards = options.close_up ? 0.45 : 0.6;
+  const Vec3 key = normalized(0.5 * camera.right + 0.9 * camera.up - towards * camera.forward);
   const Vec3 fill = normalized(-0.9 * camera.right + 0.2 * camera.up - 0.5 * camera.forward);
   const double diffuse = 0.35 + 1.25 * std::max(0.0, dot(normal, key)) + 0.4 * std::max(0.0, dot(normal, fill));
   const double gloss = 1 - surface.roughness;

@@ -79,7 +79,7 @@ void add_bake(CLI::App& program) {
   CLI::App* verb =
       add_verb(program,
                {"bake", "The main job: grain and touch onto a scene, as one GLB.",
-                "papilla bake data/cockpit.step -m data/cockpit.materials.json -o cockpit.glb --report report"},
+                "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
                [options](VerbContext& context) { return run_bake(*options, context); });
   verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
   verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")

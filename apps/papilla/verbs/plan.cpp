@@ -17,7 +17,7 @@ void add_plan(CLI::App& program) {
   CLI::App* verb = add_verb(
       program,
       {"plan", "Show what bake would do, surface by surface, and why; writes nothing.",
-       "papilla plan data/cockpit.step -m data/materials.json"},
+       "papilla plan data/cockpit.step -m data/cockpit.materials.json"},
       [options](VerbContext& context) {
         const MaterialsFile rules = read_materials_file(options->materials);
         const Scene scene = read_scene(options->input, options->scene.read_options(), context.progress);
