@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "io/cad/cad_fixtures.hpp"
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepLib.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_ConicalSurface.hxx>
+#include <Geom_Line.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Quantity_ColorRGBA.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TDataStd_Name.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_LayerTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace papilla::test {
+namespace {
+
+void require(bool done, const std::filesystem::path& path) {
+  if (!done) throw std::runtime_error("fixture can't be written: " + path.string());
+}
+
+Quantity_Color to_colour(unsigned srgb) {
+  const auto channel = [srgb](unsigned shift) { return ((srgb >> shift) & 0xFFu) / 255.0; };
+  return {channel(16), channel(8), channel(0), Quantity_TOC_sRGB};
+}
+
+}  // namespace
+
+CadFile::CadFile() : document_(new TDocStd_Document("BinXCAF")) {
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  STEPCAFControl_Controller::Init();
+  XCAFDoc_DocumentTool::Set(document_->Main());
+}
+
+TDF_Label CadFile::add(const std::string& name, const TopoDS_Shape& shape) {
+  const TDF_Label label = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddShape(shape, false);
+  TDataStd_Name::Set(label, TCollection_ExtendedString(name.c_str(), true));
+  return label;
+}
+
+TDF_Label CadFile::add_assembly(const std::string& name) {
+  const TDF_Label label = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->NewShape();
+  TDataStd_Name::Set(label, TCollection_ExtendedString(name.c_str(), true));
+  return label;
+}
+
+TDF_Label CadFile::place(const TDF_Label& assembly, const TDF_Label& part, const gp_Trsf& where,
+                         const std::string& name) {
+  const TDF_Label label =
+      XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddComponent(assembly, part, TopLoc_Location(where));
+  TDataStd_Name::Set(label, TCollection_ExtendedString(name.c_str(), true));
+  return label;
+}
+
+void CadFile::colour(const TDF_Label& label, unsigned srgb, float alpha) {
+  XCAFDoc_DocumentTool::ColorTool(document_->Main())
+      ->SetColor(label, Quantity_ColorRGBA(to_colour(srgb), alpha), XCAFDoc_ColorSurf);
+}
+
+void CadFile::colour_face(const TDF_Label& part, const TopoDS_Shape& face, unsigned srgb) {
+  colour(XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face), srgb);
+}
+
+void CadFile::layer(const TDF_Label& label, const std::string& name) {
+  XCAFDoc_DocumentTool::LayerTool(document_->Main())->SetLayer(label, TCollection_ExtendedString(name.c_str(), true));
+}
+
+void CadFile::write_step(const std::filesystem::path& path, const std::string& schema, const std::string& unit) {
+  XCAFDoc_DocumentTool::ShapeTool(document_->Main())->UpdateAssemblies();
+  Interface_Static::SetCVal("write.step.schema", schema.c_str());
+  Interface_Static::SetCVal("write.step.unit", unit.c_str());
+  STEPCAFControl_Writer writer;
+  require(writer.Transfer(document_, STEPControl_AsIs), path);
+  require(writer.Write(path.c_str()) == IFSelect_RetDone, path);
+}
+
+void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const std::string& schema) {
+  CadFile file;
+  file.add("shape", shape);
+  file.write_step(path, schema);
+}
+
+void write_iges(const TopoDS_Shape& shape, const std::filesystem::path& path) {
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  IGESControl_Controller::Init();
+  constexpr int k_solids = 1;
+  IGESControl_Writer writer("MM", k_solids);
+  require(writer.AddShape(shape), path);
+  writer.ComputeModel();
+  require(writer.Write(path.c_str()), path);
+}
+
+void write_brep(const TopoDS_Shape& shape, const std::filesystem::path& path) {
+  require(BRepTools::Write(shape, path.c_str()), path);
+}
+
+TopoDS_Face face_of(const TopoDS_Shape& shape, int number) {
+  TopExp_Explorer faces(shape, TopAbs_FACE);
+  for (; number > 0; --number) faces.Next();
+  return TopoDS::Face(faces.Current());
+}
+
+double volume(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    sum += dot(mesh.corner(i, 0), cross(mesh.corner(i, 1), mesh.corner(i, 2))) / 6;
+  return sum;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  std::vector<std::pair<Index, Index>> edges, opposite;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.emplace_back(t[k], t[(k + 1) % 3]);
+      opposite.emplace_back(t[(k + 1) % 3], t[k]);
+    }
+  std::sort(edges.begin(), edges.end());
+  std::sort(opposite.begin(), opposite.end());
+  return !edges.empty() && edges == opposite && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+TopoDS_Face countersink() {
+  constexpr double k_pi = std::numbers::pi, k_radius = 1.75, k_semi = k_pi / 4, k_v = 0.424264069;
+  const Handle(Geom_ConicalSurface) cone = new Geom_ConicalSurface(gp_Ax3(), k_semi, k_radius);
+  const gp_Pnt low = cone->Value(k_pi, -k_v), high = cone->Value(k_pi, k_v);
+  const auto circle = [&](double v, const gp_Dir& axis) {
+    const gp_Pnt on_axis(0, 0, cone->Value(0, v).Z());
+    return Handle(Geom_Circle)(new Geom_Circle(gp_Ax2(on_axis, axis, gp::DX()), k_radius + v * std::sin(k_semi)));
+  };
+  const TopoDS_Vertex at_low = BRepBuilderAPI_MakeVertex(low).Vertex(),
+                      at_high = BRepBuilderAPI_MakeVertex(high).Vertex();
+  const TopoDS_Edge bottom = BRepBuilderAPI_MakeEdge(circle(-k_v, -gp::DZ()), at_low, at_low, k_pi, 3 * k_pi).Edge();
+  const TopoDS_Edge top = BRepBuilderAPI_MakeEdge(circle(k_v, gp::DZ()), at_high, at_high, k_pi, 3 * k_pi).Edge();
+  const Handle(Geom_Line) line = new Geom_Line(low, gp_Dir(gp_Vec(low, high)));
+  const TopoDS_Edge seam = BRepBuilderAPI_MakeEdge(line, at_low, at_high, 0, low.Distance(high)).Edge();
+
+  TopoDS_Face face;
+  BRep_Builder builder;
+  builder.MakeFace(face, cone, 1e-7);
+  const auto in_uv = [](double u, double v, double du, double dv) {
+    return Handle(Geom2d_Line)(new Geom2d_Line(gp_Pnt2d(u, v), gp_Dir2d(du, dv)));
+  };
+  builder.UpdateEdge(seam, in_uv(3 * k_pi, -k_v, 0, 1), in_uv(k_pi, -k_v, 0, 1), face, 1e-7);
+  builder.UpdateEdge(bottom, in_uv(4 * k_pi, -k_v, -1, 0), face, 1e-7);
+  builder.UpdateEdge(top, in_uv(0, k_v, 1, 0), face, 1e-7);
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  for (const TopoDS_Shape& edge : {TopoDS_Shape(seam), TopoDS_Shape(top.Reversed()), TopoDS_Shape(seam.Reversed()),
+                                   TopoDS_Shape(bottom.Reversed())})
+    builder.Add(wire, edge);
+  builder.Add(face, wire);
+  return face;
+}
+
+}  // namespace papilla::test

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <TDF_Label.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <filesystem>
+#include <gp_Trsf.hxx>
+#include <string>
+
+#include "papilla/io/scene.hpp"
+
+namespace papilla::test {
+
+/// A document to be written as STEP.
+class CadFile {
+ public:
+  CadFile();
+  TDF_Label add(const std::string& name, const TopoDS_Shape& shape);
+  TDF_Label add_assembly(const std::string& name);
+  TDF_Label place(const TDF_Label& assembly, const TDF_Label& part, const gp_Trsf& where, const std::string& name);
+  void colour(const TDF_Label& label, unsigned srgb, float alpha = 1);
+  void colour_face(const TDF_Label& part, const TopoDS_Shape& face, unsigned srgb);
+  void layer(const TDF_Label& label, const std::string& name);
+  void write_step(const std::filesystem::path& path, const std::string& schema = "AP214IS",
+                  const std::string& unit = "MM");
+
+ private:
+  Handle(TDocStd_Document) document_;
+};
+
+void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const std::string& schema = "AP214IS");
+void write_iges(const TopoDS_Shape& shape, const std::filesystem::path& path);
+void write_brep(const TopoDS_Shape& shape, const std::filesystem::path& path);
+
+TopoDS_Face face_of(const TopoDS_Shape& shape, int number);
+
+/// Enclosed volume by the divergence theorem; positive when wound outward.
+double volume(const TriangleMesh& mesh);
+/// Every edge is used once in each direction.
+bool is_closed(const TriangleMesh& mesh);
+
+/// A cone between two circles that go around its axis in opposite senses, as some systems export countersinks.
+/// The mesher refuses it.
+TopoDS_Face countersink();
+
+}  // namespace papilla::test

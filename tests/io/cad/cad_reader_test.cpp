@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/cad_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "io/cad/cad_fixtures.hpp"
+#include "io/temporary_folder.hpp"
+#include "papilla/core/units.hpp"
+
+namespace papilla::test {
+namespace {
+
+constexpr double k_pi = std::numbers::pi;
+
+TopoDS_Shape box() { return BRepPrimAPI_MakeBox(10, 20, 30).Shape(); }
+
+CadReadOptions options(double chord_mm, double angle_deg = 30) {
+  CadReadOptions result;
+  result.chord_mm = chord_mm;
+  result.angle_deg = angle_deg;
+  return result;
+}
+
+class CadReader : public ::testing::Test {
+ protected:
+  Scene read_as_step(const TopoDS_Shape& shape, const CadReadOptions& how = {}) {
+    write_step(shape, folder_ / "shape.step");
+    return read_cad(folder_ / "shape.step", how, &report_);
+  }
+  Scene read_as_brep(const TopoDS_Shape& shape, const CadReadOptions& how = {}) {
+    write_brep(shape, folder_ / "shape.brep");
+    return read_cad(folder_ / "shape.brep", how, &report_);
+  }
+
+  TemporaryFolder folder_;
+  CadReport report_;
+};
+
+Vec3 normal_of(const TriangleMesh& mesh, std::size_t i) {
+  return normalized(cross(mesh.corner(i, 1) - mesh.corner(i, 0), mesh.corner(i, 2) - mesh.corner(i, 0)));
+}
+
+const Vec3& corner_normal(const TriangleMesh& mesh, std::size_t i, std::size_t k) {
+  return mesh.normals.values[mesh.normals.indices[i][k]];
+}
+
+TEST_F(CadReader, BoxIsTwelveTrianglesClosedAndOutward) {
+  const Scene scene = read_as_step(box());
+  ASSERT_EQ(scene.parts.size(), 1u);
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.positions.size(), 8u);
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_NEAR(volume(mesh), 6000, 1e-9);
+  EXPECT_EQ(scene.format, "STEP");
+  EXPECT_EQ(scene.unit, "mm");
+  EXPECT_EQ(scene.up, UpAxis::z);
+  EXPECT_EQ(report_.solids, 1u);
+  EXPECT_EQ(report_.faces, 6u);
+  EXPECT_EQ(report_.triangles, 12u);
+  EXPECT_TRUE(report_.failed_faces.empty());
+  EXPECT_EQ(std::set<std::uint32_t>(mesh.face.begin(), mesh.face.end()), (std::set<std::uint32_t>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST_F(CadReader, BoxNormalsAreTheFacesOwn) {
+  const Scene scene = read_as_step(box());
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(dot(corner_normal(mesh, i, k), normal_of(mesh, i)), 1, 1e-12);
+}
+
+TEST_F(CadReader, AllSchemasOfStepGiveTheSameBox) {
+  for (const char* schema : {"AP203", "AP214IS", "AP242DIS"}) {
+    write_step(box(), folder_ / "box.stp", schema);
+    EXPECT_NEAR(volume(read_cad(folder_ / "box.stp").parts.at(0).mesh), 6000, 1e-9) << schema;
+  }
+}
+
+TEST_F(CadReader, CylinderCornersHaveAngleAndHeight) {
+  const Scene scene = read_as_step(BRepPrimAPI_MakeCylinder(5, 20).Shape());
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  ASSERT_EQ(mesh.cad_uv.indices.size(), mesh.triangles.size());
+  std::size_t on_side = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (std::abs(normal_of(mesh, i).z) > 0.5) continue;
+    ++on_side;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 uv = mesh.cad_uv.values[mesh.cad_uv.indices[i][k]];
+      const Vec3 p = mesh.corner(i, static_cast<int>(k));
+      EXPECT_NEAR(p.x, 5 * std::cos(uv.x), 1e-9);
+      EXPECT_NEAR(p.y, 5 * std::sin(uv.x), 1e-9);
+      EXPECT_NEAR(p.z, uv.y, 1e-9);
+    }
+  }
+  EXPECT_GT(on_side, 30u);
+  EXPECT_TRUE(is_closed(mesh));  // Also along the seam, where u jumps by 2π.
+}
+
+TEST_F(CadReader, FinerChordAndAngleGiveMoreTriangles) {
+  const TopoDS_Shape torus = BRepPrimAPI_MakeTorus(20, 5).Shape();
+  const auto count = [&](double chord, double angle) {
+    read_as_step(torus, options(chord, angle));
+    return report_.triangles;
+  };
+  EXPECT_LT(count(0.5, 30), count(0.05, 30));
+  EXPECT_LT(count(0.5, 30), count(0.5, 5));
+}
+
+TEST_F(CadReader, ReversedFaceIsTurned) {
+  const TopoDS_Face bottom = face_of(box(), 4);
+  const Scene as_is = read_as_brep(bottom), reversed = read_as_brep(bottom.Reversed());
+  const Vec3 a = normal_of(as_is.parts[0].mesh, 0), b = normal_of(reversed.parts[0].mesh, 0);
+  EXPECT_NEAR(dot(a, b), -1, 1e-12);
+  EXPECT_NEAR(dot(corner_normal(reversed.parts[0].mesh, 0, 0), b), 1, 1e-12);
+}
+
+TEST_F(CadReader, IgesSolid) {
+  write_iges(box(), folder_ / "box.igs");
+  const Scene scene = read_cad(folder_ / "box.igs");
+  EXPECT_EQ(scene.format, "IGES");
+  ASSERT_EQ(scene.parts.size(), 1u);
+  EXPECT_TRUE(is_closed(scene.parts[0].mesh));
+  EXPECT_NEAR(std::abs(volume(scene.parts[0].mesh)), 6000, 1e-6);
+}
+
+TEST_F(CadReader, BrepCarriesNoUnit) {
+  CadReadOptions centimetres;
+  centimetres.brep_mm_per_unit = 10;
+  const Scene scene = read_as_brep(box(), centimetres);
+  EXPECT_EQ(scene.format, "BREP");
+  EXPECT_EQ(scene.millimetres_per_unit, 10);
+  EXPECT_NEAR(volume(scene.parts.at(0).mesh), 6e6, 1e-6);
+}
+
+TEST_F(CadReader, InchesBecomeMillimetres) {
+  CadFile file;
+  file.add("box", box());
+  file.write_step(folder_ / "box.step", "AP214IS", "INCH");
+  const Scene scene = read_cad(folder_ / "box.step");
+  EXPECT_EQ(scene.unit, "inch");
+  EXPECT_EQ(scene.millimetres_per_unit, 25.4);
+  EXPECT_NEAR(volume(scene.parts.at(0).mesh), 6000, 1e-6);
+}
+
+
+TEST_F(CadReader, FaceColoursBecomeMaterialSlots) {
+  const TopoDS_Shape shape = box();
+  CadFile file;
+  const TDF_Label part = file.add("painted", shape);
+  file.colour(part, 0x808080);
+  file.colour_face(part, face_of(shape, 2), 0xFF0000);
+  file.write_step(folder_ / "painted.step");
+  const Scene scene = read_cad(folder_ / "painted.step");
+  const Part& read = scene.parts.at(0);
+  ASSERT_EQ(read.materials.size(), 2u);
+  ASSERT_EQ(read.mesh.material.size(), 12u);
+  int red = 0;
+  for (std::size_t i = 0; i < 12; ++i) {
+    if (scene.materials[read.materials[read.mesh.material[i]]].name != "#FF0000") continue;
+    ++red;
+    EXPECT_EQ(read.mesh.face[i], 2u);
+  }
+  EXPECT_EQ(red, 2);
+}
+
+TEST_F(CadReader, TranslucentColour) {
+  CadFile file;
+  file.colour(file.add("glass", box()), 0xA0C4E0, 0.25f);
+  file.write_step(folder_ / "glass.step");
+  const Material material = read_cad(folder_ / "glass.step").materials.at(0);
+  EXPECT_NEAR(material.base_color[3], 0.25, 1e-6);
+  EXPECT_EQ(material.alpha_mode, "BLEND");
+  EXPECT_EQ(material.name, "#A0C4E040");
+  EXPECT_EQ(nlohmann::json::parse(material.extras_json).at("cad_colour"), "#A0C4E0");
+}
+
+TEST_F(CadReader, ShapeWithoutColourHasNoMaterial) {
+  const Scene scene = read_as_step(box());
+  EXPECT_TRUE(scene.materials.empty());
+  EXPECT_TRUE(scene.parts[0].materials.empty());
+  EXPECT_TRUE(scene.parts[0].mesh.material.empty());
+}
+
+TEST_F(CadReader, LayersGoIntoExtras) {
+  CadFile file;
+  const TDF_Label part = file.add("box", box());
+  file.layer(part, "visible skin");
+  file.write_step(folder_ / "layers.step");
+  const Scene scene = read_cad(folder_ / "layers.step");
+  EXPECT_EQ(nlohmann::json::parse(scene.parts.at(0).extras_json).at("layers"), nlohmann::json({"visible skin"}));
+}
+
+TEST_F(CadReader, RepeatedShapesInABrepAreInstances) {
+  const TopoDS_Shape shape = box();
+  gp_Trsf moved;
+  moved.SetTranslation(gp_Vec(50, 0, 0));
+  TopoDS_Compound two;
+  BRep_Builder builder;
+  builder.MakeCompound(two);
+  builder.Add(two, shape);
+  builder.Add(two, shape.Located(TopLoc_Location(moved)));
+  const Scene scene = read_as_brep(two);
+  EXPECT_EQ(scene.parts.size(), 1u);
+  EXPECT_EQ(scene.nodes.at(scene.roots.at(0)).children.size(), 2u);
+}
+
+TEST_F(CadReader, ShapesThatTouchStayApart) {
+  // One product of two boxes with a common face, each with its own eight corners.
+  TopoDS_Compound two;
+  BRep_Builder builder;
+  builder.MakeCompound(two);
+  builder.Add(two, box());
+  builder.Add(two, BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 10, 20, 30).Shape());
+  CadFile file;
+  file.add("pair", two);
+  file.write_step(folder_ / "pair.step");
+  const Scene scene = read_cad(folder_ / "pair.step");
+  std::size_t vertices = 0;
+  for (const Part& part : scene.parts) {
+    vertices += part.mesh.positions.size();
+    EXPECT_TRUE(is_closed(part.mesh));
+  }
+  EXPECT_EQ(vertices, 16u);
+}
+
+bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.positions == b.positions && a.triangles == b.triangles && a.face == b.face && a.material == b.material &&
+         a.normals.values == b.normals.values && a.normals.indices == b.normals.indices &&
+         a.cad_uv.values == b.cad_uv.values && a.cad_uv.indices == b.cad_uv.indices;
+}
+
+TEST_F(CadReader, SameResultWithOneThreadAndMany) {
+  TopoDS_Compound several;
+  BRep_Builder builder;
+  builder.MakeCompound(several);
+  for (int i = 0; i < 8; ++i) builder.Add(several, BRepPrimAPI_MakeTorus(10 + i, 3).Shape());
+  const Scene many = read_as_brep(several, options(0.02)), again = read_as_brep(several, options(0.02));
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const Scene one = read_as_brep(several, options(0.02));
+  ASSERT_EQ(one.parts.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_TRUE(same_mesh(many.parts[i].mesh, again.parts[i].mesh));
+    EXPECT_TRUE(same_mesh(many.parts[i].mesh, one.parts[i].mesh));
+  }
+}
+
+struct RealFile {
+  const char* name;
+  std::size_t triangles;  ///< At 0.5 mm and 0.5 rad, collapsed ones taken off.
+  std::size_t solids;
+};
+
+class RealCadFile : public ::testing::TestWithParam<RealFile> {};
+
+TEST_P(RealCadFile, IsClosedAndComplete) {
+  const char* shared = std::getenv("PAPILLA_SHARED_DATA");
+  if (!shared) GTEST_SKIP() << "PAPILLA_SHARED_DATA is not set";
+  CadReport report;
+  const auto path = std::filesystem::path(shared) / "step" / GetParam().name;
+  const Scene scene = read_cad(path, options(0.5, 0.5 * k_degrees_per_radian), &report);
+  EXPECT_EQ(report.triangles, GetParam().triangles);
+  EXPECT_EQ(report.solids, GetParam().solids);
+  EXPECT_TRUE(report.failed_faces.empty());
+  for (const Part& part : scene.parts) EXPECT_TRUE(is_closed(part.mesh)) << part.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, RealCadFile,
+                         ::testing::Values(RealFile{"MINI-knob.stp", 914, 1}, RealFile{"featuretype.STEP", 2468, 1},
+                                           RealFile{"voron_Bowden_Module.step", 27016, 19},
+                                           RealFile{"nist_mbe_pmi_1.stp", 2732, 1},
+                                           RealFile{"occt_MODERN_Chair_1.brep", 2308, 4},
+                                           RealFile{"occt_MODERN_Chair_1_ap242.step", 2308, 4}),
+                         [](const auto& file) {
+                           std::string name = file.param.name;
+                           std::replace_if(
+                               name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace papilla::test
