@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
 namespace papilla::param_detail {
 namespace {
 
-/// Contact, as a fraction of the extent of the map: above the rounding of coordinates.
-constexpr double k_contact = 1e-12;
+/// Edges are not brought closer than this fraction of their mean length.
+constexpr double k_contact = 1e-3;
+
+/// Reach of the barrier over the shortest edge at hand.
+constexpr double k_reach = 0.25;
 
 /// Cells of the grid per edge of the border, at most.
 constexpr double k_cells_per_edge = 16;
@@ -52,7 +56,7 @@ BorderGuard::BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv)
   for (const BorderPair& pair : border_) length += norm(uv_[pair[1]] - uv_[pair[0]]);
   const double edges = static_cast<double>(border_.size());
   cell_ = std::max(length / edges, extent.size() / std::sqrt(k_cells_per_edge * edges));
-  tolerance_ = k_contact * extent.size();
+  tolerance_ = k_contact * length / edges;
   low_ = extent.low;
   columns_ = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell_) + 1;
   rows_ = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell_) + 1;
@@ -149,9 +153,19 @@ void BorderGuard::move(Index vertex, Vec2 place) {
   for (const Index e : edges_of_[vertex]) put_in(e);
 }
 
+BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec2> uv, double weight)
+    : border_(std::move(border)), reach_(uv.size(), std::numeric_limits<double>::infinity()), weight_(weight) {
+  for (const auto& [from, to] : border_) {
+    const double reach = k_reach * norm(uv[to] - uv[from]);
+    reach_[from] = std::min(reach_[from], reach);
+    reach_[to] = std::min(reach_[to], reach);
+    most_reach_ = std::max(most_reach_, reach);
+  }
+}
+
 std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2> uv) const {
-  // Vertices in cells of the reach's size; each edge looks into the cells around it.
-  const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / reach_)); };
+  // Vertices in cells of the longest reach; each edge looks into the cells along it.
+  const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / most_reach_)); };
   const auto key = [](std::int64_t x, std::int64_t y) {
     return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu;
   };
@@ -163,8 +177,8 @@ std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2>
   std::vector<Pair> pairs;
   for (const auto& [from, to] : border_) {
     const Vec2 a = uv[from], b = uv[to];
-    // Walks along the edge in steps of the reach, so that a long edge does not visit its whole bounding box.
-    const int steps = static_cast<int>(std::min(norm(b - a) / reach_, 1e6)) + 1;
+    const double edge_reach = std::min(reach_[from], reach_[to]);
+    const int steps = static_cast<int>(std::min(norm(b - a) / most_reach_, 1e6)) + 1;
     const std::size_t first = pairs.size();
     for (int s = 0; s <= steps; ++s) {
       const Vec2 p = a + (static_cast<double>(s) / steps) * (b - a);
@@ -172,8 +186,10 @@ std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2>
         for (std::int64_t x = cell_of(p.x) - 1; x <= cell_of(p.x) + 1; ++x) {
           const auto found = cells.find(key(x, y));
           if (found == cells.end()) continue;
-          for (const Index v : found->second)
-            if (v != from && v != to && norm(closest(uv[v], a, b).away) < reach_) pairs.push_back({v, from, to});
+          for (const Index v : found->second) {
+            const double reach = std::min(edge_reach, reach_[v]);
+            if (v != from && v != to && norm(closest(uv[v], a, b).away) < reach) pairs.push_back({v, from, to, reach});
+          }
         }
     }
     const auto own = pairs.begin() + static_cast<std::ptrdiff_t>(first);
@@ -186,16 +202,16 @@ std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2>
 
 double BorderBarrier::value(const Pair& pair, std::span<const Vec2> uv) const {
   const double d = norm(closest(uv[pair.vertex], uv[pair.from], uv[pair.to]).away);
-  const double excess = reach_ / d - 1;
+  const double excess = pair.reach / d - 1;
   return excess > 0 ? weight_ * excess * excess : 0;
 }
 
 std::array<Vec2, 3> BorderBarrier::gradient(const Pair& pair, std::span<const Vec2> uv) const {
   const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
   const double d = norm(c.away);
-  if (!(d < reach_)) return {};
+  if (!(d < pair.reach)) return {};
   // The closest point may be held: it is a minimum.
-  const Vec2 by_vertex = (-2 * weight_ * (reach_ / d - 1) * reach_ / (d * d * d)) * c.away;
+  const Vec2 by_vertex = (-2 * weight_ * (pair.reach / d - 1) * pair.reach / (d * d * d)) * c.away;
   return {by_vertex, (c.along - 1) * by_vertex, -c.along * by_vertex};
 }
 
@@ -203,8 +219,8 @@ void BorderBarrier::hessian(const Pair& pair, std::span<const Vec2> uv, double* 
   const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
   const double d = norm(c.away);
   std::fill_n(matrix, 36, 0.0);
-  if (!(d < reach_)) return;
-  const double curvature = 2 * weight_ * reach_ / (d * d * d) * (3 * reach_ / d - 2);
+  if (!(d < pair.reach)) return;
+  const double curvature = 2 * weight_ * pair.reach / (d * d * d) * (3 * pair.reach / d - 2);
   const std::array<double, 3> share{1, c.along - 1, -c.along};
   std::array<double, 6> direction;
   for (std::size_t k = 0; k < 3; ++k)

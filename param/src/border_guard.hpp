@@ -49,17 +49,18 @@ class BorderGuard {
 };
 
 /// Keeps the border away from itself: Σ weight (reach / d - 1)² over border vertices and border edges that are
-/// d < reach apart [J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015].
+/// d < reach apart [J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015]. The reach is a fixed
+/// fraction of the shortest border edge at the three vertices, so that neighbours on the border don't push each other.
 class BorderBarrier {
  public:
   struct Pair {
     Index vertex, from, to;
+    double reach;
   };
 
-  BorderBarrier(std::vector<BorderPair> border, double reach, double weight)
-      : border_(std::move(border)), reach_(reach), weight_(weight) {}
+  /// @param uv gives the lengths of the edges.
+  BorderBarrier(std::vector<BorderPair> border, std::span<const Vec2> uv, double weight);
 
-  std::span<const BorderPair> border() const { return border_; }
   std::vector<Pair> near_pairs(std::span<const Vec2> uv) const;
   double value(const Pair& pair, std::span<const Vec2> uv) const;
   std::array<Vec2, 3> gradient(const Pair& pair, std::span<const Vec2> uv) const;
@@ -70,7 +71,8 @@ class BorderBarrier {
 
  private:
   std::vector<BorderPair> border_;
-  double reach_, weight_;
+  std::vector<double> reach_;  ///< Per vertex.
+  double most_reach_ = 0, weight_;
 };
 
 }  // namespace papilla::param_detail

@@ -21,7 +21,7 @@ constexpr std::size_t k_most_neighbors = 200;
 constexpr std::size_t k_targets = 2;
 
 /// In one pass, only the cheapest part of the vertices is removed.
-constexpr double k_pass_share = 0.6;
+constexpr double k_pass_share = 0.8;
 
 /// What the three rounds ask of new triangles: the least cosine of their normal with the old ones', and the least shape
 /// (4√3 area / sum of squared edges), unless they are half as good as the old ones. A map of the coarse mesh can be no

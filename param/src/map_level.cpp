@@ -24,15 +24,18 @@ struct CornersOfVertices {
   std::span<const Index> of(std::size_t v) const { return {corner.data() + first[v], first[v + 1] - first[v]}; }
 };
 
-std::vector<BorderPair> border_of(const std::vector<Triangle>& triangles) {
-  std::vector<std::pair<Index, Index>> edges;
-  edges.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
-  std::sort(edges.begin(), edges.end());
+/// Edges that have no opposite one, in the order of the triangles.
+std::vector<BorderPair> border_of(const MapLevel& level) {
+  const CornersOfVertices corners(level);
+  const auto next = [&](Index corner) { return level.triangles[corner / 3][(corner % 3 + 1) % 3]; };
   std::vector<BorderPair> border;
-  for (const auto& [a, b] : edges)
-    if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) border.push_back({a, b});
+  for (const Triangle& t : level.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index from = t[k], to = t[(k + 1) % 3];
+      const auto around = corners.of(to);
+      if (std::none_of(around.begin(), around.end(), [&](Index c) { return next(c) == from; }))
+        border.push_back({from, to});
+    }
   return border;
 }
 
@@ -61,7 +64,7 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
   }
   level.rest = rest_shapes(own_positions, level.triangles, least_area);
   for (const RestShape& rest : level.rest) level.area += rest.area;
-  level.border = border_of(level.triangles);
+  level.border = border_of(level);
   return level;
 }
 

@@ -15,8 +15,9 @@ namespace {
 /// Where coarsening ends.
 constexpr std::size_t k_base_vertices = 24;
 
-/// Vertices of a level over those of the one before.
-constexpr std::size_t k_growth = 4;
+/// Vertices of a level over those of the one before; fewer where the border is watched and vertices have less room.
+constexpr std::size_t k_growth = 6;
+constexpr std::size_t k_guarded_growth = 3;
 
 /// Triangles of coarse levels count as having at least this part of the mean area: their shape is not the surface's,
 /// and slivers would only hold the others up.
@@ -33,8 +34,7 @@ constexpr int k_relax_sweeps = 10;
 constexpr std::size_t k_most_factored = 200'000;
 constexpr int k_fine_sweeps = 30;
 
-/// Distance, in mean border edges, below which the border pushes itself away, and the push per pair, in mean areas.
-constexpr double k_reach = 0.25;
+/// How hard a vertex and an edge of the border push each other away, in mean areas of a triangle.
 constexpr double k_push = 0.05;
 
 class Multilevel {
@@ -97,10 +97,7 @@ class Multilevel {
   }
 
   static BorderBarrier make_barrier(const MapLevel& level) {
-    double length = 0;
-    for (const auto& [from, to] : level.border) length += norm(level.uv[to] - level.uv[from]);
-    return {level.border, k_reach * length / static_cast<double>(level.border.size()),
-            k_push * level.area / static_cast<double>(level.triangles.size())};
+    return {level.border, level.uv, k_push * level.area / static_cast<double>(level.triangles.size())};
   }
 
   void improve(MapLevel& level) {
@@ -136,11 +133,12 @@ class Multilevel {
   /// Brings vertices back until there are k_growth times as many, or all, or the next one finds no place.
   bool refine(MapLevel& level) {
     const std::size_t before = hierarchy_.removed_count();
-    const std::size_t enough = k_growth * hierarchy_.vertex_count();
+    const std::size_t growth = guarded_ ? k_guarded_growth : k_growth;
+    const std::size_t enough = growth * hierarchy_.vertex_count();
     const std::size_t all = hierarchy_.removed_count() + hierarchy_.vertex_count();
     // A rest that is smaller than a level of its own joins this one.
     const std::size_t leave = 2 * all < 3 * enough ? 0 : all - enough;
-    const double least = leave > 0 ? least_area() / static_cast<double>(k_growth) : 0;
+    const double least = leave > 0 ? least_area() / static_cast<double>(growth) : 0;
     guard_.reset();
     if (guarded_) {
       std::vector<BorderPair> border = level.border;
