@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "sparse_cholesky.hpp"
@@ -23,7 +24,15 @@ constexpr double k_anchor = 1e-8;
 constexpr double k_before_flip = 0.9;
 
 constexpr double k_armijo = 1e-4;
+
+/// A full step that lowers the energy by this part of its slope or more (half of it is what a quadratic promises) is
+/// reason to keep the factorization.
+constexpr double k_good_step = 0.3;
+
 constexpr int k_halvings = 40;
+
+/// Bisections between the longest step that is accepted and the shortest that is refused.
+constexpr int k_refinements = 4;
 
 template <class Body>
 void for_chunks(std::size_t count, Body body) {
@@ -71,7 +80,7 @@ class NewtonStep {
     if (!problem.barrier) prepare(uv, {});
   }
 
-  std::vector<Vec2> direction(std::span<const Vec2> uv, const Pairs& pairs, std::span<const Vec2> gradient) {
+  void factor(std::span<const Vec2> uv, const Pairs& pairs) {
     if (problem_.barrier) prepare(uv, pairs);
     const std::size_t triangles = problem_.triangles.size();
     factor_->factor([&](std::size_t e, double* matrix) {
@@ -80,11 +89,15 @@ class NewtonStep {
       problem_.energy->hessian(e, uv[a], uv[b], uv[c], matrix);
       for (std::size_t k = 0; k < 6; ++k) matrix[7 * k] += k_anchor;
     });
-    std::vector<double> right(2 * uv.size());
-    for (std::size_t v = 0; v < uv.size(); ++v) right[2 * v] = -gradient[v].x, right[2 * v + 1] = -gradient[v].y;
+  }
+
+  std::vector<Vec2> direction(std::span<const Vec2> gradient) const {
+    const std::size_t count = gradient.size();
+    std::vector<double> right(2 * count);
+    for (std::size_t v = 0; v < count; ++v) right[2 * v] = -gradient[v].x, right[2 * v + 1] = -gradient[v].y;
     factor_->solve(right);
-    std::vector<Vec2> direction(uv.size());
-    for (std::size_t v = 0; v < uv.size(); ++v) direction[v] = {right[2 * v], right[2 * v + 1]};
+    std::vector<Vec2> direction(count);
+    for (std::size_t v = 0; v < count; ++v) direction[v] = {right[2 * v], right[2 * v + 1]};
     return direction;
   }
 
@@ -145,33 +158,65 @@ double step_to_first_flip(std::span<const Triangle> triangles, std::span<const V
   return step;
 }
 
-bool line_search(const DescentProblem& problem, std::span<const Vec2> direction, double slope, double first_step,
+namespace {
+
+struct Step {
+  double length = 0;     ///< 0: none was found.
+  bool refused = false;  ///< A longer one lowers the energy, but was not accepted.
+};
+
+/// Goes along `direction` as far as the energy falls (Armijo), no triangle turns over and nobody refuses.
+/// @param slope derivative of the energy along the direction, negative.
+/// @param energy of uv on entry, of the new uv on return.
+Step line_search(const DescentProblem& problem, std::span<const Vec2> direction, double slope, double first_length,
                  bool allow_flips, std::vector<Vec2>& uv, double& energy) {
-  double step = first_step;
+  Step step;
+  double length = first_length;
   if (!allow_flips) {
-    const double flip = step_to_first_flip(problem.triangles, uv, direction, first_step / k_before_flip);
-    step = std::min(first_step, k_before_flip * flip);
+    const double flip = step_to_first_flip(problem.triangles, uv, direction, first_length / k_before_flip);
+    length = std::min(first_length, k_before_flip * flip);
   }
   const double start = energy + barrier_value(problem, uv);
-  std::vector<Vec2> trial(uv.size());
-  for (int i = 0; i < k_halvings; ++i, step *= 0.5) {
-    for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + step * direction[v];
-    if (problem.barrier && !problem.barrier->is_simple(trial)) continue;
-    const double value = total_energy(problem, trial);
-    if (!(value + barrier_value(problem, trial) <= start + k_armijo * step * slope)) continue;
-    std::swap(uv, trial);
-    energy = value;
-    return true;
+  std::vector<Vec2> trial(uv.size()), best;
+  double shortening = 0;  // once a refused length is known: how much of it the next trial goes further or less far
+  for (int i = 0, tries = k_halvings; i < tries; ++i) {
+    for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + length * direction[v];
+    const bool simple = !problem.barrier || problem.barrier->is_simple(trial);
+    const double value = simple ? total_energy(problem, trial) : std::numeric_limits<double>::infinity();
+    const bool lower = simple && value + barrier_value(problem, trial) <= start + k_armijo * length * slope;
+    const bool good = lower && (!problem.accept || problem.accept(trial));
+    if (lower && !good) step.refused = true;
+    if (good) {
+      std::swap(best, trial);
+      trial.resize(uv.size());
+      energy = value;
+      step.length = length;
+      if (!step.refused) break;
+      if (shortening == 0) shortening = 0.5 * length, tries = i + 1 + k_refinements;
+      length += shortening;
+    } else if (shortening == 0) {
+      length *= 0.5;
+      continue;
+    } else {
+      length -= shortening;
+    }
+    shortening *= 0.5;
   }
-  return false;
+  if (step.length > 0) std::swap(uv, best);
+  return step;
 }
 
-DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options) {
+/// The iteration that both methods share: `direct(gradient, uv, pairs, good)` says where to go, `good` whether the last
+/// step did what was expected of it.
+template <class Direct>
+DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options,
+                      double growth, Direct direct) {
   const Stopwatch clock;
   DescentResult result;
   result.energy = total_energy(problem, uv);
   result.trace.push_back({clock.seconds(), result.energy});
-  NewtonStep newton(problem, uv);
+  double step = 1;
+  bool good = false;
   while (result.iterations < options.max_iterations) {
     if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
       result.stop = StopReason::time_limit;
@@ -188,21 +233,50 @@ DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, cons
         gradient[pair.to] = gradient[pair.to] + g[2];
       }
     }
-    const std::vector<Vec2> direction = newton.direction(uv, pairs, gradient);
+    const std::vector<Vec2> direction = direct(gradient, uv, pairs, good);
     const double slope = dot(gradient, direction), before = result.energy;
     ++result.iterations;
-    if (!(slope < 0) || !line_search(problem, direction, slope, 1, options.allow_flips, uv, result.energy)) {
+    Step taken;
+    if (slope < 0) taken = line_search(problem, direction, slope, step, options.allow_flips, uv, result.energy);
+    if (taken.length == 0) {
       // Near the minimum rounding hides how far the energy falls.
-      result.stop = -slope <= options.tolerance * before ? StopReason::converged : StopReason::line_search_stalled;
+      result.stop =
+          std::abs(slope) <= options.tolerance * before ? StopReason::converged : StopReason::line_search_stalled;
       break;
     }
     result.trace.push_back({clock.seconds(), result.energy});
-    if (std::abs(before - result.energy) < options.tolerance * result.energy) {
+    if (std::abs(before - result.energy) <= options.tolerance * result.energy) {
       result.stop = StopReason::converged;
       break;
     }
+    if (taken.refused) {
+      result.stop = StopReason::line_search_stalled;
+      break;
+    }
+    good = taken.length == step && before - result.energy > -k_good_step * step * slope;
+    step = growth > 1 ? growth * taken.length : 1;
   }
   return result;
+}
+
+}  // namespace
+
+DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options) {
+  return iterate(problem, uv, options, 2,
+                 [](const std::vector<Vec2>& gradient, std::span<const Vec2>, const Pairs&, bool) {
+                   std::vector<Vec2> direction(gradient);
+                   for (Vec2& d : direction) d = -1.0 * d;
+                   return direction;
+                 });
+}
+
+DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options) {
+  NewtonStep newton(problem, uv);
+  return iterate(problem, uv, options, 1,
+                 [&](const std::vector<Vec2>& gradient, std::span<const Vec2> at, const Pairs& pairs, bool good) {
+                   if (!good || !options.reuse_factor) newton.factor(at, pairs);
+                   return newton.direction(gradient);
+                 });
 }
 
 }  // namespace papilla::param_detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct DescentOptions {
   double tolerance = 1e-6;   ///< Stop when the energy falls by less than this fraction in an iteration.
   double time_limit_s = 0;   ///< 0: none.
   bool allow_flips = false;  ///< Let triangles turn over; the energy must then be finite for such.
+  bool reuse_factor = false;  ///< Factor again only when a step disappoints: for energies that are nearly quadratic.
 };
 
 struct DescentResult {
@@ -24,12 +26,13 @@ struct DescentResult {
   Trace trace;  ///< error = energy; one sample at the start and after each iteration.
 };
 
-/// A map's triangles and the energy to be lowered. With a barrier, no state is accepted in which the border meets
-/// itself.
+/// A map's triangles and the energy to be lowered. With a barrier, no state is taken in which the border meets itself.
+/// `accept` may refuse states for reasons of its own; the descent ends where it does.
 struct DescentProblem {
   std::span<const Triangle> triangles;
   const MapEnergy* energy = nullptr;
   const BorderBarrier* barrier = nullptr;
+  std::function<bool(std::span<const Vec2>)> accept = {};
 };
 
 double total_energy(const DescentProblem& problem, std::span<const Vec2> uv);
@@ -39,11 +42,8 @@ std::vector<Vec2> energy_gradient(const DescentProblem& problem, std::span<const
 double step_to_first_flip(std::span<const Triangle> triangles, std::span<const Vec2> uv,
                           std::span<const Vec2> direction, double most);
 
-/// Goes along `direction` as far as the energy falls (Armijo), no triangle turns over and the barrier accepts.
-/// @param slope derivative of the energy along the direction, negative.
-/// @param energy of uv on entry, of the new uv when true is returned.
-bool line_search(const DescentProblem& problem, std::span<const Vec2> direction, double slope, double first_step,
-                 bool allow_flips, std::vector<Vec2>& uv, double& energy);
+/// Steepest descent with line search; each search begins at twice the step that the last one took.
+DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options);
 
 /// Projected Newton (Gauss-Newton for energies whose `hessian` is that) with line search. Without a barrier one
 /// symbolic factorization serves all iterations.

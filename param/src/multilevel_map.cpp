@@ -106,7 +106,7 @@ class Multilevel {
     const double relax_tolerance = last && !factored ? 0.1 * options_.tolerance : k_relax_tolerance;
     relax(level, last && !factored ? k_fine_sweeps : k_relax_sweeps, relax_tolerance, guarded_);
     trace(level, last);
-    if (!factored) return;
+    if (!factored || (last && options_.max_iterations == 0)) return;
     const SymmetricDirichlet dirichlet(level.rest);
     const BorderBarrier barrier = make_barrier(level);
     const double start = clock_.seconds();
