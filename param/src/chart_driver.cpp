@@ -38,7 +38,7 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
   ChartMap map = method(chart);
   result.failure = map.failure;
   if (!result.failure.empty()) return result;
-  normalise(chart, options.up, options.scale_to_area, map.uv);
+  if (!map.keep_place) normalise(chart, options.up, options.scale_to_area, map.uv);
   if (!options.allow_flips) result.failure = map_failure(chart, map.uv);
   if (!result.failure.empty()) return result;
   result.stop = map.stop;

@@ -77,6 +77,7 @@ class DiskHierarchy::Coarsener {
     std::array<Index, k_most_triangles> triangle;
     std::size_t triangles = 0, size = 0;
     bool closed = false;
+    Vec3 normal;  ///< Sum of the triangles' cross products; set by best_target().
   };
 
   struct Candidate {
@@ -90,7 +91,7 @@ class DiskHierarchy::Coarsener {
   void pass(const Round& round, std::size_t enough) {
     std::vector<Candidate> candidates;
     candidates.reserve(vertices_.size());
-    Ring ring;
+    Ring ring{};
     for (const Index v : vertices_) {
       if (!find_ring(v, ring)) continue;
       const Candidate c = best_target(v, ring, round);
@@ -135,7 +136,7 @@ class DiskHierarchy::Coarsener {
   }
 
   bool find_ring(Index v, Ring& ring) {
-    std::array<Index, k_most_triangles> from{}, to{}, triangle{};
+    std::array<Index, k_most_triangles> from, to, triangle;
     std::size_t count = 0;
     bool small = true;
     each_corner(v, [&](Index c) {
@@ -189,7 +190,11 @@ class DiskHierarchy::Coarsener {
     return true;
   }
 
-  Candidate best_target(Index v, const Ring& ring, const Round& round) {
+  Candidate best_target(Index v, Ring& ring, const Round& round) {
+    ring.normal = {};
+    for (std::size_t i = 0; i < ring.triangles; ++i)
+      ring.normal = ring.normal + cross(positions_[ring.vertex[i]] - positions_[v],
+                                        positions_[ring.vertex[(i + 1) % ring.size]] - positions_[v]);
     Candidate best{std::numeric_limits<double>::infinity(), v, k_none};
     if (!ring.closed) {
       consider(v, ring, 0, round, best);
@@ -226,11 +231,7 @@ class DiskHierarchy::Coarsener {
 
   void consider(Index v, const Ring& ring, std::size_t place, const Round& round, Candidate& best) {
     const Vec3 origin = positions_[v], target = positions_[ring.vertex[place]];
-    const Vec3 edge = target - origin;
-    Vec3 normal{};
-    for (std::size_t i = 0; i < ring.triangles; ++i)
-      normal =
-          normal + cross(positions_[ring.vertex[i]] - origin, positions_[ring.vertex[(i + 1) % ring.size]] - origin);
+    const Vec3 edge = target - origin, normal = ring.normal;
     const double size = norm(normal);
     double cosine = 1, quality = 1;
     for (std::size_t i = 0; i < ring.triangles; ++i) {

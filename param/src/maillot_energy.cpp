@@ -25,8 +25,7 @@ std::array<Vec2, 3> determinant_gradient(const MapEdges& m) {
 
 }  // namespace
 
-MaillotEnergy::MaillotEnergy(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                             double length_weight)
+MaillotEnergy::MaillotEnergy(std::span<const Vec3> positions, std::span<const Triangle> triangles, double length_weight)
     : rest_(triangles.size()) {
   TriangleMesh mesh;
   mesh.positions.assign(positions.begin(), positions.end());

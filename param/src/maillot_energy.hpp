@@ -19,8 +19,8 @@ class MaillotEnergy final : public MapEnergy {
  private:
   struct Rest {
     double doubled_area = 0;
-    double area_weight = 0;                         ///< (1-φ) / doubled area; 0 without area.
-    std::array<double, 3> squared{};                ///< Lengths of the edges, from corner k to the next one.
+    double area_weight = 0;                        ///< (1-φ) / doubled area; 0 without area.
+    std::array<double, 3> squared{};               ///< Lengths of the edges, from corner k to the next one.
     std::array<double, 3> length_weight{0, 0, 0};  ///< φ share / squared length; 0 without length.
   };
   std::vector<Rest> rest_;

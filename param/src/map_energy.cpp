@@ -27,7 +27,7 @@ JacobianHessian jacobian_hessian(const Jacobian& j) {
   const double rotation = 2 - 2 * (squared - det) * inverse3;
   if (rotation < 0) {
     double c = j.x.x + j.y.y, s = j.x.y - j.y.x;
-    const double size = std::hypot(c, s);
+    const double size = std::sqrt(c * c + s * s);
     if (size > 0) {
       c /= size, s /= size;
       // R = (c -s; s c); R (0 -1; 1 0) = (-s -c; c -s), by columns.

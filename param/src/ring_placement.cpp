@@ -26,7 +26,7 @@ struct Guess {
 Guess guess(const RingEdge& e) {
   const double base = e.rest.base(), along = e.rest.along(), height = e.rest.height();
   const Vec2 rest_edge{along - base, height};  // from the second to the third corner; the vertex is at the origin
-  const double length = norm(rest_edge), uv_length = norm(e.to - e.from);
+  const double length = std::sqrt(dot(rest_edge, rest_edge)), uv_length = std::sqrt(dot(e.to - e.from, e.to - e.from));
   if (!(length > 0) || !(uv_length > 0)) return {e.from, 0};
   const Vec2 x = (1 / length) * rest_edge, to_apex{-base, 0};
   const double scale = std::clamp(uv_length / length, 1 / k_most_scale, k_most_scale);
@@ -36,7 +36,7 @@ Guess guess(const RingEdge& e) {
   const bool from_start = s < 0.5 * length;
   const double offset = from_start ? s : s - length;
   const Vec2 apex = (from_start ? e.from : e.to) + (scale * offset) * d + (scale * t) * Vec2{-d.y, d.x};
-  const double far = std::hypot(along, height), trust = length * length / (base * far);
+  const double far = std::sqrt(along * along + height * height), trust = length * length / (base * far);
   return {apex, e.rest.area * trust * trust};
 }
 

@@ -11,12 +11,10 @@ namespace papilla::param_detail {
 namespace {
 
 /// Unknowns at which dissection stops: smaller fronts cost more in bookkeeping than they save.
-constexpr Index k_leaf = 12;
+constexpr Index k_leaf = 16;
 
 /// Branches with fewer multiplications are not worth a task of their own.
 constexpr std::size_t k_parallel_work = 200'000;
-
-constexpr std::size_t k_largest_element = 8;
 
 double conjugate(double x) { return x; }
 std::complex<double> conjugate(std::complex<double> x) { return std::conj(x); }
@@ -40,6 +38,8 @@ SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const
     panel_.push_back(total);
     total += width_ * front.size() * width_ * front.own();
   }
+  for (std::size_t e = 0; e < elements_.count(); ++e)
+    largest_element_ = std::max(largest_element_, width_ * elements_.of(e).size());
   factor_.resize(total + k_dense_slack);
   bad_pivots_.resize(dissection_.fronts.size());
 }
@@ -85,8 +85,8 @@ template <class Scalar>
 void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillElement& fill, Scalar* panel,
                                                Update& update) const {
   const std::size_t rows = width_ * front.size(), own = width_ * front.own();
-  Scalar matrix[4 * k_largest_element * k_largest_element];
-  std::size_t place[k_largest_element];
+  std::vector<Scalar> matrix(largest_element_ * largest_element_);
+  std::vector<std::size_t> place(largest_element_);
   for (const Index e : front.elements) {
     const auto members = elements_.of(e);
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -97,7 +97,7 @@ void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillEle
               : front.own() + static_cast<std::size_t>(std::lower_bound(front.rows.begin(), front.rows.end(), row) -
                                                        front.rows.begin());
     }
-    fill(e, matrix);
+    fill(e, matrix.data());
     const std::size_t size = width_ * members.size();
     for (std::size_t j = 0; j < size; ++j)
       for (std::size_t i = j; i < size; ++i) {

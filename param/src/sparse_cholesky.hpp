@@ -43,7 +43,7 @@ class SparseCholesky {
   void assemble_elements(const Front& front, const FillElement& fill, Scalar* panel, Update& update) const;
   void assemble_child(const Front& front, const Front& child, const Update& from, Scalar* panel, Update& to) const;
 
-  std::size_t width_;
+  std::size_t width_, largest_element_ = 0;  ///< The latter in unknowns.
   Elements elements_;
   Dissection dissection_;
   std::vector<std::size_t> panel_;  ///< Where each front's columns begin in factor_.

@@ -39,7 +39,7 @@ Vec2 corner_step(std::span<const CornerView> ring) {
     vv += diagonal + 2 * first * by_squared.y * by_det.y + second * by_det.y * by_det.y;
   }
   // Shifted to be definite where the energy is not convex.
-  const double mean = 0.5 * (uu + vv), radius = std::hypot(0.5 * (uu - vv), uv);
+  const double mean = 0.5 * (uu + vv), radius = std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv);
   if (const double least = 0.01 * (mean + radius); mean - radius < least) {
     const double shift = least - (mean - radius);
     uu += shift, vv += shift;

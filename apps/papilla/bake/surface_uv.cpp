@@ -31,7 +31,8 @@ void choose_method(const TriangleMesh& mesh, const std::string& wanted, Vec2 til
   }
   const double tile = std::max(tile_mm.x, tile_mm.y), extent = bounding_diagonal(mesh);
   result.method = extent < tile ? "triplanar" : "lscm";
-  result.reason = fmt::format("its extent of {:.3g} mm is {} than one repeat of the grain", extent, extent < tile ? "less" : "more");
+  result.reason = fmt::format("its extent of {:.3g} mm is {} than one repeat of the grain", extent,
+                              extent < tile ? "less" : "more");
 }
 
 }  // namespace
@@ -39,11 +40,11 @@ void choose_method(const TriangleMesh& mesh, const std::string& wanted, Vec2 til
 SurfaceUv make_surface_uv(const TriangleMesh& mesh, const std::string& wanted, Vec2 tile_mm, UpAxis up) {
   SurfaceUv result;
   choose_method(mesh, wanted, tile_mm, result);
-  UnwrapOptions options;
+  MethodOptions options;
   options.method = result.method == "triplanar" ? UnwrapMethod::triplanar : UnwrapMethod::lscm;
-  options.tile_mm = tile_mm;
   const Stopwatch clock;
-  result.flattening = flatten_part(mesh, up == UpAxis::z ? GrainUp::z : GrainUp::y, options, result.segment_seconds);
+  result.flattening =
+      flatten_part(mesh, up == UpAxis::z ? GrainUp::z : GrainUp::y, tile_mm, options, result.segment_seconds);
   result.flattening.uv = align_phase(mesh, result.flattening, {.tile_mm = tile_mm}).uv;
   result.flatten_seconds = clock.seconds() - result.segment_seconds;
   return result;

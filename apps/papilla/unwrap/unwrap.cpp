@@ -7,7 +7,6 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/weld.hpp"
-#include "papilla/param/components.hpp"
 #include "papilla/param/pack.hpp"
 
 namespace papilla::app {
@@ -73,23 +72,6 @@ void add_trace(const Flattening& flattening, double start, UnwrapReport& report)
 
 }  // namespace
 
-Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOptions& options, double& segment_seconds) {
-  TriplanarOptions projection;
-  projection.up = up;
-  projection.tile_mm = options.tile_mm;
-  if (options.method == UnwrapMethod::triplanar) return flatten_triplanar(mesh, projection).flattening;
-  const Stopwatch clock;
-  const bool keep = options.charts == ChartSource::keep;
-  const ChartSet charts = keep ? components_as_charts(mesh) : segment_charts(mesh, options.segmentation).charts;
-  segment_seconds += clock.seconds();
-  LscmOptions lscm;
-  lscm.up = up;
-  lscm.solver = options.solver;
-  lscm.fall_back = !keep;
-  lscm.projection = projection;
-  return flatten_lscm(mesh, charts, lscm);
-}
-
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress) {
   const Stopwatch clock;
   if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
@@ -106,7 +88,7 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
     try {
       part.mesh = weld_equal(std::move(part.mesh)).mesh;
       const double start = clock.seconds(), before = report.seconds.segment;
-      result.flattening = flatten_part(part.mesh, up, options, report.seconds.segment);
+      result.flattening = flatten_part(part.mesh, up, options.tile_mm, options.method, report.seconds.segment);
       report.seconds.solve += clock.seconds() - start - (report.seconds.segment - before);
       add_trace(result.flattening, start, report);
       any = true;
@@ -120,7 +102,7 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
   }
   if (!any && first_failure) std::rethrow_exception(first_failure);
   const double start = clock.seconds();
-  place(scene, options, report);
+  if (options.method.method != UnwrapMethod::environment) place(scene, options, report);
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
     if (!report.parts[p].failure.empty()) continue;
     scene.parts[p].mesh.uv = report.parts[p].flattening.uv;

@@ -7,35 +7,21 @@
 
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
-#include "papilla/meshing/segmentation.hpp"
 #include "papilla/param/flattening.hpp"
-#include "papilla/param/lscm.hpp"
-#include "papilla/param/triplanar.hpp"
+#include "unwrap/method.hpp"
 
 namespace papilla::app {
-
-enum class UnwrapMethod { triplanar, lscm };
-
-/// Where the charts come from: made by segmentation, or every connected component is one.
-enum class ChartSource { automatic, keep };
 
 /// Atlas: no two charts of the scene overlap. Tile: the grain's phase goes on over seams, charts may lie over one
 /// another.
 enum class UvLayout { atlas, tile };
 
 struct UnwrapOptions {
-  UnwrapMethod method = UnwrapMethod::lscm;
-  ChartSource charts = ChartSource::automatic;  ///< Of lscm; triplanar makes its own charts.
-  LscmSolver solver = LscmSolver::cgal;
-  SegmentationOptions segmentation;
+  MethodOptions method;
   UvLayout layout = UvLayout::atlas;
   std::optional<double> gutter_mm;  ///< Not given: 0.5 % of the side of a square with the area of all charts.
   Vec2 tile_mm{0, 0};               ///< Of the grain; 0: unknown.
 };
-
-/// The part's charts and uv in millimetres, not placed yet. Equal positions must be one vertex.
-/// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
-Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOptions& options, double& segment_seconds);
 
 struct UnwrapSeconds {
   double segment = 0, solve = 0, pack = 0, total = 0;
@@ -55,8 +41,8 @@ struct UnwrapReport {
   UnwrapSeconds seconds;
 };
 
-/// Welds equal positions of every part and gives it uv (channel 0, millimetres). Parts whose method fails keep
-/// what they had and say why; when all fail, the first failure is thrown.
+/// Welds equal positions of every part and gives it uv (channel 0, millimetres; environment: textures, not placed).
+/// Parts whose method fails keep what they had and say why; when all fail, the first failure is thrown.
 /// @throws InvalidInput when there is no triangle.
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress = {});
 

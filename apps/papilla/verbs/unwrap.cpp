@@ -11,6 +11,7 @@
 #include "pictures/uv_layout.hpp"
 #include "scene_options.hpp"
 #include "unwrap/unwrap.hpp"
+#include "vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 
 struct Options {
   std::string input, output, trace, picture;
+  std::string solver, direction, eye;  // empty: the method's own
   std::vector<double> tile{0, 0};
   SceneOptions scene;
   UnwrapOptions unwrap;
@@ -52,15 +54,55 @@ std::string remarks(const UnwrapReport& report) {
   for (const UnwrappedPart& part : report.parts) {
     if (!part.failure.empty()) text += "not unwrapped: " + part.failure + "\n";
     if (!part.flattening.notes.empty())
-      text += fmt::format("{} charts fell back to planar projection, the first: {}\n", part.flattening.notes.size(),
+      text += fmt::format("{} charts did not take the method, the first: {}\n", part.flattening.notes.size(),
                           part.flattening.notes.front().reason);
   }
   return text;
 }
 
+/// The solvers of the methods that have several.
+void choose_solver(const std::string& name, MethodOptions& method) {
+  if (name.empty()) return;
+  const auto pick = [&]<class Value>(const std::map<std::string, Value>& choices, Value& value) {
+    const auto found = choices.find(name);
+    if (found != choices.end()) value = found->second;
+    return found != choices.end();
+  };
+  using Lscm = LscmSolver;
+  using Maillot = MaillotSolver;
+  using Levy = LevySolver;
+  bool known = false;
+  if (method.method == UnwrapMethod::lscm)
+    known = pick(std::map<std::string, Lscm>{{"cgal", Lscm::cgal}, {"hermitian", Lscm::hermitian}}, method.lscm.solver);
+  if (method.method == UnwrapMethod::maillot)
+    known = pick(std::map<std::string, Maillot>{{"gradient-descent", Maillot::gradient_descent},
+                                                {"gauss-newton", Maillot::gauss_newton}},
+                 method.maillot.solver);
+  if (method.method == UnwrapMethod::levy)
+    known = pick(std::map<std::string, Levy>{{"gauss-seidel", Levy::gauss_seidel}, {"direct", Levy::direct}},
+                 method.levy.solver);
+  if (!known) throw UsageError("--solver " + name + ": " + unwrap_method_name(method.method) + " has no such solver");
+}
+
+/// What is left to do when the command line is read.
+MethodOptions method_options(const Options& options) {
+  MethodOptions method = options.unwrap.method;
+  if (!takes_charts(method.method) && method.charts == ChartSource::keep)
+    throw UsageError("--charts keep: " + unwrap_method_name(method.method) + " makes its own charts");
+  choose_solver(options.solver, method);
+  if (!options.direction.empty()) method.planar.direction = parse_vector("--direction", options.direction);
+  if (!options.eye.empty()) method.intermediate.eye = method.environment.eye = parse_vector("--eye", options.eye);
+  return method;
+}
+
+UnwrapOptions unwrap_options(const Options& options) {
+  UnwrapOptions unwrap = options.unwrap;
+  unwrap.method = method_options(options);
+  unwrap.tile_mm = {options.tile[0], options.tile[1]};
+  return unwrap;
+}
+
 void check_usage(const Options& options) {
-  if (options.unwrap.method == UnwrapMethod::triplanar && options.unwrap.charts == ChartSource::keep)
-    throw UsageError("--charts keep: triplanar makes its own charts");
   const std::filesystem::path output(options.output);
   if (output.extension() == ".stl" || output.extension() == ".STL")
     throw UsageError("-o " + options.output + ": STL has no place for texture coordinates");
@@ -80,9 +122,8 @@ UnwrapReport unwrap_named(const std::string& file, Scene& scene, const UnwrapOpt
 
 Json run(const Options& options, VerbContext& context) {
   check_usage(options);
+  const UnwrapOptions unwrap = unwrap_options(options);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  UnwrapOptions unwrap = options.unwrap;
-  unwrap.tile_mm = {options.tile[0], options.tile[1]};
   const UnwrapReport report = unwrap_named(options.input, scene, unwrap, context.progress);
   const SceneDistortion distortion =
       measure_scene(scene, {}, [&](std::size_t p) { return report.parts[p].failure.empty(); });
@@ -91,7 +132,7 @@ Json run(const Options& options, VerbContext& context) {
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
 
-  const std::string method = unwrap.method == UnwrapMethod::lscm ? "lscm" : "triplanar";
+  const std::string method = unwrap_method_name(unwrap.method.method);
   context.console.print(fmt::format("{}: {} charts in {:.3f} s\n", method, report.charts, report.seconds.total) +
                         distortion_text(distortion.report) + remarks(report));
   return {{"method", method},
@@ -114,27 +155,84 @@ CLI::Option* add_choice(CLI::App* verb, const std::string& name, Value& value,
       ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case).description(""));
 }
 
+/// What only some methods know; the help names them.
+void add_method_options(CLI::App& verb, Options& options) {
+  MethodOptions& m = options.unwrap.method;
+  verb.add_option("--iterations", m.iterations, "Of best, maillot, levy (rounds), arap: at most so many")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--tolerance", m.tolerance, "Of the same: stop when the error falls by less than this fraction")
+      ->check(CLI::Range(1e-15, 0.999));
+  verb.add_option("--time-limit", m.time_limit_s, "Of best, maillot, levy: stop iterating a chart after so long")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  verb.add_option("--phi", m.maillot.length_weight, "Of maillot: weight of lengths against areas")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb.add_flag("--allow-flips", m.maillot.allow_flips, "Of maillot: let triangles turn over, as the source does");
+  add_choice<MaillotStart>(&verb, "--start", m.maillot.start,
+                           {{"coarse-to-fine", MaillotStart::coarse_to_fine}, {"conformal", MaillotStart::conformal}},
+                           "Of maillot: the map to start from; coarse-to-fine (default) is valid on every disk");
+  add_choice<LevyWeights>(&verb, "--weights", m.levy.weights,
+                          {{"uniform", LevyWeights::uniform},
+                           {"cotangent", LevyWeights::cotangent},
+                           {"mean-value", LevyWeights::mean_value}},
+                          "Of levy's smoothness; default: mean-value");
+  add_choice<LevyBorder>(&verb, "--border", m.levy.border, {{"convex", LevyBorder::convex}, {"free", LevyBorder::free}},
+                         "Of levy; default: free");
+  add_choice<LevyCoupling>(&verb, "--coupling", m.levy.coupling,
+                           {{"conformal", LevyCoupling::conformal}, {"orthogonal", LevyCoupling::orthogonal}},
+                           "Of levy: conformal (default) is linear, orthogonal alternates between u and v");
+  const auto weight = [&](const char* name, double& value, const char* help) {
+    verb.add_option(name, value, help)->check(CLI::NonNegativeNumber)->capture_default_str();
+  };
+  weight("--smoothness", m.levy.smoothness, "Of levy: weight of smooth interpolation");
+  weight("--orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
+  weight("--length", m.levy.length, "Of levy: weight of even lengths");
+  add_choice<IntermediateShape>(&verb, "--shape", m.intermediate.shape,
+                                {{"sphere", IntermediateShape::sphere},
+                                 {"cylinder", IntermediateShape::cylinder},
+                                 {"cone", IntermediateShape::cone},
+                                 {"box", IntermediateShape::box}},
+                                "Of intermediate; default: box");
+  add_choice<IntermediateRule>(&verb, "--rule", m.intermediate.rule,
+                               {{"reflected-ray", IntermediateRule::reflected_ray},
+                                {"object-normal", IntermediateRule::object_normal},
+                                {"object-centroid", IntermediateRule::object_centroid},
+                                {"intermediate-normal", IntermediateRule::intermediate_normal}},
+                               "Of intermediate: how points find the shape; default: intermediate-normal");
+  verb.add_option("--direction", options.direction, "Of planar: outward direction; default: the dominant normal")
+      ->type_name("X,Y,Z");
+  verb.add_option("--eye", options.eye, "Of environment and of reflected-ray; default: in front of each part")
+      ->type_name("X,Y,Z");
+}
+
 }  // namespace
 
 void add_unwrap(CLI::App& program) {
   auto options = std::make_shared<Options>();
+  options->unwrap.method.method = UnwrapMethod::best;
   UnwrapOptions& unwrap = options->unwrap;
   CLI::App* verb = add_verb(program,
                             {"unwrap", "Make charts and texture coordinates in millimetres.",
-                             "papilla unwrap part.stl -o part.glb --method lscm --picture part.png"},
+                             "papilla unwrap part.stl -o part.glb --method best --picture part.png"},
                             [options](VerbContext& context) { return run(*options, context); });
   verb->add_option("IN", options->input, "Mesh, CAD or glTF file")->required();
   verb->add_option("-o,--output", options->output, "File with texture coordinates: .glb, .obj")->required();
-  add_choice<UnwrapMethod>(verb, "--method", unwrap.method,
-                           {{"triplanar", UnwrapMethod::triplanar}, {"lscm", UnwrapMethod::lscm}},
-                           "triplanar: projection along the axes; lscm (default): least squares conformal maps");
-  add_choice<ChartSource>(verb, "--charts", unwrap.charts,
+  add_choice<UnwrapMethod>(
+      verb, "--method", unwrap.method.method, unwrap_methods(),
+      "best (default): lowest distortion, no flips, no overlap; lscm, levy: conformal; maillot, arap: "
+      "lengths and areas; tutte, mvc: border on a circle; natural: the CAD surface's parameters; "
+      "triplanar, planar, intermediate: projections; environment: sphere map, for previews")
+      ->type_name("NAME");
+  add_choice<ChartSource>(verb, "--charts", unwrap.method.charts,
                           {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
-                          "Of lscm. auto (default): segment the surface; keep: each component is one chart");
-  add_choice<LscmSolver>(verb, "--solver", unwrap.solver,
-                         {{"cgal", LscmSolver::cgal}, {"hermitian", LscmSolver::hermitian}},
-                         "Of lscm: cgal (default) or the faster hermitian");
-  verb->add_option("--feature-angle", unwrap.segmentation.feature_angle_deg, "Edges bent by more degrees part charts")
+                          "auto (default): segment the surface; keep: each component is one chart");
+  verb->add_option("--solver", options->solver,
+                   "lscm: cgal, hermitian; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
+      ->type_name("NAME");
+  add_method_options(*verb, *options);
+  verb->add_option("--feature-angle", unwrap.method.segmentation.feature_angle_deg,
+                   "Edges bent by more degrees part charts")
       ->check(CLI::Range(1.0, 180.0))
       ->type_name("DEG")
       ->capture_default_str();
