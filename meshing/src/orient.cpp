@@ -7,7 +7,7 @@
 #include <span>
 
 #include "check_mesh.hpp"
-#include "edge_table.hpp"
+#include "repair_steps.hpp"
 
 namespace papilla {
 namespace {
@@ -43,9 +43,8 @@ struct Traversal {
 };
 
 /// The other half-edge of edges with exactly two, whichever way they run.
-std::vector<Index> neighbours(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
-  const EdgeTable edges(triangles, vertex_count);
-  std::vector<Index> neighbour(3 * triangles.size(), k_none);
+std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count) {
+  std::vector<Index> neighbour(3 * triangle_count, k_none);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.halfedges(e);
     if (h.size() != 2) continue;
@@ -146,10 +145,10 @@ void decide_senses(const TriangleMesh& mesh, Traversal& traversal) {
 
 }  // namespace
 
-OrientResult orient(TriangleMesh mesh) {
-  check_mesh(mesh, "orient");
-  OrientResult result;
-  Traversal traversal = traverse(mesh, neighbours(mesh.triangles, mesh.positions.size()), result.conflicting_edges);
+namespace detail {
+
+bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result) {
+  Traversal traversal = traverse(mesh, neighbours(edges, mesh.triangles.size()), result.conflicting_edges);
   decide_senses(mesh, traversal);
   for (const Component& c : traversal.components) {
     result.closed += c.closed;
@@ -159,6 +158,15 @@ OrientResult orient(TriangleMesh mesh) {
   }
   result.components = traversal.components.size();
   if (result.reversed > 0) reverse_triangles(mesh, traversal.turn);
+  return result.reversed > 0;
+}
+
+}  // namespace detail
+
+OrientResult orient(TriangleMesh mesh) {
+  check_mesh(mesh, "orient");
+  OrientResult result;
+  turn_over(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), result);
   result.mesh = std::move(mesh);
   return result;
 }
