@@ -8,6 +8,7 @@
 
 #include "check_mesh.hpp"
 #include "repair_steps.hpp"
+#include "union_find.hpp"
 
 namespace papilla {
 namespace {
@@ -52,6 +53,38 @@ std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count
     neighbour[h[1]] = h[0];
   }
   return neighbour;
+}
+
+/// True when no two neighbours run the same way.
+bool is_consistent(const std::vector<Triangle>& triangles, std::span<const Index> neighbour) {
+  for (Index h = 0; h < neighbour.size(); ++h)
+    if (neighbour[h] != k_none && runs_up(triangles, h) == runs_up(triangles, neighbour[h])) return false;
+  return true;
+}
+
+/// The components of a mesh that needs no turning, each in ascending order: no traversal, which would jump in memory.
+Traversal consistent_components(const TriangleMesh& mesh, std::span<const Index> neighbour) {
+  UnionFind sets(mesh.triangles.size());
+  for (Index h = 0; h < neighbour.size(); ++h)
+    if (neighbour[h] != k_none && neighbour[h] < h) sets.unite(triangle_of(h), triangle_of(neighbour[h]));
+  Index count = 0;
+  const std::vector<Index> label = sets.labels(count);
+
+  Traversal result;
+  result.components.resize(count);
+  result.turn.assign(label.size(), 0);
+  for (const Index c : label) ++result.components[c].end;
+  std::size_t begin = 0;
+  for (Component& c : result.components) {
+    const std::size_t size = c.end;
+    c.begin = c.end = begin;
+    begin += size;
+  }
+  result.order.resize(label.size());
+  for (Index t = 0; t < label.size(); ++t) result.order[result.components[label[t]].end++] = t;
+  for (Index h = 0; h < neighbour.size(); ++h)
+    if (neighbour[h] == k_none) result.components[label[triangle_of(h)]].closed = false;
+  return result;
 }
 
 /// Breadth-first through each component, turning each triangle to agree with the one it was reached from.
@@ -148,7 +181,9 @@ void decide_senses(const TriangleMesh& mesh, Traversal& traversal) {
 namespace detail {
 
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result) {
-  Traversal traversal = traverse(mesh, neighbours(edges, mesh.triangles.size()), result.conflicting_edges);
+  const std::vector<Index> neighbour = neighbours(edges, mesh.triangles.size());
+  Traversal traversal = is_consistent(mesh.triangles, neighbour) ? consistent_components(mesh, neighbour)
+                                                                 : traverse(mesh, neighbour, result.conflicting_edges);
   decide_senses(mesh, traversal);
   for (const Component& c : traversal.components) {
     result.closed += c.closed;

@@ -127,13 +127,18 @@ class Repair {
     report(0.7);
   }
 
+  /// Sheets that were linked may be closed once parted, or free to turn, which can leave new edges to part.
   void part() {
-    ManifoldResult step;
-    forget_edges_if(part_sheets(all_.mesh, edges(), ManifoldOptions{}.relative_gap * diagonal_, step));
-    all_.counts.parted_edges += step.parted_edges;
-    all_.counts.added_vertices += step.added_vertices;
-    note(&RepairDeviations::partings, step.max_deviation_mm);
-    if (step.parted_edges > 0) turn();  // sheets that were linked may now be closed, or free to turn
+    for (std::size_t round = 0; round < options_.max_passes; ++round) {
+      ManifoldResult step;
+      forget_edges_if(part_sheets(all_.mesh, edges(), ManifoldOptions{}.relative_gap * diagonal_, step));
+      all_.counts.parted_edges += step.parted_edges;
+      all_.counts.added_vertices += step.added_vertices;
+      note(&RepairDeviations::partings, step.max_deviation_mm);
+      if (step.parted_edges == 0) break;
+      turn();
+      if (!has_bad_edges(all_.mesh.triangles, edges())) break;
+    }
     report(0.8);
   }
 
