@@ -11,12 +11,12 @@ namespace papilla {
 
 /// Options of repair(). The defaults are relative to the part, so they serve any size.
 struct RepairOptions {
-  std::optional<double> weld_mm;    ///< Weld tolerance; not given: 1e-6 of the bounding diagonal.
-  std::optional<double> stitch_mm;  ///< Widest gap between faces that is closed; not given: 2e-4 of the diagonal;
-                                    ///< 0: gaps stay.
-  double fill_holes_mm = 0;         ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
-  std::size_t max_passes = 8;       ///< At least 1.
-  Progress progress;                ///< Told the fraction done; may be empty.
+  std::optional<double> weld_mm = {};    ///< Weld tolerance; not given: 1e-6 of the bounding diagonal.
+  std::optional<double> stitch_mm = {};  ///< Widest gap between faces that is closed; not given: 2e-4 of the diagonal;
+                                         ///< 0: gaps stay.
+  double fill_holes_mm = 0;              ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
+  std::size_t max_passes = 8;            ///< At least 1.
+  Progress progress = {};                ///< Told the fraction done; may be empty.
 };
 
 /// What each operation did, summed over the passes.
