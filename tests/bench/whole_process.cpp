@@ -7,8 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -20,6 +24,26 @@ namespace {
 
 double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// The child's peak so far; 0 when it has ended. What wait4() says includes the memory of the process that forked it.
+std::size_t peak_bytes_of(pid_t child) {
+  std::ifstream status("/proc/" + std::to_string(child) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::stoul(line.substr(6));
+  return 0;
+}
+
+/// Waits for the child's end, looking at its memory every two milliseconds.
+std::size_t watch(pid_t child, int& status, rusage& used) {
+  std::size_t peak = 0;
+  while (true) {
+    const pid_t ended = wait4(child, &status, WNOHANG, &used);
+    if (ended != 0) break;
+    peak = std::max(peak, peak_bytes_of(child));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return peak;
 }
 
 }  // namespace
@@ -41,10 +65,10 @@ ProcessCost run_process(const std::vector<std::string>& command) {
 
   int status = 0;
   rusage used{};
-  if (wait4(child, &status, 0, &used) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+  const std::size_t peak = watch(child, status, used);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw IoError(command[0] + ": failed with status " + std::to_string(status));
-  return {clock.seconds(), seconds_of(used.ru_utime) + seconds_of(used.ru_stime),
-          1024 * static_cast<std::size_t>(used.ru_maxrss)};
+  return {clock.seconds(), seconds_of(used.ru_utime) + seconds_of(used.ru_stime), peak};
 }
 
 bool has_program(const std::string& name) {
