@@ -16,6 +16,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/read_file.hpp"
 #include "polygon_triangulation.hpp"
+#include "srgb.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {
@@ -49,9 +50,9 @@ class NameTable {
   std::vector<std::string> names_;
 };
 
-float linear_from_srgb(double c) {
-  c = std::clamp(c, 0.0, 1.0);
-  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+Color linear_color(const double* srgb) {
+  const auto channel = [&](int k) { return static_cast<float>(linear_from_srgb(srgb[k])); };
+  return {channel(0), channel(1), channel(2), 1};
 }
 
 /// What the lines say, before anything is put together.
@@ -192,8 +193,7 @@ class ObjParser {
       const double* c = n + (count == 6 ? 3 : 4);
       const bool good = std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]);
       if (!good) note(bad_colors_);
-      content_.colors.push_back(good ? Color{linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2]), 1}
-                                     : Color{});
+      content_.colors.push_back(good ? linear_color(c) : Color{});
     }
   }
 

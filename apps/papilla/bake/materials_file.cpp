@@ -169,6 +169,8 @@ MaterialsFile read_materials_file(const std::filesystem::path& path) {
     json = Json::parse(in);
   } catch (const Json::parse_error& parse_error) {
     throw InvalidInput(path.string() + ": byte " + std::to_string(parse_error.byte) + ": is no valid JSON");
+  } catch (const Json::out_of_range&) {
+    throw InvalidInput(path.string() + ": holds a number beyond the range of 64-bit floats");
   }
   const Value root(json, path.string(), "");
   root.expect_keys({"$schema", "version", "materials", "assign", "$comment"});
