@@ -17,6 +17,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
+#include "scene_losses.hpp"
 #include "trs.hpp"
 
 namespace papilla {
@@ -167,7 +168,8 @@ void write_container(std::ostream& out, const std::string& json, const GlbBuffer
 
 }  // namespace
 
-void write_glb(const Scene& scene, const std::filesystem::path& path, const GlbWriteOptions& options) {
+std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
+                                   const GlbWriteOptions& options) {
   Json gltf = {{"asset", asset_of(scene)}};
   GlbBuffer buffer;
   MaterialWriter materials(scene, buffer);
@@ -188,6 +190,10 @@ void write_glb(const Scene& scene, const std::filesystem::path& path, const GlbW
     out.close();
     if (!out) throw IoError(path.string() + ": cannot be written");
   });
+  FormatKeeps keeps;
+  keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
+  keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
+  return scene_losses(scene, keeps);
 }
 
 }  // namespace papilla

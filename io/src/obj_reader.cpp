@@ -289,7 +289,7 @@ class MaterialTable {
   std::uint32_t number(const std::string& name) {
     const auto found = by_name_.find(name);
     if (found != by_name_.end()) return found->second;
-    if (!name.empty()) scene_.warnings.push_back("material '" + name + "' is not defined");
+    if (!name.empty()) scene_.warnings.push_back("material '" + one_line(name) + "' is not defined");
     Material material;
     material.name = name.empty() ? "default" : name;
     scene_.materials.push_back(std::move(material));
@@ -299,13 +299,14 @@ class MaterialTable {
  private:
   /// The whole rest of the line is a name with spaces, or else a list of names.
   void read_library(const std::string& names, const std::filesystem::path& folder) {
-    if (std::filesystem::is_regular_file(folder / names)) return read_mtl(folder / names, scene_);
+    std::error_code error;  // A name that no file can have is a missing file.
+    if (std::filesystem::is_regular_file(folder / names, error)) return read_mtl(folder / names, scene_);
     std::string_view rest = names;
     for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest)) {
-      if (std::filesystem::is_regular_file(folder / name))
+      if (std::filesystem::is_regular_file(folder / name, error))
         read_mtl(folder / name, scene_);
       else
-        scene_.warnings.push_back("material library '" + std::string(name) + "' is missing");
+        scene_.warnings.push_back("material library '" + one_line(name) + "' is missing");
     }
   }
 

@@ -114,7 +114,10 @@ bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, 
   return true;
 }
 
-bool file_exists(const std::string& path, void*) { return std::filesystem::is_regular_file(path); }
+bool file_exists(const std::string& path, void*) {
+  std::error_code error;  // A name that no file can have is a missing file.
+  return std::filesystem::is_regular_file(path, error);
+}
 
 std::string same_path(const std::string& path, void*) { return path; }
 
