@@ -49,7 +49,7 @@ class OffSource {
     OffKind kind;
     const std::size_t begin = at_;
     std::string_view word = this->word();
-    if (word.empty() || !is_letter(word.front())) {
+    if (word.find_first_not_of("+-.0123456789eE") == std::string_view::npos) {  // The first number.
       at_ = begin;
       return kind;
     }
@@ -124,8 +124,6 @@ class OffSource {
   }
 
  private:
-  static bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '4'; }
-
   /// Skips white space and comments, up to the line's end or beyond it.
   void skip_blank(bool over_lines) {
     while (at_ < bytes_.size()) {

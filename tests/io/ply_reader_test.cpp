@@ -172,7 +172,7 @@ TEST_F(PlyReader, EveryPrefixIsRefused) {
 
 TEST_F(PlyReader, MessagesNameThePlace) {
   EXPECT_NE(refusal("plx\n").find("line 1"), std::string::npos);
-  EXPECT_NE(refusal(header("ascii", k_vertices + k_faces) + k_corners + "3 0 1 4\n").find("line 13: vertex 4 of 4"),
+  EXPECT_NE(refusal(header("ascii", k_vertices + k_faces) + k_corners + "3 0 1 4\n").find("line 14: vertex 4 of 4"),
             std::string::npos);
   EXPECT_NE(refusal(header("ascii", k_vertices + k_faces) + k_corners + "3 0 1 -1\n").find("vertex -1"),
             std::string::npos);

@@ -17,9 +17,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// A step of a JSON pointer, on one line whatever the key.
 std::string escaped(std::string_view key) {
   std::string out;
   for (const char c : key) {
+    if (static_cast<unsigned char>(c) < 0x20) { out += '?'; continue; }
     if (c == '~') out += "~0";
     else if (c == '/') out += "~1";
     else out += c;
