@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <set>
 
@@ -16,6 +17,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
+#include "scene_losses.hpp"
 #include "trs.hpp"
 
 namespace papilla {
@@ -138,52 +140,60 @@ void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
-void append_word(std::string& bytes, std::size_t value) {
-  const auto word = static_cast<std::uint32_t>(value);
-  for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xffU);
-}
+constexpr std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
 
-void append_chunk(std::string& bytes, std::size_t type, const std::string& content, char padding) {
-  const std::size_t length = (content.size() + 3) / 4 * 4;
-  append_word(bytes, length);
-  append_word(bytes, type);
-  bytes += content;
-  bytes.append(length - content.size(), padding);
+void write_word(std::ostream& out, std::size_t value) {
+  const auto word = static_cast<std::uint32_t>(value);
+  out.write(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
 /// The container of glTF 2.0, 4.4.
-std::string glb_bytes(const std::string& json, const std::string& binary) {
+void write_container(std::ostream& out, const std::string& json, const GlbBuffer& binary) {
   constexpr std::size_t k_json = 0x4e4f534a, k_bin = 0x004e4942;
-  const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
-  const std::size_t length = 12 + 8 + padded(json.size()) + (binary.empty() ? 0 : 8 + padded(binary.size()));
+  const std::size_t length = 12 + 8 + padded(json.size()) + (binary.size() == 0 ? 0 : 8 + padded(binary.size()));
   if (length > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(fmt::format("write_glb: {} bytes exceed glTF's limit of 4 GiB", length));
-  std::string bytes = "glTF";
-  bytes.reserve(length);
-  append_word(bytes, 2);
-  append_word(bytes, length);
-  append_chunk(bytes, k_json, json, ' ');
-  if (!binary.empty()) append_chunk(bytes, k_bin, binary, '\0');
-  return bytes;
+  out << "glTF";
+  write_word(out, 2);
+  write_word(out, length);
+  write_word(out, padded(json.size()));
+  write_word(out, k_json);
+  out << json << std::string(padded(json.size()) - json.size(), ' ');
+  if (binary.size() == 0) return;
+  write_word(out, padded(binary.size()));
+  write_word(out, k_bin);
+  binary.write(out);
+  out << std::string(padded(binary.size()) - binary.size(), '\0');
 }
 
 }  // namespace
 
-void write_glb(const Scene& scene, const std::filesystem::path& path, const GlbWriteOptions& options) {
+std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
+                                   const GlbWriteOptions& options) {
   Json gltf = {{"asset", asset_of(scene)}};
   GlbBuffer buffer;
   MaterialWriter materials(scene, buffer);
   materials.write(gltf);
   NodeWriter(scene, options, materials.needs(), buffer, gltf).write();
-  if (!buffer.bytes().empty()) {
-    gltf["buffers"] = Json::array({{{"byteLength", buffer.bytes().size()}}});
+  if (buffer.size() > 0) {
+    gltf["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
     gltf["bufferViews"] = buffer.views();
   }
   if (!buffer.accessors().empty()) gltf["accessors"] = buffer.accessors();
   std::set<std::string> extensions;
   collect_extensions(gltf, extensions);
   if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
-  write_atomically(path, glb_bytes(gltf.dump(-1, ' ', false, Json::error_handler_t::replace), buffer.bytes()));
+  const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    write_container(out, json, buffer);
+    out.close();
+    if (!out) throw IoError(path.string() + ": cannot be written");
+  });
+  FormatKeeps keeps;
+  keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
+  keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
+  return scene_losses(scene, keeps);
 }
 
 }  // namespace papilla

@@ -16,6 +16,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/read_file.hpp"
 #include "polygon_triangulation.hpp"
+#include "srgb.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {
@@ -49,9 +50,9 @@ class NameTable {
   std::vector<std::string> names_;
 };
 
-float linear_from_srgb(double c) {
-  c = std::clamp(c, 0.0, 1.0);
-  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+Color linear_color(const double* srgb) {
+  const auto channel = [&](int k) { return static_cast<float>(linear_from_srgb(srgb[k])); };
+  return {channel(0), channel(1), channel(2), 1};
 }
 
 /// What the lines say, before anything is put together.
@@ -192,8 +193,7 @@ class ObjParser {
       const double* c = n + (count == 6 ? 3 : 4);
       const bool good = std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]);
       if (!good) note(bad_colors_);
-      content_.colors.push_back(good ? Color{linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2]), 1}
-                                     : Color{});
+      content_.colors.push_back(good ? linear_color(c) : Color{});
     }
   }
 
@@ -289,7 +289,7 @@ class MaterialTable {
   std::uint32_t number(const std::string& name) {
     const auto found = by_name_.find(name);
     if (found != by_name_.end()) return found->second;
-    if (!name.empty()) scene_.warnings.push_back("material '" + name + "' is not defined");
+    if (!name.empty()) scene_.warnings.push_back("material '" + one_line(name) + "' is not defined");
     Material material;
     material.name = name.empty() ? "default" : name;
     scene_.materials.push_back(std::move(material));
@@ -299,13 +299,14 @@ class MaterialTable {
  private:
   /// The whole rest of the line is a name with spaces, or else a list of names.
   void read_library(const std::string& names, const std::filesystem::path& folder) {
-    if (std::filesystem::is_regular_file(folder / names)) return read_mtl(folder / names, scene_);
+    std::error_code error;  // A name that no file can have is a missing file.
+    if (std::filesystem::is_regular_file(folder / names, error)) return read_mtl(folder / names, scene_);
     std::string_view rest = names;
     for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest)) {
-      if (std::filesystem::is_regular_file(folder / name))
+      if (std::filesystem::is_regular_file(folder / name, error))
         read_mtl(folder / name, scene_);
       else
-        scene_.warnings.push_back("material library '" + std::string(name) + "' is missing");
+        scene_.warnings.push_back("material library '" + one_line(name) + "' is missing");
     }
   }
 

@@ -17,9 +17,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// A step of a JSON pointer, on one line whatever the key.
 std::string escaped(std::string_view key) {
   std::string out;
   for (const char c : key) {
+    if (static_cast<unsigned char>(c) < 0x20) { out += '?'; continue; }
     if (c == '~') out += "~0";
     else if (c == '/') out += "~1";
     else out += c;
@@ -169,6 +171,8 @@ MaterialsFile read_materials_file(const std::filesystem::path& path) {
     json = Json::parse(in);
   } catch (const Json::parse_error& parse_error) {
     throw InvalidInput(path.string() + ": byte " + std::to_string(parse_error.byte) + ": is no valid JSON");
+  } catch (const Json::out_of_range&) {
+    throw InvalidInput(path.string() + ": holds a number beyond the range of 64-bit floats");
   }
   const Value root(json, path.string(), "");
   root.expect_keys({"$schema", "version", "materials", "assign", "$comment"});

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "papilla/io/scene.hpp"
 
@@ -19,8 +21,10 @@ struct GlbWriteOptions {
 /// states the source's format and unit. CAD (u,v), face numbers, references to missing pictures and to texture channels
 /// above 1 have no place in glTF and are left out. The file has no errors or warnings in the Khronos validator, the
 /// same scene gives the same bytes, and a failure leaves the old file as it was.
+/// @returns what has no place in glTF, one sentence each.
 /// @throws InvalidInput naming the part, node or material: a number is not finite, an index is out of range, a node's
 ///         transform shears, JSON can't be parsed, or the result exceeds 4 GiB. IoError when writing fails.
-void write_glb(const Scene& scene, const std::filesystem::path& path, const GlbWriteOptions& options = {});
+std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
+                                   const GlbWriteOptions& options = {});
 
 }  // namespace papilla
