@@ -43,6 +43,11 @@ struct Traversal {
   std::vector<Component> components;
 };
 
+/// The volume of the tetrahedron over a triangle.
+double volume_over(const TriangleMesh& mesh, Index t, const Vec3& origin) {
+  return dot(mesh.corner(t, 0) - origin, cross(mesh.corner(t, 1) - origin, mesh.corner(t, 2) - origin)) / 6;
+}
+
 /// The other half-edge of edges with exactly two, whichever way they run.
 std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count) {
   std::vector<Index> neighbour(3 * triangle_count, k_none);
@@ -55,44 +60,52 @@ std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count
   return neighbour;
 }
 
-/// True when no two neighbours run the same way.
-bool is_consistent(const std::vector<Triangle>& triangles, std::span<const Index> neighbour) {
-  for (Index h = 0; h < neighbour.size(); ++h)
-    if (neighbour[h] != k_none && runs_up(triangles, h) == runs_up(triangles, neighbour[h])) return false;
-  return true;
-}
+/// The components of a mesh as they are, found by streaming through it, where a traversal would jump.
+struct ComponentsAsTheyAre {
+  std::vector<Component> components;  ///< Without ranges and boxes.
+  std::vector<Index> of_triangle;
+  std::vector<std::uint8_t> consistent;  ///< Per component: all neighbours agree.
+};
 
-/// The components of a mesh that needs no turning, each in ascending order: no traversal, which would jump in memory.
-Traversal consistent_components(const TriangleMesh& mesh, std::span<const Index> neighbour) {
+ComponentsAsTheyAre components_as_they_are(const TriangleMesh& mesh, const EdgeTable& edges) {
   UnionFind sets(mesh.triangles.size());
-  for (Index h = 0; h < neighbour.size(); ++h)
-    if (neighbour[h] != k_none && neighbour[h] < h) sets.unite(triangle_of(h), triangle_of(neighbour[h]));
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (const auto h = edges.halfedges(e); h.size() == 2) sets.unite(triangle_of(h[0]), triangle_of(h[1]));
   Index count = 0;
-  const std::vector<Index> label = sets.labels(count);
-
-  Traversal result;
+  ComponentsAsTheyAre result;
+  result.of_triangle = sets.labels(count);
   result.components.resize(count);
-  result.turn.assign(label.size(), 0);
-  for (const Index c : label) ++result.components[c].end;
-  std::size_t begin = 0;
-  for (Component& c : result.components) {
-    const std::size_t size = c.end;
-    c.begin = c.end = begin;
-    begin += size;
+  result.consistent.assign(count, 1);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.halfedges(e);
+    if (h.size() != 2)
+      for (const Index half : h) result.components[result.of_triangle[triangle_of(half)]].closed = false;
+    else if (runs_up(mesh.triangles, h[0]) == runs_up(mesh.triangles, h[1]))
+      result.consistent[result.of_triangle[triangle_of(h[0])]] = 0;
   }
-  result.order.resize(label.size());
-  for (Index t = 0; t < label.size(); ++t) result.order[result.components[label[t]].end++] = t;
-  for (Index h = 0; h < neighbour.size(); ++h)
-    if (neighbour[h] == k_none) result.components[label[triangle_of(h)]].closed = false;
+  std::vector<Index> first(count, k_none);
+  for (Index t = 0; t < result.of_triangle.size(); ++t) {
+    const Index c = result.of_triangle[t];
+    if (first[c] == k_none) first[c] = t;
+    result.components[c].volume += volume_over(mesh, t, mesh.corner(first[c], 0));
+  }
   return result;
 }
 
+/// True when a closed, consistent component encloses a negative volume: a cavity, or inside out.
+bool has_inward(const ComponentsAsTheyAre& found) {
+  for (std::size_t c = 0; c < found.components.size(); ++c)
+    if (found.consistent[c] && found.components[c].closed && found.components[c].volume < 0) return true;
+  return false;
+}
+
 /// Breadth-first through each component, turning each triangle to agree with the one it was reached from.
-Traversal traverse(const TriangleMesh& mesh, std::span<const Index> neighbour, std::size_t& conflicts) {
+/// Triangles flagged in `seen` are left out.
+Traversal traverse(const TriangleMesh& mesh, std::span<const Index> neighbour, std::vector<std::uint8_t> seen,
+                   std::size_t& conflicts) {
   Traversal result;
   result.order.reserve(mesh.triangles.size());
   result.turn.assign(mesh.triangles.size(), 0);
-  std::vector<std::uint8_t> seen(mesh.triangles.size(), 0);
   std::size_t conflict_halfedges = 0;
   for (Index seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (seen[seed]) continue;
@@ -133,9 +146,8 @@ void measure(const TriangleMesh& mesh, const Traversal& traversal, Component& co
   component.box = {origin, origin};
   for (std::size_t i = component.begin; i < component.end; ++i) {
     const Index t = traversal.order[i];
-    const Vec3 a = mesh.corner(t, 0) - origin, b = mesh.corner(t, 1) - origin, c = mesh.corner(t, 2) - origin;
     for (int k = 0; k < 3; ++k) component.box.include(mesh.corner(t, k));
-    component.volume += (traversal.turn[t] ? -1 : 1) * dot(a, cross(b, c)) / 6;
+    component.volume += (traversal.turn[t] ? -1 : 1) * volume_over(mesh, t, origin);
   }
 }
 
@@ -181,9 +193,17 @@ void decide_senses(const TriangleMesh& mesh, Traversal& traversal) {
 namespace detail {
 
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result) {
-  const std::vector<Index> neighbour = neighbours(edges, mesh.triangles.size());
-  Traversal traversal = is_consistent(mesh.triangles, neighbour) ? consistent_components(mesh, neighbour)
-                                                                 : traverse(mesh, neighbour, result.conflicting_edges);
+  const ComponentsAsTheyAre found = components_as_they_are(mesh, edges);
+  std::vector<std::uint8_t> fine(mesh.triangles.size(), 0);
+  if (!has_inward(found)) {
+    for (Index t = 0; t < fine.size(); ++t) fine[t] = found.consistent[found.of_triangle[t]];
+    for (std::size_t c = 0; c < found.components.size(); ++c)
+      result.closed += found.consistent[c] && found.components[c].closed;
+    result.components = static_cast<std::size_t>(std::count(found.consistent.begin(), found.consistent.end(), 1));
+    if (result.components == found.components.size()) return false;
+  }
+  Traversal traversal =
+      traverse(mesh, neighbours(edges, mesh.triangles.size()), std::move(fine), result.conflicting_edges);
   decide_senses(mesh, traversal);
   for (const Component& c : traversal.components) {
     result.closed += c.closed;
@@ -191,7 +211,7 @@ bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result)
     if (c.turn_all)
       for (std::size_t i = c.begin; i < c.end; ++i) traversal.turn[traversal.order[i]] ^= 1;
   }
-  result.components = traversal.components.size();
+  result.components += traversal.components.size();
   if (result.reversed > 0) reverse_triangles(mesh, traversal.turn);
   return result.reversed > 0;
 }

@@ -43,6 +43,7 @@ class Repair {
       all_.settled = !changed_surface(before, all_.counts) || is_clean();
       report(1);
     }
+    move_to_end(all_.mesh, std::move(touching_));  // where another repair would put them
     drop_unused(all_.mesh);
     return std::move(all_);
   }
@@ -68,6 +69,7 @@ class Repair {
 
   /// Splitting T-junctions can fold a border onto itself, and such doubles must go before edges are parted.
   void clean() {
+    touching_.clear();
     const std::size_t merged = merge_equal(all_.mesh);
     all_.counts.welded_equal += merged;
     forget_edges_if(true);
@@ -131,7 +133,7 @@ class Repair {
   void part() {
     for (std::size_t round = 0; round < options_.max_passes; ++round) {
       ManifoldResult step;
-      forget_edges_if(part_sheets(all_.mesh, edges(), ManifoldOptions{}.relative_gap * diagonal_, step));
+      forget_edges_if(part_sheets(all_.mesh, edges(), ManifoldOptions{}.relative_gap * diagonal_, step, touching_));
       all_.counts.parted_edges += step.parted_edges;
       all_.counts.added_vertices += step.added_vertices;
       note(&RepairDeviations::partings, step.max_deviation_mm);
@@ -178,6 +180,7 @@ class Repair {
   RepairResult all_;
   double diagonal_ = 0;
   std::optional<EdgeTable> edges_;
+  std::vector<TouchingCopy> touching_;  ///< Of this pass.
 };
 
 void check_options(const RepairOptions& options) {

@@ -25,8 +25,17 @@ bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, DuplicateResult
 bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result);
 bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, TJunctionResult& result);
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result);
-bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result);
+/// A copy of a vertex for a fan that touches others only in that point, and the vertex: they stay in one place.
+struct TouchingCopy {
+  Index original, copy;
+  auto operator<=>(const TouchingCopy&) const = default;
+};
+bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result,
+                 std::vector<TouchingCopy>& touching);
 bool fill_borders(TriangleMesh& mesh, const EdgeTable& edges, const FillHolesOptions& options, FillHolesResult& result);
+
+/// Renumbers vertices so that the given copies come last, in the order of their originals.
+void move_to_end(TriangleMesh& mesh, std::vector<TouchingCopy> copies);
 
 /// What another pass would look for; see repair().
 bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction);
