@@ -64,7 +64,7 @@ inline Vec3 closest_on_triangle(const Vec3& p, const TriangleFrame& t) noexcept 
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
     return t.a + t.ab + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (t.ac - t.ab);
-  constexpr double k_needle = 1e-8;  // (altitude / edge)² below which the products above cancel too far
+  constexpr double k_needle = 1e-4;  // (altitude / edge)² below which the products above cancel too far
   if (va + vb + vc < k_needle * dot(t.ab, t.ab) * dot(t.ac, t.ac)) return foot_on_plane(ap, t) + t.a;
   const double scale = 1 / (va + vb + vc);
   return t.a + (vb * scale) * t.ab + (vc * scale) * t.ac;

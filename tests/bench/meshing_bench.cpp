@@ -132,8 +132,8 @@ struct Outcome {
   bool settled = true, again_same = true;
 };
 
-/// Distances below this fraction of the diagonal are rounding.
-constexpr double k_rounding = 1e-12;
+/// Distances below this fraction of the diagonal are rounding: single precision resolves six times that.
+constexpr double k_rounding = 1e-8;
 
 std::size_t defects(const MeshStatistics& s) {
   return s.nonmanifold_edges + s.degenerate_triangles + s.duplicate_triangles + s.flipped_edges + s.t_junctions;
