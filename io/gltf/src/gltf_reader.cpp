@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "gltf_levels.hpp"
 #include "gltf_material.hpp"
 #include "gltf_mesh.hpp"
 #include "papilla/core/error.hpp"
@@ -152,7 +153,8 @@ void note_losses(const Document& document, Scene& scene) {
   if (!model.asset.copyright.empty()) scene.losses.push_back("copyright notice: " + model.asset.copyright);
   std::set<std::string> extensions;
   for (const tinygltf::Node& node : model.nodes)
-    for (const auto& [name, value] : node.extensions) extensions.insert(name + " of nodes");
+    for (const auto& [name, value] : node.extensions)
+      if (name != "MSFT_lod") extensions.insert(name + " of nodes");
   for (const tinygltf::Mesh& mesh : model.meshes)
     for (const auto& [name, value] : mesh.extensions) extensions.insert(name + " of meshes");
   for (const auto& [name, value] : model.extensions) extensions.insert(name + " of the file");
@@ -174,6 +176,7 @@ Scene read_gltf(const std::filesystem::path& path) {
   gltf::read_parts(document, reader, scene);
   read_nodes(document, scene);
   read_roots(document, scene);
+  gltf::keep_finest_levels(document, scene);
   note_losses(document, scene);
   try {
     assign_part_ids(scene);

@@ -11,7 +11,8 @@ namespace papilla {
 /// Metres become millimetres, v becomes 1 − v; triangles, strips and fans become triangles; sparse accessors and
 /// node transforms are honoured. One part per glTF mesh, in the same order, with its primitives' materials as slots;
 /// positions equal in every bit are merged within a part, so that uv seams do not tear the surface. Skins, morph
-/// targets, animations, cameras, lights, points and lines are listed in `losses`; pictures that are missing in
+/// targets, animations, cameras, lights, points, lines and coarser levels of detail (MSFT_lod: the finest is read) are
+/// listed in `losses`; pictures that are missing in
 /// `warnings`. Links no library but tinygltf, so that the player can use it.
 ///
 /// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says. No count is believed before
