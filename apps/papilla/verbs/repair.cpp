@@ -12,6 +12,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "scene_options.hpp"
+#include "shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 struct RepairVerbOptions {
   std::string in, out;
   std::optional<double> weld_mm;
+  bool keep_copies = false;
   SceneOptions read;
 };
 
@@ -70,6 +72,9 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
   const Stopwatch clock;
   Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
   const MeshStatistics before = total_statistics(part_statistics(scene, context.progress));
+  std::vector<SharedPart> shared;
+  if (!options.keep_copies) shared = share_identical_parts(scene);
+  const Json identical = shared_parts_json(shared, scene);
   const std::vector<RepairResult> results = repair_parts(scene, options, context.progress);
   const MeshStatistics after = total_statistics(part_statistics(scene, context.progress));
   show_both_sides(scene, results);
@@ -91,6 +96,7 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
           {"weld_tolerance_mm", tolerance},
           {"operations", operations_json(results)},
           {"parts", scene.parts.size()},
+          {"identical_parts", identical},
           {"unsettled", unsettled},
           {"seconds", clock.seconds()},
           {"output", options.out}};
@@ -109,6 +115,7 @@ void add_repair(CLI::App& program) {
   verb->add_option("--weld", options->weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
+  verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);
 }
 
