@@ -82,34 +82,55 @@ class BudgetRun {
     return error / 2;
   }
 
-  IndexLists within(const IndexLists& from, double tolerance_mm) const {
-    IndexLists result(from.size());
+  IndexLists within(double tolerance_mm) const {
+    IndexLists result(parts_.size());
     each([&](std::size_t i) {
       Trace trace;
-      result[i] = simplifiers_[i]->within(from[i], tolerance_mm / parts_[i].importance, 0, clock_, trace);
+      result[i] =
+          simplifiers_[i]->within(simplifiers_[i]->all(), tolerance_mm / parts_[i].importance, 0, clock_, trace);
     });
     return result;
   }
 
-  /// Bisects between a tolerance that is too small and one that is not, both held by measurement. `error` is a guess
-  /// that is right to a factor of about two. Leaves the best result in `indices`, which meets the budget unmeasured.
+  /// A tolerance that was tried, with what it drew.
+  struct Trial {
+    double tolerance_mm = 0;
+    std::size_t triangles = 0;
+  };
+
+  /// Between two trials: where a power law through both meets a count just below the budget, but not too near to
+  /// either.
+  double next_tolerance(const Trial& low, const Trial& high) const {
+    constexpr double k_least_step = 0.1;
+    const double wanted = 0.5 * (1 + k_used) * static_cast<double>(budget_);
+    const auto logarithm = [](std::size_t n) { return std::log(std::max(1.0, static_cast<double>(n))); };
+    const double fall = logarithm(low.triangles) - logarithm(high.triangles);
+    const double share = fall > 0 ? (logarithm(low.triangles) - std::log(std::max(1.0, wanted))) / fall : 0.5;
+    return low.tolerance_mm *
+           std::pow(high.tolerance_mm / low.tolerance_mm, std::clamp(share, k_least_step, 1 - k_least_step));
+  }
+
+  /// Looks between a tolerance that is too small and one that is not, both held by measurement. `error` is a guess that
+  /// is right to a factor of about two. Leaves the best result in `indices`, which meets the budget unmeasured.
   double find_tolerance(double error, IndexLists& indices, Trace& trace) const {
-    double low = 0, high = std::numeric_limits<double>::infinity(), tolerance = error;
-    IndexLists finer = whole();
+    Trial low, high;
+    double tolerance = error;
     for (int trial = 0; trial < k_most_trials; ++trial) {
-      IndexLists tried = within(finer, tolerance);
+      IndexLists tried = within(tolerance);
       note(tried, trace);
       const std::size_t count = drawn(tried);
-      (count <= budget_ ? high : low) = tolerance;
-      (count <= budget_ ? indices : finer) = std::move(tried);
+      (count <= budget_ ? high : low) = {tolerance, count};
+      if (count <= budget_) indices = std::move(tried);
       const bool is_used = count <= budget_ && static_cast<double>(count) >= k_used * static_cast<double>(budget_);
-      if (is_used || (low > 0 && high <= k_narrow * low)) break;
-      if (low > 0 && std::isfinite(high))
-        tolerance = std::sqrt(low * high);
+      if (is_used ||
+          (low.tolerance_mm > 0 && high.tolerance_mm > 0 && high.tolerance_mm <= k_narrow * low.tolerance_mm))
+        break;
+      if (low.tolerance_mm > 0 && high.tolerance_mm > 0)
+        tolerance = next_tolerance(low, high);
       else
-        tolerance *= std::isfinite(high) ? 0.5 : 2;
+        tolerance *= high.tolerance_mm > 0 ? 0.5 : 2;
     }
-    return std::isfinite(high) ? high : 0;
+    return high.tolerance_mm;
   }
 
   void measure(const IndexLists& indices, BudgetResult& result) const {
