@@ -58,21 +58,81 @@ class NodeWriter {
   void write() {
     const std::vector<Instance> used = instances(scene_);
     mesh_of_part_.resize(scene_.parts.size());
+    levels_of_part_.resize(scene_.parts.size());
     std::set<std::uint32_t> parts;
     for (const Instance& instance : used) parts.insert(instance.part);
-    for (const std::uint32_t part : parts) write_mesh(part);
+    for (const std::uint32_t part : parts) mesh_of_part_[part] = write_mesh(scene_.parts[part]);
+    for (const std::uint32_t part : parts) write_levels(part);
     number_nodes();
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i)
       if (node_number_[i]) gltf_["nodes"].push_back(node(i));
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i)
+      if (node_number_[i]) add_level_nodes(i);
     write_scene();
   }
 
  private:
-  void write_mesh(std::uint32_t part) {
-    Json mesh = glb_mesh(scene_.parts[part], needs_, options_, buffer_);
-    if (mesh.is_null()) return;
-    mesh_of_part_[part] = gltf_["meshes"].size();
+  std::optional<std::size_t> write_mesh(const Part& part) {
+    Json mesh = glb_mesh(part, needs_, options_, buffer_);
+    if (mesh.is_null()) return std::nullopt;
     gltf_["meshes"].push_back(std::move(mesh));
+    return gltf_["meshes"].size() - 1;
+  }
+
+  /// A level without triangles ends the chain: there is nothing to show from there on.
+  void write_levels(std::uint32_t number) {
+    const Part& part = scene_.parts[number];
+    if (!mesh_of_part_[number]) return;
+    double coverage = 1;
+    for (const PartLevel& source : part.levels) {
+      if (!(source.screen_coverage >= 0 && source.screen_coverage <= coverage))
+        throw InvalidInput(
+            fmt::format("write_glb: part '{}': level {} has a screen coverage of {}, which is not in [0, {}]",
+                        part.name, levels_of_part_[number].size() + 1, source.screen_coverage, coverage));
+      coverage = source.screen_coverage;
+      Part level;
+      level.name = level_name(part.name, levels_of_part_[number].size() + 1);
+      level.mesh = source.mesh;
+      level.materials = part.materials;
+      const auto mesh = write_mesh(level);
+      if (!mesh) return;
+      levels_of_part_[number].push_back(*mesh);
+    }
+  }
+
+  static std::string level_name(const std::string& name, std::size_t level) {
+    return name.empty() ? name : fmt::format("{}_LOD{}", name, level);
+  }
+
+  /// The nodes of the coarser levels stand where the node that lists them stands.
+  void add_level_nodes(std::size_t number) {
+    const Node& source = scene_.nodes[number];
+    if (!source.part || levels_of_part_[*source.part].empty()) return;
+    const std::vector<std::size_t>& meshes = levels_of_part_[*source.part];
+    std::size_t shown = *node_number_[number];
+    Json place = Json::object();
+    if (gltf_["nodes"][shown].contains("children")) {
+      gltf_["nodes"][shown]["children"].push_back(gltf_["nodes"].size());
+      Json leaf = {{"mesh", gltf_["nodes"][shown]["mesh"]}};
+      if (!source.name.empty()) leaf["name"] = level_name(source.name, 0);
+      gltf_["nodes"][shown].erase("mesh");
+      shown = gltf_["nodes"].size();
+      gltf_["nodes"].push_back(std::move(leaf));
+    } else {
+      put_transform(source.local, "write_glb", place);
+    }
+    Json ids = Json::array(), coverages = Json::array();
+    for (std::size_t level = 0; level < meshes.size(); ++level) {
+      ids.push_back(gltf_["nodes"].size());
+      coverages.push_back(scene_.parts[*source.part].levels[level].screen_coverage);
+      Json node = place;
+      if (!source.name.empty()) node["name"] = level_name(source.name, level + 1);
+      node["mesh"] = meshes[level];
+      gltf_["nodes"].push_back(std::move(node));
+    }
+    coverages.push_back(0);  // the coarsest level never vanishes
+    gltf_["nodes"][shown]["extensions"]["MSFT_lod"]["ids"] = std::move(ids);
+    gltf_["nodes"][shown]["extras"]["MSFT_screencoverage"] = std::move(coverages);
   }
 
   void number_nodes() {
@@ -124,6 +184,7 @@ class NodeWriter {
   GlbBuffer& buffer_;
   Json& gltf_;
   std::vector<std::optional<std::size_t>> mesh_of_part_, node_number_;
+  std::vector<std::vector<std::size_t>> levels_of_part_;
 };
 
 /// The names below any "extensions" of the document; extras are nobody's business.

@@ -13,6 +13,7 @@
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/deviation.hpp"
 #include "scene_options.hpp"
+#include "shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -23,6 +24,7 @@ struct RepairVerbOptions {
   std::string in, out;
   RepairOptions repair;
   bool verify = false;
+  bool keep_copies = false;
   SceneOptions read;
 };
 
@@ -96,6 +98,9 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
   const Stopwatch clock;
   Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
   const MeshStatistics before = total_statistics(part_statistics(scene, context.progress));
+  std::vector<SharedPart> shared;
+  if (!options.keep_copies) shared = share_identical_parts(scene);
+  const Json identical = shared_parts_json(shared, scene);
   std::vector<TriangleMesh> originals;
   if (options.verify)
     for (const Part& part : scene.parts) originals.push_back(part.mesh);
@@ -127,6 +132,7 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
           {"operations", operations_json(results)},
           {"deviations_mm", deviations_json(results)},
           {"parts", scene.parts.size()},
+          {"identical_parts", identical},
           {"unsettled", unsettled},
           {"seconds", clock.seconds()},
           {"output", options.out}};
@@ -153,6 +159,7 @@ void add_repair(CLI::App& program) {
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--verify", options->verify, "Measure the deviation from the input, not only bound it");
+  verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);
 }
 

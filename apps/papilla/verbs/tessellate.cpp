@@ -8,6 +8,7 @@
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "scene_options.hpp"
+#include "shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 struct TessellateVerbOptions {
   std::string in, out;
-  bool relative = false;
+  bool relative = false, keep_copies = false;
   SceneOptions read;
 };
 
@@ -79,6 +80,8 @@ Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options)
   CadReport report;
   Scene scene = read_cad(options.in, cad_options(options), &report, context.progress);
   scene.up = read.up.value_or(scene.up);
+  std::vector<SharedPart> shared;
+  if (!options.keep_copies) shared = share_identical_parts(scene);
   write_scene(scene, options.out);
 
   const std::vector<std::size_t> uses = uses_of(scene);
@@ -89,6 +92,7 @@ Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options)
       {"chord_mm", read.chord_mm},
       {"angle_deg", read.angle_deg},
       {"parts", parts_json(scene, uses)},
+      {"identical_parts", shared_parts_json(shared, scene)},
       {"triangles", report.triangles},
       {"solids", report.solids},
       {"faces", report.faces},
@@ -116,6 +120,7 @@ void add_tessellate(CLI::App& program) {
   verb->add_option("in", options->in, "STEP, IGES or BREP file")->type_name("IN")->required();
   verb->add_option("-o,--output", options->out, "GLB, OBJ or STL file to write")->type_name("OUT")->required();
   verb->add_flag("--relative", options->relative, "The chord is a fraction of each edge's length");
+  verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);
 }
 

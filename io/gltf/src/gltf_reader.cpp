@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gltf_instancing.hpp"
+#include "gltf_levels.hpp"
 #include "gltf_material.hpp"
 #include "gltf_mesh.hpp"
 #include "gltf_transform.hpp"
@@ -136,7 +137,7 @@ void note_losses(const Document& document, Scene& scene) {
   std::set<std::string> extensions;
   for (const tinygltf::Node& node : model.nodes)
     for (const auto& [name, value] : node.extensions)
-      if (name != "EXT_mesh_gpu_instancing") extensions.insert(name + " of nodes");
+      if (name != "EXT_mesh_gpu_instancing" && name != "MSFT_lod") extensions.insert(name + " of nodes");
   for (const tinygltf::Mesh& mesh : model.meshes)
     for (const auto& [name, value] : mesh.extensions) extensions.insert(name + " of meshes");
   for (const auto& [name, value] : model.extensions) extensions.insert(name + " of the file");
@@ -158,7 +159,8 @@ Scene read_gltf(const std::filesystem::path& path) {
   gltf::read_parts(document, reader, scene);
   read_nodes(document, scene);
   read_roots(document, scene);
-  gltf::expand_instances(document, reader, scene);
+  gltf::expand_instances(document, reader, scene);  // appends nodes: those of the file keep their numbers
+  gltf::keep_finest_levels(document, scene);
   note_losses(document, scene);
   try {
     assign_part_ids(scene);
