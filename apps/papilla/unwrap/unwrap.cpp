@@ -6,8 +6,10 @@
 #include <exception>
 
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/components.hpp"
+#include "papilla/param/grain_frame.hpp"
 #include "papilla/param/pack.hpp"
 
 namespace papilla::app {
@@ -64,6 +66,15 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
   scatter(atlas.uv, report.parts);
 }
 
+/// Least squares maps need no disks: holes of flat sheets stay. Grain of known size wants its direction kept.
+SegmentationOptions segmentation_of(const UnwrapOptions& options, GrainUp up) {
+  SegmentationOptions segmentation = options.segmentation;
+  segmentation.disks = false;
+  if (options.tile_mm.x > 0 && options.tile_mm.y > 0)
+    segmentation.grain = [up](Vec3 normal) { return grain_direction(normal, up); };
+  return segmentation;
+}
+
 void add_trace(const Flattening& flattening, double start, UnwrapReport& report) {
   for (TraceSample sample : flattening.trace) report.trace.push_back({start + sample.seconds, sample.error});
   // The worst ending of any part is the scene's.
@@ -80,14 +91,16 @@ Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOption
   if (options.method == UnwrapMethod::triplanar) return flatten_triplanar(mesh, projection).flattening;
   const Stopwatch clock;
   const bool keep = options.charts == ChartSource::keep;
-  const ChartSet charts = keep ? components_as_charts(mesh) : segment_charts(mesh, options.segmentation).charts;
+  const ChartSet charts = keep ? components_as_charts(mesh) : segment_charts(mesh, segmentation_of(options, up)).charts;
   segment_seconds += clock.seconds();
   LscmOptions lscm;
   lscm.up = up;
   lscm.solver = options.solver;
   lscm.fall_back = !keep;
   lscm.projection = projection;
-  return flatten_lscm(mesh, charts, lscm);
+  Flattening flattening = flatten_lscm(cut_open(mesh, charts), charts, lscm);
+  keep_cuts(mesh, charts.cuts, flattening.charts);
+  return flattening;
 }
 
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress) {

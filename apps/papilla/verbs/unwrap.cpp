@@ -138,6 +138,10 @@ void add_unwrap(CLI::App& program) {
       ->check(CLI::Range(1.0, 180.0))
       ->type_name("DEG")
       ->capture_default_str();
+  verb->add_option("--seam-cost", unwrap.segmentation.seam_cost,
+                   "What seams cost against distortion: 0.01 cuts generously, 0.5 hardly ever")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   add_choice<UvLayout>(verb, "--layout", unwrap.layout, {{"atlas", UvLayout::atlas}, {"tile", UvLayout::tile}},
                        "atlas (default): no two charts overlap; tile: the grain goes on over seams");
   verb->add_option("--tile", options->tile, "Size of the grain's repeat: charts keep its phase")
