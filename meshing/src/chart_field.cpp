@@ -166,7 +166,7 @@ void ChartField::sum_up() {
     total += area_[n];
     mean_ += area_[n] * u_[n];
   }
-  distortion_ = 0;
+  distortion_ = squared_scale_ = 0;
   if (!(total > 0)) return;
   mean_ /= total;
   const auto excess = [](double u) {
@@ -174,8 +174,12 @@ void ChartField::sum_up() {
     return 8 * s * s;
   };
   distortion_ = border_area_ * excess(mean_);
-  for (std::size_t n = 0; n < u_.size(); ++n) distortion_ += area_[n] * excess(u_[n] - mean_);
+  for (std::size_t n = 0; n < u_.size(); ++n) {
+    distortion_ += area_[n] * excess(u_[n] - mean_);
+    squared_scale_ += area_[n] * excess(u_[n]);
+  }
   distortion_ /= total;
+  squared_scale_ /= total;
 }
 
 ChartField::Extremes ChartField::extremes() const {

@@ -24,6 +24,8 @@ class ChartField {
 
   /// Area mean of σ1² + σ2² + σ1⁻² + σ2⁻² - 4 = 8 sinh² (u - mean).
   double distortion() const noexcept { return distortion_; }
+  /// The same of u itself, without the mean taken off.
+  double squared_scale() const noexcept { return squared_scale_; }
   /// angle_defects() of a vertex.
   double defect(Index v) const noexcept { return defect_[v]; }
   /// u at a vertex.
@@ -53,7 +55,7 @@ class ChartField {
   std::vector<double> defect_;  ///< Per vertex.
   std::vector<double> charge_, area_, u_;
   std::vector<Link> links_;
-  double border_area_ = 0, mean_ = 0, distortion_ = 0;
+  double border_area_ = 0, mean_ = 0, distortion_ = 0, squared_scale_ = 0;
 };
 
 }  // namespace papilla::detail

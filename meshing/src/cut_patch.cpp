@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "halve_chart.hpp"
 #include "open_chart.hpp"
 #include "polygon_overlap.hpp"
 #include "relief_cut.hpp"
@@ -11,8 +12,6 @@
 namespace papilla::detail {
 namespace {
 
-/// Of an outline may lie over itself: what the layout is exact to.
-constexpr double k_max_overlap = 1e-3;
 /// Openings on the way from a patch to a piece; one is enough unless paths run along holes.
 constexpr int k_max_openings = 8;
 /// Halvings on the way from a patch to a piece.
@@ -26,49 +25,26 @@ struct Work {
 
 class PatchCutter {
  public:
-  PatchCutter(const Surface& surface, const SeamWeights& weights, const SegmentationOptions& options,
-              PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts)
-      : surface_(surface), weights_(weights), options_(options), cutter_(cutter), seam_(seam), cuts_(cuts) {}
+  PatchCutter(const Surface& surface, const SeamWeights& weights, bool disks, PieceCutter& cutter,
+              std::vector<std::uint8_t>& seam, PatchCuts& cuts)
+      : surface_(surface), weights_(weights), disks_(disks), cutter_(cutter), seam_(seam), cuts_(cuts) {}
 
-  std::vector<ChartOutline> run(std::vector<Index> patch) {
+  /// Calls finish(piece, work) for every piece of the right topology.
+  template <class Finish>
+  void run(std::vector<Index> patch, const Finish& finish) {
     pending_.push_back({std::move(patch), 0, 0, false});
     while (!pending_.empty()) {
       Work work = std::move(pending_.back());
       pending_.pop_back();
-      step(std::move(work));
+      const Piece piece = cutter_.cut(std::move(work.triangles));
+      if (!open(piece, work)) finish(piece, work);
     }
-    return std::move(charts_);
   }
 
- private:
-  void step(Work work) {
-    Piece piece = cutter_.cut(std::move(work.triangles));
-    const Opening opening = open_chart(piece, weights_, options_.disks);
-    if (!opening.possible || work.openings > k_max_openings) {
-      ++cuts_.halving;
-      return part(piece, cut_in_halves(piece), work);
-    }
-    if (!opening.cuts.empty()) {
-      ++cuts_.opening;
-      ++work.openings;
-      return part(piece, opening.cuts, work);
-    }
-    ChartField field(piece);
-    if (!work.relieved) {
-      work.relieved = true;
-      const std::vector<Index> relief = relieve(piece, field, weights_, options_.seam_cost);
-      if (!relief.empty()) {
-        ++cuts_.relief;
-        return part(piece, relief, work);
-      }
-    }
-    ChartOutline outline = make_outline(piece, field);
-    if (piece.size() > 1 && work.halvings < k_max_halvings && overlap_fraction(outline.place) > k_max_overlap) {
-      ++cuts_.halving;
-      ++work.halvings;
-      return part(piece, cut_in_halves(piece), work);
-    }
-    charts_.push_back(std::move(outline));
+  void halve(const Piece& piece, Work work) {
+    ++cuts_.halving;
+    ++work.halvings;
+    part(piece, cut_in_halves(piece, weights_), work);
   }
 
   /// Marks the cuts and puts the pieces that they leave back to work.
@@ -89,14 +65,25 @@ class PatchCutter {
       pending_.push_back({std::move(triangles), work.openings, work.halvings, work.relieved});
   }
 
+ private:
+  /// True when the piece was not of the right topology and its parts wait.
+  bool open(const Piece& piece, Work& work) {
+    const Opening opening = open_chart(piece, weights_, disks_);
+    if (opening.possible && opening.cuts.empty()) return false;
+    if (!opening.possible || work.openings >= k_max_openings) return halve(piece, work), true;
+    ++cuts_.opening;
+    ++work.openings;
+    part(piece, opening.cuts, work);
+    return true;
+  }
+
   const Surface& surface_;
   const SeamWeights& weights_;
-  const SegmentationOptions& options_;
+  bool disks_;
   PieceCutter& cutter_;
   std::vector<std::uint8_t>& seam_;
   PatchCuts& cuts_;
   std::vector<Work> pending_;
-  std::vector<ChartOutline> charts_;
 };
 
 }  // namespace
@@ -104,7 +91,29 @@ class PatchCutter {
 std::vector<ChartOutline> cut_patch(const Surface& surface, const SeamWeights& weights,
                                     const SegmentationOptions& options, std::vector<Index> triangles,
                                     PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts) {
-  return PatchCutter(surface, weights, options, cutter, seam, cuts).run(std::move(triangles));
+  PatchCutter patch(surface, weights, options.disks, cutter, seam, cuts);
+  std::vector<ChartOutline> charts;
+  patch.run(std::move(triangles), [&](const Piece& piece, Work& work) {
+    ChartField field(piece);
+    if (!std::exchange(work.relieved, true)) {
+      const std::vector<Index> relief = relieve(piece, field, weights, options.seam_cost);
+      if (!relief.empty()) {
+        ++cuts.relief;
+        return patch.part(piece, relief, work);
+      }
+    }
+    ChartOutline outline = make_outline(piece, field);
+    if (piece.size() > 1 && work.halvings < k_max_halvings && overlaps_itself(outline.place))
+      return patch.halve(piece, work);
+    charts.push_back(std::move(outline));
+  });
+  return charts;
+}
+
+void open_patch(const Surface& surface, const SeamWeights& weights, bool disks, std::vector<Index> triangles,
+                PieceCutter& cutter, std::vector<std::uint8_t>& seam) {
+  PatchCuts cuts;
+  PatchCutter(surface, weights, disks, cutter, seam, cuts).run(std::move(triangles), [](const Piece&, Work&) {});
 }
 
 }  // namespace papilla::detail

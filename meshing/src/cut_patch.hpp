@@ -20,4 +20,8 @@ std::vector<ChartOutline> cut_patch(const Surface& surface, const SeamWeights& w
                                     const SegmentationOptions& options, std::vector<Index> triangles,
                                     PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts);
 
+/// Only the topology: cuts a patch until every piece is of genus 0 with a border, or a disk.
+void open_patch(const Surface& surface, const SeamWeights& weights, bool disks, std::vector<Index> triangles,
+                PieceCutter& cutter, std::vector<std::uint8_t>& seam);
+
 }  // namespace papilla::detail

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <queue>
-#include <tuple>
 #include <utility>
 
 namespace papilla::detail {
@@ -14,6 +13,9 @@ namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr int k_max_cuts = 64;
+/// From this distortion on a cut may also pay by what it takes off the scale itself: the first of several that are needed
+/// may leave some of the surface large, some small, and the variation higher than it was.
+constexpr double k_severe = 0.5;
 /// Off the ridge of the scale a cut across costs up to this many times as much as on it.
 constexpr double k_off_ridge = 8;
 
@@ -39,7 +41,7 @@ class Reliever {
     const double price = seam_cost / std::sqrt(area);
     std::vector<Index> taken;
     for (int i = 0; i < k_max_cuts; ++i) {
-      const double before = field_.distortion();
+      const double before = field_.distortion(), spread = field_.squared_scale();
       if (before < price * 1e-3) break;
       const ChartField::Extremes extremes = field_.extremes();
       std::vector<Cut> cuts;
@@ -52,7 +54,10 @@ class Reliever {
       double best_gain = 0;
       for (const Cut& cut : cuts) {
         if (cut.halfedges.empty()) continue;
-        const double gain = before - distortion_with(cut) - price * cut.cost;
+        solve_with(cut);
+        double gain = before - field_.distortion();
+        if (before > k_severe) gain = std::max(gain, 0.25 * (spread - field_.squared_scale()));
+        gain -= price * cut.cost;
         if (gain > best_gain) best_gain = gain, best = &cut;
       }
       if (!best) break;
@@ -70,11 +75,10 @@ class Reliever {
     for (const Index h : cut.halfedges) vertex[piece_.from(h)] = vertex[piece_.to(h)] = 1;
   }
 
-  double distortion_with(const Cut& cut) {
+  void solve_with(const Cut& cut) {
     std::vector<std::uint8_t> all = cut_;
     mark(cut, all);
     field_.solve(all);
-    return field_.distortion();
   }
 
   /// Paths of least cost from a vertex, nearest first, until arrived(border vertex) is true.
@@ -165,64 +169,10 @@ class Reliever {
   bool two_sided_ = false;
 };
 
-Vec3 centroid(const Piece& piece, Index t) {
-  const Triangle& c = piece.triangles[t];
-  return (1.0 / 3) * (piece.positions[c[0]] + piece.positions[c[1]] + piece.positions[c[2]]);
-}
-
-/// Distances over the triangles from sources, and which source is nearest.
-struct Growth {
-  std::vector<double> distance;
-  std::vector<Index> source;
-};
-Growth grow(const Piece& piece, const std::vector<Index>& sources) {
-  using Entry = std::tuple<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  Growth growth{std::vector<double>(piece.size(), k_infinity), std::vector<Index>(piece.size(), k_none)};
-  for (Index s = 0; s < sources.size(); ++s) {
-    growth.distance[sources[s]] = 0;
-    growth.source[sources[s]] = s;
-    queue.emplace(0, sources[s]);
-  }
-  while (!queue.empty()) {
-    const auto [distance, t] = queue.top();
-    queue.pop();
-    if (distance > growth.distance[t]) continue;
-    for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-      if (piece.opposite[h] == k_none) continue;
-      const Index other = triangle_of(piece.opposite[h]);
-      const double there = distance + norm(centroid(piece, other) - centroid(piece, t));
-      if (!(there < growth.distance[other])) continue;
-      growth.distance[other] = there;
-      growth.source[other] = growth.source[t];
-      queue.emplace(there, other);
-    }
-  }
-  return growth;
-}
-
 }  // namespace
 
 std::vector<Index> relieve(const Piece& piece, ChartField& field, const SeamWeights& weights, double seam_cost) {
   return Reliever(piece, field, weights).run(seam_cost);
-}
-
-std::vector<Index> cut_in_halves(const Piece& piece) {
-  const auto farthest = [&](Index from) {
-    const Growth growth = grow(piece, {from});
-    return static_cast<Index>(std::max_element(growth.distance.begin(), growth.distance.end()) -
-                              growth.distance.begin());
-  };
-  const Index a = farthest(0);
-  Index b = farthest(a);
-  if (a == b) b = a == 0 ? 1 : 0;  // all triangles in one place
-  const Growth halves = grow(piece, {a, b});
-  std::vector<Index> cuts;
-  for (Index h = 0; h < piece.opposite.size(); ++h) {
-    const Index other = piece.opposite[h];
-    if (other != k_none && h < other && halves.source[h / 3] != halves.source[other / 3]) cuts.push_back(h);
-  }
-  return cuts;
 }
 
 }  // namespace papilla::detail

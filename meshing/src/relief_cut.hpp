@@ -14,8 +14,4 @@ namespace papilla::detail {
 /// `seam_cost` times its cost (SeamWeights) over the square root of the piece's area.
 std::vector<Index> relieve(const Piece& piece, ChartField& field, const SeamWeights& weights, double seam_cost);
 
-/// The edges between the triangles nearer to one and to the other of two far triangles: parts any piece of two
-/// triangles or more.
-std::vector<Index> cut_in_halves(const Piece& piece);
-
 }  // namespace papilla::detail

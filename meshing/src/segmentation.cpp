@@ -10,8 +10,8 @@
 #include "cut_patch.hpp"
 #include "feature_patches.hpp"
 #include "papilla/core/error.hpp"
+#include "seam_set.hpp"
 #include "unfold_merge.hpp"
-#include "union_find.hpp"
 
 namespace papilla {
 namespace {
@@ -29,16 +29,6 @@ void check_options(const SegmentationOptions& options) {
           options.feature_angle_deg);
   require(is_fraction(options.speck_area_fraction), "speck_area_fraction", options.speck_area_fraction);
   require(is_fraction(options.small_area_fraction), "small_area_fraction", options.small_area_fraction);
-}
-
-/// Borders between labels, and of the surface.
-std::vector<std::uint8_t> seams_between(const Surface& surface, const std::vector<std::uint32_t>& labels) {
-  std::vector<std::uint8_t> seam(surface.opposite.size());
-  for (Index h = 0; h < seam.size(); ++h) {
-    const Index other = surface.opposite[h];
-    seam[h] = other == k_none || labels[triangle_of(h)] != labels[triangle_of(other)];
-  }
-  return seam;
 }
 
 /// Cuts all patches, largest first so that no thread is left with a big one; results in the order of patches.
@@ -71,21 +61,6 @@ std::vector<ChartOutline> cut_patches(const Surface& surface, const SeamWeights&
   return charts;
 }
 
-ChartSet charts_between(const Surface& surface, const std::vector<std::uint8_t>& seam) {
-  UnionFind sets(surface.size());
-  for (Index h = 0; h < seam.size(); ++h)
-    if (!seam[h]) sets.unite(triangle_of(h), triangle_of(surface.opposite[h]));
-  ChartSet charts;
-  charts.of_triangle = sets.labels(charts.count);
-  for (Index h = 0; h < seam.size(); ++h) {
-    const Index other = surface.opposite[h];
-    if (!seam[h] || other == k_none || other < h) continue;
-    charts.seam_length_mm += surface.length(h);
-    if (charts.of_triangle[triangle_of(h)] == charts.of_triangle[triangle_of(other)]) charts.cuts.push_back(h);
-  }
-  return charts;
-}
-
 }  // namespace
 
 SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOptions& options) {
@@ -108,7 +83,7 @@ SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOp
   result.absorbed = result.feature_patches - count;
   tell(0.3);
 
-  std::vector<std::uint8_t> seam = seams_between(surface, labels);
+  std::vector<std::uint8_t> seam = seams_of(surface, labels, {});
   std::vector<ChartOutline> charts = cut_patches(surface, weights, options, labels, count, seam, result);
   const std::size_t before = charts.size();
   if (options.unfold)

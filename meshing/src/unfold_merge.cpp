@@ -21,11 +21,11 @@ constexpr double k_flat_rad = 1e-3;
 /// Outlines fit where points miss their partners by at most this fraction of the smaller chart's size.
 constexpr double k_fit = 1e-3;
 /// A stretch is at least this fraction of the smaller chart's border.
-constexpr double k_least_joint = 0.1;
+constexpr double k_least_joint = 0.15;
 /// The scale that a stretch may bring in, by the estimate that prepares the solve.
 constexpr double k_max_log_scale = 0.5;
-/// Of an outline may lie over itself.
-constexpr double k_max_overlap = 1e-3;
+/// A union sprawls when its compactness is below this and below that of its parts.
+constexpr double k_least_compactness = 0.4;
 /// Directions of grain that differ by less count as one.
 constexpr double k_grain_deg = 20;
 /// A chart whose grain adds up to less than this share has no direction of its own.
@@ -279,9 +279,15 @@ class Unfolder {
       const double added = both->area * both->distortion - a.area * a.distortion - b.area * b.distortion;
       if (added > options_.seam_cost * s.cost * std::sqrt(both->area)) return false;
     }
-    if (overlap_fraction(both->place) > k_max_overlap || !grains_agree(s, *both)) return false;
+    if (sprawls(s, *both) || overlaps_itself(both->place) || !grains_agree(s, *both)) return false;
     join(s, std::move(*both));
     return true;
+  }
+
+  bool sprawls(const Stretch& s, const ChartOutline& both) const {
+    const ChartOutline &a = charts_[s.a], &b = charts_[s.b];
+    const double mean = (a.area * compactness(a.place) + b.area * compactness(b.place)) / both.area;
+    return compactness(both.place) < std::min(mean, k_least_compactness);
   }
 
   void join(const Stretch& s, ChartOutline both) {
