@@ -57,16 +57,6 @@ std::vector<double> chart_areas(const Surface& surface, const std::vector<std::u
   return area;
 }
 
-/// Per triangle: the area below which a chart of its component is a speck.
-std::vector<double> speck_areas(const Surface& surface, const SegmentationOptions& options) {
-  std::vector<std::uint32_t> component(surface.size(), 0);
-  const std::uint32_t count = split_into_components(surface.opposite, component);
-  const std::vector<double> area = chart_areas(surface, component, count);
-  std::vector<double> limit(surface.size());
-  for (Index t = 0; t < limit.size(); ++t) limit[t] = options.speck_area_fraction * area[component[t]];
-  return limit;
-}
-
 std::uint32_t count_of(const std::vector<std::uint32_t>& labels) {
   return labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
 }
@@ -93,10 +83,19 @@ std::vector<std::uint32_t> feature_patches(const Surface& surface, const std::ve
   return patches.labels(count);
 }
 
+std::vector<double> speck_areas(const Surface& surface, double fraction) {
+  std::vector<std::uint32_t> component(surface.size(), 0);
+  const std::uint32_t count = split_into_components(surface.opposite, component);
+  const std::vector<double> area = chart_areas(surface, component, count);
+  std::vector<double> limit(surface.size());
+  for (Index t = 0; t < limit.size(); ++t) limit[t] = fraction * area[component[t]];
+  return limit;
+}
+
 std::uint32_t absorb_small(const Surface& surface, const SegmentationOptions& options,
                            std::vector<std::uint32_t>& labels) {
   std::uint32_t count = count_of(labels);
-  const std::vector<double> speck_area = speck_areas(surface, options);
+  const std::vector<double> speck_area = speck_areas(surface, options.speck_area_fraction);
   for (bool merged = true; merged;) {
     merged = false;
     const std::vector<double> area = chart_areas(surface, labels, count);

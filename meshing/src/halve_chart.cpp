@@ -50,7 +50,8 @@ Growth grow(const Piece& piece, const std::vector<Index>& sources) {
   return growth;
 }
 
-/// The cut of least cost from one side of the outer border to the other, between its two ends. Empty when there is none.
+/// The cut of least cost from one side of the outer border to the other, between its two ends. Empty when there is
+/// none.
 class Crossing {
  public:
   Crossing(const Piece& piece, const SeamWeights& weights) : piece_(piece), weights_(weights) {}

@@ -55,7 +55,6 @@ double overlap_fraction(std::span<const Vec2> polygon) {
   return area > 0 ? again / area : again > 0 ? 1 : 0;
 }
 
-
 /// Edges in the cells of a grid that their boxes touch.
 class EdgeGrid {
  public:
@@ -71,7 +70,8 @@ class EdgeGrid {
     columns_ = static_cast<std::size_t>(width / cell_) + 1;
     rows_ = static_cast<std::size_t>(height / cell_) + 1;
     cells_.resize(columns_ * rows_);
-    for (std::size_t i = 0; i < polygon.size(); ++i) visit(i, [&](std::vector<std::size_t>& cell) { cell.push_back(i); });
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      visit(i, [&](std::vector<std::size_t>& cell) { cell.push_back(i); });
   }
 
   /// Calls visit(cell) for the cells that edge i may pass.
@@ -124,8 +124,8 @@ bool edges_cross(std::span<const Vec2> polygon, double depth) {
     bool crossed = false;
     grid.visit(i, [&](const std::vector<std::size_t>& cell) {
       for (const std::size_t k : cell)
-        crossed = crossed || (k > i && cross_deeper(polygon[i], polygon[(i + 1) % n], polygon[k], polygon[(k + 1) % n],
-                                                    depth));
+        crossed = crossed ||
+                  (k > i && cross_deeper(polygon[i], polygon[(i + 1) % n], polygon[k], polygon[(k + 1) % n], depth));
     });
     if (crossed) return true;
   }

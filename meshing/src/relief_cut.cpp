@@ -13,8 +13,10 @@ namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr int k_max_cuts = 64;
-/// From this distortion on a cut may also pay by what it takes off the scale itself: the first of several that are needed
-/// may leave some of the surface large, some small, and the variation higher than it was.
+/// Distortion below this fraction of what a seam as long as the piece costs is not worth a look.
+constexpr double k_negligible = 1e-3;
+/// From this distortion on a cut may also pay by what it takes off the scale itself: the first of several that are
+/// needed may leave some of the surface large, some small, and the variation higher than it was.
 constexpr double k_severe = 0.5;
 /// Off the ridge of the scale a cut across costs up to this many times as much as on it.
 constexpr double k_off_ridge = 8;
@@ -42,7 +44,7 @@ class Reliever {
     std::vector<Index> taken;
     for (int i = 0; i < k_max_cuts; ++i) {
       const double before = field_.distortion(), spread = field_.squared_scale();
-      if (before < price * 1e-3) break;
+      if (before < k_negligible * seam_cost) break;
       const ChartField::Extremes extremes = field_.extremes();
       std::vector<Cut> cuts;
       if (extremes.largest != k_none) {

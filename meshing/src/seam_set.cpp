@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "seam_set.hpp"
 
+#include <algorithm>
+
 #include "union_find.hpp"
 
 namespace papilla::detail {
@@ -31,6 +33,11 @@ ChartSet charts_between(const Surface& surface, const std::vector<std::uint8_t>&
     charts.seam_length_mm += surface.length(h);
     if (charts.of_triangle[triangle_of(h)] == charts.of_triangle[triangle_of(other)]) charts.cuts.push_back(h);
   }
+  // Edges of more triangles are no neighbours, whatever number of them one chart has.
+  const std::vector<Index> within = opposite_within_labels(surface.triangles, surface.edges, charts.of_triangle);
+  for (Index h = 0; h < seam.size(); ++h)
+    if (surface.opposite[h] == k_none && within[h] != k_none && h < within[h]) charts.cuts.push_back(h);
+  std::sort(charts.cuts.begin(), charts.cuts.end());
   return charts;
 }
 

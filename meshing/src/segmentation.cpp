@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "absorb_charts.hpp"
 #include "check_mesh.hpp"
 #include "cut_patch.hpp"
 #include "feature_patches.hpp"
@@ -87,9 +88,9 @@ SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOp
   std::vector<ChartOutline> charts = cut_patches(surface, weights, options, labels, count, seam, result);
   const std::size_t before = charts.size();
   if (options.unfold)
-    charts = merge_unfolded(surface, weights, {options.seam_cost, options.small_area_fraction, options.grain}, seam,
-                            std::move(charts));
+    charts = merge_unfolded(surface, weights, {options.seam_cost, options.grain}, seam, std::move(charts));
   result.unfolded = before - charts.size();
+  result.absorbed += absorb_charts(surface, options.small_area_fraction, options.speck_area_fraction, seam);
   tell(0.9);
 
   result.charts = charts_between(surface, seam);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -66,12 +65,7 @@ class Unfolder {
   }
 
   std::vector<ChartOutline> run() {
-    rounds([&](const Stretch& s) { return unfolds(s); }, [&](const Stretch& s) { return join_if_good(s); });
-    rounds([&](const Stretch& s) { return is_small(s); },
-           [&](const Stretch& s) {
-             join(s, stitched(s, fit(s, std::numeric_limits<double>::infinity()).value_or(Motion{})));
-             return true;
-           });
+    rounds();
     std::erase_if(charts_, [](const ChartOutline& c) { return c.triangles.empty(); });
     return std::move(charts_);
   }
@@ -84,12 +78,11 @@ class Unfolder {
     }
   }
 
-  template <class Wanted, class Join>
-  void rounds(const Wanted& wanted, const Join& join) {
+  void rounds() {
     std::vector<std::uint8_t> fresh(charts_.size(), 1);  // changed in the last round
     for (int round = 0; round < k_max_rounds; ++round) {
       std::vector<Stretch> stretches;
-      for (Index a = 0; a < charts_.size(); ++a) add_stretches(a, fresh, wanted, stretches);
+      for (Index a = 0; a < charts_.size(); ++a) add_stretches(a, fresh, stretches);
       std::stable_sort(stretches.begin(), stretches.end(),
                        [](const Stretch& x, const Stretch& y) { return x.cost > y.cost; });
       std::vector<std::uint8_t> changed(charts_.size(), 0);
@@ -100,7 +93,7 @@ class Unfolder {
           fresh[s.a] = 1;
           continue;
         }
-        if (!join(s)) continue;
+        if (!join_if_good(s)) continue;
         changed[s.a] = changed[s.b] = fresh[s.a] = fresh[s.b] = 1;
         any = true;
       }
@@ -114,9 +107,7 @@ class Unfolder {
   }
 
   /// The maximal stretches of chart a with charts of higher number.
-  template <class Wanted>
-  void add_stretches(Index a, const std::vector<std::uint8_t>& fresh, const Wanted& wanted,
-                     std::vector<Stretch>& stretches) const {
+  void add_stretches(Index a, const std::vector<std::uint8_t>& fresh, std::vector<Stretch>& stretches) const {
     const ChartOutline& chart = charts_[a];
     const std::size_t n = chart.border.size();
     // Starts behind an edge after which a stretch breaks, or nowhere when all is one.
@@ -130,7 +121,7 @@ class Unfolder {
       const Index b = other == k_none ? k_none : chart_of_[other];
       if (b != k_none && b > a && (fresh[a] || fresh[b])) {
         const Stretch s = measure(a, b, static_cast<Index>(i % n), static_cast<Index>(size));
-        if (s.size < charts_[b].border.size() && wanted(s)) stretches.push_back(s);
+        if (s.size < charts_[b].border.size() && unfolds(s)) stretches.push_back(s);
       }
       i += size;
     }
@@ -192,12 +183,6 @@ class Unfolder {
   bool unfolds(const Stretch& s) const {
     if (s.worst_scale > k_max_log_scale) return false;
     return s.length >= k_least_joint * std::min(perimeter(charts_[s.a]), perimeter(charts_[s.b]));
-  }
-
-  bool is_small(const Stretch& s) const {
-    const double a = charts_[s.a].area, b = charts_[s.b].area;
-    return std::min(a, b) <= options_.small_area_fraction * std::max(a, b) ||
-           std::min(charts_[s.a].triangles.size(), charts_[s.b].triangles.size()) == 1;
   }
 
   /// Lays chart b against chart a; nothing when a point misses its partner by more than `tolerance`.

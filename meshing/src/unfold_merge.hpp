@@ -12,7 +12,6 @@ namespace papilla::detail {
 
 struct UnfoldOptions {
   double seam_cost = 0;
-  double small_area_fraction = 0;
   std::function<Vec3(Vec3)> grain;
 };
 

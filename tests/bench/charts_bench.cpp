@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Charts of segment_charts() against CGAL's segmentation and a split at edges of 45 degrees, at equal maximal distortion:
-// all are opened by the same rule, flattened by the same method, and halved where a chart has no valid map; the peers'
-// charts are halved further until none is more distorted than the worst of segment_charts().
+// Charts of segment_charts() against CGAL's segmentation and a split at edges of 45 degrees, at equal maximal
+// distortion: all are opened by the same rule, flattened by the same method, and halved where a chart has no valid map;
+// the peers' charts are halved further until none is more distorted than the worst of segment_charts().
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>

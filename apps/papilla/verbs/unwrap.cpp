@@ -40,6 +40,7 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
                      {"triangles", scene.parts[p].mesh.triangles.size()},
                      {"charts", part.flattening.charts.count},
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
+                     {"grain_continued_mm", part.grain_continued_mm},
                      {"notes", std::move(notes)},
                      {"failure", part.failure.empty() ? Json() : Json(part.failure)}});
   }

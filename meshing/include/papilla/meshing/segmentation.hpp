@@ -30,7 +30,7 @@ struct SegmentationOptions {
 struct SegmentationResult {
   ChartSet charts;
   std::size_t feature_patches = 0;  ///< Pieces between feature edges.
-  std::size_t absorbed = 0;         ///< Small patches that joined a neighbour.
+  std::size_t absorbed = 0;         ///< Small patches and charts that joined a neighbour.
   std::size_t disk_cuts = 0;        ///< Openings of handles, closed surfaces and border loops.
   std::size_t relief_cuts = 0;      ///< Pieces whose distortion was worth cuts.
   std::size_t halved = 0;           ///< Pieces that would have overlapped themselves in the plane.
