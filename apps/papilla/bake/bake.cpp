@@ -72,6 +72,7 @@ void unwrap_surface(Work& work, const Scene& scene, const Grain& grain) {
   work.report.reason = uv.reason;
   work.report.charts = uv.flattening.charts.count;
   work.report.seam_mm = uv.flattening.charts.seam_length_mm;
+  work.report.grain_continued_mm = uv.grain_continued_mm;
   for (const ChartNote& note : uv.flattening.notes) work.report.notes.push_back(note.reason);
   work.mesh.uv = repeats_of(uv.flattening, grain.size_mm);
   work.report.mesh = work.mesh;

@@ -6,8 +6,11 @@
 #include <exception>
 
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/chart_cuts.hpp"
+#include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/components.hpp"
+#include "papilla/param/grain_frame.hpp"
 #include "papilla/param/pack.hpp"
 
 namespace papilla::app {
@@ -54,7 +57,9 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
   for (std::size_t p = 0; p < report.parts.size(); ++p) {
     Flattening& f = report.parts[p].flattening;
     if (f.uv.empty()) continue;
-    f.uv = align_phase(scene.parts[p].mesh, f, {.tile_mm = options.tile_mm}).uv;
+    AlignedPhase aligned = align_phase(scene.parts[p].mesh, f, {.tile_mm = options.tile_mm});
+    f.uv = std::move(aligned.uv);
+    report.parts[p].grain_continued_mm = aligned.continued_mm;
   }
   if (options.layout == UvLayout::tile) return;
   const AllCharts all = gather(report.parts);
@@ -62,6 +67,30 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
   const Atlas atlas = pack_atlas(all.uv, all.charts, {.gutter_mm = gutter, .tile_mm = options.tile_mm});
   report.fill_rate = atlas.fill_rate;
   scatter(atlas.uv, report.parts);
+}
+
+/// Least squares maps need no disks: holes of flat sheets stay. Grain of known size wants its direction kept.
+SegmentationOptions segmentation_of(const UnwrapOptions& options, GrainUp up) {
+  SegmentationOptions segmentation = options.segmentation;
+  segmentation.disks = false;
+  if (options.tile_mm.x > 0 && options.tile_mm.y > 0)
+    segmentation.grain = [up](Vec3 normal) { return grain_direction(normal, up); };
+  return segmentation;
+}
+
+/// Halves charts that have no valid map, a few times, before planar projections take their place.
+Flattening flatten_or_halve(const TriangleMesh& mesh, ChartSet charts, const LscmOptions& options) {
+  constexpr int k_max_halvings = 6;
+  for (int i = 0;; ++i) {
+    Flattening flattening = flatten_lscm(cut_open(mesh, charts), charts, options);
+    if (flattening.notes.empty() || i == k_max_halvings) {
+      keep_cuts(mesh, charts.cuts, flattening.charts);
+      return flattening;
+    }
+    std::vector<std::uint32_t> failed;
+    for (const ChartNote& note : flattening.notes) failed.push_back(note.chart);
+    charts = halve_charts(mesh, charts, failed);
+  }
 }
 
 void add_trace(const Flattening& flattening, double start, UnwrapReport& report) {
@@ -80,14 +109,14 @@ Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOption
   if (options.method == UnwrapMethod::triplanar) return flatten_triplanar(mesh, projection).flattening;
   const Stopwatch clock;
   const bool keep = options.charts == ChartSource::keep;
-  const ChartSet charts = keep ? components_as_charts(mesh) : segment_charts(mesh, options.segmentation).charts;
+  const ChartSet charts = keep ? components_as_charts(mesh) : segment_charts(mesh, segmentation_of(options, up)).charts;
   segment_seconds += clock.seconds();
   LscmOptions lscm;
   lscm.up = up;
   lscm.solver = options.solver;
   lscm.fall_back = !keep;
   lscm.projection = projection;
-  return flatten_lscm(mesh, charts, lscm);
+  return flatten_or_halve(mesh, charts, lscm);
 }
 
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress) {

@@ -34,6 +34,8 @@ struct UnwrapOptions {
 };
 
 /// The part's charts and uv in millimetres, not placed yet. Equal positions must be one vertex.
+/// Grain of known size keeps its direction over feature edges that a chart goes on over. Charts that lscm can't map are
+/// halved a few times before planar projections take their place.
 /// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
 Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOptions& options, double& segment_seconds);
 
@@ -43,7 +45,8 @@ struct UnwrapSeconds {
 
 struct UnwrappedPart {
   Flattening flattening;
-  std::string failure;  ///< Why the part has no uv; empty when it has.
+  double grain_continued_mm = 0;  ///< Length of the seam over which the grain goes on.
+  std::string failure;            ///< Why the part has no uv; empty when it has.
 };
 
 struct UnwrapReport {

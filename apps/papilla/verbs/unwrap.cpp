@@ -40,6 +40,7 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
                      {"triangles", scene.parts[p].mesh.triangles.size()},
                      {"charts", part.flattening.charts.count},
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
+                     {"grain_continued_mm", part.grain_continued_mm},
                      {"notes", std::move(notes)},
                      {"failure", part.failure.empty() ? Json() : Json(part.failure)}});
   }
@@ -137,6 +138,10 @@ void add_unwrap(CLI::App& program) {
   verb->add_option("--feature-angle", unwrap.segmentation.feature_angle_deg, "Edges bent by more degrees part charts")
       ->check(CLI::Range(1.0, 180.0))
       ->type_name("DEG")
+      ->capture_default_str();
+  verb->add_option("--seam-cost", unwrap.segmentation.seam_cost,
+                   "What seams cost against distortion: 0.01 cuts generously, 0.5 hardly ever")
+      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   add_choice<UvLayout>(verb, "--layout", unwrap.layout, {{"atlas", UvLayout::atlas}, {"tile", UvLayout::tile}},
                        "atlas (default): no two charts overlap; tile: the grain goes on over seams");

@@ -92,7 +92,7 @@ void drop_coverages(Node& node) {
 void keep_finest_levels(const Document& document, Scene& scene) {
   std::vector<bool> lower(scene.nodes.size(), false);
   std::size_t levels = 0;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+  for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {  // the scene may have more: instances
     const std::vector<std::uint32_t> ids = lower_levels(document, i);
     if (ids.empty()) continue;
     levels += ids.size();

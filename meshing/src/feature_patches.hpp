@@ -16,8 +16,12 @@ std::vector<std::uint8_t> feature_halfedges(const Surface& surface, double featu
 std::vector<std::uint32_t> feature_patches(const Surface& surface, const std::vector<std::uint8_t>& feature,
                                            std::uint32_t& count);
 
-/// Splits patches until each keeps to a cone of normals, as segment_charts() tells. Returns the number of labels.
-std::uint32_t split_by_cones(const Surface& surface, const std::vector<std::uint8_t>& feature,
-                             const SegmentationOptions& options, std::vector<std::uint32_t>& labels);
+/// Per triangle: this fraction of its component's area.
+std::vector<double> speck_areas(const Surface& surface, double fraction);
+
+/// Lets patches below `small_area_fraction` of a neighbour's area, or below `speck_area_fraction` of their component's,
+/// join the neighbour with the longest common border. Labels must be dense; returns the new count.
+std::uint32_t absorb_small(const Surface& surface, const SegmentationOptions& options,
+                           std::vector<std::uint32_t>& labels);
 
 }  // namespace papilla::detail
