@@ -88,7 +88,9 @@ struct Taken {
 Taken take(const TopoDS_Face& face, const EdgeNet& net) {
   Taken taken;
   taken.mesh.face = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
-  taken.mesh.reversed = face.Orientation() == TopAbs_REVERSED;
+  // A mirrored face keeps its sense in the file, but its tangents turn the other way.
+  const bool mirrored = face.Location().Transformation().VectorialPart().Determinant() < 0;
+  taken.mesh.reversed = (face.Orientation() == TopAbs_REVERSED) != mirrored;
   if (BRep_Tool::Surface(face).IsNull()) {
     taken.refused = "no surface";
     return taken;

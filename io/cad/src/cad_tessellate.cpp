@@ -14,6 +14,7 @@
 #include <numeric>
 #include <sstream>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "base_mesh.hpp"
@@ -82,28 +83,82 @@ class WorkMeter {
 
 struct FaceResult {
   PatchDeviation deviation;
-  std::size_t added = 0;
   double gap = 0;
+  std::size_t folded = 0;
 };
 
-FaceResult refine_face(FaceMesh& mesh) {
-  FaceResult result;
-  if (mesh.patch.triangles.empty()) return result;
-  const FaceSurface surface(mesh.face);
-  result.gap = largest_gap(mesh.patch);
-  result.added = refine_patch(mesh.patch, surface, mesh.limits);
-  result.deviation = measure_patch(mesh.patch, surface, mesh.limits);
+/// An edge inside of a face whose two ends are on CAD edges.
+struct Bridge {
+  std::uint32_t low, high;
+  std::size_t face;
+  HalfEdge h;
+  bool boundary;
+};
+
+std::vector<Bridge> bridges_of(const std::vector<FaceMesh>& faces) {
+  std::vector<Bridge> result;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const FacePatch& patch = faces[f].patch;
+    for (HalfEdge h = 0; h < 3 * patch.triangles.size(); ++h) {
+      const std::uint32_t a = patch.nodes[patch.from(h)].shared, b = patch.nodes[patch.to(h)].shared;
+      if (a == k_no_value || b == k_no_value || a == b || (!patch.is_boundary(h) && patch.opposite(h) < h)) continue;
+      result.push_back({std::min(a, b), std::max(a, b), f, h, patch.is_fixed(h)});
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const Bridge& p, const Bridge& q) {
+    return std::tie(p.low, p.high, p.face, p.h) < std::tie(q.low, q.high, q.face, q.h);
+  });
   return result;
 }
 
-std::string describe(const FaceResult& face, const RefineLimits& limits, std::size_t folded) {
+/// Two faces that touch along an edge may join the same two points of it through their inside: four triangles would
+/// meet there. Such edges get a node of their own face.
+std::size_t part_bridges(std::vector<FaceMesh>& faces) {
+  const std::vector<Bridge> bridges = bridges_of(faces);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < bridges.size();) {
+    std::size_t end = i, inner = 0;
+    bool boundary = false;
+    for (; end < bridges.size() && bridges[end].low == bridges[i].low && bridges[end].high == bridges[i].high; ++end) {
+      boundary = boundary || bridges[end].boundary;
+      inner += bridges[end].boundary ? 0u : 1u;
+    }
+    const bool crowded = inner > (boundary ? std::size_t{0} : std::size_t{1});
+    for (; i < end; ++i) {
+      if (!crowded || bridges[i].boundary) continue;
+      FacePatch& patch = faces[bridges[i].face].patch;
+      // An earlier split may have moved the edge to another triangle; its ends then differ.
+      const HalfEdge h = bridges[i].h;
+      const std::uint32_t a = patch.nodes[patch.from(h)].shared, b = patch.nodes[patch.to(h)].shared;
+      if (std::min(a, b) != bridges[i].low || std::max(a, b) != bridges[i].high) continue;
+      const FaceSurface surface(faces[bridges[i].face].face);
+      patch.nodes.push_back(surface_node(surface, patch.middle_uv(patch.from(h), patch.to(h))));
+      patch.split(h, static_cast<Index>(patch.nodes.size() - 1));
+      ++count;
+    }
+  }
+  return count;
+}
+
+std::size_t refine_face(FaceMesh& mesh) {
+  if (mesh.patch.triangles.empty()) return 0;
+  return refine_patch(mesh.patch, FaceSurface(mesh.face), mesh.limits);
+}
+
+FaceResult measure_face(const FaceMesh& mesh) {
+  if (mesh.patch.triangles.empty()) return {};
+  return {measure_patch(mesh.patch, FaceSurface(mesh.face), mesh.limits), largest_gap(mesh.patch),
+          count_folded(mesh.patch)};
+}
+
+std::string describe(const FaceResult& face, const RefineLimits& limits) {
   std::ostringstream text;
   if (face.deviation.distance > limits.chord) {
     text << "deviates by " << face.deviation.distance << " mm";
     if (face.gap > 0.5 * face.deviation.distance)
       text << " (its edges lie " << face.gap << " mm off its surface in the CAD file)";
   }
-  if (folded > 0) text << (text.str().empty() ? "" : ", ") << folded << " triangles are folded over";
+  if (face.folded > 0) text << (text.str().empty() ? "" : ", ") << face.folded << " triangles are folded over";
   return text.str();
 }
 
@@ -158,19 +213,25 @@ std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < shapes.size(); ++i)
     for (std::size_t k = 0; k < result[i].faces.size(); ++k) jobs.push_back({i, k});
-  std::vector<FaceResult> faces(jobs.size());
-  WorkMeter meter(progress, 0.5, 0.9, jobs.size());
+  const auto mesh_of = [&](std::size_t job) -> FaceMesh& { return result[jobs[job].shape].faces[jobs[job].face]; };
+  WorkMeter meter(progress, 0.5, 0.9, 2 * jobs.size());
+  std::vector<std::size_t> added(jobs.size());
   parallel_for(jobs.size(), [&](std::size_t i) {
-    faces[i] = refine_face(result[jobs[i].shape].faces[jobs[i].face]);
+    added[i] = refine_face(mesh_of(i));
+    meter.add(1);
+  });
+  parallel_for(shapes.size(), [&](std::size_t i) { result[i].added_nodes += part_bridges(result[i].faces); });
+  std::vector<FaceResult> faces(jobs.size());
+  parallel_for(jobs.size(), [&](std::size_t i) {
+    faces[i] = measure_face(mesh_of(i));
     meter.add(1);
   });
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     TessellatedShape& shape = result[jobs[i].shape];
-    shape.added_nodes += faces[i].added;
+    shape.added_nodes += added[i];
     shape.max_deviation_mm = std::max(shape.max_deviation_mm, faces[i].deviation.distance);
     shape.max_angle_deg = std::max(shape.max_angle_deg, faces[i].deviation.angle / k_radians_per_degree);
-    const std::string off =
-        describe(faces[i], limits[jobs[i].shape], count_folded(shape.faces[jobs[i].face].patch));
+    const std::string off = describe(faces[i], limits[jobs[i].shape]);
     if (!off.empty()) shape.off.push_back({static_cast<std::uint32_t>(jobs[i].face), off});
   }
   return result;

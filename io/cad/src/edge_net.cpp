@@ -10,6 +10,8 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "cad_parallel.hpp"
 
@@ -52,10 +54,12 @@ class LineRefiner {
     }
   }
 
-  /// The points to add, by segment.
-  std::vector<std::vector<Added>> run() {
+  /// The points to add, by segment: those that the limits ask for, and halves until there are `least` segments.
+  std::vector<std::vector<Added>> run(std::size_t least) {
     std::vector<std::vector<Added>> result(line_.parameters.size() - 1);
     if (!curve_.exists()) return result;
+    least_depth_ = 0;
+    while ((result.size() << least_depth_) < least) ++least_depth_;
     for (std::size_t k = 0; k + 1 < line_.parameters.size(); ++k) {
       const Added from{line_.parameters[k], points_[line_.shared[k]]},
           to{line_.parameters[k + 1], points_[line_.shared[k + 1]]};
@@ -75,7 +79,7 @@ class LineRefiner {
     constexpr int k_max_depth = 14;
     const double t = 0.5 * (from.parameter + to.parameter);
     const Added middle{t, curve_.at(t)};
-    if (depth == k_max_depth || !(exceeds_curve(from, middle, to) || exceeds_surfaces(from, to))) return;
+    if (depth == k_max_depth || !(depth < least_depth_ || exceeds_curve(from, middle, to) || exceeds_surfaces(from, to))) return;
     cut(from, middle, depth + 1, result);
     result.push_back(middle);
     cut(middle, to, depth + 1, result);
@@ -112,6 +116,7 @@ class LineRefiner {
   const EdgeLine& line_;
   const std::vector<Vec3>& points_;
   EdgeCurve curve_;
+  int least_depth_ = 0;
   RefineLimits limits_;  // The strictest of the faces'.
   std::vector<Seen> surfaces_;
 };
@@ -260,14 +265,34 @@ std::vector<double> EdgeNet::discretize(std::uint32_t index, const RefineLimits&
   return result;
 }
 
+/// So many segments each edge needs for its polyline to enclose something with its neighbours': an edge that returns to
+/// its start needs three, one of several between the same two points two.
+std::vector<std::size_t> EdgeNet::least_segments() const {
+  std::vector<std::size_t> result(lines_.size(), 1);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> between;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (lines_[i].degenerate || lines_[i].shared.size() < 2) continue;
+    const auto ends = std::minmax(lines_[i].shared.front(), lines_[i].shared.back());
+    if (ends.first == ends.second)
+      result[i] = 3;
+    else
+      between[ends].push_back(i);
+  }
+  for (const auto& [ends, edges] : between)
+    if (edges.size() > 1)
+      for (const std::size_t i : edges) result[i] = 2;
+  return result;
+}
+
 std::size_t EdgeNet::refine(std::vector<FaceMesh>& faces) {
   std::vector<std::vector<Side>> sides(lines_.size());
   for (const FaceMesh& mesh : faces)
     for (const EdgeUse& use : mesh.uses) sides[use.edge].push_back({&mesh, &use});
+  const std::vector<std::size_t> least = least_segments();
   std::vector<AddedPoints> added(lines_.size());
   parallel_for(lines_.size(), [&](std::size_t i) {
     if (lines_[i].parameters.size() < 2 || lines_[i].degenerate || sides[i].empty()) return;
-    added[i] = LineRefiner(*this, static_cast<std::uint32_t>(i), sides[i]).run();
+    added[i] = LineRefiner(*this, static_cast<std::uint32_t>(i), sides[i]).run(least[i]);
   });
 
   std::size_t count = 0;

@@ -63,6 +63,7 @@ class EdgeNet {
   std::size_t refine(std::vector<FaceMesh>& faces);
 
  private:
+  std::vector<std::size_t> least_segments() const;
   std::uint32_t vertex_point(const TopoDS_Shape& vertex, Vec3 position);
   std::uint32_t add_point(Vec3 position);
 

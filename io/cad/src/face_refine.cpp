@@ -191,19 +191,38 @@ class Refiner {
 
   bool should_flip(HalfEdge h) {
     const Index a = patch_.from(h), b = patch_.to(h), c = patch_.apex(h), d = patch_.apex(patch_.opposite(h));
-    for (const Index node : {a, b, c, d})
-      if (patch_.nodes[node].is_singular()) return false;
     if (c == d) return false;
+    const bool singular = patch_.nodes[a].is_singular() || patch_.nodes[b].is_singular() ||
+                          patch_.nodes[c].is_singular() || patch_.nodes[d].is_singular();
+    const bool folded = !singular && std::min(area(a, b, c), area(b, a, d)) <= 0;
+    if (!(singular ? is_convex_in_space(a, b, c, d) : is_convex(a, b, c, d))) return false;
+    if (folded) return true;
+    if (!is_illegal(a, b, c, d)) return false;
+    const Vec2 middle = patch_.middle_uv(c, d);
+    return edge_excess(patch_, std::min(c, d), std::max(c, d), surface_.at(middle), limits_) <=
+           std::max(1.0, excess(h));
+  }
+
+  double area(Index p, Index q, Index r) const {
     const auto uv = [&](Index node) { return patch_.nodes[node].uv; };
-    const auto area = [&](Index p, Index q, Index r) { return cross(uv(q) - uv(p), uv(r) - uv(p)); };
+    return cross(uv(q) - uv(p), uv(r) - uv(p));
+  }
+
+  /// Both triangles beside the other diagonal are to run counter-clockwise and not to be slivers.
+  static constexpr double k_flat = 1e-6;
+
+  bool is_convex(Index a, Index b, Index c, Index d) const {
     const double first = area(c, d, b), second = area(d, c, a);
-    constexpr double k_flat = 1e-6;
-    if (std::min(first, second) <= k_flat * (std::abs(first) + std::abs(second))) return false;
-    const double old_first = area(a, b, c), old_second = area(b, a, d);
-    const bool folded = std::min(old_first, old_second) <= 0;
-    if (!folded && !is_illegal(a, b, c, d)) return false;
-    const double wanted = edge_excess(patch_, std::min(c, d), std::max(c, d), surface_.at(patch_.middle_uv(c, d)), limits_);
-    return folded || wanted <= std::max(1.0, excess(h));
+    return std::min(first, second) > k_flat * (std::abs(first) + std::abs(second));
+  }
+
+  /// The same in the plane of the four corners, for where parameters mean nothing.
+  bool is_convex_in_space(Index a, Index b, Index c, Index d) const {
+    const auto at = [&](Index node) { return patch_.nodes[node].position; };
+    const auto twice_area = [&](Index p, Index q, Index r) { return cross(at(q) - at(p), at(r) - at(p)); };
+    const Vec3 n = normalized(twice_area(a, b, c) + twice_area(b, a, d));
+    const double first = dot(twice_area(c, d, b), n), second = dot(twice_area(d, c, a), n);
+    return std::min(first, second) > k_flat * (std::abs(first) + std::abs(second));
   }
 
   /// Whether the angles at c and d, opposite to the edge a-b, are more than π together.
