@@ -56,7 +56,7 @@ Json parts_json(const Scene& scene, const std::vector<std::size_t>& uses) {
 Json faces_json(const std::vector<CadFaceNote>& notes) {
   Json faces = Json::array();
   for (const CadFaceNote& note : notes)
-    faces.push_back({{"part", note.part}, {"face", note.face}, {"reason", note.reason}});
+    faces.push_back({{"part", note.part}, {"face", note.face}, {"reason", note.reason}, {"tried", note.tried}});
   return faces;
 }
 
@@ -98,6 +98,7 @@ Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options)
       {"faces", report.faces},
       {"failed_faces", faces_json(report.failed_faces)},
       {"repaired_faces", faces_json(report.repaired_faces)},
+      {"off_faces", faces_json(report.off_faces)},
       {"dropped_triangles", report.dropped_triangles},
       {"max_deviation_mm", report.max_deviation_mm},
       {"seconds", clock.seconds()},

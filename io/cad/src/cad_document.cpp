@@ -101,6 +101,7 @@ void set_reader_parameters() {
   Interface_Static::SetIVal("read.step.shape.repr", 1);
   Interface_Static::SetIVal("read.step.nonmanifold", 0);
   Interface_Static::SetCVal("read.step.codepage", "UTF8");
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
   Interface_Static::SetIVal("read.precision.mode", 0);
   Interface_Static::SetIVal("read.surfacecurve.mode", 0);
 }
@@ -136,9 +137,9 @@ void read_step(const std::filesystem::path& path, CadDocument& result, const Pro
   reader.SetColorMode(true);
   reader.SetLayerMode(true);
   reader.SetMatMode(true);
-  reader.SetPropsMode(false);
+  reader.SetPropsMode(true);
   reader.SetGDTMode(true);
-  reader.SetViewMode(false);
+  reader.SetViewMode(true);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw InvalidInput(path.string() + ": STEP file is damaged (its entities can't be parsed)");
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
@@ -151,6 +152,7 @@ void read_step(const std::filesystem::path& path, CadDocument& result, const Pro
   const Handle(OcctProgress) indicator = new OcctProgress(progress, "read", 0, 0.3);
   if (!reader.Transfer(result.document, indicator->Start()))
     throw InvalidInput(path.string() + ": STEP file holds no shape that can be read");
+  result.metadata = read_step_metadata(reader, result.document);
 }
 
 void read_iges(const std::filesystem::path& path, CadDocument& result, const Progress& progress) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "papilla/core/progress.hpp"
+#include "step_metadata.hpp"
 
 namespace papilla::cad {
 
@@ -15,6 +16,7 @@ struct CadDocument {
   std::string format;       ///< "STEP", "IGES", "BREP".
   std::string unit = "mm";  ///< The file's own.
   double millimetres_per_unit = 1;
+  StepMetadata metadata;
 };
 
 /// Reads the file into a document with assembly tree, names, colours, layers and materials.

@@ -64,26 +64,32 @@ std::size_t count_solids(const TopoDS_Shape& shape) {
   return count;
 }
 
-void add_mesh(Part& part, const cad::TessellatedShape& shape, cad::ShapeMesh mesh, CadReport& report) {
+void add_mesh(Part& part, cad::TessellatedShape shape, const std::vector<std::uint32_t>& face_materials,
+              CadReport& report) {
   for (const cad::FaceTrouble& trouble : shape.troubles)
     (trouble.solved ? report.repaired_faces : report.failed_faces)
-        .push_back({part.name, trouble.number, trouble.reason});
-  for (const std::uint32_t number : mesh.not_finite)
-    report.failed_faces.push_back({part.name, number, "coordinates are not finite"});
+        .push_back({part.id, trouble.number, trouble.reason, trouble.tried});
+  for (const cad::FaceOff& off : shape.off) report.off_faces.push_back({part.id, off.number, off.reason, {}});
+  report.parts.push_back({shape.max_deviation_mm, shape.max_angle_deg, shape.added_nodes});
   report.faces += shape.faces.size();
+  report.added_nodes += shape.added_nodes;
+  report.max_deviation_mm = std::max(report.max_deviation_mm, shape.max_deviation_mm);
+  report.max_angle_deg = std::max(report.max_angle_deg, shape.max_angle_deg);
+  cad::ShapeMesh mesh = cad::to_mesh(std::move(shape), face_materials);
   report.triangles += mesh.mesh.triangles.size();
   report.dropped_triangles += mesh.dropped_triangles;
-  report.max_deviation_mm = std::max(report.max_deviation_mm, mesh.max_deviation_mm);
   part.mesh = std::move(mesh.mesh);
 }
 
 void warn_of_faces(const CadReport& report, Scene& scene) {
+  const auto place = [](const CadFaceNote& note) {
+    return "face " + std::to_string(note.face) + " of part '" + note.part + "' ";
+  };
   for (const CadFaceNote& note : report.failed_faces)
-    scene.losses.push_back("face " + std::to_string(note.face) + " of part '" + note.part +
-                           "' has no triangles or gaps: " + note.reason);
+    scene.losses.push_back(place(note) + "has no triangles or gaps: " + note.reason);
   for (const CadFaceNote& note : report.repaired_faces)
-    scene.warnings.push_back("face " + std::to_string(note.face) + " of part '" + note.part +
-                             "' needed a second attempt: " + note.reason);
+    scene.warnings.push_back(place(note) + "was refused by the mesher and triangulated in another way: " + note.reason);
+  for (const CadFaceNote& note : report.off_faces) scene.warnings.push_back(place(note) + note.reason);
   if (scene.format == "BREP") scene.warnings.push_back("BREP carries no unit");
 }
 
@@ -101,7 +107,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (progress) progress("convert", 0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(shapes.size()));
     report.solids += count_solids(tree.shapes[i]);
-    add_mesh(tree.scene.parts[i], shapes[i], cad::to_mesh(shapes[i].faces, tree.face_materials[i]), report);
+    add_mesh(tree.scene.parts[i], std::move(shapes[i]), tree.face_materials[i], report);
   }
   if (report.triangles == 0) throw InvalidInput(path.string() + ": none of its faces can be tessellated");
   warn_of_faces(report, tree.scene);

@@ -14,27 +14,39 @@ namespace papilla {
 
 /// Options of read_cad().
 struct CadReadOptions {
-  double chord_mm = 0.1;        ///< Largest wanted distance between a triangle and the surface it stands for.
-  double angle_deg = 20;        ///< Largest wanted turn between neighbouring segments of an edge, in (0, 90].
-  bool relative = false;        ///< `chord_mm` is a fraction of each edge's length instead of millimetres.
+  double chord_mm = 0.1;        ///< Largest distance between a triangle and the surface it stands for.
+  double angle_deg = 20;        ///< Largest turn of the surface's normal along a triangle's edge, in (0, 90]; not asked
+                                ///< of edges shorter than a tenth of the chord.
+  double max_edge_mm = 0;       ///< Longest edge of a triangle; 0: any.
+  bool relative = false;        ///< `chord_mm` is a fraction of each part's diagonal instead of millimetres, in (0, 1].
   double brep_mm_per_unit = 1;  ///< BREP files carry no unit.
 };
 
 /// A CAD face that made trouble.
 struct CadFaceNote {
-  std::string part;        ///< Part::name.
-  std::uint32_t face = 0;  ///< As in TriangleMesh::face.
-  std::string reason;      ///< What the tessellator said, one clause.
+  std::string part;                ///< Part::id.
+  std::uint32_t face = 0;          ///< As in TriangleMesh::face.
+  std::string reason;              ///< One clause.
+  std::vector<std::string> tried;  ///< What was done about it, in order.
+};
+
+/// Deviation of one part.
+struct CadPartReport {
+  double max_deviation_mm = 0;   ///< Largest distance from a triangle to the exact surface at its (u, v), on samples
+                                 ///< that the refinement did not use: 9 inside of each triangle, and all nodes on edges.
+  double max_angle_deg = 0;      ///< Largest turn of the surface's normal along an edge that the angle is asked of.
+  std::size_t added_nodes = 0;   ///< Nodes that refinement put on edges and faces beyond the mesher's.
 };
 
 /// What read_cad() met. Counters are over the parts of the scene, each shape once however often it is used.
 struct CadReport {
-  std::size_t solids = 0, faces = 0, triangles = 0;
-  std::size_t dropped_triangles = 0;  ///< Collapsed onto an edge or a point by the parametrization (poles, slivers).
+  std::size_t solids = 0, faces = 0, triangles = 0, added_nodes = 0;
+  std::size_t dropped_triangles = 0;        ///< Collapsed onto an edge or a point by the parametrization.
   std::vector<CadFaceNote> failed_faces;    ///< Left without triangles, or with a gap to their neighbours.
-  std::vector<CadFaceNote> repaired_faces;  ///< Tessellated only at a second attempt.
-  double max_deviation_mm = 0;  ///< Largest distance seen from the surface at the (u, v) of triangles' centroids and
-                                ///< edge midpoints to the triangle's plane.
+  std::vector<CadFaceNote> repaired_faces;  ///< Refused by the mesher, triangulated in another way, without gap.
+  std::vector<CadFaceNote> off_faces;       ///< Further off than the chord, or with folds.
+  std::vector<CadPartReport> parts;         ///< One per part of the scene.
+  double max_deviation_mm = 0, max_angle_deg = 0;  ///< Largest of the parts.
   double seconds_read = 0, seconds_tessellate = 0, seconds_convert = 0;
 };
 
