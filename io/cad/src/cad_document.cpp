@@ -24,6 +24,7 @@
 
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
+#include "step_syntax.hpp"
 
 namespace papilla::cad {
 namespace {
@@ -140,6 +141,7 @@ void read_step(const std::filesystem::path& path, CadDocument& result, const Pro
   reader.SetPropsMode(true);
   reader.SetGDTMode(true);
   reader.SetViewMode(true);
+  check_step_syntax(path);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw InvalidInput(path.string() + ": STEP file is damaged (its entities can't be parsed)");
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;

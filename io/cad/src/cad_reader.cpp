@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/cad_reader.hpp"
 
-#include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
@@ -9,13 +8,17 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "cad_document.hpp"
 #include "cad_mesh.hpp"
+#include "cad_parallel.hpp"
 #include "cad_tessellate.hpp"
 #include "cad_tree.hpp"
+#include "isolated.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
 
@@ -42,17 +45,23 @@ void check_options(const CadReadOptions& options) {
   if (!(options.angle_deg > 0 && options.angle_deg <= 90)) refuse("angle_deg must be in (0, 90]", options.angle_deg);
   if (!(options.brep_mm_per_unit > 0) || !std::isfinite(options.brep_mm_per_unit))
     refuse("brep_mm_per_unit must be > 0", options.brep_mm_per_unit);
+  if (!(options.max_edge_mm >= 0) || !std::isfinite(options.max_edge_mm))
+    refuse("max_edge_mm must be >= 0", options.max_edge_mm);
   if (options.relative && options.chord_mm > 1) refuse("a relative chord must be in (0, 1]", options.chord_mm);
 }
 
 /// A chord this far below the model's size asks for more triangles than any memory holds.
 constexpr double k_least_relative_chord = 1e-6;
+constexpr double k_least_relative_edge = 1e-4;
 
 void check_size(const std::filesystem::path& path, const std::vector<TopoDS_Shape>& shapes,
                 const CadReadOptions& options) {
   if (shapes.empty()) throw InvalidInput(path.string() + ": holds no face");
   const double diagonal = cad::diagonal_of(shapes);
   if (!std::isfinite(diagonal)) throw InvalidInput(path.string() + ": holds geometry that is not finite");
+  if (options.max_edge_mm > 0 && options.max_edge_mm < k_least_relative_edge * diagonal)
+    throw InvalidInput(path.string() + ": longest edge " + std::to_string(options.max_edge_mm) +
+                       " mm is below 1e-4 of the model's diagonal, " + std::to_string(diagonal) + " mm");
   if (!options.relative && options.chord_mm < k_least_relative_chord * diagonal)
     throw InvalidInput(path.string() + ": chord " + std::to_string(options.chord_mm) +
                        " mm is below 1e-6 of the model's diagonal, " + std::to_string(diagonal) + " mm");
@@ -93,14 +102,33 @@ void warn_of_faces(const CadReport& report, Scene& scene) {
   if (scene.format == "BREP") scene.warnings.push_back("BREP carries no unit");
 }
 
+/// Processor time that no sound file needs to be read: the slowest real files take 2 s per MB.
+double reading_seconds(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  constexpr double k_base = 20, k_per_byte = 30e-6;
+  return k_base + (error ? 0 : k_per_byte * static_cast<double>(bytes));
+}
+
+/// The same for the mesher: the slowest real faces take a few seconds at the finest chord that is allowed.
+double tessellating_seconds(const std::vector<TopoDS_Shape>& shapes) {
+  std::size_t faces = 0;
+  for (const TopoDS_Shape& shape : shapes)
+    for (TopExp_Explorer all(shape, TopAbs_FACE); all.More(); all.Next()) ++faces;
+  constexpr double k_base = 600, k_per_face = 60;
+  return k_base + k_per_face * static_cast<double>(faces);
+}
+
 Scene read(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
            const Progress& progress) {
   Stopwatch watch;
   if (progress) progress("read", 0);
+  cad::allow_processor_time(reading_seconds(path));
   cad::CadTree tree = cad::build_tree(cad::read_document(path, options.brep_mm_per_unit, progress));
   check_size(path, tree.shapes, options);
   report.seconds_read = watch.lap();
 
+  cad::allow_processor_time(tessellating_seconds(tree.shapes));
   std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, options, progress);
   report.seconds_tessellate = watch.lap();
 
@@ -116,6 +144,20 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   return std::move(tree.scene);
 }
 
+/// The library's exceptions are not the standard's.
+Scene read_in_this_process(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
+                           const Progress& progress) {
+  try {
+    cad::set_up_threads();
+    return read(path, options, report, progress);
+  } catch (const Standard_Failure& failure) {
+    std::string what = failure.GetMessageString();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    throw InvalidInput(path.string() + ": damaged CAD data (" + failure.DynamicType()->Name() +
+                       (what.empty() ? "" : ": " + what) + ")");
+  }
+}
+
 }  // namespace
 
 Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options, CadReport* report,
@@ -125,15 +167,10 @@ Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options,
   CadReport own;
   CadReport& filled = report ? *report : own;
   filled = {};
-  try {
-    OCC_CATCH_SIGNALS
-    return read(path, options, filled, progress);
-  } catch (const Standard_Failure& failure) {
-    std::string what = failure.GetMessageString();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    throw InvalidInput(path.string() + ": damaged CAD data (" + failure.DynamicType()->Name() +
-                       (what.empty() ? "" : ": " + what) + ")");
-  }
+  if (!options.isolated) return read_in_this_process(path, options, filled, progress);
+  return cad::run_isolated(path, filled, progress, [&](CadReport& child_report, const Progress& child_progress) {
+    return read_in_this_process(path, options, child_report, child_progress);
+  });
 }
 
 bool is_cad_extension(const std::filesystem::path& path) {

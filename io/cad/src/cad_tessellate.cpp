@@ -42,17 +42,23 @@ RefineLimits limits_of(const CadReadOptions& options, const TopoDS_Shape& shape)
   return limits;
 }
 
-/// The mesher's first triangulation: edges as asked for, between them only what it takes to have triangles.
-void mesh_coarsely(const TopoDS_Shape& shape, const RefineLimits& limits, const Message_ProgressRange& range) {
+/// The mesher's triangulation. To be refined: edges as asked for, between them only what it takes to have triangles.
+void run_mesher(const TopoDS_Shape& shape, const RefineLimits& limits, CadMeshing meshing,
+                const Message_ProgressRange& range) {
   BRepTools::Clean(shape);
   BRepMesh_IncrementalMesh mesher;
   IMeshTools_Parameters& parameters = mesher.ChangeParameters();
   parameters.Deflection = limits.chord;
-  parameters.DeflectionInterior = limits.chord;
   parameters.Angle = limits.angle;
-  parameters.InParallel = true;
-  parameters.ControlSurfaceDeflection = false;
-  parameters.InternalVerticesMode = false;
+  parameters.InParallel = is_parallel();
+  if (meshing == CadMeshing::refined) {
+    // Its time for a face grows with the square of the nodes inside.
+    constexpr double k_coarse_chord = 100, k_coarse_angle = 1;
+    parameters.DeflectionInterior = k_coarse_chord * limits.chord;
+    parameters.AngleInterior = std::max(limits.angle, k_coarse_angle);
+    parameters.ControlSurfaceDeflection = false;
+    parameters.InternalVerticesMode = false;
+  }
   mesher.SetShape(shape);
   mesher.Perform(range);
 }
@@ -163,7 +169,7 @@ std::string describe(const FaceResult& face, const RefineLimits& limits) {
 }
 
 /// The part of one shape's work that comes before its faces can be refined independently.
-TessellatedShape prepare(const TopoDS_Shape& shape, const RefineLimits& limits) {
+TessellatedShape prepare(const TopoDS_Shape& shape, const RefineLimits& limits, CadMeshing meshing) {
   EdgeNet net(shape);
   TessellatedShape result;
   std::vector<BaseFace> bases = base_faces(shape, net, limits);
@@ -176,7 +182,7 @@ TessellatedShape prepare(const TopoDS_Shape& shape, const RefineLimits& limits) 
     constexpr double k_least = 0.5;
     mesh.limits.chord = std::max(k_least * limits.chord, limits.chord - largest_gap(mesh.patch));
   }
-  result.added_nodes = net.refine(result.faces);
+  if (meshing == CadMeshing::refined) result.added_nodes = net.refine(result.faces);
   result.points = net.points();
   return result;
 }
@@ -195,17 +201,17 @@ std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes
   for (const TopoDS_Shape& shape : shapes) limits.push_back(limits_of(options, shape));
   const Handle(OcctProgress) indicator = new OcctProgress(progress, "tessellate", 0.3, 0.5);
   if (options.relative) {
-    for (std::size_t i = 0; i < shapes.size(); ++i) mesh_coarsely(shapes[i], limits[i], {});
+    for (std::size_t i = 0; i < shapes.size(); ++i) run_mesher(shapes[i], limits[i], options.meshing, {});
   } else if (!shapes.empty()) {
     TopoDS_Compound all;
     BRep_Builder builder;
     builder.MakeCompound(all);
     for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
-    mesh_coarsely(all, limits.front(), indicator->Start());
+    run_mesher(all, limits.front(), options.meshing, indicator->Start());
   }
 
   std::vector<TessellatedShape> result(shapes.size());
-  parallel_for(shapes.size(), [&](std::size_t i) { result[i] = prepare(shapes[i], limits[i]); });
+  parallel_for(shapes.size(), [&](std::size_t i) { result[i] = prepare(shapes[i], limits[i], options.meshing); });
 
   struct Job {
     std::size_t shape, face;
@@ -216,11 +222,14 @@ std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes
   const auto mesh_of = [&](std::size_t job) -> FaceMesh& { return result[jobs[job].shape].faces[jobs[job].face]; };
   WorkMeter meter(progress, 0.5, 0.9, 2 * jobs.size());
   std::vector<std::size_t> added(jobs.size());
+  const bool refined = options.meshing == CadMeshing::refined;
   parallel_for(jobs.size(), [&](std::size_t i) {
-    added[i] = refine_face(mesh_of(i));
+    if (refined) added[i] = refine_face(mesh_of(i));
     meter.add(1);
   });
-  parallel_for(shapes.size(), [&](std::size_t i) { result[i].added_nodes += part_bridges(result[i].faces); });
+  parallel_for(shapes.size(), [&](std::size_t i) {
+    if (refined) result[i].added_nodes += part_bridges(result[i].faces);
+  });
   std::vector<FaceResult> faces(jobs.size());
   parallel_for(jobs.size(), [&](std::size_t i) {
     faces[i] = measure_face(mesh_of(i));

@@ -26,12 +26,23 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <XCAFDimTolObjects_DimensionObject.hxx>
+#include <XCAFDimTolObjects_GeomToleranceObject.hxx>
+#include <XCAFDoc_Area.hxx>
 #include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DimTolTool.hxx>
+#include <XCAFDoc_Dimension.hxx>
+#include <XCAFDoc_GeomTolerance.hxx>
+#include <XCAFDoc_MaterialTool.hxx>
+#include <XCAFDoc_Volume.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -90,11 +101,54 @@ void CadFile::layer(const TDF_Label& label, const std::string& name) {
   XCAFDoc_DocumentTool::LayerTool(document_->Main())->SetLayer(label, TCollection_ExtendedString(name.c_str(), true));
 }
 
+void CadFile::material(const TDF_Label& label, const std::string& name, double density_g_per_cm3) {
+  const auto text = [](const char* t) { return Handle(TCollection_HAsciiString)(new TCollection_HAsciiString(t)); };
+  XCAFDoc_DocumentTool::MaterialTool(document_->Main())
+      ->SetMaterial(label, text(name.c_str()), text("of a test"), density_g_per_cm3, text("g/cm3"),
+                    text("POSITIVE_RATIO_MEASURE"));
+}
+
+void CadFile::diameter(const TDF_Label& part, const TopoDS_Shape& face, double value, double upper, double lower) {
+  const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
+  const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
+  const TDF_Label label = tool->AddDimension();
+  Handle(XCAFDoc_Dimension) attribute;
+  label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute);
+  const Handle(XCAFDimTolObjects_DimensionObject) object = attribute->GetObject();
+  object->SetType(XCAFDimTolObjects_DimensionType_Size_Diameter);
+  object->SetValue(value);
+  object->SetUpperTolValue(upper);
+  object->SetLowerTolValue(lower);
+  attribute->SetObject(object);
+  tool->SetDimension(on, label);
+}
+
+void CadFile::flatness(const TDF_Label& part, const TopoDS_Shape& face, double value) {
+  const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
+  const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
+  const TDF_Label label = tool->AddGeomTolerance();
+  Handle(XCAFDoc_GeomTolerance) attribute;
+  label.FindAttribute(XCAFDoc_GeomTolerance::GetID(), attribute);
+  const Handle(XCAFDimTolObjects_GeomToleranceObject) object = attribute->GetObject();
+  object->SetType(XCAFDimTolObjects_GeomToleranceType_Flatness);
+  object->SetValue(value);
+  attribute->SetObject(object);
+  tool->SetGeomTolerance(on, label);
+}
+
+void CadFile::validation(const TDF_Label& part, double area, double volume) {
+  XCAFDoc_Area::Set(part, area);
+  XCAFDoc_Volume::Set(part, volume);
+}
+
 void CadFile::write_step(const std::filesystem::path& path, const std::string& schema, const std::string& unit) {
   XCAFDoc_DocumentTool::ShapeTool(document_->Main())->UpdateAssemblies();
   Interface_Static::SetCVal("write.step.schema", schema.c_str());
   Interface_Static::SetCVal("write.step.unit", unit.c_str());
   STEPCAFControl_Writer writer;
+  writer.SetDimTolMode(true);
+  writer.SetPropsMode(true);
+  writer.SetMaterialMode(true);
   require(writer.Transfer(document_, STEPControl_AsIs), path);
   require(writer.Write(path.c_str()) == IFSelect_RetDone, path);
 }
@@ -123,6 +177,11 @@ TopoDS_Face face_of(const TopoDS_Shape& shape, int number) {
   TopExp_Explorer faces(shape, TopAbs_FACE);
   for (; number > 0; --number) faces.Next();
   return TopoDS::Face(faces.Current());
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 double volume(const TriangleMesh& mesh) {
