@@ -274,7 +274,7 @@ void body(bench::BenchReport& report) {
   soups.push_back(cockpit_soup(folder, 20, 60));
   if (!quick) {
     soups.push_back(cockpit_soup(folder, 0.5, 28));
-    soups.push_back(cockpit_soup(folder, 0.02, 10));
+    soups.push_back(cockpit_soup(folder, 0.012, 10));
   }
   for (const Soup& soup : soups) add_speed(report, soup, folder);
   if (bench::has_program("assimp")) report.compare("papilla repair", "assimp export", "process_cpu_seconds");

@@ -115,7 +115,8 @@ class Refiner {
     for (const std::uint32_t t : list)
       for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
         if (patch_.is_fixed(h) || (patch_.opposite(h) < h && in(list, patch_.opposite(h) / 3))) continue;
-        if (excess(h) > 1) candidates.push_back({length(patch_.from(h), patch_.to(h)), patch_.from(h), patch_.to(h), h});
+        if (excess(h) > 1 && !passes_apex(h))
+          candidates.push_back({length(patch_.from(h), patch_.to(h)), patch_.from(h), patch_.to(h), h});
       }
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& p, const Candidate& q) {
       return std::tie(q.length, p.a, p.b) < std::tie(p.length, q.a, q.b);
@@ -133,6 +134,19 @@ class Refiner {
       changed = true;
     }
     return changed;
+  }
+
+  /// Its middle is the third corner of a triangle beside it: splitting it would only stack up nodes.
+  bool passes_apex(HalfEdge h) const {
+    const Vec2 a = patch_.nodes[patch_.from(h)].uv, b = patch_.nodes[patch_.to(h)].uv;
+    const Vec2 middle = patch_.middle_uv(patch_.from(h), patch_.to(h));
+    constexpr double k_same = 1e-9;
+    for (const HalfEdge side : {h, patch_.opposite(h)}) {
+      if (side == k_no_value) continue;
+      const Vec2 away = patch_.nodes[patch_.apex(side)].uv - middle;
+      if (dot(away, away) <= k_same * k_same * dot(b - a, b - a)) return true;
+    }
+    return false;
   }
 
   static bool in(const std::vector<std::uint32_t>& sorted, std::uint32_t t) {
@@ -194,7 +208,7 @@ class Refiner {
     if (c == d) return false;
     const bool singular = patch_.nodes[a].is_singular() || patch_.nodes[b].is_singular() ||
                           patch_.nodes[c].is_singular() || patch_.nodes[d].is_singular();
-    const bool folded = !singular && std::min(area(a, b, c), area(b, a, d)) <= 0;
+    const bool folded = !singular && (is_flat(a, b, c) || is_flat(b, a, d));
     if (!(singular ? is_convex_in_space(a, b, c, d) : is_convex(a, b, c, d))) return false;
     if (folded) return true;
     if (!is_illegal(a, b, c, d)) return false;
@@ -208,10 +222,21 @@ class Refiner {
     return cross(uv(q) - uv(p), uv(r) - uv(p));
   }
 
+  /// Folded, or its corners on one line up to rounding: splitting its longest edge would put a node onto its third.
+  bool is_flat(Index p, Index q, Index r) const {
+    constexpr double k_collinear = 1e-10;
+    const auto squared = [&](Index from, Index to) {
+      const Vec2 edge = patch_.nodes[to].uv - patch_.nodes[from].uv;
+      return dot(edge, edge);
+    };
+    return area(p, q, r) <= k_collinear * std::max({squared(p, q), squared(q, r), squared(r, p)});
+  }
+
   /// Both triangles beside the other diagonal are to run counter-clockwise and not to be slivers.
   static constexpr double k_flat = 1e-6;
 
   bool is_convex(Index a, Index b, Index c, Index d) const {
+    if (is_flat(c, d, b) || is_flat(d, c, a)) return false;
     const double first = area(c, d, b), second = area(d, c, a);
     return std::min(first, second) > k_flat * (std::abs(first) + std::abs(second));
   }
