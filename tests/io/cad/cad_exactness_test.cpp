@@ -261,8 +261,9 @@ TEST_F(CadExactness, TraceFallsWithTheChord) {
     EXPECT_EQ(trace[i].chord_mm, chords[i]);
     EXPECT_LE(trace[i].deviation_mm, chords[i]);
     EXPECT_GT(trace[i].seconds, 0);
-    if (i > 0) EXPECT_GT(trace[i].triangles, trace[i - 1].triangles);
-    if (i > 0) EXPECT_LT(trace[i].deviation_mm, trace[i - 1].deviation_mm);
+    if (i == 0) continue;
+    EXPECT_GT(trace[i].triangles, trace[i - 1].triangles);
+    EXPECT_LT(trace[i].deviation_mm, trace[i - 1].deviation_mm);
   }
   EXPECT_THROW(chord_ladder(0.1, 0.5, 3), InvalidInput);
   EXPECT_THROW(chord_ladder(0.5, 0.1, 1), InvalidInput);
