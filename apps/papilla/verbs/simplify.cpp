@@ -15,6 +15,7 @@
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/levels_of_detail.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -148,7 +149,7 @@ Json simplify_file(VerbContext& context, SimplifyVerbOptions options) {
   context.console.print(fmt::format("{:>10} {:>10} {:>12.4g}  total\n", before, after, deviation));
   for (std::size_t i = 0; i < results.size(); ++i) scene.parts[i].mesh = results[i].front().mesh;
   add_levels(scene, results);
-  write_scene(scene, options.out);
+  write_output(scene, options.out, context.console);
   return {{"triangles_before", before},  {"triangles_after", after}, {"max_deviation_mm", deviation},
           {"max_deviation_met_mm", met}, {"parts", parts},           {"losses", scene.losses},
           {"seconds", clock.seconds()},  {"output", options.out}};
@@ -163,7 +164,7 @@ void add_simplify(CLI::App& program) {
                              "papilla simplify dash.glb -o light.glb --tolerance 0.1"},
                             [options](VerbContext& context) { return simplify_file(context, *options); });
   verb->add_option("in", options->in, "File to read")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ or STL file to write")->type_name("OUT")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
   verb->add_option("--tolerance", options->tolerance_mm, "Largest distance between input and result")
       ->type_name("MM")
       ->check(CLI::PositiveNumber);
