@@ -24,7 +24,7 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->check(CLI::Range(0.1, 90.0))->capture_default_str()->group("Input");
   verb.add_option("--quality", quality, "CAD: chord by name: extra-coarse 1, coarse 0.5, medium 0.2, fine 0.1, extra-fine 0.02 mm")
       ->check(CLI::IsMember({"extra-coarse", "coarse", "medium", "fine", "extra-fine"}))->excludes(chord)->group("Input");
-  verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ)")
+  verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY, OFF)")
       ->check(CLI::IsMember({"file", "mm", "cm", "m", "in", "ft"}))->capture_default_str()->group("Input");
   verb.add_option("--up", up, "Upward axis: as the file's format has it, or given")
       ->check(CLI::IsMember({"file", "y", "z"}))->capture_default_str()->group("Input");

@@ -24,6 +24,7 @@ namespace {
 
 constexpr Index k_none = std::numeric_limits<Index>::max();
 constexpr std::size_t k_max_elements = k_none - 1;
+constexpr Triangle k_no_values = {k_no_value, k_no_value, k_no_value};
 
 /// A face's corner: numbers into the file's lists, from 0, k_none when not given.
 struct Corner {
@@ -381,19 +382,26 @@ class PartAssembler {
   }
 
  private:
-  /// Fills the value lists. Corners without uv or normal use a neutral value behind the others.
+  /// Fills the value lists. Faces without uv or normals have no value there; where only some corners lack one, these
+  /// use a neutral value behind the others.
   void collect(const std::vector<const Face*>& faces, TriangleMesh& mesh) {
     has_uv_ = has_normals_ = false;
     bool lacks_uv = false, lacks_normals = false;
-    for (const Face* face : faces)
+    for (const Face* face : faces) {
+      std::uint32_t with_uv = 0, with_normal = 0;
       for (std::size_t i = face->first_corner; i < face->first_corner + face->corners; ++i) {
         const Corner& corner = content_.corners[i];
         positions_.use(corner.position);
-        (corner.uv == k_none ? lacks_uv : has_uv_) = true;
-        (corner.normal == k_none ? lacks_normals : has_normals_) = true;
         if (corner.uv != k_none) uv_.use(corner.uv);
         if (corner.normal != k_none) normals_.use(corner.normal);
+        with_uv += corner.uv != k_none;
+        with_normal += corner.normal != k_none;
       }
+      has_uv_ |= with_uv > 0;
+      has_normals_ |= with_normal > 0;
+      lacks_uv |= with_uv > 0 && with_uv < face->corners;
+      lacks_normals |= with_normal > 0 && with_normal < face->corners;
+    }
     mesh.positions = positions_.finish(content_.positions);
     for (Vec3& position : mesh.positions) position = unit_ * position;
     if (!content_.colors.empty()) {
@@ -420,9 +428,15 @@ class PartAssembler {
         normals[k] = corner.normal == k_none ? no_normal_ : normals_[corner.normal];
       }
       mesh.triangles.push_back(positions);
-      if (has_uv_) mesh.uv.indices.push_back(uv);
-      if (has_normals_) mesh.normals.indices.push_back(normals);
+      if (has_uv_) mesh.uv.indices.push_back(lacks_all(face, &Corner::uv) ? k_no_values : uv);
+      if (has_normals_) mesh.normals.indices.push_back(lacks_all(face, &Corner::normal) ? k_no_values : normals);
     }
+  }
+
+  bool lacks_all(const Face& face, Index Corner::*index) const {
+    for (std::size_t i = face.first_corner; i < face.first_corner + face.corners; ++i)
+      if (content_.corners[i].*index != k_none) return false;
+    return true;
   }
 
   std::vector<std::array<std::size_t, 3>> cut(const Face& face) const {

@@ -14,6 +14,10 @@ needed=$(readelf -d "$program" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
 symbols=$(nm -C "$program")
 [[ -n $symbols ]] || { echo "$program: is stripped, its symbols can't be checked"; exit 1; }
 
+# Debian's libdraco exports another version of tinygltf: the loader must find ours first.
+order=$(grep -nE '^lib(tinygltf|draco)\.so' <<<"$needed" | sed -E 's/.*lib([a-z]+)\.so.*/\1/' | xargs)
+[[ $order != draco* ]] || { echo "$program: links libdraco before libtinygltf"; exit 1; }
+
 breaches=$(
   grep -vE "$allowed" <<<"$needed" | sed 's/^/links the shared library /'
   grep -E "$heavy_symbols" <<<"$symbols" | head -n 5 | sed 's/^/holds the symbol /'

@@ -17,11 +17,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A step of a JSON pointer, on one line whatever the key.
 std::string escaped(std::string_view key) {
   std::string out;
   for (const char c : key) {
-    if (static_cast<unsigned char>(c) < 0x20) { out += '?'; continue; }
     if (c == '~') out += "~0";
     else if (c == '/') out += "~1";
     else out += c;
@@ -36,7 +34,10 @@ class Value {
       : json_(json), file_(std::move(file)), pointer_(std::move(pointer)) {}
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw InvalidInput(file_ + ": at " + (pointer_.empty() ? "the top level" : pointer_) + ": " + reason);
+    std::string message = file_ + ": at " + (pointer_.empty() ? "the top level" : pointer_) + ": " + reason;
+    for (char& c : message)
+      if (c >= 0 && c < ' ') c = '?';  // Keys may hold anything, a message is one line.
+    throw InvalidInput(message);
   }
   const Json& json() const { return json_; }
 

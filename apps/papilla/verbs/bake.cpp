@@ -73,7 +73,7 @@ Json run_bake(const Options& options, VerbContext& context) {
   BakeResult result = bake(std::move(scene), surfaces, context.progress);
   result.seconds.merge(seconds);
   const Stopwatch write_clock;
-  write_glb(result.scene, options.output, {});
+  for (const std::string& loss : write_glb(result.scene, options.output, {})) result.scene.losses.push_back(loss);
   result.seconds["write"] = write_clock.seconds();
 
   Json json = bake_json(result, surfaces);

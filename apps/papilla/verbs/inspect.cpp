@@ -135,7 +135,7 @@ void add_inspect(CLI::App& program) {
                             {"inspect", "Show what a file holds: parts, materials, and what is wrong with the meshes.",
                              "papilla inspect seat.obj --json -"},
                             [options](VerbContext& context) { return inspect(context, *options); });
-  verb->add_option("file", options->file, "STL, OBJ, GLB or glTF file")->type_name("FILE")->required();
+  verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("FILE")->required();
   options->perception.add_to(*verb, false);
   options->read.add_to(*verb);
 }

@@ -13,6 +13,7 @@
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/deviation.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -107,7 +108,7 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
   const std::vector<RepairResult> results = repair_parts(scene, options, context.progress);
   const MeshStatistics after = total_statistics(part_statistics(scene, context.progress));
   show_both_sides(scene, results);
-  write_scene(scene, options.out);
+  write_output(scene, options.out, context.console);
 
   double deviation = 0, tolerance = 0;
   std::vector<std::string> unsettled;
@@ -134,6 +135,8 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
           {"parts", scene.parts.size()},
           {"identical_parts", identical},
           {"unsettled", unsettled},
+          {"losses", scene.losses},
+          {"warnings", scene.warnings},
           {"seconds", clock.seconds()},
           {"output", options.out}};
 }
@@ -146,8 +149,8 @@ void add_repair(CLI::App& program) {
                             {"repair", "Make clean, oriented, manifold parts of whatever a file holds.",
                              "papilla repair scan.stl -o clean.glb"},
                             [options](VerbContext& context) { return repair_file(context, *options); });
-  verb->add_option("in", options->in, "STL, OBJ, GLB or glTF file")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ or STL file to write")->type_name("OUT")->required();
+  verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("IN")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
   verb->add_option("--weld", options->repair.weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);

@@ -18,6 +18,7 @@
 #include "papilla/io/scene_file.hpp"
 #include "scene_budget.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -146,7 +147,7 @@ Json simplify_file(VerbContext& context, SimplifyVerbOptions options) {
   print_row(context.console, json["triangles_before"].get<std::size_t>(), json["triangles_after"].get<std::size_t>(),
             json["max_deviation_mm"].get<double>(), "drawn in all");
   if (options.levels.as_nodes) levels_to_nodes(scene);
-  write_scene(scene, options.out);
+  write_output(scene, options.out, context.console);
   json["parts"] = parts;
   json["losses"] = scene.losses;
   json["seconds"] = clock.seconds();
@@ -177,7 +178,7 @@ void add_simplify(CLI::App& program) {
                              "papilla simplify dash.glb -o light.glb --tolerance 0.1"},
                             [options](VerbContext& context) { return simplify_file(context, *options); });
   verb->add_option("in", options->in, "File to read")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ or STL file to write")->type_name("OUT")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
   add_goals(*verb, *options);
   verb->add_option("--passes", options->simplify.passes, "1 is fastest, 4 leaves fewest triangles")
       ->type_name("N")

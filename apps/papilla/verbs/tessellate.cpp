@@ -8,6 +8,7 @@
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -69,7 +70,6 @@ void print_summary(const Console& console, const Scene& scene, const std::vector
   console.print(fmt::format("{} triangles in {} parts, {} of {} CAD faces failed, largest deviation {:.3g} mm\n",
                             report.triangles, scene.parts.size(), report.failed_faces.size(), report.faces,
                             report.max_deviation_mm));
-  for (const std::string& loss : scene.losses) console.print("lost: " + loss + "\n");
 }
 
 Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options) {
@@ -82,7 +82,7 @@ Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options)
   scene.up = read.up.value_or(scene.up);
   std::vector<SharedPart> shared;
   if (!options.keep_copies) shared = share_identical_parts(scene);
-  write_scene(scene, options.out);
+  write_output(scene, options.out, context.console);
 
   const std::vector<std::size_t> uses = uses_of(scene);
   print_summary(context.console, scene, uses, report);
@@ -119,7 +119,7 @@ void add_tessellate(CLI::App& program) {
                 "papilla tessellate data/cockpit.step -o cockpit.glb --chord 0.2"},
                [options](VerbContext& context) { return tessellate_file(context, *options); });
   verb->add_option("in", options->in, "STEP, IGES or BREP file")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ or STL file to write")->type_name("OUT")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
   verb->add_flag("--relative", options->relative, "The chord is a fraction of each edge's length");
   verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);

@@ -10,6 +10,7 @@
 #include "papilla/io/image_file.hpp"
 #include "pictures/uv_layout.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "unwrap/unwrap.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -87,7 +88,7 @@ Json run(const Options& options, VerbContext& context) {
   const UnwrapReport report = unwrap_named(options.input, scene, unwrap, context.progress);
   const SceneDistortion distortion =
       measure_scene(scene, {}, [&](std::size_t p) { return report.parts[p].failure.empty(); });
-  write_scene(scene, options.output);
+  write_output(scene, options.output, context.console);
   if (!options.trace.empty()) write_atomically(options.trace, trace_csv(report.trace));
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
@@ -105,7 +106,8 @@ Json run(const Options& options, VerbContext& context) {
             {"total", report.seconds.total}}},
           {"fill_rate", report.fill_rate},
           {"distortion", distortion_json(distortion.report)},
-          {"parts", parts_json(scene, report)}};
+          {"parts", parts_json(scene, report)},
+          {"losses", scene.losses}};
 }
 
 template <class Value>

@@ -129,7 +129,7 @@ std::span<const unsigned char> AccessorReader::range(int number, std::size_t off
   if (number < 0 || static_cast<std::size_t>(number) >= model.buffers.size())
     fail(where, what + " names buffer " + std::to_string(number) + ", which does not exist");
   const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(number)];
-  if (buffer.uri.empty() && (!document_.binary || number != 0))
+  if (document_.empty_buffers.contains(number))
     fail(where, "buffer " + std::to_string(number) + " has no data");
   if (offset > buffer.data.size() || length > buffer.data.size() - offset)
     fail(where, what + " (offset " + std::to_string(offset) + ", length " + std::to_string(length) +
@@ -143,7 +143,7 @@ std::span<const unsigned char> AccessorReader::view(int number, const std::strin
   if (number < 0 || static_cast<std::size_t>(number) >= model.bufferViews.size()) fail(where, what + " does not exist");
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(number)];
   const auto compressed = meshopt_view(view);
-  if (!compressed || (!has_meshopt() && !document_.fallback_buffers.contains(view.buffer)))
+  if (!compressed || (!has_meshopt() && !document_.empty_buffers.contains(view.buffer)))
     return range(view.buffer, view.byteOffset, view.byteLength, what, where);
   if (const auto known = decoded_.find(number); known != decoded_.end()) return known->second;
   const auto bytes = range(compressed->buffer, compressed->byte_offset, compressed->byte_length, what, where);

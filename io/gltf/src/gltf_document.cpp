@@ -101,8 +101,15 @@ std::vector<std::size_t> count_primitives(const Json& json) {
 /// Checks what must be known before tinygltf may see the text.
 Json parse_header(std::string_view text, const std::string& file) {
   check_depth(text, file);
-  Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) throw InvalidInput(file + ": is no glTF: the JSON is damaged or not an object");
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw InvalidInput(file + ": is no glTF: the JSON is damaged at its byte " + std::to_string(error.byte));
+  } catch (const Json::out_of_range&) {
+    throw InvalidInput(file + ": the JSON holds a number beyond the range of 64-bit floats");
+  }
+  if (!json.is_object()) throw InvalidInput(file + ": is no glTF: the JSON is not an object");
   const auto asset = json.find("asset");
   if (asset == json.end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
     throw InvalidInput(file + ": is no glTF: asset.version is missing");
@@ -121,20 +128,15 @@ Json parse_header(std::string_view text, const std::string& file) {
   return json;
 }
 
-/// EXT_meshopt_compression lets buffers have no data when all their views are compressed; tinygltf refuses them. Gives
-/// them a byte.
+/// glTF lets buffers have no data, for extensions that bring their own; tinygltf refuses them. Gives them a byte.
 /// @returns the numbers of those buffers.
-std::set<int> fill_fallback_buffers(Json& json) {
+std::set<int> fill_empty_buffers(Json& json, bool binary) {
   std::set<int> filled;
   const auto buffers = json.find("buffers");
   if (buffers == json.end() || !buffers->is_array()) return filled;
-  for (std::size_t i = 0; i < buffers->size(); ++i) {
+  for (std::size_t i = binary ? 1 : 0; i < buffers->size(); ++i) {
     Json& buffer = (*buffers)[i];
-    if (!buffer.is_object() || buffer.contains("uri") || !buffer.contains("extensions")) continue;
-    const Json& extensions = buffer["extensions"];
-    const bool is_fallback = extensions.is_object() && (extensions.contains("EXT_meshopt_compression") ||
-                                                        extensions.contains("KHR_meshopt_compression"));
-    if (!is_fallback) continue;
+    if (!buffer.is_object() || buffer.contains("uri")) continue;
     buffer = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
     filled.insert(static_cast<int>(i));
   }
@@ -244,9 +246,9 @@ Document load_document(const std::filesystem::path& path) {
   document.binary = std::string_view(bytes).starts_with(k_magic);
   Json json = parse_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file);
   const auto primitives = count_primitives(json);
-  document.fallback_buffers = fill_fallback_buffers(json);
+  document.empty_buffers = fill_empty_buffers(json, document.binary);
   const std::vector<Indices> detached = detach_indices(json);
-  if (!document.fallback_buffers.empty() || !detached.empty())
+  if (!document.empty_buffers.empty() || !detached.empty())
     bytes = with_json(bytes, document.binary, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 
   tinygltf::TinyGLTF loader = make_loader();

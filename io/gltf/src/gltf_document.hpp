@@ -15,7 +15,7 @@ struct Document {
   std::string file;  ///< As messages name it.
   bool binary = false;
   tinygltf::Model model;
-  std::set<int> fallback_buffers;  ///< Without data: only compressed views are in them.
+  std::set<int> empty_buffers;  ///< Those without data, as extensions allow them.
   std::vector<std::string> warnings;
 };
 
