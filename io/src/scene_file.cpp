@@ -32,7 +32,8 @@ Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& optio
   CadReadOptions cad;
   cad.chord_mm = options.chord_mm;
   cad.angle_deg = options.angle_deg;
-  cad.brep_mm_per_unit = options.millimetres_per_unit;
+  cad.max_edge_mm = options.max_edge_mm;
+  cad.millimetres_per_unit = options.cad_millimetres_per_unit;
   Scene scene = read_cad(path, cad, nullptr, progress);
   scene.up = options.up.value_or(scene.up);
   return scene;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -28,7 +31,8 @@ CadReadOptions cad_options(const TessellateVerbOptions& options) {
   cad.chord_mm = read.chord_mm;
   cad.angle_deg = read.angle_deg;
   cad.relative = options.relative;
-  cad.brep_mm_per_unit = read.millimetres_per_unit;
+  cad.max_edge_mm = read.max_edge_mm;
+  cad.millimetres_per_unit = read.cad_millimetres_per_unit;
   return cad;
 }
 
@@ -38,7 +42,9 @@ std::vector<std::size_t> uses_of(const Scene& scene) {
   return uses;
 }
 
-Json parts_json(const Scene& scene, const std::vector<std::size_t>& uses) {
+Json parts_json(const Scene& scene, const std::vector<std::size_t>& uses, const CadReport& report) {
+  std::map<std::string, const CadPartReport*> measured;
+  for (const CadPartReport& part : report.parts) measured.emplace(part.part, &part);
   Json parts = Json::array();
   for (std::size_t i = 0; i < scene.parts.size(); ++i) {
     const Part& part = scene.parts[i];
@@ -50,6 +56,11 @@ Json parts_json(const Scene& scene, const std::vector<std::size_t>& uses) {
                      {"vertices", part.mesh.positions.size()},
                      {"instances", uses[i]},
                      {"materials", std::move(materials)}});
+    if (const auto found = measured.find(part.id); found != measured.end()) {
+      parts.back()["max_deviation_mm"] = found->second->max_deviation_mm;
+      parts.back()["max_angle_deg"] = found->second->max_angle_deg;
+      parts.back()["added_nodes"] = found->second->added_nodes;
+    }
   }
   return parts;
 }
@@ -70,6 +81,8 @@ void print_summary(const Console& console, const Scene& scene, const std::vector
   console.print(fmt::format("{} triangles in {} parts, {} of {} CAD faces failed, largest deviation {:.3g} mm\n",
                             report.triangles, scene.parts.size(), report.failed_faces.size(), report.faces,
                             report.max_deviation_mm));
+  for (const CadFaceNote& note : report.off_faces)
+    console.print(fmt::format("face {} of '{}' {}\n", note.face, note.part, note.reason));
 }
 
 Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options) {
@@ -91,7 +104,8 @@ Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options)
       {"unit", scene.unit},
       {"chord_mm", read.chord_mm},
       {"angle_deg", read.angle_deg},
-      {"parts", parts_json(scene, uses)},
+      {"max_edge_mm", read.max_edge_mm},
+      {"parts", parts_json(scene, uses, report)},
       {"identical_parts", shared_parts_json(shared, scene)},
       {"triangles", report.triangles},
       {"solids", report.solids},
@@ -101,6 +115,8 @@ Json tessellate_file(VerbContext& context, const TessellateVerbOptions& options)
       {"off_faces", faces_json(report.off_faces)},
       {"dropped_triangles", report.dropped_triangles},
       {"max_deviation_mm", report.max_deviation_mm},
+      {"max_angle_deg", report.max_angle_deg},
+      {"added_nodes", report.added_nodes},
       {"seconds", clock.seconds()},
       {"stages",
        {{"read", report.seconds_read}, {"tessellate", report.seconds_tessellate}, {"convert", report.seconds_convert}}},
@@ -120,7 +136,7 @@ void add_tessellate(CLI::App& program) {
                [options](VerbContext& context) { return tessellate_file(context, *options); });
   verb->add_option("in", options->in, "STEP, IGES or BREP file")->type_name("IN")->required();
   verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
-  verb->add_flag("--relative", options->relative, "The chord is a fraction of each edge's length");
+  verb->add_flag("--relative", options->relative, "The chord is a fraction of each part's diagonal");
   verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);
 }

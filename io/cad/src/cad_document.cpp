@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cad_document.hpp"
 
-#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESCAFControl_Reader.hxx>
@@ -75,6 +74,20 @@ std::string_view last_line(std::string_view text) {
   return start == std::string_view::npos ? text : text.substr(start + 1);
 }
 
+/// The last line of a BREP file: orientation and number of the whole shape, then its location, as "+1 0".
+bool names_a_shape(std::string_view line) {
+  if (line.empty() || std::string_view("+-ie").find(line.front()) == std::string_view::npos) return false;
+  line.remove_prefix(1);
+  const auto eat_number = [&] {
+    const std::size_t end = std::min(line.find_first_not_of("0123456789"), line.size());
+    line.remove_prefix(end);
+    return end > 0;
+  };
+  if (!eat_number() || line.empty() || line.front() != ' ') return false;
+  line.remove_prefix(1);
+  return eat_number() && line.find_first_not_of(' ') == std::string_view::npos;
+}
+
 Kind kind_of(const std::filesystem::path& path, const FileEnds& ends) {
   const std::string_view head = trimmed_front(ends.head);
   if (head.starts_with("ISO-10303-21")) {
@@ -82,7 +95,11 @@ Kind kind_of(const std::filesystem::path& path, const FileEnds& ends) {
       throw InvalidInput(path.string() + ": STEP file is truncated (no END-ISO-10303-21 at its end)");
     return Kind::step;
   }
-  if (head.starts_with("DBRep_DrawableShape") || head.starts_with("CASCADE Topology V")) return Kind::brep;
+  if (head.starts_with("DBRep_DrawableShape") || head.starts_with("CASCADE Topology V")) {
+    if (!names_a_shape(last_line(ends.tail)))
+      throw InvalidInput(path.string() + ": BREP file is truncated (its last line names no shape)");
+    return Kind::brep;
+  }
   if (is_iges_line(ends.head, 'S')) {
     std::string terminate(last_line(ends.tail));
     terminate.resize(std::max<std::size_t>(terminate.size(), 80), ' ');
@@ -174,25 +191,19 @@ void read_iges(const std::filesystem::path& path, CadDocument& result, const Pro
     throw InvalidInput(path.string() + ": IGES file holds no shape that can be read");
 }
 
-void read_brep(const std::filesystem::path& path, double mm_per_unit, CadDocument& result) {
+void read_brep(const std::filesystem::path& path, CadDocument& result) {
   TopoDS_Shape shape;
   BRep_Builder builder;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": can't be opened");
   BRepTools::Read(shape, file, builder);
   if (shape.IsNull()) throw InvalidInput(path.string() + ": BREP file is damaged or truncated (no shape in it)");
-  if (mm_per_unit != 1) {
-    gp_Trsf scale;
-    scale.SetScaleFactor(mm_per_unit);
-    shape = BRepBuilderAPI_Transform(shape, scale, true).Shape();
-  }
-  result.millimetres_per_unit = mm_per_unit;
   XCAFDoc_DocumentTool::ShapeTool(result.document->Main())->AddShape(shape, shape.ShapeType() == TopAbs_COMPOUND);
 }
 
 }  // namespace
 
-CadDocument read_document(const std::filesystem::path& path, double brep_mm_per_unit, const Progress& progress) {
+CadDocument read_document(const std::filesystem::path& path, const Progress& progress) {
   const Kind kind = kind_of(path, read_ends(path));
   set_reader_parameters();
   CadDocument result;
@@ -209,7 +220,7 @@ CadDocument read_document(const std::filesystem::path& path, double brep_mm_per_
       break;
     case Kind::brep:
       result.format = "BREP";
-      read_brep(path, brep_mm_per_unit, result);
+      read_brep(path, result);
       break;
   }
   return result;

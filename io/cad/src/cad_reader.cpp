@@ -43,8 +43,8 @@ void check_options(const CadReadOptions& options) {
   };
   if (!(options.chord_mm > 0) || !std::isfinite(options.chord_mm)) refuse("chord_mm must be > 0", options.chord_mm);
   if (!(options.angle_deg > 0 && options.angle_deg <= 90)) refuse("angle_deg must be in (0, 90]", options.angle_deg);
-  if (!(options.brep_mm_per_unit > 0) || !std::isfinite(options.brep_mm_per_unit))
-    refuse("brep_mm_per_unit must be > 0", options.brep_mm_per_unit);
+  if (const double unit = options.millimetres_per_unit.value_or(1); !(unit > 0) || !std::isfinite(unit))
+    refuse("millimetres_per_unit must be > 0", unit);
   if (!(options.max_edge_mm >= 0) || !std::isfinite(options.max_edge_mm))
     refuse("max_edge_mm must be >= 0", options.max_edge_mm);
   if (options.relative && options.chord_mm > 1) refuse("a relative chord must be in (0, 1]", options.chord_mm);
@@ -79,7 +79,7 @@ void add_mesh(Part& part, cad::TessellatedShape shape, const std::vector<std::ui
     (trouble.solved ? report.repaired_faces : report.failed_faces)
         .push_back({part.id, trouble.number, trouble.reason, trouble.tried});
   for (const cad::FaceOff& off : shape.off) report.off_faces.push_back({part.id, off.number, off.reason, {}});
-  report.parts.push_back({shape.max_deviation_mm, shape.max_angle_deg, shape.added_nodes});
+  report.parts.push_back({part.id, shape.max_deviation_mm, shape.max_angle_deg, shape.added_nodes});
   report.faces += shape.faces.size();
   report.added_nodes += shape.added_nodes;
   report.max_deviation_mm = std::max(report.max_deviation_mm, shape.max_deviation_mm);
@@ -99,14 +99,13 @@ void warn_of_faces(const CadReport& report, Scene& scene) {
   for (const CadFaceNote& note : report.repaired_faces)
     scene.warnings.push_back(place(note) + "was refused by the mesher and triangulated in another way: " + note.reason);
   for (const CadFaceNote& note : report.off_faces) scene.warnings.push_back(place(note) + note.reason);
-  if (scene.format == "BREP") scene.warnings.push_back("BREP carries no unit");
 }
 
 /// Processor time that no sound file needs to be read: the slowest real files take 2 s per MB.
 double reading_seconds(const std::filesystem::path& path) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  constexpr double k_base = 20, k_per_byte = 30e-6;
+  constexpr double k_base = 5, k_per_byte = 30e-6;
   return k_base + (error ? 0 : k_per_byte * static_cast<double>(bytes));
 }
 
@@ -119,17 +118,40 @@ double tessellating_seconds(const std::vector<TopoDS_Shape>& shapes) {
   return k_base + k_per_face * static_cast<double>(faces);
 }
 
+/// Tolerances for shapes that are still to be scaled.
+CadReadOptions in_file_units(CadReadOptions options, double scale) {
+  if (!options.relative) options.chord_mm /= scale;
+  options.max_edge_mm /= scale;
+  return options;
+}
+
+/// Takes the file's numbers as ones of another unit.
+void rescale(Scene& scene, CadReport& report, double scale) {
+  scene.millimetres_per_unit *= scale;
+  for (Part& part : scene.parts)
+    for (Vec3& p : part.mesh.positions) p = scale * p;
+  for (Node& node : scene.nodes)
+    for (const std::size_t k : {3u, 7u, 11u}) node.local[k] *= scale;
+  report.max_deviation_mm *= scale;
+  for (CadPartReport& part : report.parts) part.max_deviation_mm *= scale;
+}
+
 Scene read(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
            const Progress& progress) {
   Stopwatch watch;
   if (progress) progress("read", 0);
   cad::allow_processor_time(reading_seconds(path));
-  cad::CadTree tree = cad::build_tree(cad::read_document(path, options.brep_mm_per_unit, progress));
-  check_size(path, tree.shapes, options);
+  cad::CadTree tree = cad::build_tree(cad::read_document(path, progress));
+  const double scale = options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit) /
+                       tree.scene.millimetres_per_unit;
+  if (tree.scene.format == "BREP" && !options.millimetres_per_unit)
+    tree.scene.warnings.push_back("BREP carries no unit: taken as mm");
+  const CadReadOptions unscaled = in_file_units(options, scale);
+  check_size(path, tree.shapes, unscaled);
   report.seconds_read = watch.lap();
 
   cad::allow_processor_time(tessellating_seconds(tree.shapes));
-  std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, options, progress);
+  std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, unscaled, progress);
   report.seconds_tessellate = watch.lap();
 
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -139,6 +161,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   }
   if (report.triangles == 0) throw InvalidInput(path.string() + ": none of its faces can be tessellated");
   warn_of_faces(report, tree.scene);
+  if (scale != 1) rescale(tree.scene, report, scale);
   report.seconds_convert = watch.lap();
   if (progress) progress("convert", 1);
   return std::move(tree.scene);

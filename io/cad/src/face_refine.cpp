@@ -32,19 +32,29 @@ Turn turn_along(Vec3 a, Vec3 middle, Vec3 b) {
 constexpr double k_max_slip = 0.4;
 /// Edges shorter than this part of the chord are left alone: what they miss is a gap, not curvature.
 constexpr double k_shortest = 0.01;
+/// Triangles flatter than this, altitude over longest edge, are turned away whatever their edges deviate.
+constexpr double k_cap = 0.03;
 /// Triangles flatter than this part of the chord are left alone: what they miss is in their edges.
 constexpr double k_flattest = 0.05;
 /// Triangles are split when their samples exceed this part of the chord: the rest is for what lies between samples.
 constexpr double k_goal = 0.9;
 
-/// Barycentric coordinates at which a triangle is compared with the surface while it is refined.
-constexpr std::array<std::array<double, 3>, 7> k_samples = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
-                                                             {2.0 / 3, 1.0 / 6, 1.0 / 6},
-                                                             {1.0 / 6, 2.0 / 3, 1.0 / 6},
-                                                             {1.0 / 6, 1.0 / 6, 2.0 / 3},
-                                                             {0.1, 0.45, 0.45},
-                                                             {0.45, 0.1, 0.45},
-                                                             {0.45, 0.45, 0.1}}};
+/// Barycentric coordinates at which a triangle is compared with the surface while it is refined: first those that do for
+/// surfaces of constant curvature, then also beside the quarters of the edges, between which others may wave.
+constexpr std::array<std::array<double, 3>, 13> k_samples = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                                              {0.1, 0.45, 0.45},
+                                                              {0.45, 0.1, 0.45},
+                                                              {0.45, 0.45, 0.1},
+                                                              {2.0 / 3, 1.0 / 6, 1.0 / 6},
+                                                              {1.0 / 6, 2.0 / 3, 1.0 / 6},
+                                                              {1.0 / 6, 1.0 / 6, 2.0 / 3},
+                                                              {0.73, 0.24, 0.03},
+                                                              {0.24, 0.73, 0.03},
+                                                              {0.03, 0.73, 0.24},
+                                                              {0.03, 0.24, 0.73},
+                                                              {0.73, 0.03, 0.24},
+                                                              {0.24, 0.03, 0.73}}};
+constexpr std::size_t k_samples_of_elementary = 4;
 /// Those of the measurement afterwards.
 constexpr std::array<std::array<double, 3>, 9> k_measures = {{{7.0 / 9, 1.0 / 9, 1.0 / 9},
                                                               {1.0 / 9, 7.0 / 9, 1.0 / 9},
@@ -130,7 +140,10 @@ class Refiner {
         continue;
       }
       if (full()) return false;
-      split_edge(c.h);
+      if (should_flip(c.h))
+        legalize({c.h});
+      else
+        split_edge(c.h);
       changed = true;
     }
     return changed;
@@ -212,6 +225,10 @@ class Refiner {
     if (!(singular ? is_convex_in_space(a, b, c, d) : is_convex(a, b, c, d))) return false;
     if (folded) return true;
     if (!is_illegal(a, b, c, d)) return false;
+    // A cap would only be cut into smaller caps, its new nodes beside its apex.
+    const double before = std::min(flatness(a, b, c), flatness(b, a, d)),
+                 after = std::min(flatness(c, d, b), flatness(d, c, a));
+    if (before < k_cap && after > 2 * before) return true;
     const Vec2 middle = patch_.middle_uv(c, d);
     return edge_excess(patch_, std::min(c, d), std::max(c, d), surface_.at(middle), limits_) <=
            std::max(1.0, excess(h));
@@ -265,7 +282,9 @@ class Refiner {
 
   double sample_excess(std::uint32_t t) const {
     double worst = 0;
-    for (const std::array<double, 3>& w : k_samples) {
+    const std::size_t count = surface_.is_elementary() ? k_samples_of_elementary : k_samples.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::array<double, 3>& w = k_samples[i];
       const SurfaceSample s = surface_.at(patch_.uv_in(t, w));
       Vec3 gap;
       for (std::size_t k = 0; k < 3; ++k) gap = gap + w[k] * patch_.nodes[patch_.triangles[t][k]].gap;
@@ -299,7 +318,8 @@ class Refiner {
   }
 
   bool split_triangle(std::uint32_t t) {
-    if (altitude(t) < k_flattest * limits_.chord) return false;
+    const auto [a, b, c] = patch_.triangles[t];
+    if (altitude(a, b, c) < k_flattest * limits_.chord) return false;
     HalfEdge longest = k_no_value;
     double most = 0, longest_fixed = 0;
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
@@ -324,12 +344,17 @@ class Refiner {
     return true;
   }
 
-  double altitude(std::uint32_t t) const {
-    const auto [a, b, c] = patch_.triangles[t];
+  double altitude(Index a, Index b, Index c) const {
     const Vec3 origin = patch_.nodes[a].position;
     const double area = norm(cross(patch_.nodes[b].position - origin, patch_.nodes[c].position - origin));
     const double longest = std::max({length(a, b), length(b, c), length(c, a)});
     return longest > 0 ? area / longest : 0;
+  }
+
+  /// Smallest altitude over longest edge.
+  double flatness(Index a, Index b, Index c) const {
+    const double longest = std::max({length(a, b), length(b, c), length(c, a)});
+    return longest > 0 ? altitude(a, b, c) / longest : 0;
   }
 
   struct Known {
@@ -413,6 +438,13 @@ PatchDeviation measure_patch(const FacePatch& patch, const FaceSurface& surface,
           std::max(worst.distance, distance_to(surface, patch.point_in(t, w), patch.uv_in(t, w), limits.chord));
   for (HalfEdge h = 0; h < 3 * patch.triangles.size(); ++h) {
     if (!patch.is_boundary(h) && patch.opposite(h) < h) continue;
+    for (const double part : {0.2, 0.5, 0.8}) {
+      std::array<double, 3> w{};
+      w[h % 3] = 1 - part;
+      w[FacePatch::next(h) % 3] = part;
+      const Vec3 point = patch.point_in(h / 3, w);
+      worst.distance = std::max(worst.distance, distance_to(surface, point, patch.uv_in(h / 3, w), limits.chord));
+    }
     const PatchNode &p = patch.nodes[patch.from(h)], &q = patch.nodes[patch.to(h)];
     if (norm(q.position - p.position) <= limits.min_edge || is_zero(p.normal) || is_zero(q.normal)) continue;
     worst.angle = std::max(worst.angle, angle_between(p.normal, q.normal));

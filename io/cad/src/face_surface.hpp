@@ -24,6 +24,8 @@ class FaceSurface {
   SurfaceSample at(Vec2 uv) const;
   Vec3 point(Vec2 uv) const;
   bool is_plane() const { return surface_.GetType() == GeomAbs_Plane; }
+  /// Plane, cylinder, cone, sphere or torus.
+  bool is_elementary() const { return surface_.GetType() <= GeomAbs_Torus; }
 
  private:
   BRepAdaptor_Surface surface_;

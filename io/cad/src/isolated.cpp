@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "isolated.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -90,11 +91,21 @@ void limit_child() {
 #endif
 }
 
+/// The library prints to the standard streams, which are the caller's.
+void be_silent() {
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  if (nowhere < 0) return;
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(nowhere, STDERR_FILENO);
+  ::close(nowhere);
+}
+
 [[noreturn]] void be_child(int pipe, const std::function<Scene(CadReport&, const Progress&)>& work) {
   g_is_child = true;
   after_fork();
   ::signal(SIGPIPE, SIG_DFL);
   limit_child();
+  be_silent();
   int code = 0;
   try {
     CadReport report;

@@ -134,6 +134,12 @@ void visit(Pipe& pipe, Value& material) {
 }
 
 template <class Pipe, class Value>
+  requires std::is_same_v<std::remove_const_t<Value>, CadPartReport>
+void visit(Pipe& pipe, Value& part) {
+  pipe(part.part), pipe(part.max_deviation_mm), pipe(part.max_angle_deg), pipe(part.added_nodes);
+}
+
+template <class Pipe, class Value>
   requires std::is_same_v<std::remove_const_t<Value>, CadFaceNote>
 void visit(Pipe& pipe, Value& note) {
   pipe(note.part), pipe(note.face), pipe(note.reason), pipe(note.tried);

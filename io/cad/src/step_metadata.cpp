@@ -5,10 +5,13 @@
 #include <STEPConstruct_ValidationProps.hxx>
 #include <StepBasic_MeasureValueMember.hxx>
 #include <StepBasic_MeasureWithUnit.hxx>
+#include <StepBasic_ProductDefinition.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepRepr_CharacterizedDefinition.hxx>
 #include <StepRepr_DescriptiveRepresentationItem.hxx>
 #include <StepRepr_IntegerRepresentationItem.hxx>
 #include <StepRepr_MeasureRepresentationItem.hxx>
+#include <StepRepr_ProductDefinitionShape.hxx>
 #include <StepRepr_PropertyDefinition.hxx>
 #include <StepRepr_PropertyDefinitionRepresentation.hxx>
 #include <StepRepr_Representation.hxx>
@@ -104,7 +107,12 @@ class PropertyReader {
 
   TDF_Label label_of(const Handle(StepRepr_PropertyDefinition) & definition) const {
     TDF_Label label;
-    const TopoDS_Shape shape = validation_.GetPropShape(definition);
+    const StepRepr_CharacterizedDefinition of = definition->Definition();
+    Handle(StepBasic_ProductDefinition) product = of.ProductDefinition();
+    if (product.IsNull() && !of.ProductDefinitionShape().IsNull())
+      product = of.ProductDefinitionShape()->Definition().ProductDefinition();
+    if (product.IsNull()) return label;
+    const TopoDS_Shape shape = validation_.GetPropShape(product);
     if (!shape.IsNull()) shapes_->FindShape(shape.Located(TopLoc_Location()), label);
     return label;
   }

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/cad/cad_fixtures.hpp"
 
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeVertex.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
-#include <BRepLib.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
-#include <Geom2d_Line.hxx>
-#include <Geom_Circle.hxx>
-#include <Geom_ConicalSurface.hxx>
-#include <Geom_Line.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -23,9 +14,6 @@
 #include <TDataStd_Name.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Vertex.hxx>
-#include <TopoDS_Wire.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <XCAFDimTolObjects_DimensionObject.hxx>
 #include <XCAFDimTolObjects_GeomToleranceObject.hxx>
@@ -40,10 +28,8 @@
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -201,39 +187,6 @@ bool is_closed(const TriangleMesh& mesh) {
   std::sort(edges.begin(), edges.end());
   std::sort(opposite.begin(), opposite.end());
   return !edges.empty() && edges == opposite && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
-}
-
-TopoDS_Face countersink() {
-  constexpr double k_pi = std::numbers::pi, k_radius = 1.75, k_semi = k_pi / 4, k_v = 0.424264069;
-  const Handle(Geom_ConicalSurface) cone = new Geom_ConicalSurface(gp_Ax3(), k_semi, k_radius);
-  const gp_Pnt low = cone->Value(k_pi, -k_v), high = cone->Value(k_pi, k_v);
-  const auto circle = [&](double v, const gp_Dir& axis) {
-    const gp_Pnt on_axis(0, 0, cone->Value(0, v).Z());
-    return Handle(Geom_Circle)(new Geom_Circle(gp_Ax2(on_axis, axis, gp::DX()), k_radius + v * std::sin(k_semi)));
-  };
-  const TopoDS_Vertex at_low = BRepBuilderAPI_MakeVertex(low).Vertex(),
-                      at_high = BRepBuilderAPI_MakeVertex(high).Vertex();
-  const TopoDS_Edge bottom = BRepBuilderAPI_MakeEdge(circle(-k_v, -gp::DZ()), at_low, at_low, k_pi, 3 * k_pi).Edge();
-  const TopoDS_Edge top = BRepBuilderAPI_MakeEdge(circle(k_v, gp::DZ()), at_high, at_high, k_pi, 3 * k_pi).Edge();
-  const Handle(Geom_Line) line = new Geom_Line(low, gp_Dir(gp_Vec(low, high)));
-  const TopoDS_Edge seam = BRepBuilderAPI_MakeEdge(line, at_low, at_high, 0, low.Distance(high)).Edge();
-
-  TopoDS_Face face;
-  BRep_Builder builder;
-  builder.MakeFace(face, cone, 1e-7);
-  const auto in_uv = [](double u, double v, double du, double dv) {
-    return Handle(Geom2d_Line)(new Geom2d_Line(gp_Pnt2d(u, v), gp_Dir2d(du, dv)));
-  };
-  builder.UpdateEdge(seam, in_uv(3 * k_pi, -k_v, 0, 1), in_uv(k_pi, -k_v, 0, 1), face, 1e-7);
-  builder.UpdateEdge(bottom, in_uv(4 * k_pi, -k_v, -1, 0), face, 1e-7);
-  builder.UpdateEdge(top, in_uv(0, k_v, 1, 0), face, 1e-7);
-  TopoDS_Wire wire;
-  builder.MakeWire(wire);
-  for (const TopoDS_Shape& edge : {TopoDS_Shape(seam), TopoDS_Shape(top.Reversed()), TopoDS_Shape(seam.Reversed()),
-                                   TopoDS_Shape(bottom.Reversed())})
-    builder.Add(wire, edge);
-  builder.Add(face, wire);
-  return face;
 }
 
 }  // namespace papilla::test

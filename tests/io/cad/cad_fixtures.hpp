@@ -50,8 +50,4 @@ double volume(const TriangleMesh& mesh);
 /// Every edge is used once in each direction.
 bool is_closed(const TriangleMesh& mesh);
 
-/// A cone between two circles that go around its axis in opposite senses, as some systems export countersinks.
-/// The mesher refuses it.
-TopoDS_Face countersink();
-
 }  // namespace papilla::test

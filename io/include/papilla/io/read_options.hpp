@@ -13,6 +13,8 @@ struct ReadOptions {
   std::optional<UpAxis> up;         ///< Overrides the format's habit: OBJ and glTF y, all others z.
   double chord_mm = 0.1;            ///< CAD surfaces: largest distance between surface and triangle.
   double angle_deg = 20;            ///< CAD surfaces: largest angle between neighbouring normals.
+  double max_edge_mm = 0;           ///< CAD surfaces: longest edge of a triangle; 0: any.
+  std::optional<double> cad_millimetres_per_unit;  ///< Instead of the unit that a CAD file states.
 };
 
 }  // namespace papilla

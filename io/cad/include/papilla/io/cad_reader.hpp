@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct CadReadOptions {
                                 ///< of edges shorter than a tenth of the chord.
   double max_edge_mm = 0;       ///< Longest edge of a triangle; 0: any.
   bool relative = false;        ///< `chord_mm` is a fraction of each part's diagonal instead of millimetres, in (0, 1].
-  double brep_mm_per_unit = 1;  ///< BREP files carry no unit.
+  std::optional<double> millimetres_per_unit;  ///< Instead of the file's unit. BREP states none: 1 then.
   CadMeshing meshing = CadMeshing::refined;
   bool isolated = true;         ///< Read in a child process, so that no file can crash, hang or starve the caller.
 };
@@ -40,8 +41,9 @@ struct CadFaceNote {
 
 /// Deviation of one part.
 struct CadPartReport {
-  double max_deviation_mm = 0;   ///< Largest distance from a triangle to the exact surface at its (u, v), on samples
-                                 ///< that the refinement did not use: 9 inside of each triangle, and all nodes on edges.
+  std::string part;              ///< Part::id.
+  double max_deviation_mm = 0;   ///< Largest distance from a triangle to the exact surface around its (u, v), on 9
+                                 ///< points inside of it that the refinement did not use, 3 on each edge, and corners.
   double max_angle_deg = 0;      ///< Largest turn of the surface's normal along an edge that the angle is asked of.
   std::size_t added_nodes = 0;   ///< Nodes that refinement put on edges and faces beyond the mesher's.
 };
