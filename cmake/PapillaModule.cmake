@@ -13,7 +13,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(papilla_build_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
 endif()
 if(PAPILLA_SANITIZE)
-  target_compile_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE} -fno-sanitize-recover=undefined
+    -fno-omit-frame-pointer)
   target_link_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE})
 endif()
 

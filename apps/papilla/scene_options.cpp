@@ -24,7 +24,9 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->check(CLI::Range(0.1, 90.0))->capture_default_str()->group("Input");
   verb.add_option("--quality", quality, "CAD: chord by name: extra-coarse 1, coarse 0.5, medium 0.2, fine 0.1, extra-fine 0.02 mm")
       ->check(CLI::IsMember({"extra-coarse", "coarse", "medium", "fine", "extra-fine"}))->excludes(chord)->group("Input");
-  verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ)")
+  verb.add_option("--max-edge", max_edge_mm, "CAD: longest edge of a triangle, mm; 0: any")
+      ->check(CLI::NonNegativeNumber)->capture_default_str()->group("Input");
+  verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY, OFF), or instead of a CAD file's own")
       ->check(CLI::IsMember({"file", "mm", "cm", "m", "in", "ft"}))->capture_default_str()->group("Input");
   verb.add_option("--up", up, "Upward axis: as the file's format has it, or given")
       ->check(CLI::IsMember({"file", "y", "z"}))->capture_default_str()->group("Input");
@@ -34,7 +36,11 @@ ReadOptions SceneOptions::read_options() const {
   ReadOptions options;
   options.chord_mm = quality.empty() ? chord_mm : k_qualities.at(quality);
   options.angle_deg = angle_deg;
-  if (unit != "file") options.millimetres_per_unit = k_units.at(unit);
+  options.max_edge_mm = max_edge_mm;
+  if (unit != "file") {
+    options.millimetres_per_unit = k_units.at(unit);
+    options.cad_millimetres_per_unit = k_units.at(unit);
+  }
   if (up != "file") options.up = up == "y" ? UpAxis::y : UpAxis::z;
   return options;
 }

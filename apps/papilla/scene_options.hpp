@@ -11,7 +11,7 @@ namespace papilla::app {
 /// How a verb's input is read: unit, axes and, for CAD, tessellation. Shared by every verb that reads a scene.
 struct SceneOptions {
   std::string unit = "file", up = "file", quality;
-  double chord_mm = 0.1, angle_deg = 20;
+  double chord_mm = 0.1, angle_deg = 20, max_edge_mm = 0;
 
   void add_to(CLI::App& verb);
   ReadOptions read_options() const;

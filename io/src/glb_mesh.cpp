@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <span>
 
+#include "glb_vertices.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/vertex_normals.hpp"
@@ -20,42 +20,8 @@ namespace {
 
 using Json = GlbBuffer::Json;
 
-/// Which attributes a primitive has beside position and normal.
-struct Layout {
-  int tex_coords = 0;
-  bool colors = false, tangents = false;
-  int tangent_tex_coord = 0;
-};
-
-/// A vertex with everything that must agree for corners to share it. Texture coordinates are glTF's, v down.
-struct Vertex {
-  std::array<float, 3> position{}, normal{};
-  std::array<float, 2> uv0{}, uv1{};
-  std::array<std::uint16_t, 4> color{};
-  float handedness = 0;  ///< 0 without tangents.
-  friend bool operator==(const Vertex&, const Vertex&) = default;
-};
-
-struct VertexHash {
-  std::size_t operator()(const Vertex& v) const noexcept {
-    std::size_t hash = 0;
-    const auto add = [&](auto value) {
-      hash = (hash ^ std::bit_cast<std::conditional_t<sizeof value == 4, std::uint32_t, std::uint16_t>>(value)) *
-             0x9e3779b97f4a7c15U;
-      hash ^= hash >> 29;
-    };
-    for (const float x : v.position) add(x);
-    for (const float x : v.normal) add(x);
-    for (const float x : v.uv0) add(x);
-    for (const float x : v.uv1) add(x);
-    for (const std::uint16_t x : v.color) add(x);
-    add(v.handedness);
-    return hash;
-  }
-};
-
 struct Primitive {
-  std::vector<Vertex> vertices;
+  GlbVertices vertices;
   std::vector<Triangle> triangles;
 };
 
@@ -76,12 +42,6 @@ std::array<float, 3> position_of(const Part& part, Index vertex) {
   const std::array<float, 3> position = {to_float(p.x), to_float(p.y), to_float(p.z)};
   if (!all_finite(position)) fail(part, fmt::format("position {} is not finite", vertex));
   return position;
-}
-
-std::array<float, 3> unit_floats(Vec3 normal, Vec3 fallback) {
-  Vec3 n = normalized(normal);
-  if (!is_finite(n) || n == Vec3{}) n = fallback;
-  return {to_float(n.x), to_float(n.y), to_float(n.z)};
 }
 
 template <class T>
@@ -115,7 +75,7 @@ std::array<std::uint16_t, 4> color_at(const Part& part, std::size_t t, std::size
 Vec2 uv_up(const std::array<float, 2>& uv) { return {double{uv[0]}, 1 - double{uv[1]}}; }
 
 /// The handedness of a triangle whose corners' texture coordinates are known.
-float handedness_of(const std::array<Vertex, 3>& corners, int tex_coord) {
+float handedness_of(std::span<const GlbVertex, 3> corners, int tex_coord) {
   std::array<Vec2, 3> uv;
   for (std::size_t k = 0; k < 3; ++k) uv[k] = uv_up(tex_coord == 0 ? corners[k].uv0 : corners[k].uv1);
   return tangent_handedness(uv);
@@ -123,55 +83,71 @@ float handedness_of(const std::array<Vertex, 3>& corners, int tex_coord) {
 
 /// A primitive carries an attribute only when one of its triangles has it.
 template <class T>
-bool any_value(const CornerAttribute<T>& attribute, const std::vector<std::size_t>& triangles) {
-  return std::any_of(triangles.begin(), triangles.end(), [&](std::size_t t) { return attribute.has_value(t); });
+bool any_value(const CornerAttribute<T>& attribute, std::span<const Index> triangles) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](Index t) { return attribute.has_value(t); });
 }
 
-Primitive collect(const Part& part, const std::vector<std::size_t>& triangles, const CornerAttribute<Vec3>& normals,
-                  const Layout& layout) {
-  const TriangleMesh& mesh = part.mesh;
-  Primitive primitive;
-  std::unordered_map<Vertex, Index, VertexHash> known;
-  known.reserve(triangles.size());
-  for (const std::size_t t : triangles) {
-    const Vec3 flat = normalized(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
-    std::array<Vertex, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k].position = position_of(part, mesh.triangles[t][k]);
-      const Vec3 normal = normals.has_value(t) ? value_at(part, normals, t, k, "normal") : flat;
-      corners[k].normal = unit_floats(normal, flat == Vec3{} ? Vec3{0, 0, 1} : flat);
-      if (layout.tex_coords > 0) corners[k].uv0 = uv_at(part, mesh.uv, t, k);
-      if (layout.tex_coords > 1) corners[k].uv1 = uv_at(part, mesh.uv1, t, k);
-      if (layout.colors) corners[k].color = color_at(part, t, k);
+/// Turns corners of triangles into vertices, a block of triangles at a time.
+class Collector {
+ public:
+  Collector(const Part& part, const CornerAttribute<Vec3>& normals, const GlbLayout& layout)
+      : part_(part), normals_(normals), layout_(layout) {}
+
+  Primitive collect(std::span<const Index> triangles) const {
+    // Closed meshes have half as many vertices as triangles.
+    Primitive primitive{GlbVertices(layout_, std::min(triangles.size() / 2, part_.mesh.positions.size())), {}};
+    primitive.triangles.resize(triangles.size());
+    constexpr std::size_t k_block = 64;
+    std::array<GlbVertex, 3 * k_block> corners;
+    std::array<Index, 3 * k_block> numbers;
+    for (std::size_t begin = 0; begin < triangles.size(); begin += k_block) {
+      const std::size_t count = std::min(k_block, triangles.size() - begin);
+      for (std::size_t i = 0; i < count; ++i) fill(triangles[begin + i], std::span(corners).subspan(3 * i).first<3>());
+      primitive.vertices.add(std::span(corners).first(3 * count), numbers);
+      for (std::size_t i = 0; i < count; ++i)
+        primitive.triangles[begin + i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
     }
-    Triangle indices{};
-    const float handedness = layout.tangents ? handedness_of(corners, layout.tangent_tex_coord) : 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k].handedness = handedness;
-      const auto [entry, is_new] = known.try_emplace(corners[k], static_cast<Index>(primitive.vertices.size()));
-      if (is_new) primitive.vertices.push_back(corners[k]);
-      indices[k] = entry->second;
-    }
-    primitive.triangles.push_back(indices);
+    primitive.vertices.finish();
+    return primitive;
   }
-  return primitive;
-}
+
+ private:
+  void fill(std::size_t t, std::span<GlbVertex, 3> corners) const {
+    const TriangleMesh& mesh = part_.mesh;
+    for (std::size_t k = 0; k < 3; ++k) {
+      GlbVertex& corner = corners[k];
+      corner.position = position_of(part_, mesh.triangles[t][k]);
+      corner.normal = normal_of(t, k);
+      if (layout_.tex_coords > 0) corner.uv0 = uv_at(part_, mesh.uv, t, k);
+      if (layout_.tex_coords > 1) corner.uv1 = uv_at(part_, mesh.uv1, t, k);
+      if (layout_.colors) corner.color = color_at(part_, t, k);
+    }
+    const float handedness = layout_.tangents ? handedness_of(corners, layout_.tangent_tex_coord) : 0;
+    for (GlbVertex& corner : corners) corner.handedness = handedness;
+  }
+
+  /// The corner's own normal, or else the triangle's.
+  std::array<float, 3> normal_of(std::size_t t, std::size_t k) const {
+    Vec3 n = normals_.has_value(t) ? normalized(value_at(part_, normals_, t, k, "normal")) : Vec3{};
+    if (!is_finite(n) || n == Vec3{}) {
+      const TriangleMesh& mesh = part_.mesh;
+      n = normalized(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
+      if (!is_finite(n) || n == Vec3{}) n = {0, 0, 1};
+    }
+    return {to_float(n.x), to_float(n.y), to_float(n.z)};
+  }
+
+  const Part& part_;
+  const CornerAttribute<Vec3>& normals_;
+  GlbLayout layout_;
+};
 
 template <class T, std::size_t N>
-std::size_t add_attribute(const std::vector<std::array<T, N>>& values, Json accessor, GlbBuffer& buffer) {
-  const std::size_t view = buffer.add_view(std::as_bytes(std::span(values)), GlbBuffer::Target::vertices);
+std::size_t add_attribute(std::vector<std::array<T, N>>&& values, Json accessor, GlbBuffer& buffer) {
   Json full = {
       {"componentType", sizeof(T) == 4 ? 5126 : 5123}, {"count", values.size()}, {"type", "VEC" + std::to_string(N)}};
   full.update(accessor);
-  return buffer.add_accessor(view, std::move(full));
-}
-
-template <class Member>
-auto column(const std::vector<Vertex>& vertices, Member member) {
-  std::vector<std::remove_cvref_t<decltype(vertices[0].*member)>> values;
-  values.reserve(vertices.size());
-  for (const Vertex& vertex : vertices) values.push_back(vertex.*member);
-  return values;
+  return buffer.add_accessor(buffer.add_view(std::move(values), GlbBuffer::Target::vertices), std::move(full));
 }
 
 Json bounds(const std::vector<std::array<float, 3>>& positions) {
@@ -188,51 +164,47 @@ Json bounds(const std::vector<std::array<float, 3>>& positions) {
 }
 
 std::vector<std::array<float, 4>> tangents_of(const Primitive& primitive, int tex_coord) {
-  std::vector<Vec3> positions, normals;
+  const GlbVertices& vertices = primitive.vertices;
+  const auto widened = [](const std::vector<std::array<float, 3>>& values) {
+    std::vector<Vec3> result;
+    result.reserve(values.size());
+    for (const auto& v : values) result.push_back({double{v[0]}, double{v[1]}, double{v[2]}});
+    return result;
+  };
   std::vector<Vec2> uv;
-  const auto widened = [](const std::array<float, 3>& p) { return Vec3{double{p[0]}, double{p[1]}, double{p[2]}}; };
-  for (const Vertex& vertex : primitive.vertices) {
-    positions.push_back(widened(vertex.position));
-    normals.push_back(widened(vertex.normal));
-    uv.push_back(uv_up(tex_coord == 0 ? vertex.uv0 : vertex.uv1));
-  }
-  return vertex_tangents(positions, normals, uv, primitive.triangles);
+  uv.reserve(vertices.size());
+  for (const auto& value : tex_coord == 0 ? vertices.uv0 : vertices.uv1) uv.push_back(uv_up(value));
+  return vertex_tangents(widened(vertices.positions), widened(vertices.normals), uv, primitive.triangles);
 }
 
-std::size_t add_indices(const Primitive& primitive, GlbBuffer& buffer) {
-  const Json accessor = {{"count", 3 * primitive.triangles.size()}, {"type", "SCALAR"}};
+std::size_t add_indices(Primitive& primitive, GlbBuffer& buffer) {
+  Json accessor = {{"componentType", 5125}, {"count", 3 * primitive.triangles.size()}, {"type", "SCALAR"}};
   // The largest number of each width is the primitive restart value.
-  if (primitive.vertices.size() > std::numeric_limits<std::uint16_t>::max()) {
-    const std::size_t view = buffer.add_view(std::as_bytes(std::span(primitive.triangles)), GlbBuffer::Target::indices);
-    Json full = {{"componentType", 5125}};
-    full.update(accessor);
-    return buffer.add_accessor(view, std::move(full));
-  }
+  if (primitive.vertices.size() > std::numeric_limits<std::uint16_t>::max())
+    return buffer.add_accessor(buffer.add_view(std::move(primitive.triangles), GlbBuffer::Target::indices),
+                               std::move(accessor));
   std::vector<std::uint16_t> narrow;
   narrow.reserve(3 * primitive.triangles.size());
   for (const Triangle& triangle : primitive.triangles)
     for (const Index index : triangle) narrow.push_back(static_cast<std::uint16_t>(index));
-  const std::size_t view = buffer.add_view(std::as_bytes(std::span(narrow)), GlbBuffer::Target::indices);
-  Json full = {{"componentType", 5123}};
-  full.update(accessor);
-  return buffer.add_accessor(view, std::move(full));
+  accessor["componentType"] = 5123;
+  return buffer.add_accessor(buffer.add_view(std::move(narrow), GlbBuffer::Target::indices), std::move(accessor));
 }
 
-Json write_primitive(const Primitive& primitive, const Layout& layout, GlbBuffer& buffer) {
+Json write_primitive(Primitive primitive, const GlbLayout& layout, GlbBuffer& buffer) {
   Json attributes = Json::object();
-  const auto& vertices = primitive.vertices;
-  const auto positions = column(vertices, &Vertex::position);
-  attributes["POSITION"] = add_attribute(positions, bounds(positions), buffer);
-  attributes["NORMAL"] = add_attribute(column(vertices, &Vertex::normal), Json::object(), buffer);
-  if (layout.tangents)
-    attributes["TANGENT"] = add_attribute(tangents_of(primitive, layout.tangent_tex_coord), Json::object(), buffer);
-  if (layout.tex_coords > 0)
-    attributes["TEXCOORD_0"] = add_attribute(column(vertices, &Vertex::uv0), Json::object(), buffer);
-  if (layout.tex_coords > 1)
-    attributes["TEXCOORD_1"] = add_attribute(column(vertices, &Vertex::uv1), Json::object(), buffer);
-  if (layout.colors)
-    attributes["COLOR_0"] = add_attribute(column(vertices, &Vertex::color), {{"normalized", true}}, buffer);
-  return {{"attributes", std::move(attributes)}, {"indices", add_indices(primitive, buffer)}};
+  GlbVertices& vertices = primitive.vertices;
+  std::vector<std::array<float, 4>> tangents;
+  if (layout.tangents) tangents = tangents_of(primitive, layout.tangent_tex_coord);
+  const std::size_t indices = add_indices(primitive, buffer);
+  const Json box = bounds(vertices.positions);
+  attributes["POSITION"] = add_attribute(std::move(vertices.positions), box, buffer);
+  attributes["NORMAL"] = add_attribute(std::move(vertices.normals), Json::object(), buffer);
+  if (layout.tangents) attributes["TANGENT"] = add_attribute(std::move(tangents), Json::object(), buffer);
+  if (layout.tex_coords > 0) attributes["TEXCOORD_0"] = add_attribute(std::move(vertices.uv0), Json::object(), buffer);
+  if (layout.tex_coords > 1) attributes["TEXCOORD_1"] = add_attribute(std::move(vertices.uv1), Json::object(), buffer);
+  if (layout.colors) attributes["COLOR_0"] = add_attribute(std::move(vertices.colors), {{"normalized", true}}, buffer);
+  return {{"attributes", std::move(attributes)}, {"indices", indices}};
 }
 
 void check_triangles(const Part& part) {
@@ -245,13 +217,13 @@ void check_triangles(const Part& part) {
     fail(part, fmt::format("{} materials for {} triangles", mesh.material.size(), mesh.triangles.size()));
 }
 
-std::vector<std::vector<std::size_t>> triangles_by_slot(const Part& part) {
-  std::vector<std::vector<std::size_t>> slots(std::max<std::size_t>(part.materials.size(), 1));
+std::vector<std::vector<Index>> triangles_by_slot(const Part& part) {
+  std::vector<std::vector<Index>> slots(std::max<std::size_t>(part.materials.size(), 1));
   for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
     const std::size_t slot = part.mesh.material.empty() ? 0 : part.mesh.material[t];
     if (slot >= slots.size())
       fail(part, fmt::format("triangle {} names material slot {} of {}", t, slot, slots.size()));
-    slots[slot].push_back(t);
+    slots[slot].push_back(static_cast<Index>(t));
   }
   return slots;
 }
@@ -271,7 +243,7 @@ Json glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, con
   for (std::size_t slot = 0; slot < slots.size(); ++slot) {
     if (slots[slot].empty()) continue;
     const TriangleMesh& triangles = part.mesh;
-    Layout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0, any_value(triangles.colors, slots[slot]), false, 0};
+    GlbLayout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0, any_value(triangles.colors, slots[slot]), false, 0};
     if (any_value(triangles.uv1, slots[slot])) layout.tex_coords = 2;
     if (slot < part.materials.size()) {
       const std::uint32_t number = part.materials[slot];
@@ -280,7 +252,7 @@ Json glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, con
       layout.tangents = materials[number].tangents;
       layout.tangent_tex_coord = materials[number].tangent_tex_coord;
     }
-    Json primitive = write_primitive(collect(part, slots[slot], normals, layout), layout, buffer);
+    Json primitive = write_primitive(Collector(part, normals, layout).collect(slots[slot]), layout, buffer);
     if (slot < part.materials.size()) primitive["material"] = part.materials[slot];
     mesh["primitives"].push_back(std::move(primitive));
   }

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <set>
 
@@ -16,6 +17,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
+#include "scene_losses.hpp"
 #include "trs.hpp"
 
 namespace papilla {
@@ -56,21 +58,81 @@ class NodeWriter {
   void write() {
     const std::vector<Instance> used = instances(scene_);
     mesh_of_part_.resize(scene_.parts.size());
+    levels_of_part_.resize(scene_.parts.size());
     std::set<std::uint32_t> parts;
     for (const Instance& instance : used) parts.insert(instance.part);
-    for (const std::uint32_t part : parts) write_mesh(part);
+    for (const std::uint32_t part : parts) mesh_of_part_[part] = write_mesh(scene_.parts[part]);
+    for (const std::uint32_t part : parts) write_levels(part);
     number_nodes();
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i)
       if (node_number_[i]) gltf_["nodes"].push_back(node(i));
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i)
+      if (node_number_[i]) add_level_nodes(i);
     write_scene();
   }
 
  private:
-  void write_mesh(std::uint32_t part) {
-    Json mesh = glb_mesh(scene_.parts[part], needs_, options_, buffer_);
-    if (mesh.is_null()) return;
-    mesh_of_part_[part] = gltf_["meshes"].size();
+  std::optional<std::size_t> write_mesh(const Part& part) {
+    Json mesh = glb_mesh(part, needs_, options_, buffer_);
+    if (mesh.is_null()) return std::nullopt;
     gltf_["meshes"].push_back(std::move(mesh));
+    return gltf_["meshes"].size() - 1;
+  }
+
+  /// A level without triangles ends the chain: there is nothing to show from there on.
+  void write_levels(std::uint32_t number) {
+    const Part& part = scene_.parts[number];
+    if (!mesh_of_part_[number]) return;
+    double coverage = 1;
+    for (const PartLevel& source : part.levels) {
+      if (!(source.screen_coverage >= 0 && source.screen_coverage <= coverage))
+        throw InvalidInput(
+            fmt::format("write_glb: part '{}': level {} has a screen coverage of {}, which is not in [0, {}]",
+                        part.name, levels_of_part_[number].size() + 1, source.screen_coverage, coverage));
+      coverage = source.screen_coverage;
+      Part level;
+      level.name = level_name(part.name, levels_of_part_[number].size() + 1);
+      level.mesh = source.mesh;
+      level.materials = part.materials;
+      const auto mesh = write_mesh(level);
+      if (!mesh) return;
+      levels_of_part_[number].push_back(*mesh);
+    }
+  }
+
+  static std::string level_name(const std::string& name, std::size_t level) {
+    return name.empty() ? name : fmt::format("{}_LOD{}", name, level);
+  }
+
+  /// The nodes of the coarser levels stand where the node that lists them stands.
+  void add_level_nodes(std::size_t number) {
+    const Node& source = scene_.nodes[number];
+    if (!source.part || levels_of_part_[*source.part].empty()) return;
+    const std::vector<std::size_t>& meshes = levels_of_part_[*source.part];
+    std::size_t shown = *node_number_[number];
+    Json place = Json::object();
+    if (gltf_["nodes"][shown].contains("children")) {
+      gltf_["nodes"][shown]["children"].push_back(gltf_["nodes"].size());
+      Json leaf = {{"mesh", gltf_["nodes"][shown]["mesh"]}};
+      if (!source.name.empty()) leaf["name"] = level_name(source.name, 0);
+      gltf_["nodes"][shown].erase("mesh");
+      shown = gltf_["nodes"].size();
+      gltf_["nodes"].push_back(std::move(leaf));
+    } else {
+      put_transform(source.local, "write_glb", place);
+    }
+    Json ids = Json::array(), coverages = Json::array();
+    for (std::size_t level = 0; level < meshes.size(); ++level) {
+      ids.push_back(gltf_["nodes"].size());
+      coverages.push_back(scene_.parts[*source.part].levels[level].screen_coverage);
+      Json node = place;
+      if (!source.name.empty()) node["name"] = level_name(source.name, level + 1);
+      node["mesh"] = meshes[level];
+      gltf_["nodes"].push_back(std::move(node));
+    }
+    coverages.push_back(0);  // the coarsest level never vanishes
+    gltf_["nodes"][shown]["extensions"]["MSFT_lod"]["ids"] = std::move(ids);
+    gltf_["nodes"][shown]["extras"]["MSFT_screencoverage"] = std::move(coverages);
   }
 
   void number_nodes() {
@@ -122,6 +184,7 @@ class NodeWriter {
   GlbBuffer& buffer_;
   Json& gltf_;
   std::vector<std::optional<std::size_t>> mesh_of_part_, node_number_;
+  std::vector<std::vector<std::size_t>> levels_of_part_;
 };
 
 /// The names below any "extensions" of the document; extras are nobody's business.
@@ -138,52 +201,60 @@ void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
-void append_word(std::string& bytes, std::size_t value) {
-  const auto word = static_cast<std::uint32_t>(value);
-  for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xffU);
-}
+constexpr std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
 
-void append_chunk(std::string& bytes, std::size_t type, const std::string& content, char padding) {
-  const std::size_t length = (content.size() + 3) / 4 * 4;
-  append_word(bytes, length);
-  append_word(bytes, type);
-  bytes += content;
-  bytes.append(length - content.size(), padding);
+void write_word(std::ostream& out, std::size_t value) {
+  const auto word = static_cast<std::uint32_t>(value);
+  out.write(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
 /// The container of glTF 2.0, 4.4.
-std::string glb_bytes(const std::string& json, const std::string& binary) {
+void write_container(std::ostream& out, const std::string& json, const GlbBuffer& binary) {
   constexpr std::size_t k_json = 0x4e4f534a, k_bin = 0x004e4942;
-  const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
-  const std::size_t length = 12 + 8 + padded(json.size()) + (binary.empty() ? 0 : 8 + padded(binary.size()));
+  const std::size_t length = 12 + 8 + padded(json.size()) + (binary.size() == 0 ? 0 : 8 + padded(binary.size()));
   if (length > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(fmt::format("write_glb: {} bytes exceed glTF's limit of 4 GiB", length));
-  std::string bytes = "glTF";
-  bytes.reserve(length);
-  append_word(bytes, 2);
-  append_word(bytes, length);
-  append_chunk(bytes, k_json, json, ' ');
-  if (!binary.empty()) append_chunk(bytes, k_bin, binary, '\0');
-  return bytes;
+  out << "glTF";
+  write_word(out, 2);
+  write_word(out, length);
+  write_word(out, padded(json.size()));
+  write_word(out, k_json);
+  out << json << std::string(padded(json.size()) - json.size(), ' ');
+  if (binary.size() == 0) return;
+  write_word(out, padded(binary.size()));
+  write_word(out, k_bin);
+  binary.write(out);
+  out << std::string(padded(binary.size()) - binary.size(), '\0');
 }
 
 }  // namespace
 
-void write_glb(const Scene& scene, const std::filesystem::path& path, const GlbWriteOptions& options) {
+std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
+                                   const GlbWriteOptions& options) {
   Json gltf = {{"asset", asset_of(scene)}};
   GlbBuffer buffer;
   MaterialWriter materials(scene, buffer);
   materials.write(gltf);
   NodeWriter(scene, options, materials.needs(), buffer, gltf).write();
-  if (!buffer.bytes().empty()) {
-    gltf["buffers"] = Json::array({{{"byteLength", buffer.bytes().size()}}});
+  if (buffer.size() > 0) {
+    gltf["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
     gltf["bufferViews"] = buffer.views();
   }
   if (!buffer.accessors().empty()) gltf["accessors"] = buffer.accessors();
   std::set<std::string> extensions;
   collect_extensions(gltf, extensions);
   if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
-  write_atomically(path, glb_bytes(gltf.dump(-1, ' ', false, Json::error_handler_t::replace), buffer.bytes()));
+  const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    write_container(out, json, buffer);
+    out.close();
+    if (!out) throw IoError(path.string() + ": cannot be written");
+  });
+  FormatKeeps keeps;
+  keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
+  keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
+  return scene_losses(scene, keeps);
 }
 
 }  // namespace papilla

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <set>
 #include <string>
@@ -15,6 +14,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/read_file.hpp"
+#include "scene_pictures.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {
@@ -35,12 +35,6 @@ std::optional<TextureTransform> to_texture_transform(const MapOptions& options) 
   return TextureTransform{{options.offset.x, 1 - options.scale.y - options.offset.y}, 0, options.scale};
 }
 
-std::vector<std::byte> to_bytes(const std::string& text) {
-  std::vector<std::byte> bytes(text.size());
-  if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
-  return bytes;
-}
-
 /// The typical colours of a tangent-space normal map: bluish on average.
 bool looks_like_normal_map(const ColorImage& image) {
   std::array<double, 3> mean{};
@@ -51,7 +45,8 @@ bool looks_like_normal_map(const ColorImage& image) {
 
 class MtlReader {
  public:
-  MtlReader(const fs::path& path, Scene& scene) : path_(path), text_(read_file(path)), scene_(scene) {}
+  MtlReader(const fs::path& path, Scene& scene)
+      : path_(path), text_(read_file(path)), scene_(scene), pictures_(path.parent_path(), scene) {}
 
   void read() {
     std::string_view rest = text_;
@@ -61,7 +56,8 @@ class MtlReader {
       read_line(rest.substr(0, end));
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
-    for (const std::string& keyword : unused_) scene_.losses.push_back(path_.filename().string() + ": " + keyword);
+    for (const std::string& keyword : unused_)
+      scene_.losses.push_back(path_.filename().string() + ": " + printable(keyword));
   }
 
  private:
@@ -136,14 +132,14 @@ class MtlReader {
     Material& material = current();
     if (name.empty()) fail(fmt::format("{} names no file", keyword));
     if (keyword == "map_Kd") {
-      if (const auto texture = add_texture(name, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, options.clamp))
         material.base_color_texture = TextureReference{*texture, 0, 1, to_texture_transform(options)};
     } else if (keyword == "map_Ke") {
-      if (const auto texture = add_texture(name, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, options.clamp))
         material.emissive_texture = TextureReference{*texture, 0, 1, to_texture_transform(options)};
     } else if (keyword == "norm" || keyword == "bump" || keyword == "map_Bump" || keyword == "map_bump") {
       if (keyword != "norm" && !is_normal_map(name)) return;
-      if (const auto texture = add_texture(name, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, options.clamp))
         material.normal_texture = TextureReference{*texture, 0, options.bump_factor, to_texture_transform(options)};
     } else {
       unused_.insert(std::string(keyword));
@@ -191,80 +187,16 @@ class MtlReader {
     return pair;
   }
 
-  /// The picture's file: as named, with Windows separators, or under its bare name beside the MTL file.
-  fs::path locate(const std::string& name) const {
-    std::string slashed = name;
-    std::replace(slashed.begin(), slashed.end(), '\\', '/');
-    const fs::path folder = path_.parent_path();
-    for (const fs::path& candidate : {folder / name, folder / slashed, folder / fs::path(slashed).filename()})
-      if (fs::is_regular_file(candidate)) return candidate;
-    return {};
-  }
-
-  void warn_missing(const std::string& name) {
-    if (missing_.insert(name).second) scene_.warnings.push_back("texture '" + name + "' is missing");
-  }
-
   bool is_normal_map(const std::string& name) {
-    const fs::path file = locate(name);
-    if (file.empty()) {
-      warn_missing(name);
-      return false;
-    }
+    const fs::path file = pictures_.locate(name);
+    if (file.empty()) return false;
     try {
       if (looks_like_normal_map(read_color_image(file))) return true;
-      scene_.losses.push_back("bump map '" + name + "' (it is no normal map)");
+      scene_.losses.push_back("bump map '" + one_line(name) + "' (it is no normal map)");
     } catch (const Error& error) {
-      scene_.warnings.emplace_back(error.what());
+      scene_.warnings.push_back(one_line(error.what()));
     }
     return false;
-  }
-
-  std::optional<std::uint32_t> add_texture(const std::string& name, bool clamp) {
-    const auto key = std::make_pair(name, clamp);
-    if (const auto known = textures_.find(key); known != textures_.end()) return known->second;
-    const auto image = add_image(name);
-    if (!image) return std::nullopt;
-    Texture texture;
-    texture.image = image;
-    texture.name = scene_.images[*image].name;
-    if (clamp) texture.wrap_s = texture.wrap_t = 33071;
-    scene_.textures.push_back(std::move(texture));
-    return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
-  }
-
-  std::optional<std::uint32_t> add_image(const std::string& name) {
-    if (const auto known = images_.find(name); known != images_.end()) return known->second;
-    const fs::path file = locate(name);
-    if (file.empty()) {
-      warn_missing(name);
-      return std::nullopt;
-    }
-    try {
-      scene_.images.push_back(load_image(file));
-    } catch (const Error& error) {
-      scene_.warnings.emplace_back(error.what());
-      return std::nullopt;
-    }
-    return images_[name] = static_cast<std::uint32_t>(scene_.images.size() - 1);
-  }
-
-  EncodedImage load_image(const fs::path& file) const {
-    EncodedImage image;
-    image.name = file.stem().string();
-    image.uri = file.lexically_relative(path_.parent_path()).generic_string();
-    const std::string bytes = read_file(file);
-    if (bytes.starts_with("\x89PNG")) {
-      image.mime_type = "image/png";
-      image.bytes = to_bytes(bytes);
-    } else if (bytes.starts_with("\xff\xd8\xff")) {
-      image.mime_type = "image/jpeg";
-      image.bytes = to_bytes(bytes);
-    } else {
-      image.mime_type = "image/png";
-      image.bytes = encode_png(read_color_image(file));
-    }
-    return image;
   }
 
   fs::path path_;
@@ -272,9 +204,8 @@ class MtlReader {
   Scene& scene_;
   std::size_t line_ = 0;
   bool open_ = false, has_roughness_ = false;
-  std::set<std::string> unused_, missing_;
-  std::map<std::pair<std::string, bool>, std::uint32_t> textures_;
-  std::map<std::string, std::uint32_t> images_;
+  ScenePictures pictures_;
+  std::set<std::string> unused_;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/read_file.hpp"
 #include "polygon_triangulation.hpp"
+#include "srgb.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {
@@ -23,6 +24,7 @@ namespace {
 
 constexpr Index k_none = std::numeric_limits<Index>::max();
 constexpr std::size_t k_max_elements = k_none - 1;
+constexpr Triangle k_no_values = {k_no_value, k_no_value, k_no_value};
 
 /// A face's corner: numbers into the file's lists, from 0, k_none when not given.
 struct Corner {
@@ -49,9 +51,9 @@ class NameTable {
   std::vector<std::string> names_;
 };
 
-float linear_from_srgb(double c) {
-  c = std::clamp(c, 0.0, 1.0);
-  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+Color linear_color(const double* srgb) {
+  const auto channel = [&](int k) { return static_cast<float>(linear_from_srgb(srgb[k])); };
+  return {channel(0), channel(1), channel(2), 1};
 }
 
 /// What the lines say, before anything is put together.
@@ -192,8 +194,7 @@ class ObjParser {
       const double* c = n + (count == 6 ? 3 : 4);
       const bool good = std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]);
       if (!good) note(bad_colors_);
-      content_.colors.push_back(good ? Color{linear_from_srgb(c[0]), linear_from_srgb(c[1]), linear_from_srgb(c[2]), 1}
-                                     : Color{});
+      content_.colors.push_back(good ? linear_color(c) : Color{});
     }
   }
 
@@ -289,7 +290,7 @@ class MaterialTable {
   std::uint32_t number(const std::string& name) {
     const auto found = by_name_.find(name);
     if (found != by_name_.end()) return found->second;
-    if (!name.empty()) scene_.warnings.push_back("material '" + name + "' is not defined");
+    if (!name.empty()) scene_.warnings.push_back("material '" + one_line(name) + "' is not defined");
     Material material;
     material.name = name.empty() ? "default" : name;
     scene_.materials.push_back(std::move(material));
@@ -299,13 +300,14 @@ class MaterialTable {
  private:
   /// The whole rest of the line is a name with spaces, or else a list of names.
   void read_library(const std::string& names, const std::filesystem::path& folder) {
-    if (std::filesystem::is_regular_file(folder / names)) return read_mtl(folder / names, scene_);
+    std::error_code error;  // A name that no file can have is a missing file.
+    if (std::filesystem::is_regular_file(folder / names, error)) return read_mtl(folder / names, scene_);
     std::string_view rest = names;
     for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest)) {
-      if (std::filesystem::is_regular_file(folder / name))
+      if (std::filesystem::is_regular_file(folder / name, error))
         read_mtl(folder / name, scene_);
       else
-        scene_.warnings.push_back("material library '" + std::string(name) + "' is missing");
+        scene_.warnings.push_back("material library '" + one_line(name) + "' is missing");
     }
   }
 
@@ -380,19 +382,26 @@ class PartAssembler {
   }
 
  private:
-  /// Fills the value lists. Corners without uv or normal use a neutral value behind the others.
+  /// Fills the value lists. Faces without uv or normals have no value there; where only some corners lack one, these
+  /// use a neutral value behind the others.
   void collect(const std::vector<const Face*>& faces, TriangleMesh& mesh) {
     has_uv_ = has_normals_ = false;
     bool lacks_uv = false, lacks_normals = false;
-    for (const Face* face : faces)
+    for (const Face* face : faces) {
+      std::uint32_t with_uv = 0, with_normal = 0;
       for (std::size_t i = face->first_corner; i < face->first_corner + face->corners; ++i) {
         const Corner& corner = content_.corners[i];
         positions_.use(corner.position);
-        (corner.uv == k_none ? lacks_uv : has_uv_) = true;
-        (corner.normal == k_none ? lacks_normals : has_normals_) = true;
         if (corner.uv != k_none) uv_.use(corner.uv);
         if (corner.normal != k_none) normals_.use(corner.normal);
+        with_uv += corner.uv != k_none;
+        with_normal += corner.normal != k_none;
       }
+      has_uv_ |= with_uv > 0;
+      has_normals_ |= with_normal > 0;
+      lacks_uv |= with_uv > 0 && with_uv < face->corners;
+      lacks_normals |= with_normal > 0 && with_normal < face->corners;
+    }
     mesh.positions = positions_.finish(content_.positions);
     for (Vec3& position : mesh.positions) position = unit_ * position;
     if (!content_.colors.empty()) {
@@ -419,9 +428,15 @@ class PartAssembler {
         normals[k] = corner.normal == k_none ? no_normal_ : normals_[corner.normal];
       }
       mesh.triangles.push_back(positions);
-      if (has_uv_) mesh.uv.indices.push_back(uv);
-      if (has_normals_) mesh.normals.indices.push_back(normals);
+      if (has_uv_) mesh.uv.indices.push_back(lacks_all(face, &Corner::uv) ? k_no_values : uv);
+      if (has_normals_) mesh.normals.indices.push_back(lacks_all(face, &Corner::normal) ? k_no_values : normals);
     }
+  }
+
+  bool lacks_all(const Face& face, Index Corner::*index) const {
+    for (std::size_t i = face.first_corner; i < face.first_corner + face.corners; ++i)
+      if (content_.corners[i].*index != k_none) return false;
+    return true;
   }
 
   std::vector<std::array<std::size_t, 3>> cut(const Face& face) const {

@@ -15,6 +15,9 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "placed_mesh.hpp"
+#include "scene_losses.hpp"
+#include "srgb.hpp"
+#include "vertex_values.hpp"
 
 namespace papilla {
 namespace {
@@ -142,11 +145,14 @@ class ObjWriter {
     return {buffer_.data(), buffer_.size()};
   }
 
+  /// After text().
+  bool wrote_all_colors() const noexcept { return wrote_all_colors_; }
+
  private:
   void write(const PlacedMesh& mesh) {
     const TriangleMesh& source = mesh.part->mesh;
     fmt::format_to(out_, "o {}\n", one_line(mesh.name, "part"));
-    for (const Vec3& p : mesh.positions) fmt::format_to(out_, "v {} {} {}\n", p.x, p.y, p.z);
+    write_positions(mesh);
     for (const Vec2& t : source.uv.values)
       fmt::format_to(out_, "vt {} {}\n", finite(t.x, "texture coordinate"), finite(t.y, "texture coordinate"));
     for (const Vec3& n : mesh.normals)
@@ -155,6 +161,20 @@ class ObjWriter {
     first_position_ += mesh.positions.size();
     first_uv_ += source.uv.values.size();
     first_normal_ += mesh.normals.size();
+  }
+
+  /// With colours, as many programs read them, when a position has only one.
+  void write_positions(const PlacedMesh& mesh) {
+    const auto colors = value_per_position(mesh.part->mesh, mesh.part->mesh.colors);
+    wrote_all_colors_ = wrote_all_colors_ && (colors || mesh.part->mesh.colors.empty());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const Vec3& p = mesh.positions[i];
+      fmt::format_to(out_, "v {} {} {}", p.x, p.y, p.z);
+      if (colors)
+        for (const float x : {(*colors)[i].r, (*colors)[i].g, (*colors)[i].b})
+          fmt::format_to(out_, " {:.6f}", srgb_from_linear(finite(static_cast<double>(x), "vertex colour")));
+      buffer_.push_back('\n');
+    }
   }
 
   void write_faces(const PlacedMesh& mesh) {
@@ -196,11 +216,12 @@ class ObjWriter {
   fmt::memory_buffer buffer_;
   std::back_insert_iterator<fmt::memory_buffer> out_{buffer_};
   std::size_t first_position_ = 1, first_uv_ = 1, first_normal_ = 1;
+  bool wrote_all_colors_ = true;
 };
 
 }  // namespace
 
-void write_obj(const Scene& scene, const fs::path& path) {
+std::vector<std::string> write_obj(const Scene& scene, const fs::path& path) {
   const std::vector<std::string> names = material_names(scene);
   fs::path library = path;
   library.replace_extension(".mtl");
@@ -208,6 +229,10 @@ void write_obj(const Scene& scene, const fs::path& path) {
   const std::string_view text = writer.text(scene.materials.empty() ? "" : library.filename().string());
   if (!scene.materials.empty()) MtlWriter(scene, path).write(library, names);
   write_atomically(path, text);
+  FormatKeeps keeps;
+  keeps.parts = keeps.materials = keeps.normals = keeps.uv = keeps.faces = true;
+  keeps.colors = writer.wrote_all_colors();
+  return scene_losses(scene, keeps);
 }
 
 }  // namespace papilla

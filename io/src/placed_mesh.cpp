@@ -38,6 +38,7 @@ void check(const Part& part) {
             fmt::format("part '{}': position {} of {} does not exist", part.name, index, part.mesh.positions.size()));
   check(part.mesh.uv, part, "texture coordinate");
   check(part.mesh.normals, part, "normal");
+  check(part.mesh.colors, part, "colour");
 }
 
 }  // namespace

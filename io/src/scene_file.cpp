@@ -10,6 +10,10 @@
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/obj_reader.hpp"
 #include "papilla/io/obj_writer.hpp"
+#include "papilla/io/off_reader.hpp"
+#include "papilla/io/off_writer.hpp"
+#include "papilla/io/ply_reader.hpp"
+#include "papilla/io/ply_writer.hpp"
 #include "papilla/io/read_file.hpp"
 #include "papilla/io/stl_reader.hpp"
 #include "papilla/io/stl_writer.hpp"
@@ -28,7 +32,8 @@ Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& optio
   CadReadOptions cad;
   cad.chord_mm = options.chord_mm;
   cad.angle_deg = options.angle_deg;
-  cad.brep_mm_per_unit = options.millimetres_per_unit;
+  cad.max_edge_mm = options.max_edge_mm;
+  cad.millimetres_per_unit = options.cad_millimetres_per_unit;
   Scene scene = read_cad(path, cad, nullptr, progress);
   scene.up = options.up.value_or(scene.up);
   return scene;
@@ -38,6 +43,8 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   const std::string extension = lower_extension(path);
   if (extension == ".stl") return read_stl(path, options);
   if (extension == ".obj") return read_obj(path, options);
+  if (extension == ".ply") return read_ply(path, options);
+  if (extension == ".off") return read_off(path, options);
   if (extension == ".glb" || extension == ".gltf") {
     Scene scene = read_gltf(path);
     scene.up = options.up.value_or(scene.up);
@@ -45,7 +52,7 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   }
   if (is_cad_extension(path)) return read_cad_scene(path, options, progress);
   throw InvalidInput(path.string() + ": the extension '" + extension +
-                     "' is unknown; known are .step .stp .p21 .iges .igs .brep .brp .stl .obj .glb .gltf");
+                     "' is unknown; known are .step .stp .p21 .iges .igs .brep .brp .stl .obj .ply .off .glb .gltf");
 }
 
 }  // namespace
@@ -58,12 +65,15 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, 
   return scene;
 }
 
-void write_scene(const Scene& scene, const std::filesystem::path& path) {
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".glb") return write_glb(scene, path);
   if (extension == ".obj") return write_obj(scene, path);
+  if (extension == ".off") return write_off(scene, path);
+  if (extension == ".ply") return write_ply(scene, path);
   if (extension == ".stl") return write_stl(scene, path);
-  throw InvalidInput(path.string() + ": the extension '" + extension + "' can't be written; .glb .obj .stl can");
+  throw InvalidInput(path.string() + ": the extension '" + extension +
+                     "' can't be written; .glb .obj .off .ply .stl can");
 }
 
 }  // namespace papilla

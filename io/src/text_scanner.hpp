@@ -27,12 +27,28 @@ constexpr std::string_view next_word(std::string_view& text) noexcept {
   return word;
 }
 
+/// Whether `text` is the word `lower`, in any case.
+constexpr bool equals_ignoring_case(std::string_view text, std::string_view lower) noexcept {
+  if (text.size() != lower.size()) return false;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if ((text[i] >= 'A' && text[i] <= 'Z' ? text[i] + 32 : text[i]) != lower[i]) return false;
+  return true;
+}
+
 /// The beginning of a word as messages quote it: printable ASCII, the rest as '?'.
 inline std::string printable(std::string_view word) {
   std::string text(word.substr(0, 40));
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return text;
+}
+
+/// A text of one line: control characters become blanks.
+inline std::string one_line(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+  return line;
 }
 
 /// Reads the whole word as a number, independent of the locale. "nan" and "inf" are numbers.

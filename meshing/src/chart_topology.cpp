@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "check_mesh.hpp"
-#include "edge_table.hpp"
+#include "check_charts.hpp"
 #include "label_topology.hpp"
 #include "papilla/core/error.hpp"
 #include "union_find.hpp"
@@ -47,16 +46,9 @@ std::vector<ChartTopology> label_topologies(std::span<const Index> opposite, std
 }  // namespace detail
 
 std::vector<ChartTopology> chart_topologies(const TriangleMesh& mesh, const ChartSet& charts) {
-  detail::check_mesh(mesh, "chart_topologies");
-  if (charts.of_triangle.size() != mesh.triangles.size())
-    throw InvalidInput("chart_topologies: " + std::to_string(charts.of_triangle.size()) + " chart numbers for " +
-                       std::to_string(mesh.triangles.size()) + " triangles");
-  for (std::size_t t = 0; t < charts.of_triangle.size(); ++t)
-    if (charts.of_triangle[t] >= charts.count)
-      throw InvalidInput("chart_topologies: chart " + std::to_string(charts.of_triangle[t]) + " of triangle " +
-                         std::to_string(t) + " is out of range");
+  detail::check_charts(mesh, charts, "chart_topologies");
   const detail::EdgeTable edges(mesh.triangles, mesh.positions.size());
-  const std::vector<Index> opposite = detail::opposite_within_labels(mesh.triangles, edges, charts.of_triangle);
+  const std::vector<Index> opposite = detail::opposite_within_charts(mesh, edges, charts, "chart_topologies");
   return detail::label_topologies(opposite, charts.of_triangle, charts.count);
 }
 

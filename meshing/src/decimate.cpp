@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <queue>
+#include <utility>
 
 #include "check_distance_input.hpp"
 #include "mesh_attributes.hpp"
@@ -17,6 +18,13 @@ namespace {
 constexpr double k_cos_turn = 0.2588;  // 75 degrees
 /// Among collapses of equal error short ones come first: their squared length counts with this weight in the order.
 constexpr double k_length_weight = 1e-8;
+/// Places of a higher degree, the hubs of fans, are looked at again only when their degree has halved or nothing else
+/// is left to do: else a fan of n triangles would cost n^2.
+constexpr Index k_hub_degree = 48;
+/// At the end hubs are looked at so often; each time costs as much as their degrees.
+constexpr int k_hub_rounds = 8;
+/// Targets of a place that are checked, cheapest first; what all of them forbid the others mostly forbid, too.
+constexpr int k_most_trials = 16;
 /// The plane of a triangle with a smaller altitude, relative to the mesh's diagonal, is rounding noise.
 constexpr double k_noise_altitude = 1e-6;
 
@@ -71,10 +79,16 @@ class Decimator {
         first_(wedges.positions.size(), k_none),
         last_(wedges.positions.size(), k_none),
         stamp_(wedges.positions.size(), 0),
-        mark_(wedges.positions.size(), 0),
+        degree_(wedges.positions.size(), 0),
+        degree_seen_(wedges.positions.size(), 0),
+        is_postponed_(wedges.positions.size(), 0),
+        mark_(wedges.positions.size()),
         quadrics_(wedges.positions.size()),
         alive_(indices.size() / 3) {
-    for (Index c = 0; c < corners_.size(); ++c) append(place_of(c), c, c);
+    for (Index c = 0; c < corners_.size(); ++c) {
+      append(place_of(c), c, c);
+      ++degree_[place_of(c)];
+    }
     Bounds bounds;
     for (const Vec3& p : wedges.positions) bounds.add(p);
     noise_altitude_ = k_noise_altitude * bounds.diagonal();
@@ -85,10 +99,15 @@ class Decimator {
       if (first_[p] != k_none) start_quadric(p);
     for (Index p = 0; p < first_.size(); ++p)
       if (first_[p] != k_none) enqueue(p);
-    while (!queue_.empty() && alive_ > options_.target_triangles) {
-      const Candidate best = queue_.top();
-      queue_.pop();
-      if (stamp_[best.from] == best.stamp) collapse(best.from, best.to);
+    for (int round = 0; round <= k_hub_rounds && alive_ > options_.target_triangles; ++round) {
+      take_candidates();
+      std::vector<Index> hubs;
+      hubs.swap(postponed_);
+      for (const Index hub : hubs) {
+        is_postponed_[hub] = 0;
+        if (first_[hub] != k_none) enqueue(hub);
+      }
+      if (queue_.empty()) break;
     }
     std::vector<Index> result;
     result.reserve(3 * alive_);
@@ -106,6 +125,19 @@ class Decimator {
       return order > other.order || (order >= other.order && from > other.from);
     }
   };
+
+  struct Mark {
+    std::uint32_t stamp = 0;
+    Index link = 0;
+  };
+
+  void take_candidates() {
+    while (!queue_.empty() && alive_ > options_.target_triangles) {
+      const Candidate best = queue_.top();
+      queue_.pop();
+      if (stamp_[best.from] == best.stamp) collapse(best.from, best.to);
+    }
+  }
 
   Index place_of(Index corner) const noexcept { return wedges_.position_of_wedge[corners_[corner]]; }
   const Vec3& point(Index place) const noexcept { return wedges_.positions[place]; }
@@ -142,30 +174,34 @@ class Decimator {
     last_[place] = previous;
   }
 
-  /// The neighbours of a place whose corners are given.
-  void links_of(const std::vector<Index>& corners, std::vector<Link>& links) const {
+  /// The neighbours of a place whose corners are given; link_to() finds them until the next call.
+  void links_of(const std::vector<Index>& corners, std::vector<Link>& links) {
     links.clear();
+    ++mark_now_;
     for (const Index c : corners) {
       add_link(links, c, next_in_triangle(c), true);
       add_link(links, c, previous_in_triangle(c), false);
     }
   }
 
-  void add_link(std::vector<Link>& links, Index corner, Index other, bool leaves) const {
+  void add_link(std::vector<Link>& links, Index corner, Index other, bool leaves) {
     const Index place = place_of(other);
-    auto link = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.place == place; });
-    if (link == links.end()) {
+    Mark& mark = mark_[place];
+    if (mark.stamp != mark_now_) {
+      mark = {mark_now_, static_cast<Index>(links.size())};
       links.emplace_back();
-      link = links.end() - 1;
-      link->place = place;
+      links.back().place = place;
     }
-    if (link->count < 2) {
-      link->from[link->count] = corners_[corner];
-      link->to[link->count] = corners_[other];
-      link->leaves[link->count] = leaves;
+    Link& link = links[mark.link];
+    if (link.count < 2) {
+      link.from[link.count] = corners_[corner];
+      link.to[link.count] = corners_[other];
+      link.leaves[link.count] = leaves;
     }
-    ++link->count;
+    ++link.count;
   }
+
+  const Link& link_to(Index place, const std::vector<Link>& links) const noexcept { return links[mark_[place].link]; }
 
   /// Unit normal, zero where it is noise.
   Vec3 reliable_normal(Index corner) const noexcept {
@@ -185,9 +221,8 @@ class Decimator {
       const Vec3 n = reliable_normal(c);
       q.add_plane(n, p, p);
       for (const Index other : {next_in_triangle(c), previous_in_triangle(c)}) {
-        const auto link = std::find_if(links_here_.begin(), links_here_.end(),
-                                       [&](const Link& l) { return l.place == place_of(other); });
-        if (!link->is_smooth()) q.add_plane(normalized(cross(point(link->place) - p, n)), p, p);
+        const Link& link = link_to(place_of(other), links_here_);
+        if (!link.is_smooth()) q.add_plane(normalized(cross(point(link.place) - p, n)), p, p);
       }
     }
   }
@@ -205,36 +240,87 @@ class Decimator {
     return creases == 2 ? 2 : 0;
   }
 
+  /// Its surroundings changed: what was found for it no longer holds.
+  void update(Index place) {
+    ++stamp_[place];
+    if (degree_[place] <= k_hub_degree || 2 * degree_[place] <= degree_seen_[place]) {
+      enqueue(place);
+    } else if (!is_postponed_[place]) {
+      is_postponed_[place] = 1;
+      postponed_.push_back(place);
+    }
+  }
+
+  /// Finds the cheapest collapse that is allowed.
   void enqueue(Index place) {
     ++stamp_[place];
+    degree_seen_[place] = degree_[place];
     corners_at(place, corners_here_);
     links_of(corners_here_, links_here_);
     const std::size_t targets = find_targets(place, links_here_);
-    Candidate best{std::numeric_limits<double>::infinity(), place, 0, stamp_[place]};
     const double most = options_.error_mm * options_.error_mm;
+    trials_.clear();
     for (std::size_t i = 0; i < targets; ++i) {
       const Vec3 d = point(links_here_[i].place) - point(place);
-      const double error = quadrics_[place](d), order = error + k_length_weight * dot(d, d);
-      if (!(error <= most) || !(order < best.order) || !is_allowed(place, links_here_[i])) continue;
-      best.order = order;
-      best.to = links_here_[i].place;
+      const double error = quadrics_[place](d);
+      if (error <= most) trials_.push_back({error + k_length_weight * dot(d, d), static_cast<Index>(i)});
     }
-    if (std::isfinite(best.order)) queue_.push(best);
+    std::make_heap(trials_.begin(), trials_.end(), std::greater<>());
+    for (int trial = 0; !trials_.empty() && trial < k_most_trials; ++trial) {
+      std::pop_heap(trials_.begin(), trials_.end(), std::greater<>());
+      const auto [order, link] = trials_.back();
+      trials_.pop_back();
+      if (!is_allowed(place, links_here_[link])) continue;
+      queue_.push({order, place, links_here_[link].place, stamp_[place]});
+      return;
+    }
+  }
+
+  bool are_neighbours(Index place, Index other) {
+    corners_at(place, corners_there_);
+    return std::any_of(corners_there_.begin(), corners_there_.end(), [&](Index c) {
+      return place_of(next_in_triangle(c)) == other || place_of(previous_in_triangle(c)) == other;
+    });
+  }
+
+  /// How many neighbours the place of `links_here_` has in common with `target`.
+  std::size_t count_common_neighbours(Index target) {
+    std::size_t common = 0;
+    if (degree_[target] > k_hub_degree) {  // looking at the few around the place is cheaper
+      for (const Link& link : links_here_) common += link.place != target && are_neighbours(link.place, target);
+      return common;
+    }
+    corners_at(target, corners_there_);
+    ++mark_now_;
+    for (const Index c : corners_there_) {
+      mark_[place_of(next_in_triangle(c))].stamp = mark_now_;
+      mark_[place_of(previous_in_triangle(c))].stamp = mark_now_;
+    }
+    for (const Link& link : links_here_) common += mark_[link.place].stamp == mark_now_;
+    return common;
+  }
+
+  bool has_triangle(Index place, Index a, Index b) {
+    corners_at(place, corners_there_);
+    return std::any_of(corners_there_.begin(), corners_there_.end(), [&](Index c) {
+      const Index next = place_of(next_in_triangle(c)), previous = place_of(previous_in_triangle(c));
+      return (next == a && previous == b) || (next == b && previous == a);
+    });
   }
 
   /// Keeps the topology, maps every wedge, turns no triangle too far. `corners_here_` and `links_here_` are the
   /// place's.
   bool is_allowed(Index place, const Link& target) {
-    corners_at(target.place, corners_there_);
-    // Link condition: the places next to both are those opposite the common edge.
-    ++mark_now_;
-    for (const Index c : corners_there_) {
-      mark_[place_of(next_in_triangle(c))] = mark_now_;
-      mark_[place_of(previous_in_triangle(c))] = mark_now_;
+    // Link condition: what is next to both is opposite the common edge. With three neighbours the edge between the
+    // two others may be, too: a tetrahedron, or a fin on a surface, which would become a double sheet.
+    if (count_common_neighbours(target.place) != target.count) return false;
+    if (links_here_.size() == 3 && target.count == 2) {
+      std::array<Index, 2> others{};
+      std::size_t count = 0;
+      for (const Link& link : links_here_)
+        if (link.place != target.place) others[count++] = link.place;
+      if (has_triangle(target.place, others[0], others[1])) return false;
     }
-    std::size_t common = 0;
-    for (const Link& link : links_here_) common += mark_[link.place] == mark_now_;
-    if (common != target.count) return false;
 
     const Vec3& to = point(target.place);
     for (const Index c : corners_here_) {
@@ -259,33 +345,31 @@ class Decimator {
   void collapse(Index from, Index to) {
     corners_at(from, corners_here_);
     links_of(corners_here_, links_here_);
-    const auto found =
-        std::find_if(links_here_.begin(), links_here_.end(), [&](const Link& l) { return l.place == to; });
-    const Link target = *found;
-    if (!is_allowed(from, target)) {  // the surroundings changed
-      enqueue(from);
+    const Link target = link_to(to, links_here_);
+    if (!is_allowed(from, target)) {  // what surrounds the target changed
+      update(from);
       return;
     }
     for (const Index c : corners_here_) {
       const Index t = c - c % 3;
       if (place_of(next_in_triangle(c)) == to || place_of(previous_in_triangle(c)) == to) {
+        for (Index k = t; k < t + 3; ++k) --degree_[place_of(k)];
         corners_[t] = corners_[t + 1] = corners_[t + 2] = k_none;
         --alive_;
       } else {
         corners_[c] = target_wedge(target, corners_[c]);
       }
     }
+    degree_[to] += degree_[from];
+    degree_[from] = 0;
     quadrics_[to].add(quadrics_[from], point(from) - point(to));
     append(to, first_[from], last_[from]);
     first_[from] = last_[from] = k_none;
     ++stamp_[from];
 
-    corners_at(to, corners_there_);
-    links_of(corners_there_, links_there_);
     ring_.clear();
-    for (const Link& link : links_there_) ring_.push_back(link.place);
-    enqueue(to);
-    for (const Index place : ring_) enqueue(place);
+    for (const Link& link : links_here_) ring_.push_back(link.place);
+    for (const Index place : ring_) update(place);
   }
 
   const WedgeMesh& wedges_;
@@ -293,14 +377,19 @@ class Decimator {
   DecimateOptions options_;
   std::vector<Index> corners_;              ///< Wedge at each corner; k_none: the triangle is gone.
   std::vector<Index> next_, first_, last_;  ///< The corners at a place, as a chain.
-  std::vector<std::uint32_t> stamp_, mark_;
+  std::vector<std::uint32_t> stamp_;
+  std::vector<Index> degree_, degree_seen_;  ///< Triangles at a place, now and when enqueue() last saw it.
+  std::vector<Index> postponed_;
+  std::vector<std::uint8_t> is_postponed_;
+  std::vector<Mark> mark_;
   std::uint32_t mark_now_ = 0;
   std::vector<Quadric> quadrics_;  ///< Relative to their places.
   std::priority_queue<Candidate> queue_;
   std::size_t alive_;
   double noise_altitude_ = 0;
   std::vector<Index> corners_here_, corners_there_, ring_;
-  std::vector<Link> links_here_, links_there_;
+  std::vector<Link> links_here_;
+  std::vector<std::pair<double, Index>> trials_;
 };
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <unordered_set>
 
 #include "check_mesh.hpp"
-#include "edge_table.hpp"
 #include "papilla/core/error.hpp"
+#include "repair_steps.hpp"
 #include "triangle_shape.hpp"
 
 namespace papilla {
@@ -222,17 +222,31 @@ std::vector<Index> degenerate_triangles(const TriangleMesh& mesh, double toleran
 
 }  // namespace
 
+namespace detail {
+
+bool has_degenerate(const TriangleMesh& mesh, double tolerance_mm) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (triangle_shape(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)).altitude < tolerance_mm) return true;
+  return false;
+}
+
+bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result) {
+  result.repeated = drop_repeated_corners(mesh);
+  const std::vector<Index> degenerate = degenerate_triangles(mesh, tolerance_mm);
+  result.found = result.repeated + degenerate.size();
+  if (!degenerate.empty()) DegenerateResolver(mesh, tolerance_mm, result).run(degenerate);
+  return result.found > 0;
+}
+
+}  // namespace detail
+
 DegenerateResult remove_degenerate(TriangleMesh mesh, const DegenerateOptions& options) {
   if (!(options.relative_altitude >= 0 && options.relative_altitude <= 0.1))
     throw InvalidInput("remove_degenerate: relative_altitude " + std::to_string(options.relative_altitude) +
                        " is not in [0, 0.1]");
   check_mesh(mesh, "remove_degenerate");
   DegenerateResult result;
-  result.repeated = drop_repeated_corners(mesh);
-  const double tolerance = options.relative_altitude * bounding_diagonal(mesh);
-  const std::vector<Index> degenerate = degenerate_triangles(mesh, tolerance);
-  result.found = result.repeated + degenerate.size();
-  if (!degenerate.empty()) DegenerateResolver(mesh, tolerance, result).run(degenerate);
+  resolve_degenerate(mesh, options.relative_altitude * bounding_diagonal(mesh), result);
   result.mesh = std::move(mesh);
   return result;
 }

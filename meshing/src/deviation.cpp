@@ -40,10 +40,14 @@ void for_each_chunk(std::size_t count, const Body& body) {
 }
 
 /// Closest point of p, starting from a triangle that is probably near; k_no_value: no idea.
-ClosestPoint closest_from(const TriangleBvh& bvh, const Vec3& p, Index hint) noexcept {
+ClosestPoint closest_from(const TriangleBvh& bvh, const Vec3& p, Index hint, double enough = 0) noexcept {
   return bvh.closest(
-      p, hint == k_no_value ? ClosestPoint{} : ClosestPoint{detail::squared_distance(p, bvh.frame(hint)), hint});
+      p, hint == k_no_value ? ClosestPoint{} : ClosestPoint{detail::squared_distance(p, bvh.frame(hint)), hint},
+      enough);
 }
+
+/// Squared distances up to this need no closer point while settling against `floor`: a thousandth of it.
+double near_enough(double floor) noexcept { return 1e-6 * floor * floor; }
 
 /// The largest distance met and where.
 struct Peak {
@@ -137,7 +141,7 @@ class TriangleRefiner {
   }
 
   ClosestPoint measure(const Vec3& p, Index hint) {
-    const ClosestPoint found = closest_from(to_, p, hint);
+    const ClosestPoint found = closest_from(to_, p, hint, near_enough(floor_));
     const double d = std::sqrt(found.squared_distance);
     local_ = std::max(local_, d);
     peak_->note(d, p, triangle_, found.triangle);
@@ -271,7 +275,8 @@ class OneSide {
       for (std::size_t t = begin; t < end; ++t) {
         double bound = hint == k_no_value ? std::numeric_limits<double>::infinity() : corner_bound(t, hint);
         if (!(bound <= floor_)) {
-          hint = closest_from(to_, (1.0 / 3) * (from_.corner(t, 0) + from_.corner(t, 1) + from_.corner(t, 2)), hint)
+          hint = closest_from(to_, (1.0 / 3) * (from_.corner(t, 0) + from_.corner(t, 1) + from_.corner(t, 2)), hint,
+                              near_enough(floor_))
                      .triangle;
           bound = corner_bound(t, hint);
         }
@@ -300,7 +305,7 @@ class OneSide {
       Index hint = k_no_value;
       for (std::size_t v = begin; v < end; ++v) {
         if (triangle_at[v] == k_no_value) continue;
-        const ClosestPoint found = closest_from(to_, from_.positions[v], hint);
+        const ClosestPoint found = closest_from(to_, from_.positions[v], hint, near_enough(floor_));
         nearest_[v] = hint = found.triangle;
         peaks[chunk].note(std::sqrt(found.squared_distance), from_.positions[v], triangle_at[v], found.triangle);
       }

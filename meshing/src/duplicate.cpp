@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/meshing/duplicate.hpp"
 
+#include <algorithm>
+
 #include "check_mesh.hpp"
-#include "edge_table.hpp"
+#include "repair_steps.hpp"
 #include "same_triangles.hpp"
 #include "union_find.hpp"
 
@@ -34,8 +36,8 @@ std::vector<std::uint8_t> keep_first(const std::vector<Triangle>& triangles, Dup
 }
 
 /// Drops the kept halves of sheets that only part touching solids.
-void drop_walls(const TriangleMesh& mesh, std::vector<std::uint8_t>& state, DuplicateResult& result) {
-  const EdgeTable edges(mesh.triangles, mesh.positions.size());
+void drop_walls(const TriangleMesh& mesh, const EdgeTable& edges, std::vector<std::uint8_t>& state,
+                DuplicateResult& result) {
   UnionFind sheets(mesh.triangles.size());
   std::vector<std::pair<Index, bool>> borders;  // sheet triangle, does the border carry other surface on both sides
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -59,14 +61,42 @@ void drop_walls(const TriangleMesh& mesh, std::vector<std::uint8_t>& state, Dupl
   }
 }
 
+Index apex(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
+  return from_vertex(triangles, previous_halfedge(halfedge));
+}
+
+bool share_apex(std::span<const Index> halfedges, const std::vector<Triangle>& triangles) {
+  if (halfedges.size() == 2) return apex(triangles, halfedges[0]) == apex(triangles, halfedges[1]);
+  std::vector<Index> apexes;
+  for (const Index h : halfedges) apexes.push_back(apex(triangles, h));
+  std::sort(apexes.begin(), apexes.end());
+  return std::adjacent_find(apexes.begin(), apexes.end()) != apexes.end();
+}
+
 }  // namespace
+
+namespace detail {
+
+bool has_duplicates(const std::vector<Triangle>& triangles, const EdgeTable& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges.halfedges(e).size() > 1 && share_apex(edges.halfedges(e), triangles)) return true;
+  return false;
+}
+
+bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, DuplicateResult& result) {
+  if (!has_duplicates(mesh.triangles, edges)) return false;
+  std::vector<std::uint8_t> state = keep_first(mesh.triangles, result);
+  if (result.opposite > 0) drop_walls(mesh, edges, state, result);
+  keep_triangles(mesh, state);
+  return true;
+}
+
+}  // namespace detail
 
 DuplicateResult remove_duplicates(TriangleMesh mesh) {
   check_mesh(mesh, "remove_duplicates");
   DuplicateResult result;
-  std::vector<std::uint8_t> state = keep_first(mesh.triangles, result);
-  if (result.opposite > 0) drop_walls(mesh, state, result);
-  keep_triangles(mesh, state);
+  drop_duplicates(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), result);
   result.mesh = std::move(mesh);
   return result;
 }

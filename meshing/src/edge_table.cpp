@@ -15,6 +15,21 @@ void counts_to_begin(std::vector<Index>& begin) {
   for (Index& value : begin) sum += std::exchange(value, sum);
 }
 
+/// A vertex has few edges to larger ones: three on average.
+void sort_short(std::uint64_t* begin, std::uint64_t* end) {
+  constexpr std::ptrdiff_t k_short = 16;
+  if (end - begin > k_short) {
+    std::sort(begin, end);
+    return;
+  }
+  for (std::uint64_t* i = begin; i < end; ++i) {
+    const std::uint64_t value = *i;
+    std::uint64_t* place = i;
+    for (; place > begin && value < place[-1]; --place) *place = place[-1];
+    *place = value;
+  }
+}
+
 constexpr std::uint64_t pack(Index high, Index low) noexcept { return std::uint64_t{high} << 32 | low; }
 
 }  // namespace
@@ -41,7 +56,7 @@ EdgeTable::EdgeTable(const std::vector<Triangle>& triangles, std::size_t vertex_
   std::size_t start = 0;
   for (std::size_t v = 0; v < vertex_count; ++v) {
     const std::size_t end = slot[v];
-    std::sort(packed.begin() + static_cast<std::ptrdiff_t>(start), packed.begin() + static_cast<std::ptrdiff_t>(end));
+    sort_short(packed.data() + start, packed.data() + end);
     for (std::size_t i = start; i < end; ++i) {
       if (i == start || packed[i] >> 32 != packed[i - 1] >> 32) begin_.push_back(static_cast<Index>(i));
       halfedges_[i] = static_cast<Index>(packed[i]);
@@ -49,6 +64,13 @@ EdgeTable::EdgeTable(const std::vector<Triangle>& triangles, std::size_t vertex_
     start = end;
   }
   begin_.push_back(static_cast<Index>(packed.size()));
+}
+
+std::vector<Index> EdgeTable::boundary_halfedges() const {
+  std::vector<Index> boundary;
+  for (std::size_t e = 0; e < size(); ++e)
+    if (begin_[e + 1] - begin_[e] == 1) boundary.push_back(halfedges_[begin_[e]]);
+  return boundary;
 }
 
 std::vector<Index> opposite_halfedges(const std::vector<Triangle>& triangles, const EdgeTable& edges) {

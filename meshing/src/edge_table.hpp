@@ -27,6 +27,8 @@ class EdgeTable {
   std::span<const Index> halfedges(std::size_t edge) const noexcept {
     return std::span(halfedges_).subspan(begin_[edge], begin_[edge + 1] - begin_[edge]);
   }
+  /// The half-edges of edges with one triangle, in the order of the edges.
+  std::vector<Index> boundary_halfedges() const;
 
  private:
   std::vector<Index> halfedges_;

@@ -30,7 +30,10 @@ ExactPositions exact_positions(const TriangleMesh& mesh) {
   result.of_position.assign(mesh.positions.size(), k_none);
   for (const Triangle& t : mesh.triangles)
     for (const Index v : t) result.of_position[v] = 0;
+  constexpr Index k_ahead = 16;  // far enough for the slot to arrive from memory
   for (Index v = 0; v < mesh.positions.size(); ++v) {
+    if (v + k_ahead < mesh.positions.size())
+      __builtin_prefetch(&table[hash(mesh.positions[v + k_ahead]) & (slots - 1)]);
     if (result.of_position[v] == k_none) continue;
     const Vec3& p = mesh.positions[v];
     std::size_t slot = hash(p) & (slots - 1);

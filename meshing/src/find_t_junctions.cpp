@@ -13,13 +13,6 @@ namespace {
 
 constexpr std::size_t k_edges_per_task = 4096;
 
-std::vector<Index> boundary_halfedges(const EdgeTable& edges) {
-  std::vector<Index> boundary;
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if (edges.halfedges(e).size() == 1) boundary.push_back(edges.halfedges(e).front());
-  return boundary;
-}
-
 std::vector<Index> end_vertices(const std::vector<Triangle>& triangles, const std::vector<Index>& halfedges) {
   std::vector<Index> vertices;
   vertices.reserve(2 * halfedges.size());
@@ -36,7 +29,7 @@ std::vector<Index> end_vertices(const std::vector<Triangle>& triangles, const st
 
 std::vector<TJunction> find_t_junctions(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
                                         const EdgeTable& edges, double tolerance) {
-  const std::vector<Index> boundary = boundary_halfedges(edges);
+  const std::vector<Index> boundary = edges.boundary_halfedges();
   if (boundary.empty()) return {};
   const PointTree tree(positions, end_vertices(triangles, boundary));
 

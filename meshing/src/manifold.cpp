@@ -3,19 +3,20 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "check_mesh.hpp"
-#include "edge_table.hpp"
 #include "papilla/core/error.hpp"
 #include "point_tree.hpp"
-#include "union_find.hpp"
+#include "repair_steps.hpp"
 
 namespace papilla {
 namespace {
@@ -78,37 +79,54 @@ void pair_around(const TriangleMesh& mesh, std::span<const Index> halfedges, std
 /// Finds places for copies that keep clear of all vertices and of each other, so that no weld joins them again.
 class FreePlaces {
  public:
-  FreePlaces(const std::vector<Vec3>& positions, double clearance)
-      : clearance_(clearance), tree_(positions, all_of(positions)) {}
+  /// `starts`: where along() will start from, with steps of at most `step`.
+  FreePlaces(const std::vector<Vec3>& positions, const std::vector<Vec3>& starts, double step, double clearance)
+      : clearance_(clearance), tree_(positions, near(positions, starts, k_tries * step + clearance)) {}
 
   /// start + m · step for the smallest m from 1 that is clear; m = 16 when none is.
   Vec3 along(const Vec3& start, const Vec3& step) {
-    constexpr int k_tries = 16;
     Vec3 place = start + step;
     for (int m = 1; m < k_tries && !is_clear(place); ++m) place = place + step;
-    placed_.emplace(cell_of(place, 0, 0, 0), place);
+    placed_.emplace(cell_of(place, clearance_, 0), place);
     return place;
   }
 
  private:
+  static constexpr int k_tries = 16, k_neighbours = 27, k_own = 0;
   using Cell = std::array<double, 3>;  // whole numbers, whatever their size
 
-  static std::vector<Index> all_of(const std::vector<Vec3>& positions) {
-    std::vector<Index> all(positions.size());
-    std::iota(all.begin(), all.end(), Index{0});
-    return all;
+  /// The cell that p lies in, or one of the 26 around it.
+  static Cell cell_of(const Vec3& p, double size, int neighbour) {
+    constexpr int k_steps[3] = {0, 1, -1};
+    const auto index = [size](double value, int d) { return std::floor(value / size) + d; };
+    return {index(p.x, k_steps[neighbour % 3]), index(p.y, k_steps[neighbour / 3 % 3]),
+            index(p.z, k_steps[neighbour / 9])};
   }
 
-  Cell cell_of(const Vec3& p, int dx, int dy, int dz) const {
-    const auto index = [this](double value, int d) { return std::floor(value / clearance_) + d; };
-    return {index(p.x, dx), index(p.y, dy), index(p.z, dz)};
+  struct CellHash {
+    std::size_t operator()(const Cell& cell) const noexcept {
+      std::uint64_t h = 0;
+      for (const double x : cell) h = (h ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15u;
+      return h ^ h >> 32;
+    }
+  };
+
+  /// A superset of the positions within `radius` of a start.
+  static std::vector<Index> near(const std::vector<Vec3>& positions, const std::vector<Vec3>& starts, double radius) {
+    std::unordered_set<Cell, CellHash> cells;
+    for (const Vec3& p : starts)
+      for (int i = 0; i < k_neighbours; ++i) cells.insert(cell_of(p, radius, i));
+    std::vector<Index> members;
+    for (Index v = 0; v < positions.size(); ++v)
+      if (cells.contains(cell_of(positions[v], radius, k_own))) members.push_back(v);
+    return members;
   }
 
   bool is_clear(const Vec3& p) const {
     bool clear = true;
     tree_.near_point(p, clearance_, [&](Index, const Vec3& q) { clear = clear && norm(q - p) >= clearance_; });
-    for (int i = 0; i < 27 && clear; ++i) {
-      const auto [begin, end] = placed_.equal_range(cell_of(p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+    for (int i = 0; i < k_neighbours && clear; ++i) {
+      const auto [begin, end] = placed_.equal_range(cell_of(p, clearance_, i));
       for (auto other = begin; other != end && clear; ++other) clear = norm(other->second - p) >= clearance_;
     }
     return clear;
@@ -116,17 +134,85 @@ class FreePlaces {
 
   double clearance_;
   PointTree tree_;
-  std::multimap<Cell, Vec3> placed_;
+  std::unordered_multimap<Cell, Vec3, CellHash> placed_;
+};
+
+/// The corners around vertices that have several fans of triangles; corners are numbered like half-edges.
+class FansAround {
+ public:
+  struct Corner {
+    Index vertex, fan, corner;  ///< `fan`: the smallest corner of its fan.
+    auto operator<=>(const Corner&) const = default;
+  };
+
+  FansAround(const std::vector<Triangle>& triangles, std::size_t vertex_count, std::span<const Index> opposite)
+      : opposite_(opposite) {
+    const std::vector<std::uint8_t> several = vertices_with_several_fans(triangles, vertex_count);
+    if (several.empty()) return;
+    for (Index c = 0; c < opposite.size(); ++c)
+      if (several[from_vertex(triangles, c)])
+        corners_.push_back({from_vertex(triangles, c), smallest_corner_of_fan(c), c});
+    std::sort(corners_.begin(), corners_.end());
+  }
+
+  /// In the order of vertices, fans, corners.
+  const std::vector<Corner>& corners() const noexcept { return corners_; }
+
+ private:
+  /// The corner of the same vertex in the next triangle, against and with the clock.
+  Index forward(Index c) const noexcept { return opposite_[previous_halfedge(c)]; }
+  Index backward(Index c) const noexcept { return opposite_[c] == k_none ? k_none : next_halfedge(opposite_[c]); }
+
+  /// Visits the corners of c's fan.
+  template <class Visit>
+  void walk(Index c, const Visit& visit) const {
+    visit(c);
+    Index at = forward(c);
+    for (; at != k_none && at != c; at = forward(at)) visit(at);
+    if (at == c) return;
+    for (at = backward(c); at != k_none; at = backward(at)) visit(at);
+  }
+
+  Index smallest_corner_of_fan(Index c) const {
+    Index smallest = c;
+    walk(c, [&](Index other) { smallest = std::min(smallest, other); });
+    return smallest;
+  }
+
+  /// Empty when there is none.
+  std::vector<std::uint8_t> vertices_with_several_fans(const std::vector<Triangle>& triangles,
+                                                       std::size_t vertex_count) const {
+    std::vector<std::int32_t> unseen(vertex_count, 0);
+    for (const Triangle& t : triangles)
+      for (const Index v : t) ++unseen[v];
+    std::vector<std::uint8_t> walked(vertex_count, 0);
+    bool any = false;
+    for (Index c = 0; c < opposite_.size(); ++c) {
+      const Index v = from_vertex(triangles, c);
+      if (walked[v]) continue;
+      walked[v] = 1;
+      walk(c, [&](Index) { --unseen[v]; });
+      any = any || unseen[v] != 0;
+    }
+    if (!any) return {};
+    for (std::size_t v = 0; v < vertex_count; ++v) walked[v] = unseen[v] != 0;
+    return walked;
+  }
+
+  std::span<const Index> opposite_;
+  std::vector<Corner> corners_;
 };
 
 class Splitter {
  public:
-  Splitter(TriangleMesh& mesh, double gap, ManifoldResult& result)
+  Splitter(TriangleMesh& mesh, const EdgeTable& edges, double gap, ManifoldResult& result,
+           std::vector<TouchingCopy>& touching)
       : mesh_(mesh),
+        edges_(edges),
         gap_(gap),
         result_(result),
-        edges_(mesh.triangles, mesh.positions.size()),
-        opposite_(opposite_halfedges(mesh.triangles, edges_)) {}
+        touching_(touching),
+        opposite_(opposite_halfedges(mesh.triangles, edges)) {}
 
   void run() {
     find_bad_edges();
@@ -135,18 +221,24 @@ class Splitter {
   }
 
  private:
-  struct Copy {
-    Index vertex, fan, corner;
-    auto operator<=>(const Copy&) const = default;
-  };
-
   /// Where a vertex goes that is parted from another one at `start`.
   Vec3 place(const Vec3& start, const Vec3& step) {
     if (!(gap_ > 0)) return start;
-    if (!places_) places_.emplace(mesh_.positions, k_clearance * gap_);
+    if (!places_) places_.emplace(mesh_.positions, places_at_bad_edges(), gap_, k_clearance * gap_);
     const Vec3 free = places_->along(start, step);
     result_.max_deviation_mm = std::max(result_.max_deviation_mm, norm(free - start));
     return free;
+  }
+
+  std::vector<Vec3> places_at_bad_edges() const {
+    std::vector<Vec3> places;
+    for (const std::size_t e : bad_edges_) {
+      const Index h = edges_.halfedges(e).front();
+      const Vec3 a = mesh_.positions[from_vertex(mesh_.triangles, h)],
+                 b = mesh_.positions[to_vertex(mesh_.triangles, h)];
+      places.insert(places.end(), {a, 0.5 * (a + b), b});
+    }
+    return places;
   }
 
   void find_bad_edges() {
@@ -161,60 +253,62 @@ class Splitter {
 
   /// Gives every fan of a vertex but the first its own copy of the vertex.
   void copy_vertices() {
-    UnionFind fans = join_fans(opposite_);
-    std::vector<Index> first_fan(mesh_.positions.size(), k_none);
-    std::vector<Copy> copies;
-    for (Index corner = 0; corner < fans.size(); ++corner) {
-      const Index v = from_vertex(mesh_.triangles, corner), fan = fans.find(corner);
-      if (first_fan[v] == k_none) first_fan[v] = fan;
-      if (first_fan[v] != fan) copies.push_back({v, fan, corner});
-    }
-    if (copies.empty()) return;
-    std::sort(copies.begin(), copies.end());
-    const std::vector<std::uint8_t> at_bad_edge = corners_at_bad_edges(fans);
-    const std::vector<double> shortest = shortest_edges(copies);
-
-    std::vector<std::pair<Index, Index>> new_corners;  // corner, vertex
+    const FansAround fans(mesh_.triangles, mesh_.positions.size(), opposite_);
+    const auto& corners = fans.corners();
+    const std::vector<Index> parted = corners_at_bad_edges();
     std::vector<std::pair<Index, Vec3>> moves;
-    for (std::size_t begin = 0, end = 0; begin < copies.size(); begin = end) {
-      const auto [v, fan, corner] = copies[begin];
-      const Index copy = static_cast<Index>(mesh_.positions.size());
-      mesh_.positions.push_back(Vec3{mesh_.positions[v]});
-      ++result_.added_vertices;
-      Vec3 inward{};
-      for (; end < copies.size() && copies[end].fan == fan && copies[end].vertex == v; ++end) {
-        new_corners.emplace_back(copies[end].corner, copy);
-        inward = inward + towards_opposite_side(copies[end].corner);
-      }
-      if (!at_bad_edge[fan]) continue;
-      const double step = std::min(gap_, k_largest_move * shortest[v]);
-      moves.emplace_back(copy, step * normalized(inward));
+    std::size_t begin = 0;
+    while (begin < corners.size()) {
+      std::size_t end = begin;  // of the vertex
+      double shortest = std::numeric_limits<double>::max();
+      for (; end < corners.size() && corners[end].vertex == corners[begin].vertex; ++end)
+        shortest = std::min(shortest, shortest_edge_at(corners[end].corner));
+      const Index first_fan = corners[begin].fan;
+      while (begin < end && corners[begin].fan == first_fan) ++begin;
+      while (begin < end) begin = copy_fan(corners, begin, end, parted, shortest, moves);
     }
-    for (const auto& [corner, vertex] : new_corners) mesh_.triangles[triangle_of(corner)][corner_of(corner)] = vertex;
+    for (const auto& [corner, vertex] : new_corners_) mesh_.triangles[triangle_of(corner)][corner_of(corner)] = vertex;
     for (const auto& [vertex, step] : moves) mesh_.positions[vertex] = place(mesh_.positions[vertex], step);
   }
 
-  /// Per fan (its first corner): does it touch a bad edge at its vertex?
-  std::vector<std::uint8_t> corners_at_bad_edges(UnionFind& fans) const {
-    std::vector<std::uint8_t> flag(fans.size(), 0);
-    for (const std::size_t e : bad_edges_)
-      for (const Index h : edges_.halfedges(e)) flag[fans.find(h)] = flag[fans.find(next_halfedge(h))] = 1;
-    return flag;
+  /// Gives the fan at `begin` its own vertex, to be moved into its sheet when it touches a bad edge; returns its end.
+  std::size_t copy_fan(const std::vector<FansAround::Corner>& corners, std::size_t begin, std::size_t end,
+                       const std::vector<Index>& parted, double shortest, std::vector<std::pair<Index, Vec3>>& moves) {
+    const auto [v, fan, first] = corners[begin];
+    const Index copy = static_cast<Index>(mesh_.positions.size());
+    mesh_.positions.push_back(Vec3{mesh_.positions[v]});
+    ++result_.added_vertices;
+    Vec3 inward{};
+    bool at_bad_edge = false;
+    for (; begin < end && corners[begin].fan == fan; ++begin) {
+      const Index corner = corners[begin].corner;
+      new_corners_.emplace_back(corner, copy);
+      inward = inward + towards_opposite_side(corner);
+      at_bad_edge = at_bad_edge || std::binary_search(parted.begin(), parted.end(), corner);
+    }
+    if (at_bad_edge)
+      moves.emplace_back(copy, std::min(gap_, k_largest_move * shortest) * normalized(inward));
+    else
+      touching_.push_back({v, copy});
+    return begin;
   }
 
-  /// The shortest edge around each vertex that gets copies.
-  std::vector<double> shortest_edges(const std::vector<Copy>& copies) const {
-    std::vector<double> shortest(mesh_.positions.size(), -1);
-    for (const Copy& copy : copies) shortest[copy.vertex] = std::numeric_limits<double>::max();
-    for (const Triangle& t : mesh_.triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Index a = t[k], b = t[next_corner(k)];
-        if (shortest[a] < 0 && shortest[b] < 0) continue;
-        const double length = norm(mesh_.positions[b] - mesh_.positions[a]);
-        shortest[a] = std::min(shortest[a], length);
-        shortest[b] = std::min(shortest[b], length);
+  /// Corners at the ends of bad edges, ascending.
+  std::vector<Index> corners_at_bad_edges() const {
+    std::vector<Index> corners;
+    for (const std::size_t e : bad_edges_)
+      for (const Index h : edges_.halfedges(e)) {
+        corners.push_back(h);
+        corners.push_back(next_halfedge(h));
       }
-    return shortest;
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  }
+
+  double shortest_edge_at(Index corner) const {
+    const Vec3 v = mesh_.positions[from_vertex(mesh_.triangles, corner)];
+    return std::min(norm(mesh_.positions[to_vertex(mesh_.triangles, corner)] - v),
+                    norm(mesh_.positions[from_vertex(mesh_.triangles, previous_halfedge(corner))] - v));
   }
 
   Vec3 towards_opposite_side(Index corner) const {
@@ -260,15 +354,55 @@ class Splitter {
   }
 
   TriangleMesh& mesh_;
+  const EdgeTable& edges_;
   double gap_;
   ManifoldResult& result_;
-  EdgeTable edges_;
+  std::vector<TouchingCopy>& touching_;
   std::vector<Index> opposite_;
+  std::vector<std::pair<Index, Index>> new_corners_;  ///< Corner, vertex.
   std::vector<std::size_t> bad_edges_;
   std::optional<FreePlaces> places_;
 };
 
 }  // namespace
+
+namespace detail {
+
+bool has_bad_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (is_bad(edges.halfedges(e), triangles)) return true;
+  return false;
+}
+
+bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result,
+                 std::vector<TouchingCopy>& touching) {
+  Splitter(mesh, edges, gap_mm, result, touching).run();
+  return result.parted_edges + result.added_vertices > 0;
+}
+
+void move_to_end(TriangleMesh& mesh, std::vector<TouchingCopy> copies) {
+  if (copies.empty()) return;
+  std::sort(copies.begin(), copies.end());
+  std::vector<std::uint8_t> is_copy(mesh.positions.size(), 0);
+  for (const TouchingCopy& c : copies) is_copy[c.copy] = 1;
+  std::vector<Index> number(mesh.positions.size());
+  std::vector<Vec3> moved;
+  for (const TouchingCopy& c : copies) moved.push_back(mesh.positions[c.copy]);
+  Index count = 0;
+  for (Index v = 0; v < number.size(); ++v) {
+    if (is_copy[v]) continue;
+    mesh.positions[count] = mesh.positions[v];
+    number[v] = count++;
+  }
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    mesh.positions[count] = moved[i];
+    number[copies[i].copy] = count++;
+  }
+  for (Triangle& t : mesh.triangles)
+    for (Index& v : t) v = number[v];
+}
+
+}  // namespace detail
 
 ManifoldResult split_nonmanifold(TriangleMesh mesh, const ManifoldOptions& options) {
   if (!(options.relative_gap >= 0 && options.relative_gap <= 0.01))
@@ -276,8 +410,9 @@ ManifoldResult split_nonmanifold(TriangleMesh mesh, const ManifoldOptions& optio
                        " is not in [0, 0.01]");
   check_mesh(mesh, "split_nonmanifold");
   ManifoldResult result;
-  const double gap = options.relative_gap * bounding_diagonal(mesh);
-  Splitter(mesh, gap, result).run();
+  std::vector<TouchingCopy> touching;
+  part_sheets(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), options.relative_gap * bounding_diagonal(mesh),
+              result, touching);
   result.mesh = std::move(mesh);
   return result;
 }

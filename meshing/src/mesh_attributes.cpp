@@ -18,7 +18,8 @@ template <class T>
 void drop_unused_values(std::vector<T>& values, std::vector<Triangle>& indices) {
   std::vector<Index> new_index(values.size(), k_none);
   for (const Triangle& t : indices)
-    for (const Index v : t) new_index[v] = 0;
+    for (const Index v : t)
+      if (v != k_no_value) new_index[v] = 0;
   Index count = 0;
   for (std::size_t v = 0; v < values.size(); ++v)
     if (new_index[v] != k_none) {
@@ -28,14 +29,15 @@ void drop_unused_values(std::vector<T>& values, std::vector<Triangle>& indices) 
   if (count == values.size()) return;
   values.resize(count);
   for (Triangle& t : indices)
-    for (Index& v : t) v = new_index[v];
+    for (Index& v : t)
+      if (v != k_no_value) v = new_index[v];
 }
 
 void negate_normals(CornerAttribute<Vec3>& normals, const std::vector<std::uint8_t>& reverse) {
   if (normals.empty()) return;
   std::vector<Index> negated(normals.values.size(), k_none);
   for (std::size_t t = 0; t < reverse.size(); ++t) {
-    if (!reverse[t]) continue;
+    if (!reverse[t] || !normals.has_value(t)) continue;
     for (Index& n : normals.indices[t]) {
       if (negated[n] == k_none) {
         negated[n] = static_cast<Index>(normals.values.size());
@@ -98,11 +100,15 @@ Index split_triangle(TriangleMesh& mesh, Index triangle, std::size_t k, Index ve
   split_indices(mesh.triangles, vertex);
   for_each_corner_attribute(mesh, [&](auto& attribute) {
     if (attribute.empty()) return;
-    const Triangle& t = attribute.indices[triangle];
+    const Triangle t = attribute.indices[triangle];
+    if (!attribute.has_value(triangle)) {
+      attribute.indices.push_back(t);
+      return;
+    }
     attribute.values.push_back(mix(attribute.values[t[k]], attribute.values[t[next]], s));
     split_indices(attribute.indices, static_cast<Index>(attribute.values.size() - 1));
   });
-  if (!mesh.normals.empty()) mesh.normals.values.back() = normalized(mesh.normals.values.back());
+  if (mesh.normals.has_value(triangle)) mesh.normals.values.back() = normalized(mesh.normals.values.back());
   for_each_label(mesh, [&](auto& labels) {
     if (!labels.empty()) labels.push_back(std::uint32_t{labels[triangle]});
   });

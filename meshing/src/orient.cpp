@@ -7,7 +7,8 @@
 #include <span>
 
 #include "check_mesh.hpp"
-#include "edge_table.hpp"
+#include "repair_steps.hpp"
+#include "union_find.hpp"
 
 namespace papilla {
 namespace {
@@ -42,10 +43,14 @@ struct Traversal {
   std::vector<Component> components;
 };
 
+/// The volume of the tetrahedron over a triangle.
+double volume_over(const TriangleMesh& mesh, Index t, const Vec3& origin) {
+  return dot(mesh.corner(t, 0) - origin, cross(mesh.corner(t, 1) - origin, mesh.corner(t, 2) - origin)) / 6;
+}
+
 /// The other half-edge of edges with exactly two, whichever way they run.
-std::vector<Index> neighbours(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
-  const EdgeTable edges(triangles, vertex_count);
-  std::vector<Index> neighbour(3 * triangles.size(), k_none);
+std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count) {
+  std::vector<Index> neighbour(3 * triangle_count, k_none);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.halfedges(e);
     if (h.size() != 2) continue;
@@ -55,12 +60,52 @@ std::vector<Index> neighbours(const std::vector<Triangle>& triangles, std::size_
   return neighbour;
 }
 
+/// The components of a mesh as they are, found by streaming through it, where a traversal would jump.
+struct ComponentsAsTheyAre {
+  std::vector<Component> components;  ///< Without ranges and boxes.
+  std::vector<Index> of_triangle;
+  std::vector<std::uint8_t> consistent;  ///< Per component: all neighbours agree.
+};
+
+ComponentsAsTheyAre components_as_they_are(const TriangleMesh& mesh, const EdgeTable& edges) {
+  UnionFind sets(mesh.triangles.size());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (const auto h = edges.halfedges(e); h.size() == 2) sets.unite(triangle_of(h[0]), triangle_of(h[1]));
+  Index count = 0;
+  ComponentsAsTheyAre result;
+  result.of_triangle = sets.labels(count);
+  result.components.resize(count);
+  result.consistent.assign(count, 1);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.halfedges(e);
+    if (h.size() != 2)
+      for (const Index half : h) result.components[result.of_triangle[triangle_of(half)]].closed = false;
+    else if (runs_up(mesh.triangles, h[0]) == runs_up(mesh.triangles, h[1]))
+      result.consistent[result.of_triangle[triangle_of(h[0])]] = 0;
+  }
+  std::vector<Index> first(count, k_none);
+  for (Index t = 0; t < result.of_triangle.size(); ++t) {
+    const Index c = result.of_triangle[t];
+    if (first[c] == k_none) first[c] = t;
+    result.components[c].volume += volume_over(mesh, t, mesh.corner(first[c], 0));
+  }
+  return result;
+}
+
+/// True when a closed, consistent component encloses a negative volume: a cavity, or inside out.
+bool has_inward(const ComponentsAsTheyAre& found) {
+  for (std::size_t c = 0; c < found.components.size(); ++c)
+    if (found.consistent[c] && found.components[c].closed && found.components[c].volume < 0) return true;
+  return false;
+}
+
 /// Breadth-first through each component, turning each triangle to agree with the one it was reached from.
-Traversal traverse(const TriangleMesh& mesh, std::span<const Index> neighbour, std::size_t& conflicts) {
+/// Triangles flagged in `seen` are left out.
+Traversal traverse(const TriangleMesh& mesh, std::span<const Index> neighbour, std::vector<std::uint8_t> seen,
+                   std::size_t& conflicts) {
   Traversal result;
   result.order.reserve(mesh.triangles.size());
   result.turn.assign(mesh.triangles.size(), 0);
-  std::vector<std::uint8_t> seen(mesh.triangles.size(), 0);
   std::size_t conflict_halfedges = 0;
   for (Index seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (seen[seed]) continue;
@@ -101,9 +146,8 @@ void measure(const TriangleMesh& mesh, const Traversal& traversal, Component& co
   component.box = {origin, origin};
   for (std::size_t i = component.begin; i < component.end; ++i) {
     const Index t = traversal.order[i];
-    const Vec3 a = mesh.corner(t, 0) - origin, b = mesh.corner(t, 1) - origin, c = mesh.corner(t, 2) - origin;
     for (int k = 0; k < 3; ++k) component.box.include(mesh.corner(t, k));
-    component.volume += (traversal.turn[t] ? -1 : 1) * dot(a, cross(b, c)) / 6;
+    component.volume += (traversal.turn[t] ? -1 : 1) * volume_over(mesh, t, origin);
   }
 }
 
@@ -146,10 +190,20 @@ void decide_senses(const TriangleMesh& mesh, Traversal& traversal) {
 
 }  // namespace
 
-OrientResult orient(TriangleMesh mesh) {
-  check_mesh(mesh, "orient");
-  OrientResult result;
-  Traversal traversal = traverse(mesh, neighbours(mesh.triangles, mesh.positions.size()), result.conflicting_edges);
+namespace detail {
+
+bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result) {
+  const ComponentsAsTheyAre found = components_as_they_are(mesh, edges);
+  std::vector<std::uint8_t> fine(mesh.triangles.size(), 0);
+  if (!has_inward(found)) {
+    for (Index t = 0; t < fine.size(); ++t) fine[t] = found.consistent[found.of_triangle[t]];
+    for (std::size_t c = 0; c < found.components.size(); ++c)
+      result.closed += found.consistent[c] && found.components[c].closed;
+    result.components = static_cast<std::size_t>(std::count(found.consistent.begin(), found.consistent.end(), 1));
+    if (result.components == found.components.size()) return false;
+  }
+  Traversal traversal =
+      traverse(mesh, neighbours(edges, mesh.triangles.size()), std::move(fine), result.conflicting_edges);
   decide_senses(mesh, traversal);
   for (const Component& c : traversal.components) {
     result.closed += c.closed;
@@ -157,8 +211,17 @@ OrientResult orient(TriangleMesh mesh) {
     if (c.turn_all)
       for (std::size_t i = c.begin; i < c.end; ++i) traversal.turn[traversal.order[i]] ^= 1;
   }
-  result.components = traversal.components.size();
+  result.components += traversal.components.size();
   if (result.reversed > 0) reverse_triangles(mesh, traversal.turn);
+  return result.reversed > 0;
+}
+
+}  // namespace detail
+
+OrientResult orient(TriangleMesh mesh) {
+  check_mesh(mesh, "orient");
+  OrientResult result;
+  turn_over(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), result);
   result.mesh = std::move(mesh);
   return result;
 }

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/meshing/segmentation.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
+#include <mutex>
 #include <string>
 
-#include "chart_merge.hpp"
+#include "absorb_charts.hpp"
 #include "check_mesh.hpp"
-#include "cone_split.hpp"
-#include "disk_cut.hpp"
+#include "cut_patch.hpp"
+#include "feature_patches.hpp"
 #include "papilla/core/error.hpp"
-#include "surface.hpp"
+#include "seam_set.hpp"
+#include "unfold_merge.hpp"
 
 namespace papilla {
 namespace {
@@ -20,23 +24,42 @@ void check_options(const SegmentationOptions& options) {
     if (!valid)
       throw InvalidInput(std::string("segment_charts: ") + name + " " + std::to_string(value) + " is out of range");
   };
-  const auto is_angle = [](double a) { return a > 0 && a <= 180; };
   const auto is_fraction = [](double f) { return f >= 0 && f <= 1; };
-  require(is_angle(options.feature_angle_deg), "feature_angle_deg", options.feature_angle_deg);
-  require(is_angle(options.max_normal_deviation_deg), "max_normal_deviation_deg", options.max_normal_deviation_deg);
-  require(is_fraction(options.outlier_area_fraction), "outlier_area_fraction", options.outlier_area_fraction);
+  require(options.seam_cost >= 0 && options.seam_cost < 1e300, "seam_cost", options.seam_cost);
+  require(options.feature_angle_deg > 0 && options.feature_angle_deg <= 180, "feature_angle_deg",
+          options.feature_angle_deg);
   require(is_fraction(options.speck_area_fraction), "speck_area_fraction", options.speck_area_fraction);
   require(is_fraction(options.small_area_fraction), "small_area_fraction", options.small_area_fraction);
 }
 
-double seam_length(const Surface& surface, const std::vector<std::uint32_t>& labels) {
-  double length = 0;
-  for (Index h = 0; h < surface.opposite.size(); ++h) {
-    const Index other = surface.opposite[h];
-    if (other != k_none && other > h && labels[triangle_of(h)] != labels[triangle_of(other)])
-      length += surface.length(h);
+/// Cuts all patches, largest first so that no thread is left with a big one; results in the order of patches.
+std::vector<ChartOutline> cut_patches(const Surface& surface, const SeamWeights& weights,
+                                      const SegmentationOptions& options, const std::vector<std::uint32_t>& labels,
+                                      std::uint32_t count, std::vector<std::uint8_t>& seam,
+                                      SegmentationResult& result) {
+  std::vector<std::vector<Index>> patches(count);
+  for (Index t = 0; t < labels.size(); ++t) patches[labels[t]].push_back(t);
+  PieceCutter cutter(surface, seam);
+  std::vector<std::vector<ChartOutline>> pieces(count);
+  std::vector<PatchCuts> cuts(count);
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  oneapi::tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t p) {
+    const std::size_t size = patches[p].size();
+    pieces[p] = cut_patch(surface, weights, options, std::move(patches[p]), cutter, seam, cuts[p]);
+    if (!options.progress) return;
+    const std::lock_guard lock(progress_mutex);
+    done += size;
+    options.progress("charts", 0.3 + 0.4 * static_cast<double>(done) / static_cast<double>(surface.size()));
+  });
+  std::vector<ChartOutline> charts;
+  for (std::uint32_t p = 0; p < count; ++p) {
+    result.disk_cuts += cuts[p].opening;
+    result.relief_cuts += cuts[p].relief;
+    result.halved += cuts[p].halving;
+    for (ChartOutline& piece : pieces[p]) charts.push_back(std::move(piece));
   }
-  return length;
+  return charts;
 }
 
 }  // namespace
@@ -48,24 +71,29 @@ SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOp
     if (options.progress) options.progress("charts", fraction);
   };
   SegmentationResult result;
+  if (mesh.triangles.empty()) return result;
   const Surface surface(mesh);
-  const std::vector<std::uint8_t> feature = feature_halfedges(surface, options.feature_angle_deg);
+  const SeamWeights weights(surface, options.feature_angle_deg);
   tell(0.2);
 
   std::uint32_t count = 0;
-  std::vector<std::uint32_t> labels = feature_patches(surface, feature, count);
+  std::vector<std::uint32_t> labels =
+      feature_patches(surface, feature_halfedges(surface, options.feature_angle_deg), count);
   result.feature_patches = count;
-  split_by_cones(surface, feature, options, labels);
-  tell(0.6);
-  result.cone_charts = count = merge_fitting(surface, feature, options, labels);
-  count = absorb_small(surface, feature, options, labels);
-  result.absorbed = result.cone_charts - count;
-  tell(0.8);
+  count = absorb_small(surface, options, labels);
+  result.absorbed = result.feature_patches - count;
+  tell(0.3);
 
-  if (options.disks) result.disk_cuts = cut_to_disks(mesh, surface, options.progress, count, labels);
-  result.charts.count = renumber(labels);
-  result.charts.seam_length_mm = seam_length(surface, labels);
-  result.charts.of_triangle = std::move(labels);
+  std::vector<std::uint8_t> seam = seams_of(surface, labels, {});
+  std::vector<ChartOutline> charts = cut_patches(surface, weights, options, labels, count, seam, result);
+  const std::size_t before = charts.size();
+  if (options.unfold)
+    charts = merge_unfolded(surface, weights, {options.seam_cost, options.grain}, seam, std::move(charts));
+  result.unfolded = before - charts.size();
+  result.absorbed += absorb_charts(surface, options.small_area_fraction, options.speck_area_fraction, seam);
+  tell(0.9);
+
+  result.charts = charts_between(surface, seam);
   tell(1);
   return result;
 }

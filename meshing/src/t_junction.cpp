@@ -8,6 +8,7 @@
 #include "check_mesh.hpp"
 #include "find_t_junctions.hpp"
 #include "papilla/core/error.hpp"
+#include "repair_steps.hpp"
 
 namespace papilla {
 namespace {
@@ -52,15 +53,11 @@ void split_sides(TriangleMesh& mesh, std::span<const TJunction> junctions, TJunc
 
 }  // namespace
 
-TJunctionResult split_t_junctions(TriangleMesh mesh, const TJunctionOptions& options) {
-  if (!(options.relative_tolerance >= 0 && options.relative_tolerance <= 0.1))
-    throw InvalidInput("split_t_junctions: relative_tolerance " + std::to_string(options.relative_tolerance) +
-                       " is not in [0, 0.1]");
-  check_mesh(mesh, "split_t_junctions");
-  TJunctionResult result;
-  const std::vector<TJunction> junctions =
-      find_t_junctions(mesh.positions, mesh.triangles, EdgeTable(mesh.triangles, mesh.positions.size()),
-                       options.relative_tolerance * bounding_diagonal(mesh));
+namespace detail {
+
+bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, TJunctionResult& result) {
+  const std::vector<TJunction> junctions = find_t_junctions(mesh.positions, mesh.triangles, edges, tolerance_mm);
+  if (junctions.empty()) return false;
   for (const TJunction& j : junctions)
     result.max_deviation_mm = std::max(result.max_deviation_mm, distance_to_edge(mesh, j));
 
@@ -81,6 +78,19 @@ TJunctionResult split_t_junctions(TriangleMesh mesh, const TJunctionOptions& opt
   keep_triangles(mesh, keep);
   drop_repeated_corners(mesh);
   drop_unused(mesh);
+  return true;
+}
+
+}  // namespace detail
+
+TJunctionResult split_t_junctions(TriangleMesh mesh, const TJunctionOptions& options) {
+  if (!(options.relative_tolerance >= 0 && options.relative_tolerance <= 0.1))
+    throw InvalidInput("split_t_junctions: relative_tolerance " + std::to_string(options.relative_tolerance) +
+                       " is not in [0, 0.1]");
+  check_mesh(mesh, "split_t_junctions");
+  TJunctionResult result;
+  split_borders(mesh, EdgeTable(mesh.triangles, mesh.positions.size()),
+                options.relative_tolerance * bounding_diagonal(mesh), result);
   result.mesh = std::move(mesh);
   return result;
 }

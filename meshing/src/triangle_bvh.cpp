@@ -21,6 +21,13 @@ constexpr double k_margin = 1e-6;
 constexpr float k_slack = 1e-5f;
 constexpr Index k_serial_size = 1u << 13;
 
+/// A slanted sliver's box is nearly empty, and those of a fan of slivers all overlap. Where a box is so many times
+/// larger than what the triangle covers of its sides, it is replaced by a row of smaller ones [Ernst and Greiner, Early
+/// split clipping for bounding volume hierarchies, RT 2007].
+constexpr double k_wasteful = 8;
+constexpr std::size_t k_most_boxes = 64;        ///< Of one triangle.
+constexpr std::size_t k_free_boxes = 1u << 18;  ///< More than these or one a triangle are not added in all.
+
 struct Box {
   float low[3] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
                   std::numeric_limits<float>::infinity()};
@@ -48,16 +55,62 @@ struct Reference {
 
 double component(const Vec3& v, int axis) noexcept { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-Reference make_reference(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& centre, double margin,
+using Corners = std::array<Vec3, 3>;
+
+/// The box of the part of a triangle with low <= axis <= high, around `centre`.
+Reference make_reference(const Corners& corners, int axis, double low, double high, const Vec3& centre, double margin,
                          Index triangle) noexcept {
+  constexpr double k_inf = std::numeric_limits<double>::infinity();
+  double least[3] = {k_inf, k_inf, k_inf}, most[3] = {-k_inf, -k_inf, -k_inf};
+  const auto add = [&](const Vec3& p) {
+    for (int k = 0; k < 3; ++k) {
+      least[k] = std::min(least[k], component(p, k));
+      most[k] = std::max(most[k], component(p, k));
+    }
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = corners[i], &b = corners[(i + 1) % 3];
+    const double from = component(a, axis), to = component(b, axis);
+    if (from >= low && from <= high) add(a);
+    for (const double cut : {low, high})
+      if ((from < cut && cut < to) || (to < cut && cut < from)) add(a + ((cut - from) / (to - from)) * (b - a));
+  }
   Reference reference;
   reference.triangle = triangle;
   for (int k = 0; k < 3; ++k) {
-    const double x = component(a, k), y = component(b, k), z = component(c, k), o = component(centre, k);
-    reference.box.low[k] = static_cast<float>(std::min({x, y, z}) - o - margin);
-    reference.box.high[k] = static_cast<float>(std::max({x, y, z}) - o + margin);
+    const double o = component(centre, k);
+    reference.box.low[k] = static_cast<float>(least[k] - o - margin);
+    reference.box.high[k] = static_cast<float>(most[k] - o + margin);
   }
   return reference;
+}
+
+struct Extent {
+  double low[3], high[3];
+  explicit Extent(const Corners& c) noexcept {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min({component(c[0], k), component(c[1], k), component(c[2], k)});
+      high[k] = std::max({component(c[0], k), component(c[1], k), component(c[2], k)});
+    }
+  }
+  double size(int axis) const noexcept { return high[axis] - low[axis]; }
+  int longest_axis() const noexcept {
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+      if (size(k) > size(axis)) axis = k;
+    return axis;
+  }
+};
+
+/// In how many boxes a triangle wants to lie: until a row of them is no longer wasteful.
+std::size_t wanted_boxes(const Corners& c) noexcept {
+  const Extent e(c);
+  const double box = e.size(0) * e.size(1) + e.size(1) * e.size(2) + e.size(2) * e.size(0);
+  const Vec3 n = cross(c[1] - c[0], c[2] - c[0]);
+  const double covered = 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  if (!(box > k_wasteful * covered)) return 1;
+  const double boxes = box / (k_wasteful * covered);
+  return boxes < static_cast<double>(k_most_boxes) ? static_cast<std::size_t>(std::ceil(boxes)) : k_most_boxes;
 }
 
 }  // namespace
@@ -233,31 +286,53 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triang
   const Vec3 extent = high - low;
   const double margin = k_margin * std::max({extent.x, extent.y, extent.z});
 
-  std::vector<Reference> references(triangles.size());
+  const auto corners_of = [&](std::size_t i) {
+    const Triangle& t = triangles[i];
+    return Corners{positions[t[0]], positions[t[1]], positions[t[2]]};
+  };
   using Range = oneapi::tbb::blocked_range<std::size_t>;
+  std::vector<Index> first(triangles.size() + 1, 0);  // reference of each triangle
+  oneapi::tbb::parallel_for(Range(0, triangles.size(), k_serial_size), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      first[i + 1] = static_cast<Index>(wanted_boxes(corners_of(i)));
+  });
+  std::size_t wanted = 0;
+  for (const Index boxes : first) wanted += boxes;
+  const std::size_t most = triangles.size() + std::max(triangles.size(), k_free_boxes);
+  const double share =
+      wanted > most ? static_cast<double>(most - triangles.size()) / static_cast<double>(wanted - triangles.size()) : 1;
+  for (std::size_t i = 1; i < first.size(); ++i)
+    first[i] = first[i - 1] + 1 + static_cast<Index>(share * static_cast<double>(first[i] - 1));
+
+  std::vector<Reference> references(first.back());
   oneapi::tbb::parallel_for(Range(0, triangles.size(), k_serial_size), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Triangle& t = triangles[i];
-      references[i] =
-          make_reference(positions[t[0]], positions[t[1]], positions[t[2]], centre_, margin, static_cast<Index>(i));
+      const Corners corners = corners_of(i);
+      const Extent e(corners);
+      const int axis = e.longest_axis();
+      const Index boxes = first[i + 1] - first[i];
+      for (Index b = 0; b < boxes; ++b) {
+        const double begin = b == 0 ? e.low[axis] : e.low[axis] + e.size(axis) * b / boxes;
+        const double end = b + 1 == boxes ? e.high[axis] : e.low[axis] + e.size(axis) * (b + 1) / boxes;
+        references[first[i] + b] = make_reference(corners, axis, begin, end, centre_, margin, static_cast<Index>(i));
+      }
     }
   });
   nodes_ = BvhBuilder(references).run();
 
   prims_.resize(references.size());
-  slot_of_.resize(references.size());
+  slot_of_.resize(triangles.size());
   oneapi::tbb::parallel_for(Range(0, references.size(), k_serial_size), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Index index = references[i].triangle;
-      const Triangle& t = triangles[index];
-      prims_[i] = {TriangleFrame(positions[t[0]], positions[t[1]], positions[t[2]]), index};
-      slot_of_[index] = static_cast<Index>(i);
+      const Corners c = corners_of(references[i].triangle);
+      prims_[i] = {TriangleFrame(c[0], c[1], c[2]), references[i].triangle};
     }
   });
+  for (std::size_t i = references.size(); i-- > 0;) slot_of_[references[i].triangle] = static_cast<Index>(i);
 }
 
-ClosestPoint TriangleBvh::closest(const Vec3& p, ClosestPoint best) const noexcept {
-  if (nodes_.empty()) return best;
+ClosestPoint TriangleBvh::closest(const Vec3& p, ClosestPoint best, double enough) const noexcept {
+  if (nodes_.empty() || best.squared_distance <= enough) return best;
   struct Entry {
     float distance;
     std::int64_t child;
@@ -279,6 +354,7 @@ ClosestPoint TriangleBvh::closest(const Vec3& p, ClosestPoint best) const noexce
         const double d = squared_distance(p, prims_[i].frame);
         if (d < best.squared_distance) best = {d, prims_[i].triangle};
       }
+      if (best.squared_distance <= enough) return best;
       limit = static_cast<float>(best.squared_distance * k_grow);
       continue;
     }

@@ -28,6 +28,17 @@ struct TriangleFrame {
   }
 };
 
+/// The foot of ap on the plane of ab and ac, exact up to rounding for needles: an orthogonal frame of that plane,
+/// orthogonalized twice, has no large products to cancel.
+inline Vec3 foot_on_plane(const Vec3& ap, const TriangleFrame& t) noexcept {
+  const bool ab_longer = dot(t.ab, t.ab) >= dot(t.ac, t.ac);
+  const Vec3 e = normalized(ab_longer ? t.ab : t.ac);
+  Vec3 h = ab_longer ? t.ac : t.ab;
+  h = h - dot(h, e) * e;
+  h = h - dot(h, e) * e;
+  return dot(ap, e) * e + (dot(ap, h) / dot(h, h)) * h;
+}
+
 /// The point of the triangle closest to p, by the regions of [Ericson 2005, Real-Time Collision Detection, 5.1.5].
 /// Always a point of the triangle up to rounding, so that the distance to it is never below the true one.
 inline Vec3 closest_on_triangle(const Vec3& p, const TriangleFrame& t) noexcept {
@@ -53,6 +64,8 @@ inline Vec3 closest_on_triangle(const Vec3& p, const TriangleFrame& t) noexcept 
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
     return t.a + t.ab + ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (t.ac - t.ab);
+  constexpr double k_needle = 1e-4;  // (altitude / edge)² below which the products above cancel too far
+  if (va + vb + vc < k_needle * dot(t.ab, t.ab) * dot(t.ac, t.ac)) return foot_on_plane(ap, t) + t.a;
   const double scale = 1 / (va + vb + vc);
   return t.a + (vb * scale) * t.ab + (vc * scale) * t.ac;
 }

@@ -11,6 +11,7 @@
 #include "exact_positions.hpp"
 #include "papilla/core/error.hpp"
 #include "point_tree.hpp"
+#include "repair_steps.hpp"
 #include "triangle_shape.hpp"
 
 namespace papilla {
@@ -30,30 +31,14 @@ void check_options(const WeldOptions& options) {
           options.feature_fraction);
 }
 
-std::size_t merge_equal(TriangleMesh& mesh) {
-  const ExactPositions exact = exact_positions(mesh);
-  std::vector<Vec3> positions;
-  positions.reserve(exact.first.size());
-  for (const Index v : exact.first) positions.push_back(mesh.positions[v]);
-  const std::size_t merged = mesh.positions.size() - positions.size();
-  mesh.positions = std::move(positions);
-  for (Triangle& t : mesh.triangles)
-    for (Index& v : t) v = exact.of_position[v];
-  return merged;
-}
-
 /// How far each boundary vertex may move; negative for inner vertices.
-std::vector<double> reach_of_vertices(const TriangleMesh& mesh, double tolerance, const WeldOptions& options) {
-  const EdgeTable edges(mesh.triangles, mesh.positions.size());
+std::vector<double> reach_of_vertices(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance,
+                                      double feature_fraction) {
+  const std::vector<Index> boundary = edges.boundary_halfedges();
+  if (boundary.empty()) return {};
   std::vector<double> reach(mesh.positions.size(), -1);
-  bool any = false;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto h = edges.halfedges(e);
-    if (h.size() != 1) continue;
-    any = true;
-    reach[from_vertex(mesh.triangles, h.front())] = reach[to_vertex(mesh.triangles, h.front())] = tolerance;
-  }
-  if (!any) return {};
+  for (const Index h : boundary)
+    reach[from_vertex(mesh.triangles, h)] = reach[to_vertex(mesh.triangles, h)] = tolerance;
   const double shortest_feature = k_degenerate_altitude * bounding_diagonal(mesh);
   for (const Triangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -61,8 +46,8 @@ std::vector<double> reach_of_vertices(const TriangleMesh& mesh, double tolerance
       if (reach[a] < 0 && reach[b] < 0) continue;
       const double length = norm(mesh.positions[b] - mesh.positions[a]);
       if (length <= shortest_feature) continue;
-      reach[a] = std::min(reach[a], options.feature_fraction * length);
-      reach[b] = std::min(reach[b], options.feature_fraction * length);
+      reach[a] = std::min(reach[a], feature_fraction * length);
+      reach[b] = std::min(reach[b], feature_fraction * length);
     }
   return reach;
 }
@@ -89,36 +74,70 @@ std::vector<Index> nearest_earlier(const std::vector<Vec3>& positions, const std
   return target;
 }
 
+/// The vertex each vertex moves onto; empty when all stay.
+std::vector<Index> weld_targets(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance,
+                                double feature_fraction) {
+  if (!(tolerance > 0)) return {};
+  const std::vector<double> reach = reach_of_vertices(mesh, edges, tolerance, feature_fraction);
+  if (reach.empty()) return {};
+  std::vector<Index> target = nearest_earlier(mesh.positions, reach);
+  for (Index v = 0; v < target.size(); ++v)
+    if (target[v] != v) return target;
+  return {};
+}
+
 }  // namespace
+
+namespace detail {
+
+std::size_t merge_equal(TriangleMesh& mesh) {
+  const ExactPositions exact = exact_positions(mesh);
+  std::vector<Vec3> positions;
+  positions.reserve(exact.first.size());
+  for (const Index v : exact.first) positions.push_back(mesh.positions[v]);
+  const std::size_t merged = mesh.positions.size() - positions.size();
+  mesh.positions = std::move(positions);
+  for (Triangle& t : mesh.triangles)
+    for (Index& v : t) v = exact.of_position[v];
+  return merged;
+}
+
+bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction,
+                  WeldResult& result) {
+  const std::vector<Index> target = weld_targets(mesh, edges, tolerance_mm, feature_fraction);
+  if (target.empty()) return false;
+  for (Index v = 0; v < target.size(); ++v) {
+    if (target[v] == v) continue;
+    ++result.merged_near;
+    result.max_deviation_mm = std::max(result.max_deviation_mm, norm(mesh.positions[v] - mesh.positions[target[v]]));
+  }
+  for (Triangle& t : mesh.triangles)
+    for (Index& v : t) v = target[v];
+  drop_repeated_corners(mesh);
+  drop_unused(mesh);
+  return true;
+}
+
+bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction) {
+  return !weld_targets(mesh, edges, tolerance_mm, feature_fraction).empty();
+}
+
+}  // namespace detail
 
 WeldResult weld_equal(TriangleMesh mesh) {
   check_mesh(mesh, "weld_equal");
-  WeldResult result{std::move(mesh), 0, 0, 0, 0};
-  result.merged_equal = merge_equal(result.mesh);
+  WeldResult result;
+  result.merged_equal = merge_equal(mesh);
+  result.mesh = std::move(mesh);
   return result;
 }
 
 WeldResult weld(TriangleMesh mesh, const WeldOptions& options) {
   check_options(options);
   WeldResult result = weld_equal(std::move(mesh));
-  TriangleMesh& welded = result.mesh;
-  result.tolerance_mm = options.tolerance_mm.value_or(options.relative_tolerance * bounding_diagonal(welded));
-  if (!(result.tolerance_mm > 0)) return result;
-
-  const std::vector<double> reach = reach_of_vertices(welded, result.tolerance_mm, options);
-  if (reach.empty()) return result;
-  const std::vector<Index> target = nearest_earlier(welded.positions, reach);
-  for (Index v = 0; v < target.size(); ++v) {
-    if (target[v] == v) continue;
-    ++result.merged_near;
-    result.max_deviation_mm =
-        std::max(result.max_deviation_mm, norm(welded.positions[v] - welded.positions[target[v]]));
-  }
-  if (result.merged_near == 0) return result;
-  for (Triangle& t : welded.triangles)
-    for (Index& v : t) v = target[v];
-  drop_repeated_corners(welded);
-  drop_unused(welded);
+  result.tolerance_mm = options.tolerance_mm.value_or(options.relative_tolerance * bounding_diagonal(result.mesh));
+  weld_borders(result.mesh, EdgeTable(result.mesh.triangles, result.mesh.positions.size()), result.tolerance_mm,
+               options.feature_fraction, result);
   return result;
 }
 

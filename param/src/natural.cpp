@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/param/natural.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>

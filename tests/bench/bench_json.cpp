@@ -93,6 +93,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 BenchOptions parse_options(CLI::App& program, int argc, char** argv) {
   BenchOptions options;
   program.add_option("--json", options.json, "Write the JSON to FILE, or to stdout with -")->type_name("FILE|-");
+  program.add_option("--evidence", options.evidence, "Write a Markdown page of targets and rows to FILE")
+      ->type_name("FILE");
   program.add_option("--repeats", options.repeats, "Timed runs of every method")->check(CLI::Range(1, 100000));
   program.add_option("--warm-up", options.warm_up, "Untimed runs before them")->check(CLI::Range(0, 1000));
   program.add_option("--threads", options.threads, "Use N threads; 0 takes all cores")->check(CLI::Range(0, 1024));
@@ -100,6 +102,19 @@ BenchOptions parse_options(CLI::App& program, int argc, char** argv) {
   program.add_option("INPUT", options.inputs, "Files to measure on, for benchmarks that take some");
   program.parse(argc, argv);
   return options;
+}
+
+/// As ./run takes it, without the files that a run writes.
+std::string command_line(const std::string& name, int argc, char** argv) {
+  std::string command = "./run bench " + name;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--json" || word == "--evidence")
+      ++i;
+    else
+      command += " " + (word.starts_with('/') ? word.substr(word.find_last_of('/') + 1) : word);
+  }
+  return command;
 }
 
 }  // namespace
@@ -238,6 +253,14 @@ void BenchReport::measure() {
   json_["ratios"] = std::move(ratios);
 }
 
+double BenchReport::median_of(const std::string& subject, const std::string& input, const std::string& quantity) const {
+  for (const Entry& entry : entries_)
+    if (label(entry.subject) == subject && entry.subject.input == input)
+      for (const auto& [name, values] : entry.samples)
+        if (name == quantity) return median(values);
+  throw InvalidInput(fmt::format("benchmark: no {} of {} on {}", quantity, subject, input));
+}
+
 std::string BenchReport::table() const {
   std::vector<std::vector<std::string>> rows = {{"method", "input", "median s", "cpu s", "peak MiB", "other medians"}};
   for (const Entry& entry : entries_) {
@@ -273,6 +296,7 @@ int run_benchmark(const std::string& name, const std::string& summary, int argc,
     body(report);
     if (!report.json().contains("runs")) throw InvalidInput("benchmark " + name + ": measure() was not called");
     const std::string text = report.json().dump(2) + "\n";
+    if (!options.evidence.empty()) write_atomically(options.evidence, report.evidence(command_line(name, argc, argv)));
     if (options.json == "-") {
       std::cout << text;
     } else {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/evidence.hpp"
 #include "papilla/core/trace.hpp"
 
 /// Harness of the programs papilla-bench-NAME: runs the methods of a comparison in turns and writes one JSON per run.
@@ -54,6 +55,7 @@ struct BenchOptions {
   int repeats = 5;                  ///< Timed runs of every subject, >= 1.
   int warm_up = 1;                  ///< Untimed runs before them, >= 0.
   int threads = 0;                  ///< Limit for TBB; 0: all cores.
+  std::string evidence;             ///< File for the Markdown page, empty for none.
   bool quick = false;               ///< Small inputs: shows that the program works, measures nothing of use.
   std::vector<std::string> inputs;  ///< Files given on the command line.
 };
@@ -117,6 +119,14 @@ class BenchReport {
   /// quantities than the first one, or compare() finds nothing to compare.
   void measure();
 
+  /// What the page says of a promise, and the rows behind it; after measure().
+  void target(Target target) { targets_.push_back(std::move(target)); }
+  void table(EvidenceTable table) { tables_.push_back(std::move(table)); }
+  /// The median of a quantity of a subject ("method" or "method/solver") on an input; after measure().
+  /// @throws InvalidInput when there is no such value.
+  double median_of(const std::string& subject, const std::string& input, const std::string& quantity) const;
+  std::string evidence(const std::string& command) const { return evidence_page(json_, targets_, tables_, command); }
+
   /// The result of measure().
   const Json& json() const noexcept { return json_; }
   /// The same for people: a line per subject, then the ratios.
@@ -141,6 +151,8 @@ class BenchReport {
   BenchOptions options_;
   std::vector<Entry> entries_;
   std::vector<Comparison> comparisons_;
+  std::vector<Target> targets_;
+  std::vector<EvidenceTable> tables_;
   Json json_;
 };
 

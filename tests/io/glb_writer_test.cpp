@@ -117,6 +117,53 @@ TEST_F(GlbWriter, TangentsOnlyWhereANormalTextureNeedsThem) {
   EXPECT_FALSE(primitives[1]["attributes"].contains("TANGENT"));
 }
 
+TEST_F(GlbWriter, LevelsOfDetailAreNodesThatNoSceneNames) {
+  Scene scene = test::rich_scene();
+  for (const double coverage : {0.5, 0.25}) {
+    PartLevel level{scene.parts[0].mesh, coverage};
+    level.mesh.triangles.resize(6);
+    level.mesh.uv.indices.resize(6);
+    level.mesh.material.resize(6);
+    scene.parts[0].levels.push_back(level);
+  }
+  const json gltf = document(scene);
+  EXPECT_EQ(gltf["meshes"].size(), 3U) << "shared by both instances";
+  EXPECT_EQ(gltf["nodes"].size(), 8U);
+  const json& left = gltf["nodes"][1];
+  EXPECT_EQ(left["extensions"]["MSFT_lod"]["ids"], json({3, 4}));
+  EXPECT_EQ(left["extras"]["MSFT_screencoverage"], json({0.5, 0.25, 0}));
+  EXPECT_EQ(gltf["nodes"][3]["name"], "left_LOD1");
+  for (const char* key : {"translation", "rotation", "scale"}) EXPECT_EQ(gltf["nodes"][4][key], left[key]) << key;
+  EXPECT_EQ(gltf["extensionsUsed"].back(), "MSFT_lod");
+
+  const Scene back = round_trip(scene), plain = round_trip(test::rich_scene());
+  EXPECT_EQ(back.parts.size(), 1U);
+  EXPECT_EQ(back.nodes.size(), plain.nodes.size());
+  EXPECT_EQ(back.parts[0].mesh.triangles, plain.parts[0].mesh.triangles);
+  EXPECT_EQ(back.nodes[1].extras_json, plain.nodes[1].extras_json);
+  ASSERT_EQ(back.losses.size(), plain.losses.size() + 1);
+  EXPECT_NE(back.losses.back().find("4 coarser levels"), std::string::npos) << back.losses.back();
+}
+
+TEST_F(GlbWriter, LevelsOfANodeWithChildrenDoNotTakeTheseAway) {
+  Scene scene = test::rich_scene();
+  scene.nodes[1].children = {2};
+  scene.nodes[0].children = {1};
+  scene.parts[0].levels.push_back({scene.parts[0].mesh, 0.1});
+  const Scene back = round_trip(scene);
+  const auto before = instances(scene), after = instances(back);
+  ASSERT_EQ(after.size(), before.size());
+  EXPECT_FALSE(back.nodes[1].part) << "its mesh went to a leaf";
+}
+
+TEST_F(GlbWriter, RefusesCoveragesThatDoNotDescend) {
+  for (const double wrong : {0.6, -0.1, std::numeric_limits<double>::quiet_NaN()}) {
+    Scene scene = test::rich_scene();
+    scene.parts[0].levels = {{scene.parts[0].mesh, 0.5}, {scene.parts[0].mesh, wrong}};
+    EXPECT_NE(refusal(scene).find("level 2 has a screen coverage of"), std::string::npos);
+  }
+}
+
 TEST_F(GlbWriter, SameSceneSameBytes) {
   write_glb(test::rich_scene(), folder_ / "a.glb");
   write_glb(test::rich_scene(), folder_ / "b.glb");

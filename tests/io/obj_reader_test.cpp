@@ -43,10 +43,17 @@ TEST_F(ObjReader, AttributesAreIndexedByThemselves) {
   const Scene scene =
       read(k_square + "vt 0.25 0.5\nvt 1\nvt 0 0 0\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\nf 1//1 3//1 4//1\nf 1/3 2/2 3/1\n");
   const TriangleMesh& mesh = scene.parts.at(0).mesh;
-  EXPECT_EQ(mesh.uv.values, (std::vector<Vec2>{{0.25, 0.5}, {1, 0}, {0, 0}, {0, 0}}));
-  EXPECT_EQ(mesh.uv.indices, (std::vector<Triangle>{{0, 1, 2}, {3, 3, 3}, {2, 1, 0}}));
-  EXPECT_EQ(mesh.normals.values, (std::vector<Vec3>{{0, 0, 1}, {0, 0, 0}}));
-  EXPECT_EQ(mesh.normals.indices, (std::vector<Triangle>{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}}));
+  const Triangle none = {k_no_value, k_no_value, k_no_value};
+  EXPECT_EQ(mesh.uv.values, (std::vector<Vec2>{{0.25, 0.5}, {1, 0}, {0, 0}}));
+  EXPECT_EQ(mesh.uv.indices, (std::vector<Triangle>{{0, 1, 2}, none, {2, 1, 0}}));
+  EXPECT_EQ(mesh.normals.values, (std::vector<Vec3>{{0, 0, 1}}));
+  EXPECT_EQ(mesh.normals.indices, (std::vector<Triangle>{{0, 0, 0}, {0, 0, 0}, none}));
+}
+
+TEST_F(ObjReader, CornersThatLackWhatTheirFaceHasAreNeutral) {
+  const TriangleMesh mesh = read(k_square + "vt 1 1\nf 1/1 2 3/1\n").parts.at(0).mesh;
+  EXPECT_EQ(mesh.uv.values, (std::vector<Vec2>{{1, 1}, {0, 0}}));
+  EXPECT_EQ(mesh.uv.indices, (std::vector<Triangle>{{0, 1, 0}}));
 }
 
 TEST_F(ObjReader, ObjectsBecomePartsAndGroupsFaceNumbers) {

@@ -60,6 +60,41 @@ TEST_F(StlReader, BinaryThatBeginsWithSolid) {
   EXPECT_EQ(read(binary_stl(k_square, 2, "solid of an exporter")).parts[0].mesh.triangles.size(), 2U);
 }
 
+/// The bytes with the attribute of a triangle set.
+std::string with_attribute(std::string bytes, std::size_t triangle, std::uint16_t attribute) {
+  std::memcpy(bytes.data() + 84 + 50 * triangle + 48, &attribute, sizeof attribute);
+  return bytes;
+}
+
+TEST_F(StlReader, ColoursOfVisCam) {
+  const std::string bytes = with_attribute(binary_stl(k_square, 2), 1, 0x8000 | 31 << 10 | 31);
+  const auto colors = read(bytes).parts[0].mesh.colors;
+  ASSERT_EQ(colors.indices.size(), 2U);
+  EXPECT_EQ(colors.values[colors.indices[0][0]], (Color{1, 1, 1, 1}));
+  EXPECT_EQ(colors.values[colors.indices[1][2]], (Color{1, 0, 1, 1}));
+}
+
+TEST_F(StlReader, ColoursOfMaterialise) {
+  std::string bytes = binary_stl(k_square, 2, std::string("made by hand COLOR=\xff\x00\x00\xff", 23));
+  const auto black = read(with_attribute(bytes, 0, 0x8000)).parts[0].mesh.colors;
+  EXPECT_EQ(black.values[black.indices[1][0]], (Color{0, 0, 0, 1})) << "triangle 1 has a colour of its own";
+  const auto colors = read(with_attribute(with_attribute(bytes, 0, 31 << 5), 1, 0x8000)).parts[0].mesh.colors;
+  EXPECT_EQ(colors.values[colors.indices[0][0]], (Color{0, 1, 0, 1}));
+  EXPECT_EQ(colors.values[colors.indices[1][0]], (Color{1, 0, 0, 1})) << "the object's";
+}
+
+TEST_F(StlReader, NoAttributeNoColour) { EXPECT_TRUE(read(binary_stl(k_square, 2)).parts[0].mesh.colors.empty()); }
+
+TEST_F(StlReader, ManyBlocksKeepTheirOrder) {
+  std::vector<float> corners;
+  for (int t = 0; t < 3000; ++t)
+    for (const int c : {t, t + 1, t + 2}) corners.insert(corners.end(), {float(c), float(c % 7), 0});
+  const TriangleMesh mesh = read(binary_stl(corners, 3000)).parts[0].mesh;
+  EXPECT_EQ(mesh.positions.size(), 3002U);
+  for (std::size_t t = 0; t < 3000; ++t)
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(mesh.corner(t, k).x, double(t) + k);
+}
+
 TEST_F(StlReader, UnitAndAxis) {
   const Scene scene = read(binary_stl(k_square, 2), {25.4, UpAxis::y, 0.1, 20});
   EXPECT_EQ(scene.parts[0].mesh.positions[1], (Vec3{25.4, 0, 0}));

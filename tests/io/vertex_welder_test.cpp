@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <vector>
 
 namespace papilla {
 namespace {
@@ -21,6 +22,18 @@ TEST(VertexWelder, AgreesWithAnOrderedMap) {
     ASSERT_EQ(welder.add(p), wanted);
   }
   for (const auto& [point, number] : expected) EXPECT_EQ(welder.points()[number], point);
+}
+
+TEST(VertexWelder, ManyAtOnceAreAsOneByOne) {
+  std::mt19937 random(2);
+  std::uniform_int_distribution<int> small(-20, 20);
+  std::vector<Vec3> points(20000);
+  for (Vec3& p : points) p = {small(random) * 0.1, small(random) * 1e9, small(random) * -0.0};
+  VertexWelder one_by_one, at_once;
+  std::vector<Index> numbers(points.size());
+  at_once.add(points, numbers);
+  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_EQ(numbers[i], one_by_one.add(points[i]));
+  EXPECT_EQ(at_once.points(), one_by_one.points());
 }
 
 TEST(VertexWelder, HasNoToleranceButOneZero) {

@@ -107,6 +107,26 @@ TEST(Repair, AttributesFollowTheirCorners) {
   for (std::size_t t = 0; t < 288; ++t) EXPECT_EQ(result.mesh.face[t], t);
 }
 
+TEST(Repair, TrianglesMayLackAttributes) {
+  TriangleMesh mesh = lattice_soup(120, 3);  // every operation has work
+  set_uv_to_xy(mesh);
+  mesh.normals.values = {{0, 0, 1}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool given = t % 3 != 0;
+    if (!given) mesh.uv.indices[t].fill(k_no_value);
+    mesh.normals.indices.push_back(given ? Triangle{0, 0, 0} : Triangle{k_no_value, k_no_value, k_no_value});
+  }
+  const RepairResult result = repair(mesh);
+  ASSERT_EQ(result.mesh.uv.indices.size(), result.mesh.triangles.size());
+  std::size_t with = 0;
+  for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+    EXPECT_EQ(result.mesh.uv.has_value(t), result.mesh.normals.has_value(t));
+    with += result.mesh.uv.has_value(t);
+  }
+  EXPECT_GT(with, 0u);
+  EXPECT_LT(with, result.mesh.triangles.size());
+}
+
 TEST(Repair, ScaleDoesNotMatter) {
   const TriangleMesh soup = lattice_soup(100, 5);
   const RepairResult reference = repair(soup);

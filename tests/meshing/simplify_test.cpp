@@ -301,32 +301,65 @@ TEST(Simplify, RefusesBadOptionsAndMeshes) {
   EXPECT_THROW(simplify(broken, within(1)), InvalidInput);
 }
 
-TEST(SimplifyToBudget, HitsTheBudgetAndSparesWhatMatters) {
-  const TriangleMesh a = test::uv_sphere(10, 60, 60), b = test::uv_sphere(10, 60, 60), cube = subdivided_cube(10, 10);
-  const std::vector<BudgetPart> parts{{&a, 10, 1}, {&b, 1, 3}, {&cube, 1, 1}};
-  const BudgetResult r = simplify_to_budget(parts, 4000);
-  EXPECT_TRUE(r.reached);
-  EXPECT_LE(r.triangles, 4000u);
-  EXPECT_GE(r.triangles, 3900u);
-  EXPECT_EQ(r.triangles,
-            r.parts[0].mesh.triangles.size() + 3 * r.parts[1].mesh.triangles.size() + r.parts[2].mesh.triangles.size());
-  EXPECT_GT(r.parts[0].mesh.triangles.size(), 2 * r.parts[1].mesh.triangles.size());
-  EXPECT_EQ(r.parts[2].mesh.triangles.size(), 12u);  // flat faces cost nothing, so they go first
-  EXPECT_LT(r.parts[0].deviation.value(), r.parts[1].deviation.value());
+/// A closed disc of height 1 with fans of n triangles as lids.
+TriangleMesh fan_disc(double radius, Index n) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 0, 1}};
+  for (Index i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n;
+    for (const double z : {0.0, 1.0}) mesh.positions.push_back({radius * std::cos(a), radius * std::sin(a), z});
+  }
+  for (Index i = 0; i < n; ++i) {
+    const Index a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % n);
+    mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}, {0, b, a}, {1, a + 1, b + 1}});
+  }
+  return mesh;
 }
 
-TEST(SimplifyToBudget, LeavesAloneWhatFitsAndSaysWhatCannot) {
-  const TriangleMesh cube = test::cube(10);
-  const std::vector<BudgetPart> parts{{&cube}};
-  const BudgetResult fits = simplify_to_budget(parts, 12);
-  EXPECT_TRUE(fits.reached);
-  EXPECT_EQ(fits.parts[0].mesh.triangles.size(), 12u);
-  EXPECT_EQ(fits.parts[0].deviation.bound(), 0);
-  const BudgetResult cannot = simplify_to_budget(parts, 5);
-  EXPECT_FALSE(cannot.reached);
-  EXPECT_EQ(cannot.triangles, 12u);
-  EXPECT_THROW(simplify_to_budget(std::vector<BudgetPart>{{nullptr}}, 5), InvalidInput);
-  EXPECT_THROW(simplify_to_budget(std::vector<BudgetPart>{{&cube, 0}}, 5), InvalidInput);
+/// Fans of thousands of triangles are looked at only now and then; what is left must still be as few as elsewhere.
+TEST(Simplify, HubsOfFansGoLikeOtherPlaces) {
+  std::size_t few = 0;
+  for (const Index n : {200u, 1500u}) {
+    const TriangleMesh disc = fan_disc(50, n);
+    const SimplifyResult r = simplify(disc, within(0.1));
+    EXPECT_LE(surface_deviation(disc, r.mesh).value(), 0.1);
+    const MeshStatistics s = mesh_statistics(r.mesh);
+    EXPECT_EQ(s.boundary_loops + s.nonmanifold_edges + s.duplicate_triangles + s.flipped_edges, 0u);
+    if (few == 0) few = r.mesh.triangles.size();
+    EXPECT_LE(r.mesh.triangles.size(), 2 * few) << n;
+    EXPECT_GE(r.mesh.triangles.size(), 190u) << "about 50 sides are needed";
+  }
+}
+
+/// One more collapse would leave a double sheet, or nothing.
+TEST(Simplify, AClosedSurfaceStaysOne) {
+  for (const TriangleMesh& mesh : {test::uv_sphere(1, 8, 8), test::cube(1)}) {
+    const SimplifyResult r = simplify(mesh, within(100));
+    const MeshStatistics s = mesh_statistics(r.mesh);
+    EXPECT_GE(r.mesh.triangles.size(), 4u);
+    EXPECT_EQ(s.boundary_loops + s.nonmanifold_edges + s.duplicate_triangles + s.degenerate_triangles, 0u);
+    EXPECT_GT(test::enclosed_volume(r.mesh), 0);
+  }
+}
+
+/// Normals of the result against those of the input below: nothing folds over.
+TEST(Simplify, NoTriangleFlips) {
+  const TriangleMesh torus = test::torus(20, 6, 120, 50);
+  for (const double tolerance : {0.05, 0.3}) {
+    const SimplifyResult r = simplify(torus, within(tolerance));
+    for (std::size_t t = 0; t < r.mesh.triangles.size(); ++t) {
+      const Vec3 a = r.mesh.corner(t, 0), b = r.mesh.corner(t, 1), c = r.mesh.corner(t, 2);
+      const Vec3 centre = (1.0 / 3) * (a + b + c);
+      const Vec3 ring = 20 * normalized({centre.x, centre.y, 0});
+      EXPECT_GT(dot(cross(b - a, c - a), centre - ring), 0) << t;
+    }
+  }
+}
+
+TEST(Simplify, DoneTwiceItFindsLittleMore) {
+  const TriangleMesh torus = test::torus(20, 6, 120, 60);
+  const SimplifyResult once = simplify(torus, within(1e-3 * 52)), twice = simplify(once.mesh, within(1e-6));
+  EXPECT_EQ(twice.mesh.triangles.size(), once.mesh.triangles.size()) << "within almost nothing nothing goes";
 }
 
 TEST(LevelsOfDetail, EachHoldsItsToleranceAndComesFromTheOneBefore) {

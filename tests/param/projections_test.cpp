@@ -111,7 +111,8 @@ TEST(Environment, LooksBackWhereTheSurfaceFacesTheEye) {
   const CornerAttribute<Vec2> uv = environment_uv(mesh, options);
   ASSERT_EQ(uv.indices.size(), mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    EXPECT_GE(uv.values[v].x, 0), EXPECT_LE(uv.values[v].x, 1);
+    EXPECT_GE(uv.values[v].x, 0);
+    EXPECT_LE(uv.values[v].x, 1);
     const Vec3 n = normalized(mesh.positions[v]);
     if (n.y > 0) continue;
     // For a far eye, u - 1/2 and v - 1/2 are half the components of the normal.

@@ -72,6 +72,7 @@ void unwrap_surface(Work& work, const Scene& scene, const Grain& grain) {
   work.report.reason = uv.reason;
   work.report.charts = uv.flattening.charts.count;
   work.report.seam_mm = uv.flattening.charts.seam_length_mm;
+  work.report.grain_continued_mm = uv.grain_continued_mm;
   for (const ChartNote& note : uv.flattening.notes) work.report.notes.push_back(note.reason);
   work.mesh.uv = repeats_of(uv.flattening, grain.size_mm);
   work.report.mesh = work.mesh;
@@ -112,15 +113,16 @@ class SceneMaterials {
     const bool grain = !surface.rule->texture.empty();
     const bool kept = grain && !runs(surface, Stage::unwrap);
     const double mm_per_unit = kept ? surface.uv_mm_per_unit : 0;
-    const auto [it, is_new] = made_.try_emplace({original, surface.rule->name, mm_per_unit}, 0);
-    if (is_new) it->second = make(original, *surface.rule, grain, mm_per_unit);
+    const bool felt = runs(surface, Stage::tag);
+    const auto [it, is_new] = made_.try_emplace({original, surface.rule->name, mm_per_unit, felt}, 0);
+    if (is_new) it->second = make(original, *surface.rule, grain, mm_per_unit, felt);
     return it->second;
   }
 
  private:
   static constexpr std::uint32_t k_none = 0xffffffffu;
 
-  std::uint32_t make(std::uint32_t original, const MaterialRule& rule, bool grain, double kept_mm_per_unit) {
+  std::uint32_t make(std::uint32_t original, const MaterialRule& rule, bool grain, double kept_mm_per_unit, bool felt) {
     Material material = original == k_none ? Material{} : scene_.materials[original];
     const std::string original_name = material.name;
     material.name = new_name(original_name, rule);
@@ -138,7 +140,8 @@ class SceneMaterials {
         attach_to_new_uv(material, relief);
     }
     apply_constants(rule, tag);
-    write_extras(material, tag, rule, original_name);
+    if (felt) material.extras_json = with_material_tag(material.extras_json, tag);
+    note_origin(material, rule, original_name);
     scene_.materials.push_back(std::move(material));
     result_.mm_per_uv.resize(scene_.materials.size());
     if (grain) {
@@ -208,8 +211,9 @@ class SceneMaterials {
     return it->second;
   }
 
-  static void write_extras(Material& material, const MaterialTag& tag, const MaterialRule& rule, const std::string& original_name) {
-    ordered_json extras = ordered_json::parse(with_material_tag(material.extras_json, tag));
+  static void note_origin(Material& material, const MaterialRule& rule, const std::string& original_name) {
+    ordered_json extras = ordered_json::parse(material.extras_json.empty() ? "{}" : material.extras_json);
+    if (!extras.is_object()) throw InvalidInput("material '" + material.name + "': its extras are no JSON object");
     extras["papilla"] = {{"material", rule.name}};
     if (!original_name.empty() && original_name != material.name) extras["papilla"]["original"] = original_name;
     material.extras_json = extras.dump();
@@ -218,7 +222,7 @@ class SceneMaterials {
   BakeResult& result_;
   Scene& scene_;
   std::map<std::string, std::uint32_t> textures_;
-  std::map<std::tuple<std::uint32_t, std::string, double>, std::uint32_t> made_;
+  std::map<std::tuple<std::uint32_t, std::string, double, bool>, std::uint32_t> made_;
 };
 
 /// Leaves out the materials that no triangle uses any more, and renumbers the rest.
@@ -353,7 +357,7 @@ BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progres
   SceneMaterials materials(result);
   std::vector<std::pair<const Surface*, std::uint32_t>> chosen;
   for (const Surface& surface : surfaces)
-    if (surface.rule) chosen.emplace_back(&surface, materials.material_of(surface));
+    if (surface.rule && !surface.is_left_out) chosen.emplace_back(&surface, materials.material_of(surface));
   for (const auto& [surface, material] : chosen) {
     Part& part = result.scene.parts[surface->part];
     if (part.materials.size() <= surface->slot) part.materials.resize(surface->slot + 1, material);

@@ -34,7 +34,10 @@ class Value {
       : json_(json), file_(std::move(file)), pointer_(std::move(pointer)) {}
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw InvalidInput(file_ + ": at " + (pointer_.empty() ? "the top level" : pointer_) + ": " + reason);
+    std::string message = file_ + ": at " + (pointer_.empty() ? "the top level" : pointer_) + ": " + reason;
+    for (char& c : message)
+      if (c >= 0 && c < ' ') c = '?';  // Keys may hold anything, a message is one line.
+    throw InvalidInput(message);
   }
   const Json& json() const { return json_; }
 
@@ -169,6 +172,8 @@ MaterialsFile read_materials_file(const std::filesystem::path& path) {
     json = Json::parse(in);
   } catch (const Json::parse_error& parse_error) {
     throw InvalidInput(path.string() + ": byte " + std::to_string(parse_error.byte) + ": is no valid JSON");
+  } catch (const Json::out_of_range&) {
+    throw InvalidInput(path.string() + ": holds a number beyond the range of 64-bit floats");
   }
   const Value root(json, path.string(), "");
   root.expect_keys({"$schema", "version", "materials", "assign", "$comment"});

@@ -20,11 +20,27 @@ struct Wanted {
   bool feel = false;   ///< Its material has haptic constants or grain.
 };
 
+/// Why a part is left out: nobody gets at it.
+enum class LeftOut { no, unreachable, unseen, unreachable_and_unseen };
+
+/// The reason as reports print it; empty for `no`.
+constexpr std::string_view reason_of(LeftOut left_out) {
+  switch (left_out) {
+    case LeftOut::no: break;
+    case LeftOut::unreachable: return "it can't be reached";
+    case LeftOut::unseen: return "it can't be seen";
+    case LeftOut::unreachable_and_unseen: return "it can neither be reached nor seen";
+  }
+  return {};
+}
+
 /// What the input already gives.
 enum class UvState { absent, usable, unusable };
 struct Given {
   bool cad = false;  ///< Surfaces come from CAD and were tessellated here.
   UvState uv = UvState::absent;
+  std::string_view left_out = {};  ///< reason_of() when the part is left out: then nothing but tessellation runs.
+  bool is_only_seen = false;       ///< The part stays because it is seen, but it can't be reached.
 };
 
 struct Decision {
@@ -44,11 +60,13 @@ namespace stage_rules {
 constexpr std::string_view k_no_grain = "no grain is assigned";
 
 constexpr Decision tessellate(const Wanted&, const Given& given) {
-  return given.cad ? Decision{true, "the file holds CAD surfaces"} : Decision{false, "the file holds triangles already"};
+  return given.cad ? Decision{true, "the file holds CAD surfaces"}
+                   : Decision{false, "the file holds triangles already"};
 }
 
 /// Repair, charts and unwrap serve one purpose: uv for the grain.
 constexpr Decision new_uv(const Wanted& wanted, const Given& given) {
+  if (!given.left_out.empty()) return {false, given.left_out};
   if (!wanted.grain) return {false, k_no_grain};
   switch (given.uv) {
     case UvState::usable: return {false, "its own uv is usable and kept"};
@@ -58,15 +76,19 @@ constexpr Decision new_uv(const Wanted& wanted, const Given& given) {
   return {true, "the grain needs uv and there is none"};
 }
 
-constexpr Decision measure(const Wanted& wanted, const Given&) {
+constexpr Decision measure(const Wanted& wanted, const Given& given) {
+  if (!given.left_out.empty()) return {false, given.left_out};
   return wanted.grain ? Decision{true, "distortion of the grain is reported"} : Decision{false, k_no_grain};
 }
 
-constexpr Decision picture(const Wanted& wanted, const Given&) {
+constexpr Decision picture(const Wanted& wanted, const Given& given) {
+  if (!given.left_out.empty()) return {false, given.left_out};
   return wanted.grain ? Decision{true, "its grain has a picture"} : Decision{false, k_no_grain};
 }
 
-constexpr Decision tag(const Wanted& wanted, const Given&) {
+constexpr Decision tag(const Wanted& wanted, const Given& given) {
+  if (!given.left_out.empty()) return {false, given.left_out};
+  if (given.is_only_seen) return {false, reason_of(LeftOut::unreachable)};
   return wanted.feel ? Decision{true, "it is to be felt"} : Decision{false, "no haptic material is assigned"};
 }
 

@@ -146,6 +146,7 @@ ordered_json bake_json(const BakeResult& result, const std::vector<Surface>& pla
   for (const BakedSurface& surface : result.surfaces)
     json["parts"].push_back({{"part", surface.label}, {"material", surface.material}, {"unwrap", surface.method},
                              {"reason", surface.reason}, {"charts", surface.charts}, {"seam_mm", surface.seam_mm},
+                             {"grain_continued_mm", surface.grain_continued_mm},
                              {"notes", surface.notes}, {"distortion", distortion_json(surface.distortion)}});
   json["materials"] = ordered_json::array();
   for (const auto& [name, grain] : result.grains) {

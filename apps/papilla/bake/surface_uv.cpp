@@ -45,7 +45,9 @@ SurfaceUv make_surface_uv(const TriangleMesh& mesh, const std::string& wanted, V
   const Stopwatch clock;
   result.flattening =
       flatten_part(mesh, up == UpAxis::z ? GrainUp::z : GrainUp::y, tile_mm, options, result.segment_seconds);
-  result.flattening.uv = align_phase(mesh, result.flattening, {.tile_mm = tile_mm}).uv;
+  AlignedPhase aligned = align_phase(mesh, result.flattening, {.tile_mm = tile_mm});
+  result.flattening.uv = std::move(aligned.uv);
+  result.grain_continued_mm = aligned.continued_mm;
   result.flatten_seconds = clock.seconds() - result.segment_seconds;
   return result;
 }

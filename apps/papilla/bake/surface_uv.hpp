@@ -10,6 +10,7 @@
 namespace papilla::app {
 
 struct SurfaceUv {
+  double grain_continued_mm = 0;  ///< Length of the seam over which the grain goes on.
   Flattening flattening;  ///< uv in millimetres, grain upright, charts placed so that its phase goes on over seams.
   std::string method;     ///< "lscm" or "triplanar".
   std::string reason;     ///< Why that one.

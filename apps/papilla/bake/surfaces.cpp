@@ -111,23 +111,44 @@ std::array<double, 4> linear_colour(const std::string& hex) {
   return {channel(1), channel(3), channel(5), 1};
 }
 
-std::vector<Surface> plan_surfaces(const Scene& scene, const MaterialsFile& rules) {
+const MaterialRule* assigned_rule(const Scene& scene, const Part& part, std::size_t slot, const MaterialsFile& rules) {
+  const Material* material = slot < part.materials.size() ? &scene.materials[part.materials[slot]] : nullptr;
+  const AssignRule* assigned =
+      match_rule(rules, part.name, material ? hex_colour(material->base_color) : "", material ? material->name : "");
+  return assigned && !assigned->material.empty() ? &rules.materials.at(assigned->material) : nullptr;
+}
+
+std::vector<SharedPart> share_identical_parts(Scene& scene, const MaterialsFile& rules) {
+  std::map<std::vector<const MaterialRule*>, std::uint64_t> numbers;
+  return share_identical_parts(scene, [&](std::uint32_t number) {
+    const Part& part = scene.parts[number];
+    std::vector<const MaterialRule*> assigned;
+    for (std::size_t slot = 0; slot < std::max<std::size_t>(part.materials.size(), 1); ++slot)
+      assigned.push_back(assigned_rule(scene, part, slot, rules));
+    return numbers.try_emplace(assigned, numbers.size()).first->second;
+  });
+}
+
+std::vector<Surface> plan_surfaces(const Scene& scene, const MaterialsFile& rules,
+                                   const std::vector<PartPerception>& perception) {
   std::vector<Surface> surfaces = split_by_slot(scene);
   const bool cad = scene.format == "STEP" || scene.format == "IGES" || scene.format == "BREP";
   for (Surface& surface : surfaces) {
     const Part& part = scene.parts[surface.part];
-    const Material* material =
-        surface.slot < part.materials.size() ? &scene.materials[part.materials[surface.slot]] : nullptr;
-    const AssignRule* assigned = match_rule(rules, part.name, material ? hex_colour(material->base_color) : "",
-                                            material ? material->name : "");
-    if (assigned && !assigned->material.empty()) surface.rule = &rules.materials.at(assigned->material);
+    surface.rule = assigned_rule(scene, part, surface.slot, rules);
     const UvJudgement uv = judge_uv(part.mesh, surface.triangles);
     surface.uv_mm_per_unit = uv.mm_per_unit;
     surface.uv_note = uv.note;
     const bool grain = surface.rule && !surface.rule->texture.empty();
     const bool feel = grain || (surface.rule && (surface.rule->stiffness || surface.rule->static_friction ||
                                                  surface.rule->dynamic_friction || surface.rule->damping));
-    surface.plan = make_plan({grain, feel}, {cad, uv.state});
+    Given given{cad, uv.state};
+    if (!perception.empty()) {
+      given.left_out = perception[surface.part].left_out;
+      given.is_only_seen = perception[surface.part].is_only_seen;
+    }
+    surface.is_left_out = !given.left_out.empty();
+    surface.plan = make_plan({grain, feel}, given);
   }
   return surfaces;
 }

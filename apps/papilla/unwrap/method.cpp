@@ -3,7 +3,10 @@
 
 #include <algorithm>
 
+#include "papilla/meshing/chart_cuts.hpp"
+#include "papilla/meshing/cut_open.hpp"
 #include "papilla/param/components.hpp"
+#include "papilla/param/grain_frame.hpp"
 
 namespace papilla::app {
 namespace {
@@ -40,6 +43,33 @@ Flattening map_charts(const TriangleMesh& mesh, const ChartSet& charts, const Me
     case UnwrapMethod::lscm: return flatten_lscm(mesh, charts, o.lscm);
     case UnwrapMethod::best: return flatten_best(mesh, charts, o.best);
     default: return flatten_reference(mesh, charts, o.reference);
+  }
+}
+
+/// Maps with a border on a circle need disks; the others leave holes of flat sheets as they are. Grain of known size
+/// wants its direction kept.
+SegmentationOptions segmentation_of(const MethodOptions& o, GrainUp up, Vec2 tile_mm) {
+  SegmentationOptions segmentation = o.segmentation;
+  const bool on_circle = o.method == UnwrapMethod::tutte || o.method == UnwrapMethod::mvc ||
+                         (o.method == UnwrapMethod::levy && o.levy.border == LevyBorder::convex);
+  segmentation.disks = on_circle;
+  if (tile_mm.x > 0 && tile_mm.y > 0)
+    segmentation.grain = [up](Vec3 normal) { return grain_direction(normal, up); };
+  return segmentation;
+}
+
+/// Halves charts that have no valid map, a few times, before another map takes their place.
+Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, const MethodOptions& options) {
+  constexpr int k_max_halvings = 6;
+  for (int i = 0;; ++i) {
+    Flattening flattening = map_charts(cut_open(mesh, charts), charts, options);
+    if (flattening.notes.empty() || i == k_max_halvings) {
+      keep_cuts(mesh, charts.cuts, flattening.charts);
+      return flattening;
+    }
+    std::vector<std::uint32_t> failed;
+    for (const ChartNote& note : flattening.notes) failed.push_back(note.chart);
+    charts = halve_charts(mesh, charts, failed);
   }
 }
 
@@ -94,10 +124,11 @@ Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, Vec2 tile_mm, cons
     default: break;
   }
   const Stopwatch clock;
-  const ChartSet charts =
-      o.charts == ChartSource::keep ? components_as_charts(mesh) : segment_charts(mesh, o.segmentation).charts;
+  const ChartSet charts = o.charts == ChartSource::keep
+                              ? components_as_charts(mesh)
+                              : segment_charts(mesh, segmentation_of(o, up, tile_mm)).charts;
   segment_seconds += clock.seconds();
-  return map_charts(mesh, charts, o);
+  return map_or_halve(mesh, charts, o);
 }
 
 }  // namespace papilla::app

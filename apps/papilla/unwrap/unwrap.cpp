@@ -53,7 +53,9 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
   for (std::size_t p = 0; p < report.parts.size(); ++p) {
     Flattening& f = report.parts[p].flattening;
     if (f.uv.empty()) continue;
-    f.uv = align_phase(scene.parts[p].mesh, f, {.tile_mm = options.tile_mm}).uv;
+    AlignedPhase aligned = align_phase(scene.parts[p].mesh, f, {.tile_mm = options.tile_mm});
+    f.uv = std::move(aligned.uv);
+    report.parts[p].grain_continued_mm = aligned.continued_mm;
   }
   if (options.layout == UvLayout::tile) return;
   const AllCharts all = gather(report.parts);

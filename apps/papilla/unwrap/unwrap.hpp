@@ -29,7 +29,8 @@ struct UnwrapSeconds {
 
 struct UnwrappedPart {
   Flattening flattening;
-  std::string failure;  ///< Why the part has no uv; empty when it has.
+  double grain_continued_mm = 0;  ///< Length of the seam over which the grain goes on.
+  std::string failure;            ///< Why the part has no uv; empty when it has.
 };
 
 struct UnwrapReport {

@@ -4,7 +4,9 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 
 #include "bake/report.hpp"
 #include "exit_code.hpp"
@@ -12,6 +14,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/glb_writer.hpp"
+#include "scene_budget.hpp"
 #include "scene_options.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -23,6 +26,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string input, materials, output, report;
+  std::optional<std::size_t> budget;
+  LeaveOutOptions leave_out;
   SceneOptions scene;
 };
 
@@ -33,6 +38,19 @@ void prepare_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw IoError(folder.string() + ": cannot be made a folder");
 }
 
+/// Brings what is not left out within the budget.
+Json simplify_scene(Scene& scene, const LeaveOutResult& perception, std::size_t budget, const Console& console) {
+  Scene drawn = scene;
+  leave_out(drawn, perception);
+  BudgetResult result = fit_scene_to_budget(drawn, budget);
+  console.print(fmt::format("budget of {} triangles: {} within {:.3g} mm{}\n", budget, result.triangles,
+                            result.tolerance_mm, result.reached ? "" : "; borders, seams and features allow no fewer"));
+  Json json = budget_json(scene, budget, result);
+  for (std::size_t i = 0; i < scene.parts.size(); ++i)
+    if (perception.parts[i].left_out.empty()) scene.parts[i].mesh = std::move(result.parts[i].mesh);
+  return json;
+}
+
 Json run_bake(const Options& options, VerbContext& context) {
   if (fs::path(options.output).extension() != ".glb")
     throw UsageError("--output: '" + options.output + "' must end in .glb");
@@ -40,17 +58,29 @@ Json run_bake(const Options& options, VerbContext& context) {
   const Stopwatch total;
   const MaterialsFile rules = read_materials_file(options.materials);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  const double read_seconds = total.seconds();
-  const std::vector<Surface> surfaces = plan_surfaces(scene, rules);
+  std::map<std::string, double> seconds = {{"read", total.seconds()}};
+  const Stopwatch prepare_clock;
+  const std::vector<SharedPart> shared = share_identical_parts(scene, rules);
+  const Json identical = shared_parts_json(shared, scene);
+  const LeaveOutResult perception = measure_perception(scene, options.leave_out, context.progress);
+  const Json perceived = perception_json(scene, perception);
+  context.console.print(left_out_table(scene, perception));
+  seconds["leave_out"] = prepare_clock.seconds();
+  const Json budget = options.budget ? simplify_scene(scene, perception, *options.budget, context.console) : Json();
+  seconds["simplify"] = prepare_clock.seconds() - seconds["leave_out"];
+  const std::vector<Surface> surfaces = plan_surfaces(scene, rules, perception.parts);
+  leave_out(scene, perception);
   BakeResult result = bake(std::move(scene), surfaces, context.progress);
-  result.seconds["read"] = read_seconds;
+  result.seconds.merge(seconds);
   const Stopwatch write_clock;
-  write_glb(result.scene, options.output, {});
+  for (const std::string& loss : write_glb(result.scene, options.output, {})) result.scene.losses.push_back(loss);
   result.seconds["write"] = write_clock.seconds();
 
   Json json = bake_json(result, surfaces);
-  std::size_t triangles = 0;
-  for (const Instance& use : instances(result.scene)) triangles += result.scene.parts[use.part].mesh.triangles.size();
+  json["identical_parts"] = identical;
+  if (options.leave_out.asked()) json["perception"] = perceived;
+  if (options.budget) json["budget"] = budget;
+  const std::size_t triangles = drawn_triangles(result.scene);
   json["output"] = {{"file", options.output}, {"bytes", fs::file_size(options.output)}, {"triangles", triangles}};
   context.console.print(bake_table(result));
   for (const std::string& loss : result.scene.losses) context.console.print("left out: " + loss + "\n");
@@ -76,16 +106,20 @@ Json run_bake(const Options& options, VerbContext& context) {
 
 void add_bake(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb =
-      add_verb(program,
-               {"bake", "The main job: grain and touch onto a scene, as one GLB.",
-                "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
-               [options](VerbContext& context) { return run_bake(*options, context); });
+  CLI::App* verb = add_verb(program,
+                            {"bake", "The main job: grain and touch onto a scene, as one GLB.",
+                             "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
+                            [options](VerbContext& context) { return run_bake(*options, context); });
   verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
   verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")
       ->required();
   verb->add_option("-o,--output", options->output, "GLB to write")->required();
+  verb->add_option("--budget", options->budget,
+                   "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   verb->add_option("--report", options->report, "Folder for report.json and pictures")->type_name("DIR");
+  options->leave_out.add_to(*verb);
   options->scene.add_to(*verb);
 }
 

@@ -5,8 +5,10 @@
 #include <memory>
 #include <set>
 
+#include "leave_out.hpp"
 #include "mesh_report.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "scene_budget.hpp"
 #include "scene_options.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 struct InspectOptions {
   std::string file;
+  LeaveOutOptions perception;
   SceneOptions read;
 };
 
@@ -77,6 +80,17 @@ Json materials_json(const Scene& scene) {
   return materials;
 }
 
+void print_perception(const Console& console, const Json& parts) {
+  console.print(fmt::format("\n{:>9} {:>8} {:>7} {:>9}  part\n", "instances", "in reach", "seen", "area seen"));
+  for (const Json& part : parts) {
+    const auto cell = [&](const char* key) { return part[key].is_null() ? std::string("-") : part[key].dump(); };
+    const Json& share = part["visible_fraction"];
+    console.print(fmt::format(
+        "{:>9} {:>8} {:>7} {:>9}  {}\n", cell("instances"), cell("instances_in_reach"), cell("instances_seen"),
+        share.is_null() ? "-" : fmt::format("{:.1f} %", 100 * share.get<double>()), part["part"].get<std::string>()));
+  }
+}
+
 void print_for_people(const Console& console, const Json& result, const Scene& scene,
                       const std::vector<MeshStatistics>& statistics) {
   console.print(fmt::format("{}, units {}, {} parts\n\n", scene.format, scene.unit, scene.parts.size()));
@@ -91,6 +105,7 @@ void print_for_people(const Console& console, const Json& result, const Scene& s
       line += fmt::format("  {}: {}", use, name.get<std::string>());
     console.print(line + "\n");
   }
+  if (result.contains("perception")) print_perception(console, result["perception"]);
   for (const std::string& warning : scene.warnings) console.print("warning: " + warning + "\n");
   for (const std::string& loss : scene.losses) console.print("left out: " + loss + "\n");
 }
@@ -105,6 +120,9 @@ Json inspect(VerbContext& context, const InspectOptions& options) {
   result["materials"] = materials_json(scene);
   result["warnings"] = scene.warnings;
   result["losses"] = scene.losses;
+  if (options.perception.asked())
+    result["perception"] = perception_json(scene, measure_perception(scene, options.perception, context.progress));
+  result["totals"]["drawn_triangles"] = drawn_triangles(scene);
   print_for_people(context.console, result, scene, statistics);
   return result;
 }
@@ -117,7 +135,8 @@ void add_inspect(CLI::App& program) {
                             {"inspect", "Show what a file holds: parts, materials, and what is wrong with the meshes.",
                              "papilla inspect seat.obj --json -"},
                             [options](VerbContext& context) { return inspect(context, *options); });
-  verb->add_option("file", options->file, "STL, OBJ, GLB or glTF file")->type_name("FILE")->required();
+  verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("FILE")->required();
+  options->perception.add_to(*verb, false);
   options->read.add_to(*verb);
 }
 

@@ -11,6 +11,7 @@ namespace papilla::app {
 void add_plan(CLI::App& program) {
   struct Options {
     std::string input, materials;
+    LeaveOutOptions leave_out;
     SceneOptions scene;
   };
   auto options = std::make_shared<Options>();
@@ -20,13 +21,19 @@ void add_plan(CLI::App& program) {
        "papilla plan data/cockpit.step -m data/cockpit.materials.json"},
       [options](VerbContext& context) {
         const MaterialsFile rules = read_materials_file(options->materials);
-        const Scene scene = read_scene(options->input, options->scene.read_options(), context.progress);
-        const std::vector<Surface> surfaces = plan_surfaces(scene, rules);
-        context.console.print(plan_table(surfaces));
-        return Json{{"scene", options->input}, {"materials", options->materials}, {"stages", plan_json(surfaces)}};
+        Scene scene = read_scene(options->input, options->scene.read_options(), context.progress);
+        const std::vector<SharedPart> shared = share_identical_parts(scene, rules);
+        const LeaveOutResult perception = measure_perception(scene, options->leave_out, context.progress);
+        const std::vector<Surface> surfaces = plan_surfaces(scene, rules, perception.parts);
+        context.console.print(plan_table(surfaces) + left_out_table(scene, perception));
+        Json json{{"scene", options->input}, {"materials", options->materials}, {"stages", plan_json(surfaces)}};
+        json["identical_parts"] = shared_parts_json(shared, scene);
+        if (options->leave_out.asked()) json["perception"] = perception_json(scene, perception);
+        return json;
       });
   verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
   verb->add_option("-m,--materials", options->materials, "MATERIALS.json")->required();
+  options->leave_out.add_to(*verb);
   options->scene.add_to(*verb);
 }
 

@@ -11,7 +11,10 @@
 #include "mesh_report.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "papilla/meshing/deviation.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
+#include "shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -20,14 +23,15 @@ namespace {
 
 struct RepairVerbOptions {
   std::string in, out;
-  std::optional<double> weld_mm;
+  RepairOptions repair;
+  bool verify = false;
+  bool keep_copies = false;
   SceneOptions read;
 };
 
 std::vector<RepairResult> repair_parts(Scene& scene, const RepairVerbOptions& options, const Progress& progress) {
   std::vector<RepairResult> results(scene.parts.size());
-  RepairOptions repair_options;
-  repair_options.weld_mm = options.weld_mm;
+  RepairOptions repair_options = options.repair;
   if (scene.parts.size() == 1) repair_options.progress = progress;
   oneapi::tbb::parallel_for(std::size_t{0}, scene.parts.size(), [&](std::size_t i) {
     results[i] = repair(std::move(scene.parts[i].mesh), repair_options);
@@ -55,7 +59,32 @@ Json operations_json(const std::vector<RepairResult>& results) {
           {"border_slivers", sum(&RepairCounts::border_slivers)},
           {"reversed", sum(&RepairCounts::reversed)},
           {"parted_edges", sum(&RepairCounts::parted_edges)},
-          {"added_vertices", sum(&RepairCounts::added_vertices)}};
+          {"added_vertices", sum(&RepairCounts::added_vertices)},
+          {"stitched_gaps", sum(&RepairCounts::stitched_gaps)},
+          {"filled_holes", sum(&RepairCounts::filled_holes)},
+          {"added_triangles", sum(&RepairCounts::added_triangles)}};
+}
+
+Json deviations_json(const std::vector<RepairResult>& results) {
+  const auto largest = [&](double RepairDeviations::*operation) {
+    double deviation = 0;
+    for (const RepairResult& r : results) deviation = std::max(deviation, r.deviations.*operation);
+    return deviation;
+  };
+  return {{"weld", largest(&RepairDeviations::weld)},
+          {"degenerate", largest(&RepairDeviations::degenerate)},
+          {"t_junctions", largest(&RepairDeviations::t_junctions)},
+          {"partings", largest(&RepairDeviations::partings)},
+          {"stitches", largest(&RepairDeviations::stitches)}};
+}
+
+/// The largest distance between any part's surface before and after, both ways; an upper bound over all points.
+double measured_deviation(const std::vector<TriangleMesh>& before, const Scene& after) {
+  double deviation = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (!before[i].triangles.empty() && !after.parts[i].mesh.triangles.empty())
+      deviation = std::max(deviation, surface_deviation(before[i], after.parts[i].mesh).bound());
+  return deviation;
 }
 
 /// Back sides of double sheets are dropped, so what is left must be seen from both.
@@ -70,10 +99,16 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
   const Stopwatch clock;
   Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
   const MeshStatistics before = total_statistics(part_statistics(scene, context.progress));
+  std::vector<SharedPart> shared;
+  if (!options.keep_copies) shared = share_identical_parts(scene);
+  const Json identical = shared_parts_json(shared, scene);
+  std::vector<TriangleMesh> originals;
+  if (options.verify)
+    for (const Part& part : scene.parts) originals.push_back(part.mesh);
   const std::vector<RepairResult> results = repair_parts(scene, options, context.progress);
   const MeshStatistics after = total_statistics(part_statistics(scene, context.progress));
   show_both_sides(scene, results);
-  write_scene(scene, options.out);
+  write_output(scene, options.out, context.console);
 
   double deviation = 0, tolerance = 0;
   std::vector<std::string> unsettled;
@@ -84,14 +119,24 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
   }
   context.console.print(header_row() + counters_row("before", before) + counters_row("after", after));
   context.console.print(fmt::format("largest deviation {:.3g} mm, weld tolerance {:.3g} mm\n", deviation, tolerance));
+  std::optional<double> measured;
+  if (options.verify) {
+    measured = measured_deviation(originals, scene);
+    context.console.print(fmt::format("measured deviation at most {:.3g} mm, both ways\n", *measured));
+  }
   for (const std::string& name : unsettled) context.console.print("not settled: " + name + "\n");
   return {{"before", counters_json(before)},
           {"after", counters_json(after)},
           {"max_deviation_mm", deviation},
+          {"measured_deviation_mm", measured ? Json(*measured) : Json()},
           {"weld_tolerance_mm", tolerance},
           {"operations", operations_json(results)},
+          {"deviations_mm", deviations_json(results)},
           {"parts", scene.parts.size()},
+          {"identical_parts", identical},
           {"unsettled", unsettled},
+          {"losses", scene.losses},
+          {"warnings", scene.warnings},
           {"seconds", clock.seconds()},
           {"output", options.out}};
 }
@@ -104,11 +149,20 @@ void add_repair(CLI::App& program) {
                             {"repair", "Make clean, oriented, manifold parts of whatever a file holds.",
                              "papilla repair scan.stl -o clean.glb"},
                             [options](VerbContext& context) { return repair_file(context, *options); });
-  verb->add_option("in", options->in, "STL, OBJ, GLB or glTF file")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ or STL file to write")->type_name("OUT")->required();
-  verb->add_option("--weld", options->weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")
+  verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("IN")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
+  verb->add_option("--weld", options->repair.weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
+  verb->add_option("--stitch", options->repair.stitch_mm,
+                   "Widest gap between faces to close; default: 2e-4 of each part's diagonal, 0: none")
+      ->type_name("MM")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--fill-holes", options->repair.fill_holes_mm, "Fill holes that fit into a box of this diagonal")
+      ->type_name("MM")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_flag("--verify", options->verify, "Measure the deviation from the input, not only bound it");
+  verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);
 }
 

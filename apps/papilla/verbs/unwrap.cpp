@@ -10,6 +10,7 @@
 #include "papilla/io/image_file.hpp"
 #include "pictures/uv_layout.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "unwrap/unwrap.hpp"
 #include "vector_option.hpp"
 #include "verb.hpp"
@@ -42,6 +43,7 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
                      {"triangles", scene.parts[p].mesh.triangles.size()},
                      {"charts", part.flattening.charts.count},
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
+                     {"grain_continued_mm", part.grain_continued_mm},
                      {"notes", std::move(notes)},
                      {"failure", part.failure.empty() ? Json() : Json(part.failure)}});
   }
@@ -127,7 +129,7 @@ Json run(const Options& options, VerbContext& context) {
   const UnwrapReport report = unwrap_named(options.input, scene, unwrap, context.progress);
   const SceneDistortion distortion =
       measure_scene(scene, {}, [&](std::size_t p) { return report.parts[p].failure.empty(); });
-  write_scene(scene, options.output);
+  write_output(scene, options.output, context.console);
   if (!options.trace.empty()) write_atomically(options.trace, trace_csv(report.trace));
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
@@ -145,7 +147,8 @@ Json run(const Options& options, VerbContext& context) {
             {"total", report.seconds.total}}},
           {"fill_rate", report.fill_rate},
           {"distortion", distortion_json(distortion.report)},
-          {"parts", parts_json(scene, report)}};
+          {"parts", parts_json(scene, report)},
+          {"losses", scene.losses}};
 }
 
 template <class Value>
@@ -235,6 +238,10 @@ void add_unwrap(CLI::App& program) {
                    "Edges bent by more degrees part charts")
       ->check(CLI::Range(1.0, 180.0))
       ->type_name("DEG")
+      ->capture_default_str();
+  verb->add_option("--seam-cost", unwrap.method.segmentation.seam_cost,
+                   "What seams cost against distortion: 0.01 cuts generously, 0.5 hardly ever")
+      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   add_choice<UvLayout>(verb, "--layout", unwrap.layout, {{"atlas", UvLayout::atlas}, {"tile", UvLayout::tile}},
                        "atlas (default): no two charts overlap; tile: the grain goes on over seams");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cad_document.hpp"
 
-#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESCAFControl_Reader.hxx>
@@ -24,6 +23,7 @@
 
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
+#include "step_syntax.hpp"
 
 namespace papilla::cad {
 namespace {
@@ -74,6 +74,20 @@ std::string_view last_line(std::string_view text) {
   return start == std::string_view::npos ? text : text.substr(start + 1);
 }
 
+/// The last line of a BREP file: orientation and number of the whole shape, then its location, as "+1 0".
+bool names_a_shape(std::string_view line) {
+  if (line.empty() || std::string_view("+-ie").find(line.front()) == std::string_view::npos) return false;
+  line.remove_prefix(1);
+  const auto eat_number = [&] {
+    const std::size_t end = std::min(line.find_first_not_of("0123456789"), line.size());
+    line.remove_prefix(end);
+    return end > 0;
+  };
+  if (!eat_number() || line.empty() || line.front() != ' ') return false;
+  line.remove_prefix(1);
+  return eat_number() && line.find_first_not_of(' ') == std::string_view::npos;
+}
+
 Kind kind_of(const std::filesystem::path& path, const FileEnds& ends) {
   const std::string_view head = trimmed_front(ends.head);
   if (head.starts_with("ISO-10303-21")) {
@@ -81,7 +95,11 @@ Kind kind_of(const std::filesystem::path& path, const FileEnds& ends) {
       throw InvalidInput(path.string() + ": STEP file is truncated (no END-ISO-10303-21 at its end)");
     return Kind::step;
   }
-  if (head.starts_with("DBRep_DrawableShape") || head.starts_with("CASCADE Topology V")) return Kind::brep;
+  if (head.starts_with("DBRep_DrawableShape") || head.starts_with("CASCADE Topology V")) {
+    if (!names_a_shape(last_line(ends.tail)))
+      throw InvalidInput(path.string() + ": BREP file is truncated (its last line names no shape)");
+    return Kind::brep;
+  }
   if (is_iges_line(ends.head, 'S')) {
     std::string terminate(last_line(ends.tail));
     terminate.resize(std::max<std::size_t>(terminate.size(), 80), ' ');
@@ -101,6 +119,7 @@ void set_reader_parameters() {
   Interface_Static::SetIVal("read.step.shape.repr", 1);
   Interface_Static::SetIVal("read.step.nonmanifold", 0);
   Interface_Static::SetCVal("read.step.codepage", "UTF8");
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
   Interface_Static::SetIVal("read.precision.mode", 0);
   Interface_Static::SetIVal("read.surfacecurve.mode", 0);
 }
@@ -136,9 +155,10 @@ void read_step(const std::filesystem::path& path, CadDocument& result, const Pro
   reader.SetColorMode(true);
   reader.SetLayerMode(true);
   reader.SetMatMode(true);
-  reader.SetPropsMode(false);
+  reader.SetPropsMode(true);
   reader.SetGDTMode(true);
-  reader.SetViewMode(false);
+  reader.SetViewMode(true);
+  check_step_syntax(path);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw InvalidInput(path.string() + ": STEP file is damaged (its entities can't be parsed)");
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
@@ -151,6 +171,7 @@ void read_step(const std::filesystem::path& path, CadDocument& result, const Pro
   const Handle(OcctProgress) indicator = new OcctProgress(progress, "read", 0, 0.3);
   if (!reader.Transfer(result.document, indicator->Start()))
     throw InvalidInput(path.string() + ": STEP file holds no shape that can be read");
+  result.metadata = read_step_metadata(reader, result.document);
 }
 
 void read_iges(const std::filesystem::path& path, CadDocument& result, const Progress& progress) {
@@ -170,25 +191,19 @@ void read_iges(const std::filesystem::path& path, CadDocument& result, const Pro
     throw InvalidInput(path.string() + ": IGES file holds no shape that can be read");
 }
 
-void read_brep(const std::filesystem::path& path, double mm_per_unit, CadDocument& result) {
+void read_brep(const std::filesystem::path& path, CadDocument& result) {
   TopoDS_Shape shape;
   BRep_Builder builder;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": can't be opened");
   BRepTools::Read(shape, file, builder);
   if (shape.IsNull()) throw InvalidInput(path.string() + ": BREP file is damaged or truncated (no shape in it)");
-  if (mm_per_unit != 1) {
-    gp_Trsf scale;
-    scale.SetScaleFactor(mm_per_unit);
-    shape = BRepBuilderAPI_Transform(shape, scale, true).Shape();
-  }
-  result.millimetres_per_unit = mm_per_unit;
   XCAFDoc_DocumentTool::ShapeTool(result.document->Main())->AddShape(shape, shape.ShapeType() == TopAbs_COMPOUND);
 }
 
 }  // namespace
 
-CadDocument read_document(const std::filesystem::path& path, double brep_mm_per_unit, const Progress& progress) {
+CadDocument read_document(const std::filesystem::path& path, const Progress& progress) {
   const Kind kind = kind_of(path, read_ends(path));
   set_reader_parameters();
   CadDocument result;
@@ -205,7 +220,7 @@ CadDocument read_document(const std::filesystem::path& path, double brep_mm_per_
       break;
     case Kind::brep:
       result.format = "BREP";
-      read_brep(path, brep_mm_per_unit, result);
+      read_brep(path, result);
       break;
   }
   return result;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "papilla/core/progress.hpp"
+#include "step_metadata.hpp"
 
 namespace papilla::cad {
 
@@ -15,10 +16,11 @@ struct CadDocument {
   std::string format;       ///< "STEP", "IGES", "BREP".
   std::string unit = "mm";  ///< The file's own.
   double millimetres_per_unit = 1;
+  StepMetadata metadata;
 };
 
 /// Reads the file into a document with assembly tree, names, colours, layers and materials.
 /// @throws IoError, InvalidInput as read_cad(); Standard_Failure from inside the library.
-CadDocument read_document(const std::filesystem::path& path, double brep_mm_per_unit, const Progress& progress);
+CadDocument read_document(const std::filesystem::path& path, const Progress& progress);
 
 }  // namespace papilla::cad

@@ -8,6 +8,7 @@
 #include <TopTools_ShapeMapHasher.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
 #include <XCAFDoc_VisMaterial.hxx>
 #include <XCAFPrs.hxx>
 #include <XCAFPrs_IndexedDataMapOfShapeStyle.hxx>
@@ -73,10 +74,11 @@ std::uint32_t MaterialTable::index_of(const CadColour& colour) {
   return entry->second;
 }
 
-std::vector<CadColour> face_colours(const TDF_Label& label, const TopoDS_Shape& shape, const CadColour& instance,
+std::vector<CadColour> face_colours(const TDF_Label& label, const TopoDS_Shape& body, const CadColour& instance,
                                     const CadColour& inherited) {
   XCAFPrs_IndexedDataMapOfShapeStyle styles;
   XCAFPrs::CollectStyleSettings(label, TopLoc_Location(), styles);
+  const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label);
   CadColour whole = instance ? instance : label_colour(label);
   if (!whole) whole = inherited;
 
@@ -88,7 +90,7 @@ std::vector<CadColour> face_colours(const TDF_Label& label, const TopoDS_Shape& 
       by_face.Bind(faces.Current(), *colour);
   }
   std::vector<CadColour> result;
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+  for (TopExp_Explorer faces(body, TopAbs_FACE); faces.More(); faces.Next()) {
     const Quantity_ColorRGBA* own = by_face.Seek(faces.Current());
     result.push_back(own ? CadColour(*own) : whole);
   }

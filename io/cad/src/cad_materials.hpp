@@ -33,9 +33,10 @@ class MaterialTable {
   std::map<std::string, std::uint32_t> by_name_;
 };
 
-/// The colour of each face of the shape on `label`, in TopExp_Explorer's order: the face's own, else that of the
-/// smallest coloured sub-shape around it, else `instance`, else the shape's, else `inherited`.
-std::vector<CadColour> face_colours(const TDF_Label& label, const TopoDS_Shape& shape, const CadColour& instance,
+/// The colour of each face of `body`, which is the shape on `label` or a part of it, in TopExp_Explorer's order: the
+/// face's own, else that of the smallest coloured sub-shape around it, else `instance`, else the shape's, else
+/// `inherited`.
+std::vector<CadColour> face_colours(const TDF_Label& label, const TopoDS_Shape& body, const CadColour& instance,
                                     const CadColour& inherited);
 
 }  // namespace papilla::cad

@@ -12,13 +12,11 @@ namespace papilla::cad {
 
 struct ShapeMesh {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> not_finite;  ///< Faces left out because of NaN or infinity.
-  std::size_t dropped_triangles = 0;
-  double max_deviation_mm = 0;
+  std::size_t dropped_triangles = 0;  ///< Corners that are one point of the CAD file.
 };
 
-/// The triangles that the faces carry, as one mesh welded along shared edges.
+/// The faces' triangles as one mesh, welded along shared edges. Empties the faces.
 /// @param face_materials slot of each CAD face, by number, or empty.
-ShapeMesh to_mesh(const std::vector<NumberedFace>& faces, const std::vector<std::uint32_t>& face_materials);
+ShapeMesh to_mesh(TessellatedShape shape, const std::vector<std::uint32_t>& face_materials);
 
 }  // namespace papilla::cad

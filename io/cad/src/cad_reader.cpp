@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/cad_reader.hpp"
 
-#include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
@@ -9,13 +8,17 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "cad_document.hpp"
 #include "cad_mesh.hpp"
+#include "cad_parallel.hpp"
 #include "cad_tessellate.hpp"
 #include "cad_tree.hpp"
+#include "isolated.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
 
@@ -40,19 +43,25 @@ void check_options(const CadReadOptions& options) {
   };
   if (!(options.chord_mm > 0) || !std::isfinite(options.chord_mm)) refuse("chord_mm must be > 0", options.chord_mm);
   if (!(options.angle_deg > 0 && options.angle_deg <= 90)) refuse("angle_deg must be in (0, 90]", options.angle_deg);
-  if (!(options.brep_mm_per_unit > 0) || !std::isfinite(options.brep_mm_per_unit))
-    refuse("brep_mm_per_unit must be > 0", options.brep_mm_per_unit);
+  if (const double unit = options.millimetres_per_unit.value_or(1); !(unit > 0) || !std::isfinite(unit))
+    refuse("millimetres_per_unit must be > 0", unit);
+  if (!(options.max_edge_mm >= 0) || !std::isfinite(options.max_edge_mm))
+    refuse("max_edge_mm must be >= 0", options.max_edge_mm);
   if (options.relative && options.chord_mm > 1) refuse("a relative chord must be in (0, 1]", options.chord_mm);
 }
 
 /// A chord this far below the model's size asks for more triangles than any memory holds.
 constexpr double k_least_relative_chord = 1e-6;
+constexpr double k_least_relative_edge = 1e-4;
 
 void check_size(const std::filesystem::path& path, const std::vector<TopoDS_Shape>& shapes,
                 const CadReadOptions& options) {
   if (shapes.empty()) throw InvalidInput(path.string() + ": holds no face");
   const double diagonal = cad::diagonal_of(shapes);
   if (!std::isfinite(diagonal)) throw InvalidInput(path.string() + ": holds geometry that is not finite");
+  if (options.max_edge_mm > 0 && options.max_edge_mm < k_least_relative_edge * diagonal)
+    throw InvalidInput(path.string() + ": longest edge " + std::to_string(options.max_edge_mm) +
+                       " mm is below 1e-4 of the model's diagonal, " + std::to_string(diagonal) + " mm");
   if (!options.relative && options.chord_mm < k_least_relative_chord * diagonal)
     throw InvalidInput(path.string() + ": chord " + std::to_string(options.chord_mm) +
                        " mm is below 1e-6 of the model's diagonal, " + std::to_string(diagonal) + " mm");
@@ -64,50 +73,112 @@ std::size_t count_solids(const TopoDS_Shape& shape) {
   return count;
 }
 
-void add_mesh(Part& part, const cad::TessellatedShape& shape, cad::ShapeMesh mesh, CadReport& report) {
+void add_mesh(Part& part, cad::TessellatedShape shape, const std::vector<std::uint32_t>& face_materials,
+              CadReport& report) {
   for (const cad::FaceTrouble& trouble : shape.troubles)
     (trouble.solved ? report.repaired_faces : report.failed_faces)
-        .push_back({part.name, trouble.number, trouble.reason});
-  for (const std::uint32_t number : mesh.not_finite)
-    report.failed_faces.push_back({part.name, number, "coordinates are not finite"});
+        .push_back({part.id, trouble.number, trouble.reason, trouble.tried});
+  for (const cad::FaceOff& off : shape.off) report.off_faces.push_back({part.id, off.number, off.reason, {}});
+  report.parts.push_back({part.id, shape.max_deviation_mm, shape.max_angle_deg, shape.added_nodes});
   report.faces += shape.faces.size();
+  report.added_nodes += shape.added_nodes;
+  report.max_deviation_mm = std::max(report.max_deviation_mm, shape.max_deviation_mm);
+  report.max_angle_deg = std::max(report.max_angle_deg, shape.max_angle_deg);
+  cad::ShapeMesh mesh = cad::to_mesh(std::move(shape), face_materials);
   report.triangles += mesh.mesh.triangles.size();
   report.dropped_triangles += mesh.dropped_triangles;
-  report.max_deviation_mm = std::max(report.max_deviation_mm, mesh.max_deviation_mm);
   part.mesh = std::move(mesh.mesh);
 }
 
 void warn_of_faces(const CadReport& report, Scene& scene) {
+  const auto place = [](const CadFaceNote& note) {
+    return "face " + std::to_string(note.face) + " of part '" + note.part + "' ";
+  };
   for (const CadFaceNote& note : report.failed_faces)
-    scene.losses.push_back("face " + std::to_string(note.face) + " of part '" + note.part +
-                           "' has no triangles or gaps: " + note.reason);
+    scene.losses.push_back(place(note) + "has no triangles or gaps: " + note.reason);
   for (const CadFaceNote& note : report.repaired_faces)
-    scene.warnings.push_back("face " + std::to_string(note.face) + " of part '" + note.part +
-                             "' needed a second attempt: " + note.reason);
-  if (scene.format == "BREP") scene.warnings.push_back("BREP carries no unit");
+    scene.warnings.push_back(place(note) + "was refused by the mesher and triangulated in another way: " + note.reason);
+  for (const CadFaceNote& note : report.off_faces) scene.warnings.push_back(place(note) + note.reason);
+}
+
+/// Processor time that no sound file needs to be read: the slowest real files take 2 s per MB.
+double reading_seconds(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  constexpr double k_base = 5, k_per_byte = 30e-6;
+  return k_base + (error ? 0 : k_per_byte * static_cast<double>(bytes));
+}
+
+/// The same for the mesher: the slowest real faces take a few seconds at the finest chord that is allowed.
+double tessellating_seconds(const std::vector<TopoDS_Shape>& shapes) {
+  std::size_t faces = 0;
+  for (const TopoDS_Shape& shape : shapes)
+    for (TopExp_Explorer all(shape, TopAbs_FACE); all.More(); all.Next()) ++faces;
+  constexpr double k_base = 600, k_per_face = 60;
+  return k_base + k_per_face * static_cast<double>(faces);
+}
+
+/// Tolerances for shapes that are still to be scaled.
+CadReadOptions in_file_units(CadReadOptions options, double scale) {
+  if (!options.relative) options.chord_mm /= scale;
+  options.max_edge_mm /= scale;
+  return options;
+}
+
+/// Takes the file's numbers as ones of another unit.
+void rescale(Scene& scene, CadReport& report, double scale) {
+  scene.millimetres_per_unit *= scale;
+  for (Part& part : scene.parts)
+    for (Vec3& p : part.mesh.positions) p = scale * p;
+  for (Node& node : scene.nodes)
+    for (const std::size_t k : {3u, 7u, 11u}) node.local[k] *= scale;
+  report.max_deviation_mm *= scale;
+  for (CadPartReport& part : report.parts) part.max_deviation_mm *= scale;
 }
 
 Scene read(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
            const Progress& progress) {
   Stopwatch watch;
   if (progress) progress("read", 0);
-  cad::CadTree tree = cad::build_tree(cad::read_document(path, options.brep_mm_per_unit, progress));
-  check_size(path, tree.shapes, options);
+  cad::allow_processor_time(reading_seconds(path));
+  cad::CadTree tree = cad::build_tree(cad::read_document(path, progress));
+  const double scale = options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit) /
+                       tree.scene.millimetres_per_unit;
+  if (tree.scene.format == "BREP" && !options.millimetres_per_unit)
+    tree.scene.warnings.push_back("BREP carries no unit: taken as mm");
+  const CadReadOptions unscaled = in_file_units(options, scale);
+  check_size(path, tree.shapes, unscaled);
   report.seconds_read = watch.lap();
 
-  std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, options, progress);
+  cad::allow_processor_time(tessellating_seconds(tree.shapes));
+  std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, unscaled, progress);
   report.seconds_tessellate = watch.lap();
 
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (progress) progress("convert", 0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(shapes.size()));
     report.solids += count_solids(tree.shapes[i]);
-    add_mesh(tree.scene.parts[i], shapes[i], cad::to_mesh(shapes[i].faces, tree.face_materials[i]), report);
+    add_mesh(tree.scene.parts[i], std::move(shapes[i]), tree.face_materials[i], report);
   }
   if (report.triangles == 0) throw InvalidInput(path.string() + ": none of its faces can be tessellated");
   warn_of_faces(report, tree.scene);
+  if (scale != 1) rescale(tree.scene, report, scale);
   report.seconds_convert = watch.lap();
   if (progress) progress("convert", 1);
   return std::move(tree.scene);
+}
+
+/// The library's exceptions are not the standard's.
+Scene read_in_this_process(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
+                           const Progress& progress) {
+  try {
+    cad::set_up_threads();
+    return read(path, options, report, progress);
+  } catch (const Standard_Failure& failure) {
+    std::string what = failure.GetMessageString();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    throw InvalidInput(path.string() + ": damaged CAD data (" + failure.DynamicType()->Name() +
+                       (what.empty() ? "" : ": " + what) + ")");
+  }
 }
 
 }  // namespace
@@ -119,15 +190,10 @@ Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options,
   CadReport own;
   CadReport& filled = report ? *report : own;
   filled = {};
-  try {
-    OCC_CATCH_SIGNALS
-    return read(path, options, filled, progress);
-  } catch (const Standard_Failure& failure) {
-    std::string what = failure.GetMessageString();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    throw InvalidInput(path.string() + ": damaged CAD data (" + failure.DynamicType()->Name() +
-                       (what.empty() ? "" : ": " + what) + ")");
-  }
+  if (!options.isolated) return read_in_this_process(path, options, filled, progress);
+  return cad::run_isolated(path, filled, progress, [&](CadReport& child_report, const Progress& child_progress) {
+    return read_in_this_process(path, options, child_report, child_progress);
+  });
 }
 
 bool is_cad_extension(const std::filesystem::path& path) {

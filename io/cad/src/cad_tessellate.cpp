@@ -1,250 +1,189 @@
 // SPDX-License-Identifier: MIT
 #include "cad_tessellate.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <BRepBndLib.hxx>
-#include <BRepBuilderAPI_Copy.hxx>
-#include <BRepBuilderAPI_Transform.hxx>
-#include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <GProp_GProps.hxx>
-#include <IMeshData_Status.hxx>
-#include <Poly_PolygonOnTriangulation.hxx>
-#include <Poly_Triangulation.hxx>
-#include <ShapeFix_Face.hxx>
-#include <ShapeFix_Wire.hxx>
-#include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
-#include <TopoDS_Edge.hxx>
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cmath>
-#include <cstdint>
+#include <numeric>
 #include <sstream>
+#include <thread>
+#include <tuple>
 #include <utility>
 
+#include "base_mesh.hpp"
+#include "cad_parallel.hpp"
+#include "face_refine.hpp"
 #include "occt_session.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 
 namespace papilla::cad {
 namespace {
 
-IMeshTools_Parameters mesh_parameters(const CadReadOptions& options) {
-  IMeshTools_Parameters parameters;
-  parameters.Deflection = options.chord_mm;
-  parameters.DeflectionInterior = options.chord_mm;
-  parameters.Angle = options.angle_deg * k_radians_per_degree;
-  parameters.Relative = options.relative;
-  parameters.InParallel = true;
-  return parameters;
+/// More triangles than this in one model are a mistake in the options.
+constexpr std::size_t k_max_triangles = 200'000'000;
+/// The mesher's own shortest edge, relative to the chord.
+constexpr double k_min_edge = 0.1;
+
+RefineLimits limits_of(const CadReadOptions& options, const TopoDS_Shape& shape) {
+  RefineLimits limits;
+  limits.chord = options.relative ? options.chord_mm * diagonal_of({shape}) : options.chord_mm;
+  limits.angle = options.angle_deg * k_radians_per_degree;
+  limits.min_edge = k_min_edge * limits.chord;
+  if (options.max_edge_mm > 0) limits.max_edge = options.max_edge_mm;
+  limits.max_triangles = k_max_triangles;
+  return limits;
 }
 
-bool has_triangles(const TopoDS_Face& face) {
-  TopLoc_Location location;
-  const Handle(Poly_Triangulation) triangulation = BRep_Tool::Triangulation(face, location);
-  return !triangulation.IsNull() && triangulation->NbTriangles() > 0;
-}
-
-using NodePair = std::pair<int, int>;
-
-NodePair unordered(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-std::vector<NodePair> triangle_edges(const Poly_Triangulation& triangulation) {
-  std::vector<NodePair> edges;
-  edges.reserve(3 * static_cast<std::size_t>(triangulation.NbTriangles()));
-  for (int i = 1; i <= triangulation.NbTriangles(); ++i) {
-    int a = 0, b = 0, c = 0;
-    triangulation.Triangle(i).Get(a, b, c);
-    edges.insert(edges.end(), {unordered(a, b), unordered(b, c), unordered(c, a)});
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-/// Whether the triangles reach the face's whole boundary, so that no gap to its neighbours is left.
-bool is_complete(const TopoDS_Face& face) {
-  if (!has_triangles(face)) return false;
-  TopLoc_Location location;
-  const Handle(Poly_Triangulation) triangulation = BRep_Tool::Triangulation(face, location);
-  const std::vector<NodePair> edges = triangle_edges(*triangulation);
-  for (TopExp_Explorer explorer(face, TopAbs_EDGE); explorer.More(); explorer.Next()) {
-    const TopoDS_Edge& edge = TopoDS::Edge(explorer.Current());
-    const Handle(Poly_PolygonOnTriangulation) polygon =
-        BRep_Tool::PolygonOnTriangulation(edge, triangulation, location);
-    if (polygon.IsNull() || BRep_Tool::Degenerated(edge)) continue;
-    for (int k = 1; k < polygon->NbNodes(); ++k) {
-      const NodePair segment = unordered(polygon->Node(k), polygon->Node(k + 1));
-      if (segment.first != segment.second && !std::binary_search(edges.begin(), edges.end(), segment)) return false;
-    }
-  }
-  return true;
-}
-
-std::string reason_of(int status, const TopoDS_Face& face) {
-  static constexpr std::array<std::pair<int, const char*>, 5> k_reasons = {
-      {{IMeshData_SelfIntersectingWire, "self-intersecting boundary"},
-       {IMeshData_OpenWire, "open boundary"},
-       {IMeshData_UnorientedWire, "boundary without orientation"},
-       {IMeshData_TooFewPoints, "too few boundary points"},
-       {IMeshData_Failure, "mesher failed"}}};
-  std::string reason;
-  for (const auto& [flag, text] : k_reasons)
-    if (status & flag) reason += (reason.empty() ? "" : ", ") + std::string(text);
-  if (reason.empty()) reason = "no triangles";
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties);
-  std::ostringstream text;
-  text << reason << " (area " << properties.Mass() << " mm2)";
-  return text.str();
-}
-
-/// What the mesher says about the face on its own.
-int mesh_alone(const TopoDS_Face& face, IMeshTools_Parameters parameters) {
-  parameters.InParallel = false;
-  BRepMesh_IncrementalMesh mesher;
-  mesher.ChangeParameters() = parameters;
-  mesher.SetShape(face);
-  mesher.Perform();
-  return mesher.GetStatusFlags();
-}
-
-TopoDS_Face copy_of(const TopoDS_Face& face) { return TopoDS::Face(BRepBuilderAPI_Copy(face, true, false).Shape()); }
-
-TopoDS_Face healed(const TopoDS_Face& face) {
-  ShapeFix_Face fix(face);
-  fix.FixWireMode() = 1;
-  fix.FixOrientationMode() = 1;
-  fix.FixMissingSeamMode() = 1;
-  fix.FixSmallAreaWireMode() = 1;
-  fix.FixWireTool()->FixSelfIntersectionMode() = 1;
-  fix.Perform();
-  return fix.Face();
-}
-
-std::string message_of(const Standard_Failure& failure) {
-  const std::string what = failure.GetMessageString();
-  return what.empty() ? failure.DynamicType()->Name() : what;
-}
-
-std::string why_refused(const TopoDS_Face& face, const IMeshTools_Parameters& parameters) {
-  try {
-    const TopoDS_Face alone = copy_of(face);
-    BRepTools::Clean(alone);
-    return reason_of(mesh_alone(alone, parameters), alone);
-  } catch (const Standard_Failure& failure) {
-    return message_of(failure);
-  }
-}
-
-/// @return the face with triangles, or null.
-TopoDS_Face heal_alone(const TopoDS_Face& face, const IMeshTools_Parameters& parameters) {
-  try {
-    const TopoDS_Face fixed = healed(copy_of(face));
-    if (fixed.IsNull()) return {};
-    BRepTools::Clean(fixed);
-    mesh_alone(fixed, parameters);
-    return has_triangles(fixed) ? fixed : TopoDS_Face();
-  } catch (const Standard_Failure&) {
-    return {};
-  }
-}
-
-void mesh_all(const TopoDS_Shape& shape, const IMeshTools_Parameters& parameters, const Message_ProgressRange& range) {
+/// The mesher's triangulation. To be refined: edges as asked for, between them only what it takes to have triangles.
+void run_mesher(const TopoDS_Shape& shape, const RefineLimits& limits, CadMeshing meshing,
+                const Message_ProgressRange& range) {
   BRepTools::Clean(shape);
   BRepMesh_IncrementalMesh mesher;
-  mesher.ChangeParameters() = parameters;
+  IMeshTools_Parameters& parameters = mesher.ChangeParameters();
+  parameters.Deflection = limits.chord;
+  parameters.Angle = limits.angle;
+  parameters.InParallel = is_parallel();
+  if (meshing == CadMeshing::refined) {
+    // Its time for a face grows with the square of the nodes inside.
+    constexpr double k_coarse_chord = 100, k_coarse_angle = 1;
+    parameters.DeflectionInterior = k_coarse_chord * limits.chord;
+    parameters.AngleInterior = std::max(limits.angle, k_coarse_angle);
+    parameters.ControlSurfaceDeflection = false;
+    parameters.InternalVerticesMode = false;
+  }
   mesher.SetShape(shape);
   mesher.Perform(range);
 }
 
-std::vector<NumberedFace> faces_of(const TopoDS_Shape& shape) {
-  std::vector<NumberedFace> result;
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    const TopoDS_Face& face = TopoDS::Face(faces.Current());
-    result.push_back({face, face, static_cast<std::uint32_t>(result.size()), 1});
-  }
-  return result;
-}
+/// Tells how much of the work is done, from the calling thread only and never less than before.
+class WorkMeter {
+ public:
+  WorkMeter(const Progress& progress, double from, double to, std::size_t total)
+      : progress_(progress), from_(from), to_(to), total_(std::max<std::size_t>(total, 1)) {}
 
-/// Numbers of the faces without triangles or with gaps.
-std::vector<std::uint32_t> incomplete_faces(const std::vector<NumberedFace>& faces) {
-  std::vector<std::uint8_t> complete(faces.size());
-  tbb::parallel_for(std::size_t{0}, faces.size(),
-                    [&](std::size_t i) { complete[i] = is_complete(faces[i].triangles) ? 1 : 0; });
-  std::vector<std::uint32_t> result;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    if (complete[i] == 0) result.push_back(faces[i].number);
-  return result;
-}
-
-/// The faces with the triangles of a copy of the shape of another size; empty when there is no such copy.
-std::vector<NumberedFace> mesh_scaled(const TopoDS_Shape& shape, std::vector<NumberedFace> faces, double scale,
-                                      IMeshTools_Parameters parameters) {
-  gp_Trsf enlarge;
-  enlarge.SetScaleFactor(scale);
-  const TopoDS_Shape copy = BRepBuilderAPI_Transform(shape, enlarge, true).Shape();
-  if (!parameters.Relative) {
-    parameters.Deflection *= scale;
-    parameters.DeflectionInterior *= scale;
+  void add(std::size_t amount) {
+    const std::size_t done = done_ += amount;
+    if (!progress_ || std::this_thread::get_id() != owner_) return;
+    const double fraction = static_cast<double>(done) / static_cast<double>(total_);
+    if (fraction < shown_ + 0.01) return;
+    shown_ = fraction;
+    progress_("tessellate", from_ + std::min(1.0, fraction) * (to_ - from_));
   }
-  mesh_all(copy, parameters, {});
-  std::size_t i = 0;
-  for (TopExp_Explorer pieces(copy, TopAbs_FACE); pieces.More(); pieces.Next(), ++i) {
-    if (i == faces.size()) return {};
-    faces[i].triangles = TopoDS::Face(pieces.Current());
-    faces[i].scale = scale;
-  }
-  return i == faces.size() ? faces : std::vector<NumberedFace>();
-}
 
-/// Replaces the faces by those of the scaled copy that leaves the fewest incomplete.
-/// @return the numbers of these.
-std::vector<std::uint32_t> try_scaled(const TopoDS_Shape& shape, std::vector<NumberedFace>& faces,
-                                      std::vector<std::uint32_t> incomplete, const IMeshTools_Parameters& parameters) {
-  for (const double scale : {2.0, 0.5, 16.0}) {
-    if (incomplete.empty()) break;
-    try {
-      std::vector<NumberedFace> scaled = mesh_scaled(shape, faces, scale, parameters);
-      std::vector<std::uint32_t> remaining = incomplete_faces(scaled);
-      if (scaled.empty() || remaining.size() >= incomplete.size()) continue;
-      faces = std::move(scaled);
-      incomplete = std::move(remaining);
-    } catch (const Standard_Failure&) {
-      // This size is no better: the next one may be.
-      continue;
+ private:
+  const Progress& progress_;
+  double from_, to_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_ = 0;
+  double shown_ = 0;  // Of the owner only.
+  std::thread::id owner_ = std::this_thread::get_id();
+};
+
+struct FaceResult {
+  PatchDeviation deviation;
+  double gap = 0;
+  std::size_t folded = 0;
+};
+
+/// An edge inside of a face whose two ends are on CAD edges.
+struct Bridge {
+  std::uint32_t low, high;
+  std::size_t face;
+  HalfEdge h;
+  bool boundary;
+};
+
+std::vector<Bridge> bridges_of(const std::vector<FaceMesh>& faces) {
+  std::vector<Bridge> result;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const FacePatch& patch = faces[f].patch;
+    for (HalfEdge h = 0; h < 3 * patch.triangles.size(); ++h) {
+      const std::uint32_t a = patch.nodes[patch.from(h)].shared, b = patch.nodes[patch.to(h)].shared;
+      if (a == k_no_value || b == k_no_value || a == b || (!patch.is_boundary(h) && patch.opposite(h) < h)) continue;
+      result.push_back({std::min(a, b), std::max(a, b), f, h, patch.is_fixed(h)});
     }
   }
-  return incomplete;
+  std::sort(result.begin(), result.end(), [](const Bridge& p, const Bridge& q) {
+    return std::tie(p.low, p.high, p.face, p.h) < std::tie(q.low, q.high, q.face, q.h);
+  });
+  return result;
 }
 
-void heal_refused(NumberedFace& face, const IMeshTools_Parameters& parameters) {
-  if (has_triangles(face.triangles)) return;
-  const TopoDS_Face fixed = heal_alone(face.cad, parameters);
-  if (!fixed.IsNull()) face = {fixed, fixed, face.number, 1};
+/// Two faces that touch along an edge may join the same two points of it through their inside: four triangles would
+/// meet there. Such edges get a node of their own face.
+std::size_t part_bridges(std::vector<FaceMesh>& faces) {
+  const std::vector<Bridge> bridges = bridges_of(faces);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < bridges.size();) {
+    std::size_t end = i, inner = 0;
+    bool boundary = false;
+    for (; end < bridges.size() && bridges[end].low == bridges[i].low && bridges[end].high == bridges[i].high; ++end) {
+      boundary = boundary || bridges[end].boundary;
+      inner += bridges[end].boundary ? 0u : 1u;
+    }
+    const bool crowded = inner > (boundary ? std::size_t{0} : std::size_t{1});
+    for (; i < end; ++i) {
+      if (!crowded || bridges[i].boundary) continue;
+      FacePatch& patch = faces[bridges[i].face].patch;
+      // An earlier split may have moved the edge to another triangle; its ends then differ.
+      const HalfEdge h = bridges[i].h;
+      const std::uint32_t a = patch.nodes[patch.from(h)].shared, b = patch.nodes[patch.to(h)].shared;
+      if (std::min(a, b) != bridges[i].low || std::max(a, b) != bridges[i].high) continue;
+      const FaceSurface surface(faces[bridges[i].face].face);
+      patch.nodes.push_back(surface_node(surface, patch.middle_uv(patch.from(h), patch.to(h))));
+      patch.split(h, static_cast<Index>(patch.nodes.size() - 1));
+      ++count;
+    }
+  }
+  return count;
 }
 
-TessellatedShape collect(const TopoDS_Shape& shape, const IMeshTools_Parameters& parameters) {
+std::size_t refine_face(FaceMesh& mesh) {
+  if (mesh.patch.triangles.empty()) return 0;
+  return refine_patch(mesh.patch, FaceSurface(mesh.face), mesh.limits);
+}
+
+FaceResult measure_face(const FaceMesh& mesh) {
+  if (mesh.patch.triangles.empty()) return {};
+  return {measure_patch(mesh.patch, FaceSurface(mesh.face), mesh.limits), largest_gap(mesh.patch),
+          count_folded(mesh.patch)};
+}
+
+std::string describe(const FaceResult& face, const RefineLimits& limits) {
+  std::ostringstream text;
+  if (face.deviation.distance > limits.chord) {
+    text << "deviates by " << face.deviation.distance << " mm";
+    if (face.gap > 0.5 * face.deviation.distance)
+      text << " (its edges lie " << face.gap << " mm off its surface in the CAD file)";
+  }
+  if (face.folded > 0) text << (text.str().empty() ? "" : ", ") << face.folded << " triangles are folded over";
+  return text.str();
+}
+
+/// The part of one shape's work that comes before its faces can be refined independently.
+TessellatedShape prepare(const TopoDS_Shape& shape, const RefineLimits& limits, CadMeshing meshing) {
+  EdgeNet net(shape);
   TessellatedShape result;
-  result.faces = faces_of(shape);
-  const std::vector<std::uint32_t> incomplete = incomplete_faces(result.faces);
-  if (incomplete.empty()) return result;
-  const std::vector<std::uint32_t> remaining = try_scaled(shape, result.faces, incomplete, parameters);
-  for (const std::uint32_t number : incomplete) {
-    FaceTrouble trouble{number, "refused at first", true};
-    if (std::binary_search(remaining.begin(), remaining.end(), number)) {
-      const bool gaps = has_triangles(result.faces[number].triangles);
-      trouble.reason = gaps ? "triangles miss part of the boundary" : why_refused(result.faces[number].cad, parameters);
-      heal_refused(result.faces[number], parameters);
-      trouble.solved = !gaps && has_triangles(result.faces[number].triangles);
-    }
-    result.troubles.push_back(std::move(trouble));
+  std::vector<BaseFace> bases = base_faces(shape, net, limits);
+  for (std::uint32_t i = 0; i < bases.size(); ++i) {
+    if (!bases[i].refused.empty())
+      result.troubles.push_back({i, bases[i].refused, bases[i].tried, bases[i].solved});
+    FaceMesh& mesh = result.faces.emplace_back(std::move(bases[i].mesh));
+    mesh.limits = limits;
+    // What the edges lie off the surface by their CAD tolerance is not left for the triangles.
+    constexpr double k_least = 0.5;
+    mesh.limits.chord = std::max(k_least * limits.chord, limits.chord - largest_gap(mesh.patch));
   }
+  if (meshing == CadMeshing::refined) result.added_nodes = net.refine(result.faces);
+  result.points = net.points();
   return result;
 }
 
@@ -258,16 +197,52 @@ double diagonal_of(const std::vector<TopoDS_Shape>& shapes) {
 
 std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes, const CadReadOptions& options,
                                          const Progress& progress) {
-  TopoDS_Compound all;
-  BRep_Builder builder;
-  builder.MakeCompound(all);
-  for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
-  const IMeshTools_Parameters parameters = mesh_parameters(options);
-  const Handle(OcctProgress) indicator = new OcctProgress(progress, "tessellate", 0.3, 0.9);
-  mesh_all(all, parameters, indicator->Start());
+  std::vector<RefineLimits> limits;
+  for (const TopoDS_Shape& shape : shapes) limits.push_back(limits_of(options, shape));
+  const Handle(OcctProgress) indicator = new OcctProgress(progress, "tessellate", 0.3, 0.5);
+  if (options.relative) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) run_mesher(shapes[i], limits[i], options.meshing, {});
+  } else if (!shapes.empty()) {
+    TopoDS_Compound all;
+    BRep_Builder builder;
+    builder.MakeCompound(all);
+    for (const TopoDS_Shape& shape : shapes) builder.Add(all, shape);
+    run_mesher(all, limits.front(), options.meshing, indicator->Start());
+  }
 
-  std::vector<TessellatedShape> result;
-  for (const TopoDS_Shape& shape : shapes) result.push_back(collect(shape, parameters));
+  std::vector<TessellatedShape> result(shapes.size());
+  parallel_for(shapes.size(), [&](std::size_t i) { result[i] = prepare(shapes[i], limits[i], options.meshing); });
+
+  struct Job {
+    std::size_t shape, face;
+  };
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    for (std::size_t k = 0; k < result[i].faces.size(); ++k) jobs.push_back({i, k});
+  const auto mesh_of = [&](std::size_t job) -> FaceMesh& { return result[jobs[job].shape].faces[jobs[job].face]; };
+  WorkMeter meter(progress, 0.5, 0.9, 2 * jobs.size());
+  std::vector<std::size_t> added(jobs.size());
+  const bool refined = options.meshing == CadMeshing::refined;
+  parallel_for(jobs.size(), [&](std::size_t i) {
+    if (refined) added[i] = refine_face(mesh_of(i));
+    meter.add(1);
+  });
+  parallel_for(shapes.size(), [&](std::size_t i) {
+    if (refined) result[i].added_nodes += part_bridges(result[i].faces);
+  });
+  std::vector<FaceResult> faces(jobs.size());
+  parallel_for(jobs.size(), [&](std::size_t i) {
+    faces[i] = measure_face(mesh_of(i));
+    meter.add(1);
+  });
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    TessellatedShape& shape = result[jobs[i].shape];
+    shape.added_nodes += added[i];
+    shape.max_deviation_mm = std::max(shape.max_deviation_mm, faces[i].deviation.distance);
+    shape.max_angle_deg = std::max(shape.max_angle_deg, faces[i].deviation.angle / k_radians_per_degree);
+    const std::string off = describe(faces[i], limits[jobs[i].shape]);
+    if (!off.empty()) shape.off.push_back({static_cast<std::uint32_t>(jobs[i].face), off});
+  }
   return result;
 }
 

@@ -1,45 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "edge_net.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/io/cad_reader.hpp"
 
 namespace papilla::cad {
 
-/// A CAD face and where its triangles are.
-struct NumberedFace {
-  TopoDS_Face cad;        ///< The face of the file.
-  TopoDS_Face triangles;  ///< The face that carries the triangulation: `cad` itself, or a scaled or healed copy of it.
-  std::uint32_t number = 0;
-  double scale = 1;  ///< Size of `triangles` relative to `cad`, a power of two.
-};
-
 /// A CAD face that the mesher refused at first.
 struct FaceTrouble {
   std::uint32_t number = 0;
   std::string reason;
-  bool solved = false;  ///< A later attempt gave triangles.
+  std::vector<std::string> tried;
+  bool solved = false;  ///< It has triangles up to its whole boundary.
 };
 
-/// The faces of one shape, in the order of their numbers.
+/// A face whose triangles stay further off than asked for.
+struct FaceOff {
+  std::uint32_t number = 0;
+  std::string reason;
+};
+
+/// The faces of one shape, in the order of their numbers, refined.
 struct TessellatedShape {
-  std::vector<NumberedFace> faces;  ///< With or without triangles.
+  std::vector<FaceMesh> faces;  ///< With or without triangles.
+  std::vector<Vec3> points;     ///< What PatchNode::shared numbers.
   std::vector<FaceTrouble> troubles;
+  std::vector<FaceOff> off;
+  double max_deviation_mm = 0, max_angle_deg = 0;
+  std::size_t added_nodes = 0;  ///< By refinement, on edges and inside of faces.
 };
 
 /// Diagonal of the box around all shapes; 0 when they are empty.
 double diagonal_of(const std::vector<TopoDS_Shape>& shapes);
 
-/// Triangulates every face of the shapes in place, edges shared between faces once. A shape with faces that stay
-/// without triangles is triangulated again as a scaled copy: the mesher's absolute tolerances then fall otherwise, and
-/// shared edges stay shared. What still has no triangles is healed and triangulated alone.
+/// Triangulates every face of the shapes, edges shared between faces once, and refines edges and then faces until both
+/// keep chord and angle.
 /// @return one entry per shape.
 std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes, const CadReadOptions& options,
                                          const Progress& progress);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
+#include "meshopt_view.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::gltf {
@@ -35,15 +37,31 @@ double load(const unsigned char* at, int component_type) {
   }
 }
 
-/// glTF 2.0, 3.11: how a normalized integer becomes a real number.
-double normalize(double value, int component_type) {
-  switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return std::max(value / 127, -1.0);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return value / 255;
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return std::max(value / 32767, -1.0);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return value / 65535;
-    default: return value;
+std::size_t size_or(const tinygltf::Value& object, const char* name, std::size_t fallback) {
+  if (!object.Has(name) || !object.Get(name).IsNumber()) return fallback;
+  const double value = object.Get(name).GetNumberAsDouble();
+  return value >= 0 && value < 1e15 ? static_cast<std::size_t>(value) : std::numeric_limits<std::size_t>::max();
+}
+
+/// The description of a compressed view; numbers out of range stay out of every range.
+std::optional<MeshoptView> meshopt_view(const tinygltf::BufferView& view) {
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    const auto found = view.extensions.find(name);
+    if (found == view.extensions.end() || !found->second.IsObject()) continue;
+    const tinygltf::Value& source = found->second;
+    MeshoptView result;
+    const std::size_t buffer = size_or(source, "buffer", std::numeric_limits<std::size_t>::max());
+    result.buffer = buffer <= k_max_elements ? static_cast<int>(buffer) : -1;
+    result.byte_offset = size_or(source, "byteOffset", 0);
+    result.byte_length = size_or(source, "byteLength", 0);
+    result.byte_stride = size_or(source, "byteStride", 0);
+    result.count = size_or(source, "count", 0);
+    if (source.Has("mode") && source.Get("mode").IsString()) result.mode = source.Get("mode").Get<std::string>();
+    if (source.Has("filter") && source.Get("filter").IsString())
+      result.filter = source.Get("filter").Get<std::string>();
+    return result;
   }
+  return std::nullopt;
 }
 
 std::size_t component_size(int component_type) {
@@ -65,6 +83,16 @@ bool is_unsigned(int component_type) {
 }
 
 }  // namespace
+
+double normalize(double value, int component_type) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return std::max(value / 127, -1.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return value / 255;
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return std::max(value / 32767, -1.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return value / 65535;
+    default: return value;
+  }
+}
 
 /// A checked window on a buffer.
 struct AccessorReader::Elements {
@@ -95,27 +123,36 @@ const tinygltf::Accessor& AccessorReader::accessor(int number, const std::string
   return accessors[static_cast<std::size_t>(number)];
 }
 
-std::span<const unsigned char> AccessorReader::view(int number, const std::string& where) const {
+std::span<const unsigned char> AccessorReader::range(int number, std::size_t offset, std::size_t length,
+                                                     const std::string& what, const std::string& where) const {
   const tinygltf::Model& model = document_.model;
-  if (number < 0 || static_cast<std::size_t>(number) >= model.bufferViews.size())
-    fail(where, "bufferView " + std::to_string(number) + " does not exist");
+  if (number < 0 || static_cast<std::size_t>(number) >= model.buffers.size())
+    fail(where, what + " names buffer " + std::to_string(number) + ", which does not exist");
+  const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(number)];
+  if (document_.empty_buffers.contains(number))
+    fail(where, "buffer " + std::to_string(number) + " has no data");
+  if (offset > buffer.data.size() || length > buffer.data.size() - offset)
+    fail(where, what + " (offset " + std::to_string(offset) + ", length " + std::to_string(length) +
+                    ") exceeds its buffer of " + std::to_string(buffer.data.size()) + " bytes");
+  return {buffer.data.data() + offset, length};
+}
+
+std::span<const unsigned char> AccessorReader::view(int number, const std::string& where) {
+  const tinygltf::Model& model = document_.model;
+  const std::string what = "bufferView " + std::to_string(number);
+  if (number < 0 || static_cast<std::size_t>(number) >= model.bufferViews.size()) fail(where, what + " does not exist");
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(number)];
-  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
-    fail(where, "bufferView " + std::to_string(number) + " names buffer " + std::to_string(view.buffer) +
-                    ", which does not exist");
-  const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(view.buffer)];
-  if (buffer.uri.empty() && (!document_.binary || view.buffer != 0))
-    fail(where, "buffer " + std::to_string(view.buffer) + " has no data");
-  if (view.byteOffset > buffer.data.size() || view.byteLength > buffer.data.size() - view.byteOffset)
-    fail(where, "bufferView " + std::to_string(number) + " (offset " + std::to_string(view.byteOffset) + ", length " +
-                    std::to_string(view.byteLength) + ") exceeds its buffer of " + std::to_string(buffer.data.size()) +
-                    " bytes");
-  return {buffer.data.data() + view.byteOffset, view.byteLength};
+  const auto compressed = meshopt_view(view);
+  if (!compressed || (!has_meshopt() && !document_.empty_buffers.contains(view.buffer)))
+    return range(view.buffer, view.byteOffset, view.byteLength, what, where);
+  if (const auto known = decoded_.find(number); known != decoded_.end()) return known->second;
+  const auto bytes = range(compressed->buffer, compressed->byte_offset, compressed->byte_length, what, where);
+  return decoded_[number] = decode_meshopt(bytes, *compressed, document_.file + ": " + what);
 }
 
 AccessorReader::Elements AccessorReader::elements(int view_number, std::size_t offset, std::size_t count,
                                                   int component_type, int components, bool strided,
-                                                  const std::string& where) const {
+                                                  const std::string& where) {
   const std::size_t component = component_size(component_type);
   if (component == 0) fail(where, "componentType " + std::to_string(component_type) + " is not supported");
   const std::size_t size = component * static_cast<std::size_t>(components);
@@ -133,7 +170,7 @@ AccessorReader::Elements AccessorReader::elements(int view_number, std::size_t o
 }
 
 void AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, int components, std::vector<double>& values,
-                                  const std::string& where) const {
+                                  const std::string& where) {
   const auto& sparse = accessor.sparse;
   const std::string place = where + ", sparse";
   if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count)

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "gltf_document.hpp"
 
 namespace papilla::gltf {
+
+/// glTF 2.0, 3.11: how a normalized integer becomes a real number. Floats stay as they are.
+double normalize(double value, int component_type);
 
 /// Reads accessors; every offset, stride and count is checked against the buffers before anything is
 /// allocated. One object serves a whole file and limits the sum of what it hands out.
@@ -29,21 +33,27 @@ class AccessorReader {
   /// @throws InvalidInput when the accessor does not exist.
   const tinygltf::Accessor& accessor(int number, const std::string& where) const;
 
-  /// The bytes of a buffer view.
-  std::span<const unsigned char> view(int number, const std::string& where) const;
+  /// The bytes of a buffer view, decoded when they are compressed with meshopt.
+  std::span<const unsigned char> view(int number, const std::string& where);
+
+  /// Takes elements from what the file may still hand out.
+  /// @throws InvalidInput when there are not so many left.
+  void spend(std::size_t elements, const std::string& where);
 
  private:
   struct Elements;
   [[noreturn]] void fail(const std::string& where, const std::string& reason) const;
-  void spend(std::size_t elements, const std::string& where);
+  std::span<const unsigned char> range(int buffer, std::size_t offset, std::size_t length, const std::string& what,
+                                       const std::string& where) const;
   Elements elements(int view, std::size_t offset, std::size_t count, int component_type, int components, bool strided,
-                    const std::string& where) const;
+                    const std::string& where);
   void apply_sparse(const tinygltf::Accessor& accessor, int components, std::vector<double>& values,
-                    const std::string& where) const;
+                    const std::string& where);
   std::vector<double> raw_numbers(const tinygltf::Accessor& accessor, int components, const std::string& where);
 
   const Document& document_;
   std::size_t budget_ = 0;
+  std::map<int, std::vector<unsigned char>> decoded_;  ///< By the number of the view.
 };
 
 }  // namespace papilla::gltf

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "draco_mesh.hpp"
+#include "meshopt_view.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/read_file.hpp"
 
@@ -22,8 +24,18 @@ constexpr std::string_view k_magic = "glTF";
 constexpr std::uint32_t k_json_chunk = 0x4e4f534a;
 constexpr int k_max_json_depth = 200;  ///< Parsing recurses: deeper text would exhaust the stack.
 
+using Json = nlohmann::ordered_json;
+
 /// The first line of a library's message, so that ours stays one line.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// A name from the file as messages quote it: its beginning, printable ASCII.
+std::string printable(std::string_view name) {
+  std::string text(name.substr(0, 80));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
 
 std::uint32_t word(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -68,14 +80,17 @@ void check_depth(std::string_view json, const std::string& file) {
 
 /// Extensions that a file may require: they are read, or only change how a material looks.
 bool is_supported(const std::string& extension) {
-  static constexpr std::array<std::string_view, 4> k_supported = {"KHR_mesh_quantization", "KHR_texture_transform",
-                                                                  "KHR_lights_punctual", "KHR_xmp_json_ld"};
+  static constexpr std::array<std::string_view, 5> k_supported = {"KHR_mesh_quantization", "KHR_texture_transform",
+                                                                  "KHR_lights_punctual", "KHR_xmp_json_ld",
+                                                                  "EXT_mesh_gpu_instancing"};
+  if (extension == "KHR_draco_mesh_compression") return has_draco();
+  if (extension == "EXT_meshopt_compression" || extension == "KHR_meshopt_compression") return has_meshopt();
   return extension.starts_with("KHR_materials_") ||
          std::find(k_supported.begin(), k_supported.end(), extension) != k_supported.end();
 }
 
 /// The number of primitives of each mesh; tinygltf leaves out those it can't parse.
-std::vector<std::size_t> count_primitives(const nlohmann::json& json) {
+std::vector<std::size_t> count_primitives(const Json& json) {
   std::vector<std::size_t> counts;
   if (const auto meshes = json.find("meshes"); meshes != json.end() && meshes->is_array())
     for (const auto& mesh : *meshes)
@@ -83,27 +98,94 @@ std::vector<std::size_t> count_primitives(const nlohmann::json& json) {
   return counts;
 }
 
-/// Checks what must be known before tinygltf may see the text. Returns the number of primitives of each mesh.
-std::vector<std::size_t> check_header(std::string_view text, const std::string& file) {
+/// Checks what must be known before tinygltf may see the text.
+Json parse_header(std::string_view text, const std::string& file) {
   check_depth(text, file);
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) throw InvalidInput(file + ": is no glTF: the JSON is damaged or not an object");
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw InvalidInput(file + ": is no glTF: the JSON is damaged at its byte " + std::to_string(error.byte));
+  } catch (const Json::out_of_range&) {
+    throw InvalidInput(file + ": the JSON holds a number beyond the range of 64-bit floats");
+  }
+  if (!json.is_object()) throw InvalidInput(file + ": is no glTF: the JSON is not an object");
   const auto asset = json.find("asset");
   if (asset == json.end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
     throw InvalidInput(file + ": is no glTF: asset.version is missing");
   const std::string version = (*asset)["version"].get<std::string>();
   if (!version.starts_with("2."))
-    throw InvalidInput(file + ": glTF version '" + version + "' is not supported (2.x is)");
+    throw InvalidInput(file + ": glTF version '" + printable(version) + "' is not supported (2.x is)");
   const auto required = json.find("extensionsRequired");
-  if (required == json.end()) return count_primitives(json);
+  if (required == json.end()) return json;
   if (!required->is_array()) throw InvalidInput(file + ": extensionsRequired is not an array");
   std::string missing;
   for (const auto& extension : *required) {
     const std::string name = extension.is_string() ? extension.get<std::string>() : extension.dump();
-    if (!is_supported(name)) missing += (missing.empty() ? "" : ", ") + name;
+    if (!is_supported(name)) missing += (missing.empty() ? "" : ", ") + printable(name);
   }
   if (!missing.empty()) throw InvalidInput(file + ": needs " + missing + ", which is not supported");
-  return count_primitives(json);
+  return json;
+}
+
+/// glTF lets buffers have no data, for extensions that bring their own; tinygltf refuses them. Gives them a byte.
+/// @returns the numbers of those buffers.
+std::set<int> fill_empty_buffers(Json& json, bool binary) {
+  std::set<int> filled;
+  const auto buffers = json.find("buffers");
+  if (buffers == json.end() || !buffers->is_array()) return filled;
+  for (std::size_t i = binary ? 1 : 0; i < buffers->size(); ++i) {
+    Json& buffer = (*buffers)[i];
+    if (!buffer.is_object() || buffer.contains("uri")) continue;
+    buffer = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+    filled.insert(static_cast<int>(i));
+  }
+  return filled;
+}
+
+/// Where a primitive's indices are.
+struct Indices {
+  std::size_t mesh, primitive;
+  int accessor;
+};
+
+/// tinygltf refuses indices whose accessor has no bufferView, which compressed and sparse ones need not have. Takes
+/// them away, to be put back into the model.
+std::vector<Indices> detach_indices(Json& json) {
+  std::vector<Indices> detached;
+  const auto meshes = json.find("meshes"), accessors = json.find("accessors");
+  if (meshes == json.end() || !meshes->is_array() || accessors == json.end() || !accessors->is_array()) return detached;
+  for (std::size_t m = 0; m < meshes->size(); ++m) {
+    Json& mesh = (*meshes)[m];
+    if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
+    for (std::size_t p = 0; p < mesh["primitives"].size(); ++p) {
+      Json& primitive = mesh["primitives"][p];
+      if (!primitive.is_object() || !primitive.contains("indices") || !primitive["indices"].is_number_unsigned())
+        continue;
+      const auto number = primitive["indices"].get<std::size_t>();
+      if (number >= accessors->size() || !(*accessors)[number].is_object() ||
+          (*accessors)[number].contains("bufferView"))
+        continue;
+      primitive.erase("indices");
+      detached.push_back({m, p, static_cast<int>(number)});
+    }
+  }
+  return detached;
+}
+
+/// The file with another JSON text.
+std::string with_json(std::string_view bytes, bool binary, std::string json) {
+  if (!binary) return json;
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string_view rest = bytes.substr(std::min<std::size_t>(20 + std::size_t{word(bytes, 12)}, bytes.size()));
+  std::string result(bytes.substr(0, 20));
+  const auto put = [&](std::size_t at, std::size_t value) {
+    const auto number = static_cast<std::uint32_t>(value);
+    std::memcpy(result.data() + at, &number, sizeof number);
+  };
+  put(8, 20 + json.size() + rest.size());
+  put(12, json.size());
+  return result + json + std::string(rest);
 }
 
 /// Keeps the encoded bytes. Those of a buffer view are left where they are: its range is not checked yet.
@@ -114,7 +196,10 @@ bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, 
   return true;
 }
 
-bool file_exists(const std::string& path, void*) { return std::filesystem::is_regular_file(path); }
+bool file_exists(const std::string& path, void*) {
+  std::error_code error;  // A name that no file can have is a missing file.
+  return std::filesystem::is_regular_file(path, error);
+}
 
 std::string same_path(const std::string& path, void*) { return path; }
 
@@ -154,13 +239,17 @@ void add_warnings(std::string_view text, std::vector<std::string>& warnings) {
 Document load_document(const std::filesystem::path& path) {
   Document document;
   document.file = path.string();
-  const std::string bytes = read_file(path);
+  std::string bytes = read_file(path);
   if (bytes.empty()) throw InvalidInput(document.file + ": is empty");
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(document.file + ": is larger than glTF's limit of 4 GiB");
   document.binary = std::string_view(bytes).starts_with(k_magic);
-  const auto primitives =
-      check_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file);
+  Json json = parse_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file);
+  const auto primitives = count_primitives(json);
+  document.empty_buffers = fill_empty_buffers(json, document.binary);
+  const std::vector<Indices> detached = detach_indices(json);
+  if (!document.empty_buffers.empty() || !detached.empty())
+    bytes = with_json(bytes, document.binary, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 
   tinygltf::TinyGLTF loader = make_loader();
   std::string error, warning;
@@ -178,6 +267,8 @@ Document load_document(const std::filesystem::path& path) {
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     if (document.model.meshes[m].primitives.size() != primitives.at(m))
       throw InvalidInput(document.file + ": mesh " + std::to_string(m) + ": " + first_line(error));
+  for (const Indices& indices : detached)
+    document.model.meshes[indices.mesh].primitives[indices.primitive].indices = indices.accessor;
   add_warnings(error, document.warnings);
   add_warnings(warning, document.warnings);
   return document;

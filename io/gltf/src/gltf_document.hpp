@@ -4,6 +4,7 @@
 #include <tiny_gltf.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct Document {
   std::string file;  ///< As messages name it.
   bool binary = false;
   tinygltf::Model model;
+  std::set<int> empty_buffers;  ///< Those without data, as extensions allow them.
   std::vector<std::string> warnings;
 };
 

@@ -40,7 +40,7 @@ std::string percent_decoded(const std::string& uri) {
   return path;
 }
 
-EncodedImage read_image(const tinygltf::Image& source, std::size_t number, const AccessorReader& reader, Scene& scene) {
+EncodedImage read_image(const tinygltf::Image& source, std::size_t number, AccessorReader& reader, Scene& scene) {
   EncodedImage image;
   image.name = source.name;
   image.uri = percent_decoded(source.uri);
@@ -162,7 +162,7 @@ Texture read_texture(const tinygltf::Texture& source, std::size_t number, const 
 
 }  // namespace
 
-void read_materials(const Document& document, const AccessorReader& reader, Scene& scene) {
+void read_materials(const Document& document, AccessorReader& reader, Scene& scene) {
   const tinygltf::Model& model = document.model;
   for (std::size_t i = 0; i < model.images.size(); ++i)
     scene.images.push_back(read_image(model.images[i], i, reader, scene));

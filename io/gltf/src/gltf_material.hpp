@@ -7,6 +7,6 @@
 namespace papilla::gltf {
 
 /// Copies images, textures and materials of a document to a scene, in the same order.
-void read_materials(const Document& document, const AccessorReader& reader, Scene& scene);
+void read_materials(const Document& document, AccessorReader& reader, Scene& scene);
 
 }  // namespace papilla::gltf

@@ -2,11 +2,13 @@
 #include "gltf_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
 
+#include "draco_mesh.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/vertex_welder.hpp"
@@ -14,6 +16,7 @@
 namespace papilla::gltf {
 namespace {
 
+constexpr const char* k_draco = "KHR_draco_mesh_compression";
 constexpr Index k_unused = std::numeric_limits<Index>::max();
 
 /// What a primitive's vertices carry; an attribute that is missing is empty.
@@ -85,8 +88,17 @@ class PrimitiveReader {
       scene_.losses.push_back(where + " has no positions and draws nothing");
       return;
     }
-    const Vertices vertices = read_vertices(primitive, *position, where);
-    const std::vector<Triangle> triangles = read_triangles(primitive, vertices.count, where);
+    const auto compressed = primitive.extensions.find(k_draco);
+    const bool use_compressed =
+        compressed != primitive.extensions.end() && (has_draco() || reader_.accessor(*position, where).bufferView < 0);
+    Vertices vertices;
+    std::vector<Triangle> triangles;
+    if (use_compressed) {
+      read_compressed(primitive, compressed->second, where, vertices, triangles);
+    } else {
+      vertices = read_vertices(primitive, *position, where);
+      triangles = read_triangles(primitive, vertices.count, where);
+    }
     append(vertices, triangles, material_slot(primitive.material, where, builder.part), builder);
   }
 
@@ -114,6 +126,77 @@ class PrimitiveReader {
       vertices.colors = optional_numbers(primitive, "COLOR_0", vertices.color_components, vertices.count, where);
     }
     return vertices;
+  }
+
+  /// One attribute of a Draco stream; empty when the primitive or the stream lacks it.
+  struct CompressedAttribute {
+    const char* name;
+    int components;
+    std::vector<double>* numbers;
+    int id = -1, accessor = -1;
+  };
+
+  /// KHR_draco_mesh_compression: the stream's attributes stand in for the accessors', triangles for any mode.
+  void read_compressed(const tinygltf::Primitive& primitive, const tinygltf::Value& extension, const std::string& where,
+                       Vertices& vertices, std::vector<Triangle>& triangles) {
+    std::vector<CompressedAttribute> attributes = {{"POSITION", 3, &vertices.positions},
+                                                   {"NORMAL", 3, &vertices.normals},
+                                                   {"TEXCOORD_0", 2, &vertices.uv},
+                                                   {"TEXCOORD_1", 2, &vertices.uv1},
+                                                   {"COLOR_0", 4, &vertices.colors}};
+    if (const auto color = attribute(primitive, "COLOR_0")) {
+      vertices.color_components = reader_.accessor(*color, where).type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+      attributes.back().components = vertices.color_components;
+    }
+    DracoRequest request = compressed_sizes(primitive, where);
+    const tinygltf::Value& ids = extension.Get("attributes");
+    for (CompressedAttribute& wanted : attributes) {
+      const auto accessor = attribute(primitive, wanted.name);
+      if (!accessor || !ids.Has(wanted.name) || !ids.Get(wanted.name).IsNumber()) continue;
+      wanted.accessor = *accessor;
+      wanted.id = ids.Get(wanted.name).GetNumberAsInt();
+      request.components[wanted.id] = std::max(request.components[wanted.id], wanted.components);
+      reader_.spend(request.max_points, where);
+    }
+    const int view = extension.Get("bufferView").IsNumber() ? extension.Get("bufferView").GetNumberAsInt() : -1;
+    const std::string place = document_.file + ": " + where;
+    const DracoMesh mesh = decode_draco(reader_.view(view, where + ", Draco"), request, place);
+    vertices.count = mesh.points;
+    for (const CompressedAttribute& wanted : attributes)
+      if (wanted.id >= 0) take_numbers(mesh, request, wanted, where);
+    if (vertices.positions.empty() && mesh.points > 0)
+      throw InvalidInput(place + ": the Draco stream has no positions");
+    for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3)
+      triangles.push_back({mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]});
+  }
+
+  /// What the accessors promise, taken from what the file may hand out.
+  DracoRequest compressed_sizes(const tinygltf::Primitive& primitive, const std::string& where) {
+    DracoRequest request;
+    request.max_points = reader_.accessor(*attribute(primitive, "POSITION"), where).count;
+    const std::size_t corners =
+        primitive.indices >= 0 ? reader_.accessor(primitive.indices, where).count : request.max_points;
+    request.max_triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
+    reader_.spend(corners, where);
+    return request;
+  }
+
+  void take_numbers(const DracoMesh& mesh, const DracoRequest& request, const CompressedAttribute& wanted,
+                    const std::string& where) {
+    const DracoMesh::Attribute& source = mesh.attributes.at(wanted.id);
+    const tinygltf::Accessor& accessor = reader_.accessor(wanted.accessor, where);
+    const auto width = static_cast<std::size_t>(wanted.components);
+    const auto stride = static_cast<std::size_t>(request.components.at(wanted.id));
+    wanted.numbers->resize(mesh.points * width);
+    for (std::size_t i = 0; i < mesh.points; ++i)
+      for (std::size_t k = 0; k < width; ++k) {
+        double value = source.numbers[i * stride + k];
+        if (source.is_integer && accessor.normalized) value = normalize(value, accessor.componentType);
+        if (!std::isfinite(value))
+          throw InvalidInput(document_.file + ": " + where + ", " + wanted.name + ": element " + std::to_string(i) +
+                             " of the Draco stream is not finite");
+        (*wanted.numbers)[i * width + k] = value;
+      }
   }
 
   std::vector<Triangle> read_triangles(const tinygltf::Primitive& primitive, std::size_t vertex_count,
@@ -164,8 +247,9 @@ class PrimitiveReader {
                      PartBuilder& builder) {
     TriangleMesh& mesh = builder.part.mesh;
     builder.has_normals |= !vertices.normals.empty();
-    const auto carries = static_cast<std::uint8_t>((vertices.uv.empty() ? 0 : k_uv) | (vertices.uv1.empty() ? 0 : k_uv1) |
-                                                   (vertices.colors.empty() ? 0 : k_colors));
+    const auto carries =
+        static_cast<std::uint8_t>((vertices.uv.empty() ? 0 : k_uv) | (vertices.uv1.empty() ? 0 : k_uv1) |
+                                  (vertices.colors.empty() ? 0 : k_colors));
     builder.carries.insert(builder.carries.end(), triangles.size(), carries);
     std::vector<Index> welded(vertices.count, k_unused), compact(vertices.count, k_unused);
     for (const Triangle& triangle : triangles) {
@@ -241,7 +325,8 @@ Part finish(PartBuilder builder) {
 void note_losses(const tinygltf::Primitive& primitive, const std::string& where, std::set<std::string>& losses) {
   if (!primitive.targets.empty()) losses.insert("morph targets of " + where);
   if (!primitive.extras_json_string.empty()) losses.insert("extras of " + where);
-  for (const auto& [name, value] : primitive.extensions) losses.insert(name + " of " + where);
+  for (const auto& [name, value] : primitive.extensions)
+    if (name != k_draco) losses.insert(name + " of " + where);
   for (const auto& [name, accessor] : primitive.attributes) {
     if (name == "JOINTS_0") losses.insert("skin weights of " + where);
     if (name.starts_with("_") || name == "TEXCOORD_2" || name == "COLOR_1") losses.insert(name + " of " + where);

@@ -6,8 +6,11 @@
 #include <set>
 #include <utility>
 
+#include "gltf_instancing.hpp"
+#include "gltf_levels.hpp"
 #include "gltf_material.hpp"
 #include "gltf_mesh.hpp"
+#include "gltf_transform.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 
@@ -25,30 +28,6 @@ std::vector<double> numbers_or(const std::vector<double>& given, std::vector<dou
   return given;
 }
 
-/// T · R · S, translation still in metres.
-Transform from_trs(const std::vector<double>& t, const std::vector<double>& q, const std::vector<double>& s,
-                   const std::string& where) {
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(length > 0)) throw InvalidInput(where + ": rotation is the zero quaternion");
-  const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-  return {s[0] * (1 - 2 * (y * y + z * z)),
-          s[1] * 2 * (x * y - z * w),
-          s[2] * 2 * (x * z + y * w),
-          t[0],
-          s[0] * 2 * (x * y + z * w),
-          s[1] * (1 - 2 * (x * x + z * z)),
-          s[2] * 2 * (y * z - x * w),
-          t[1],
-          s[0] * 2 * (x * z - y * w),
-          s[1] * 2 * (y * z + x * w),
-          s[2] * (1 - 2 * (x * x + y * y)),
-          t[2],
-          0,
-          0,
-          0,
-          1};
-}
-
 /// glTF stores columns.
 Transform from_matrix(const std::vector<double>& m, const std::string& where) {
   if (m.size() != 16) throw InvalidInput(where + ": matrix has " + std::to_string(m.size()) + " numbers, not 16");
@@ -59,11 +38,16 @@ Transform from_matrix(const std::vector<double>& m, const std::string& where) {
   return transform;
 }
 
+/// Translation still in metres.
+Transform from_trs(const tinygltf::Node& node, const std::string& where) {
+  const auto t = numbers_or(node.translation, {0, 0, 0}, "translation", where);
+  const auto q = numbers_or(node.rotation, {0, 0, 0, 1}, "rotation", where);
+  const auto s = numbers_or(node.scale, {1, 1, 1}, "scale", where);
+  return gltf::transform_from_trs({t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}, {s[0], s[1], s[2]}, where);
+}
+
 Transform local_transform(const tinygltf::Node& node, const std::string& where) {
-  Transform local = node.matrix.empty() ? from_trs(numbers_or(node.translation, {0, 0, 0}, "translation", where),
-                                                   numbers_or(node.rotation, {0, 0, 0, 1}, "rotation", where),
-                                                   numbers_or(node.scale, {1, 1, 1}, "scale", where), where)
-                                        : from_matrix(node.matrix, where);
+  Transform local = node.matrix.empty() ? from_trs(node, where) : from_matrix(node.matrix, where);
   for (const std::size_t i : {3U, 7U, 11U}) local[i] *= k_mm_per_metre;
   if (!std::all_of(local.begin(), local.end(), [](double x) { return std::isfinite(x); }))
     throw InvalidInput(where + ": the transform is not finite");
@@ -152,7 +136,8 @@ void note_losses(const Document& document, Scene& scene) {
   if (!model.asset.copyright.empty()) scene.losses.push_back("copyright notice: " + model.asset.copyright);
   std::set<std::string> extensions;
   for (const tinygltf::Node& node : model.nodes)
-    for (const auto& [name, value] : node.extensions) extensions.insert(name + " of nodes");
+    for (const auto& [name, value] : node.extensions)
+      if (name != "EXT_mesh_gpu_instancing" && name != "MSFT_lod") extensions.insert(name + " of nodes");
   for (const tinygltf::Mesh& mesh : model.meshes)
     for (const auto& [name, value] : mesh.extensions) extensions.insert(name + " of meshes");
   for (const auto& [name, value] : model.extensions) extensions.insert(name + " of the file");
@@ -174,6 +159,8 @@ Scene read_gltf(const std::filesystem::path& path) {
   gltf::read_parts(document, reader, scene);
   read_nodes(document, scene);
   read_roots(document, scene);
+  gltf::expand_instances(document, reader, scene);  // appends nodes: those of the file keep their numbers
+  gltf::keep_finest_levels(document, scene);
   note_losses(document, scene);
   try {
     assign_part_ids(scene);

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/cad/cad_fixtures.hpp"
 
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeVertex.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
-#include <BRepLib.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
-#include <Geom2d_Line.hxx>
-#include <Geom_Circle.hxx>
-#include <Geom_ConicalSurface.hxx>
-#include <Geom_Line.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -23,16 +14,22 @@
 #include <TDataStd_Name.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Vertex.hxx>
-#include <TopoDS_Wire.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <XCAFDimTolObjects_DimensionObject.hxx>
+#include <XCAFDimTolObjects_GeomToleranceObject.hxx>
+#include <XCAFDoc_Area.hxx>
 #include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DimTolTool.hxx>
+#include <XCAFDoc_Dimension.hxx>
+#include <XCAFDoc_GeomTolerance.hxx>
+#include <XCAFDoc_MaterialTool.hxx>
+#include <XCAFDoc_Volume.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -90,11 +87,54 @@ void CadFile::layer(const TDF_Label& label, const std::string& name) {
   XCAFDoc_DocumentTool::LayerTool(document_->Main())->SetLayer(label, TCollection_ExtendedString(name.c_str(), true));
 }
 
+void CadFile::material(const TDF_Label& label, const std::string& name, double density_g_per_cm3) {
+  const auto text = [](const char* t) { return Handle(TCollection_HAsciiString)(new TCollection_HAsciiString(t)); };
+  XCAFDoc_DocumentTool::MaterialTool(document_->Main())
+      ->SetMaterial(label, text(name.c_str()), text("of a test"), density_g_per_cm3, text("g/cm3"),
+                    text("POSITIVE_RATIO_MEASURE"));
+}
+
+void CadFile::diameter(const TDF_Label& part, const TopoDS_Shape& face, double value, double upper, double lower) {
+  const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
+  const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
+  const TDF_Label label = tool->AddDimension();
+  Handle(XCAFDoc_Dimension) attribute;
+  label.FindAttribute(XCAFDoc_Dimension::GetID(), attribute);
+  const Handle(XCAFDimTolObjects_DimensionObject) object = attribute->GetObject();
+  object->SetType(XCAFDimTolObjects_DimensionType_Size_Diameter);
+  object->SetValue(value);
+  object->SetUpperTolValue(upper);
+  object->SetLowerTolValue(lower);
+  attribute->SetObject(object);
+  tool->SetDimension(on, label);
+}
+
+void CadFile::flatness(const TDF_Label& part, const TopoDS_Shape& face, double value) {
+  const Handle(XCAFDoc_DimTolTool) tool = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
+  const TDF_Label on = XCAFDoc_DocumentTool::ShapeTool(document_->Main())->AddSubShape(part, face);
+  const TDF_Label label = tool->AddGeomTolerance();
+  Handle(XCAFDoc_GeomTolerance) attribute;
+  label.FindAttribute(XCAFDoc_GeomTolerance::GetID(), attribute);
+  const Handle(XCAFDimTolObjects_GeomToleranceObject) object = attribute->GetObject();
+  object->SetType(XCAFDimTolObjects_GeomToleranceType_Flatness);
+  object->SetValue(value);
+  attribute->SetObject(object);
+  tool->SetGeomTolerance(on, label);
+}
+
+void CadFile::validation(const TDF_Label& part, double area, double volume) {
+  XCAFDoc_Area::Set(part, area);
+  XCAFDoc_Volume::Set(part, volume);
+}
+
 void CadFile::write_step(const std::filesystem::path& path, const std::string& schema, const std::string& unit) {
   XCAFDoc_DocumentTool::ShapeTool(document_->Main())->UpdateAssemblies();
   Interface_Static::SetCVal("write.step.schema", schema.c_str());
   Interface_Static::SetCVal("write.step.unit", unit.c_str());
   STEPCAFControl_Writer writer;
+  writer.SetDimTolMode(true);
+  writer.SetPropsMode(true);
+  writer.SetMaterialMode(true);
   require(writer.Transfer(document_, STEPControl_AsIs), path);
   require(writer.Write(path.c_str()) == IFSelect_RetDone, path);
 }
@@ -125,6 +165,11 @@ TopoDS_Face face_of(const TopoDS_Shape& shape, int number) {
   return TopoDS::Face(faces.Current());
 }
 
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 double volume(const TriangleMesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -142,39 +187,6 @@ bool is_closed(const TriangleMesh& mesh) {
   std::sort(edges.begin(), edges.end());
   std::sort(opposite.begin(), opposite.end());
   return !edges.empty() && edges == opposite && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
-}
-
-TopoDS_Face countersink() {
-  constexpr double k_pi = std::numbers::pi, k_radius = 1.75, k_semi = k_pi / 4, k_v = 0.424264069;
-  const Handle(Geom_ConicalSurface) cone = new Geom_ConicalSurface(gp_Ax3(), k_semi, k_radius);
-  const gp_Pnt low = cone->Value(k_pi, -k_v), high = cone->Value(k_pi, k_v);
-  const auto circle = [&](double v, const gp_Dir& axis) {
-    const gp_Pnt on_axis(0, 0, cone->Value(0, v).Z());
-    return Handle(Geom_Circle)(new Geom_Circle(gp_Ax2(on_axis, axis, gp::DX()), k_radius + v * std::sin(k_semi)));
-  };
-  const TopoDS_Vertex at_low = BRepBuilderAPI_MakeVertex(low).Vertex(),
-                      at_high = BRepBuilderAPI_MakeVertex(high).Vertex();
-  const TopoDS_Edge bottom = BRepBuilderAPI_MakeEdge(circle(-k_v, -gp::DZ()), at_low, at_low, k_pi, 3 * k_pi).Edge();
-  const TopoDS_Edge top = BRepBuilderAPI_MakeEdge(circle(k_v, gp::DZ()), at_high, at_high, k_pi, 3 * k_pi).Edge();
-  const Handle(Geom_Line) line = new Geom_Line(low, gp_Dir(gp_Vec(low, high)));
-  const TopoDS_Edge seam = BRepBuilderAPI_MakeEdge(line, at_low, at_high, 0, low.Distance(high)).Edge();
-
-  TopoDS_Face face;
-  BRep_Builder builder;
-  builder.MakeFace(face, cone, 1e-7);
-  const auto in_uv = [](double u, double v, double du, double dv) {
-    return Handle(Geom2d_Line)(new Geom2d_Line(gp_Pnt2d(u, v), gp_Dir2d(du, dv)));
-  };
-  builder.UpdateEdge(seam, in_uv(3 * k_pi, -k_v, 0, 1), in_uv(k_pi, -k_v, 0, 1), face, 1e-7);
-  builder.UpdateEdge(bottom, in_uv(4 * k_pi, -k_v, -1, 0), face, 1e-7);
-  builder.UpdateEdge(top, in_uv(0, k_v, 1, 0), face, 1e-7);
-  TopoDS_Wire wire;
-  builder.MakeWire(wire);
-  for (const TopoDS_Shape& edge : {TopoDS_Shape(seam), TopoDS_Shape(top.Reversed()), TopoDS_Shape(seam.Reversed()),
-                                   TopoDS_Shape(bottom.Reversed())})
-    builder.Add(wire, edge);
-  builder.Add(face, wire);
-  return face;
 }
 
 }  // namespace papilla::test

@@ -23,6 +23,12 @@ class CadFile {
   void colour(const TDF_Label& label, unsigned srgb, float alpha = 1);
   void colour_face(const TDF_Label& part, const TopoDS_Shape& face, unsigned srgb);
   void layer(const TDF_Label& label, const std::string& name);
+  void material(const TDF_Label& label, const std::string& name, double density_g_per_cm3);
+  /// A diameter with tolerances on a face of the part.
+  void diameter(const TDF_Label& part, const TopoDS_Shape& face, double value, double upper, double lower);
+  /// A flatness tolerance on a face of the part.
+  void flatness(const TDF_Label& part, const TopoDS_Shape& face, double value);
+  void validation(const TDF_Label& part, double area, double volume);
   void write_step(const std::filesystem::path& path, const std::string& schema = "AP214IS",
                   const std::string& unit = "MM");
 
@@ -36,13 +42,12 @@ void write_brep(const TopoDS_Shape& shape, const std::filesystem::path& path);
 
 TopoDS_Face face_of(const TopoDS_Shape& shape, int number);
 
+/// The whole file as text, and back.
+std::string read_text(const std::filesystem::path& path);
+
 /// Enclosed volume by the divergence theorem; positive when wound outward.
 double volume(const TriangleMesh& mesh);
 /// Every edge is used once in each direction.
 bool is_closed(const TriangleMesh& mesh);
-
-/// A cone between two circles that go around its axis in opposite senses, as some systems export countersinks.
-/// The mesher refuses it.
-TopoDS_Face countersink();
 
 }  // namespace papilla::test

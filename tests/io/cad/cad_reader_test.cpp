@@ -141,11 +141,31 @@ TEST_F(CadReader, IgesSolid) {
 
 TEST_F(CadReader, BrepCarriesNoUnit) {
   CadReadOptions centimetres;
-  centimetres.brep_mm_per_unit = 10;
+  centimetres.millimetres_per_unit = 10;
   const Scene scene = read_as_brep(box(), centimetres);
   EXPECT_EQ(scene.format, "BREP");
   EXPECT_EQ(scene.millimetres_per_unit, 10);
   EXPECT_NEAR(volume(scene.parts.at(0).mesh), 6e6, 1e-6);
+}
+
+TEST_F(CadReader, GivenUnitReplacesTheFilesAndKeepsTheTolerance) {
+  CadFile file;
+  const TDF_Label part = file.add("torus", BRepPrimAPI_MakeTorus(20, 5).Shape());
+  const TDF_Label assembly = file.add_assembly("whole");
+  gp_Trsf moved;
+  moved.SetTranslation(gp_Vec(25.4, 0, 0));
+  file.place(assembly, part, moved, "ring");
+  file.write_step(folder_ / "torus.step", "AP214IS", "INCH");
+  CadReadOptions how = options(0.1);
+  how.millimetres_per_unit = 10;
+  const Scene scene = read_cad(folder_ / "torus.step", how, &report_);
+  EXPECT_EQ(scene.millimetres_per_unit, 10);
+  double widest = 0;
+  for (const Vec3& p : scene.parts.at(0).mesh.positions) widest = std::max(widest, p.x);
+  EXPECT_NEAR(widest, 25 / 25.4 * 10, 1e-9);
+  EXPECT_NEAR(instances(scene).at(0).world[3], 10, 1e-9);
+  EXPECT_LE(report_.max_deviation_mm, 0.1);
+  EXPECT_GT(report_.max_deviation_mm, 0.02);
 }
 
 TEST_F(CadReader, InchesBecomeMillimetres) {
@@ -220,25 +240,6 @@ TEST_F(CadReader, RepeatedShapesInABrepAreInstances) {
   EXPECT_EQ(scene.nodes.at(scene.roots.at(0)).children.size(), 2u);
 }
 
-TEST_F(CadReader, ShapesThatTouchStayApart) {
-  // One product of two boxes with a common face, each with its own eight corners.
-  TopoDS_Compound two;
-  BRep_Builder builder;
-  builder.MakeCompound(two);
-  builder.Add(two, box());
-  builder.Add(two, BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 10, 20, 30).Shape());
-  CadFile file;
-  file.add("pair", two);
-  file.write_step(folder_ / "pair.step");
-  const Scene scene = read_cad(folder_ / "pair.step");
-  std::size_t vertices = 0;
-  for (const Part& part : scene.parts) {
-    vertices += part.mesh.positions.size();
-    EXPECT_TRUE(is_closed(part.mesh));
-  }
-  EXPECT_EQ(vertices, 16u);
-}
-
 bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
   return a.positions == b.positions && a.triangles == b.triangles && a.face == b.face && a.material == b.material &&
          a.normals.values == b.normals.values && a.normals.indices == b.normals.indices &&
@@ -260,34 +261,30 @@ TEST_F(CadReader, SameResultWithOneThreadAndMany) {
   }
 }
 
-struct RealFile {
-  const char* name;
-  std::size_t triangles;  ///< At 0.5 mm and 0.5 rad, collapsed ones taken off.
-  std::size_t solids;
-};
+/// Every real file: all faces, chord and angle kept, every solid closed.
+class RealCadFile : public ::testing::TestWithParam<const char*> {};
 
-class RealCadFile : public ::testing::TestWithParam<RealFile> {};
-
-TEST_P(RealCadFile, IsClosedAndComplete) {
+TEST_P(RealCadFile, IsClosedCompleteAndExact) {
   const char* shared = std::getenv("PAPILLA_SHARED_DATA");
   if (!shared) GTEST_SKIP() << "PAPILLA_SHARED_DATA is not set";
   CadReport report;
-  const auto path = std::filesystem::path(shared) / "step" / GetParam().name;
-  const Scene scene = read_cad(path, options(0.5, 0.5 * k_degrees_per_radian), &report);
-  EXPECT_EQ(report.triangles, GetParam().triangles);
-  EXPECT_EQ(report.solids, GetParam().solids);
+  constexpr double k_chord = 0.1;
+  const Scene scene =
+      read_cad(std::filesystem::path(shared) / "step" / GetParam(), options(k_chord, 20), &report);
   EXPECT_TRUE(report.failed_faces.empty());
-  for (const Part& part : scene.parts) EXPECT_TRUE(is_closed(part.mesh)) << part.name;
+  EXPECT_TRUE(report.off_faces.empty());
+  EXPECT_LE(report.max_deviation_mm, k_chord);
+  EXPECT_LE(report.max_angle_deg, 20 * (1 + 1e-9));
+  for (const Part& part : scene.parts) EXPECT_TRUE(is_closed(part.mesh)) << part.id;
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, RealCadFile,
-                         ::testing::Values(RealFile{"MINI-knob.stp", 914, 1}, RealFile{"featuretype.STEP", 2468, 1},
-                                           RealFile{"voron_Bowden_Module.step", 27016, 19},
-                                           RealFile{"nist_mbe_pmi_1.stp", 2732, 1},
-                                           RealFile{"occt_MODERN_Chair_1.brep", 2308, 4},
-                                           RealFile{"occt_MODERN_Chair_1_ap242.step", 2308, 4}),
+                         ::testing::Values("MINI-knob.stp", "featuretype.STEP", "voron_Bowden_Module.step",
+                                           "nist_mbe_pmi_1.stp", "i3-fan-shroud.stp", "linkrods.step",
+                                           "kicad_USB_C_Receptacle_GCT_USB4105-xx-A_16P_TopMnt_Horizontal.step",
+                                           "occt_MODERN_Chair_1.brep", "occt_MODERN_Chair_1_ap242.step"),
                          [](const auto& file) {
-                           std::string name = file.param.name;
+                           std::string name = file.param;
                            std::replace_if(
                                name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
                            return name;

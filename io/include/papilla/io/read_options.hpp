@@ -9,10 +9,12 @@ namespace papilla {
 
 /// How files are read that leave something open. Formats ignore what does not concern them.
 struct ReadOptions {
-  double millimetres_per_unit = 1;  ///< Of STL and OBJ, which state no unit; in (0, 1e9].
-  std::optional<UpAxis> up;         ///< Overrides the format's habit: STL, STEP, IGES, BREP z; OBJ and glTF y.
+  double millimetres_per_unit = 1;  ///< Of STL, OBJ, PLY and OFF, which state no unit; in (0, 1e9].
+  std::optional<UpAxis> up;         ///< Overrides the format's habit: OBJ and glTF y, all others z.
   double chord_mm = 0.1;            ///< CAD surfaces: largest distance between surface and triangle.
   double angle_deg = 20;            ///< CAD surfaces: largest angle between neighbouring normals.
+  double max_edge_mm = 0;           ///< CAD surfaces: longest edge of a triangle; 0: any.
+  std::optional<double> cad_millimetres_per_unit;  ///< Instead of the unit that a CAD file states.
 };
 
 }  // namespace papilla

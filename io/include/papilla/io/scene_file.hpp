@@ -2,20 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/io/read_options.hpp"
 
 namespace papilla {
 
-/// Reads a file by its extension, in any case: .step .stp .p21 .iges .igs .brep .brp, .stl, .obj, .glb, .gltf.
+/// Reads a file by its extension, in any case: .step .stp .p21 .iges .igs .brep .brp, .stl, .obj,
+/// .ply, .off, .glb, .gltf.
 /// CAD surfaces are tessellated; faces that could not be are named in Scene::losses.
 /// @throws IoError when the file can't be read; InvalidInput when the extension is unknown (the message lists
 ///         the known ones) or the content is not what the extension says.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
 
-/// Writes a file by its extension, in any case: .glb, .obj, .stl.
+/// Writes a file by its extension, in any case: .glb, .obj, .off, .ply, .stl.
+/// @returns what the format has no place for, one sentence each (Scene::losses are not repeated).
 /// @throws InvalidInput when the extension is unknown or the scene can't be written so; IoError when writing fails.
-void write_scene(const Scene& scene, const std::filesystem::path& path);
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace papilla

@@ -10,8 +10,8 @@
 
 namespace papilla {
 
-/// The shape of one chart as a surface of its own, cut from its neighbours, with one vertex per fan of triangles
-/// (so two parts of a chart that touch in a point are not joined there).
+/// The shape of one chart as a surface of its own, cut from its neighbours and open at its cuts, with one vertex per
+/// fan of triangles (so two parts of a chart that touch in a point are not joined there).
 struct ChartTopology {
   std::size_t triangles = 0;
   std::size_t components = 0;
@@ -28,7 +28,7 @@ struct ChartTopology {
 };
 
 /// The topology of every chart. Triangles are neighbours across edges of exactly two triangles of their chart that run
-/// opposite ways. O(n α(n)); deterministic.
+/// opposite ways and are not cut. O(n α(n)); deterministic.
 /// @throws InvalidInput when the charts don't fit the mesh or an index is out of range.
 std::vector<ChartTopology> chart_topologies(const TriangleMesh& mesh, const ChartSet& charts);
 

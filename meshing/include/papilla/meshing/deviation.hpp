@@ -61,7 +61,8 @@ struct DeviationResult {
 /// and with `two_sided` the same with the surfaces swapped (the maximum of both is the Hausdorff distance).
 ///
 /// Measured, not estimated: `value` is attained by a point of the surface, and `bound` is an upper bound over *all*
-/// points of all triangles, both up to rounding (about 1e-15 of the largest coordinate). A piece F of a triangle, a
+/// points of all triangles, both up to rounding (about 1e-15 of the largest coordinate; beside needles of aspect 1e5
+/// and more up to 1e-9 of it). A piece F of a triangle, a
 /// convex polygon, is bounded by max over its corners v of d(v, S) for a triangle S of `to`, since the distance to a
 /// convex set is a convex function, and by d(m) + max |v - m| from its centre m, since d is 1-Lipschitz. Where both
 /// exceed the present maximum, F is cut along the prism over its closest triangle S, within which the first bound is

@@ -11,9 +11,12 @@ namespace papilla {
 
 /// Options of repair(). The defaults are relative to the part, so they serve any size.
 struct RepairOptions {
-  std::optional<double> weld_mm;  ///< Weld tolerance; not given: 1e-6 of the bounding diagonal.
-  std::size_t max_passes = 8;     ///< At least 1.
-  Progress progress;              ///< Told the fraction done; may be empty.
+  std::optional<double> weld_mm = {};    ///< Weld tolerance; not given: 1e-6 of the bounding diagonal.
+  std::optional<double> stitch_mm = {};  ///< Widest gap between faces that is closed; not given: 2e-4 of the diagonal;
+                                         ///< 0: gaps stay.
+  double fill_holes_mm = 0;              ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
+  std::size_t max_passes = 8;            ///< At least 1.
+  Progress progress = {};                ///< Told the fraction done; may be empty.
 };
 
 /// What each operation did, summed over the passes.
@@ -32,26 +35,36 @@ struct RepairCounts {
   std::size_t reversed = 0;        ///< Triangles turned over.
   std::size_t parted_edges = 0;    ///< Non-manifold edges and cuts through non-orientable surfaces.
   std::size_t added_vertices = 0;  ///< Copies made to part them.
+  std::size_t stitched_gaps = 0;   ///< Gaps between faces closed.
+  std::size_t filled_holes = 0;
+  std::size_t added_triangles = 0;  ///< In gaps and holes.
   friend bool operator==(const RepairCounts&, const RepairCounts&) = default;
+};
+
+/// The furthest that each operation moved a point of the surface in one pass, in mm.
+struct RepairDeviations {
+  double weld = 0, degenerate = 0, t_junctions = 0, partings = 0, stitches = 0;
 };
 
 struct RepairResult {
   TriangleMesh mesh;
   RepairCounts counts;
+  RepairDeviations deviations;
   double weld_tolerance_mm = 0;
-  double max_deviation_mm = 0;  ///< Upper bound: the sum over all operations of the furthest each moved the surface.
+  double stitch_tolerance_mm = 0;
+  double max_deviation_mm = 0;  ///< Upper bound: the sum over all operations and passes of the furthest each moved the
+                                ///< surface. What fills a hole is new surface and does not count.
   std::size_t passes = 0;
   bool settled = false;  ///< The last pass found nothing left to do. Otherwise max_passes ended the work.
 };
 
 /// Makes a clean, oriented, manifold mesh of a triangle soup: welds, drops duplicates, removes degenerate triangles,
-/// splits T-junctions, orients, parts what is not manifold, and repeats until nothing changes.
+/// splits T-junctions, orients, parts what is not manifold, closes gaps, and repeats until nothing changes.
 ///
 /// Guarantees when `settled`: no degenerate or duplicate triangle, no edge of more than two triangles, no neighbours
 /// running opposite senses, no T-junction, every vertex with one fan of triangles (indices; sheets that touch in a
 /// point keep equal positions there); repairing the result again changes nothing. Closed input stays closed unless it
 /// was a double sheet. Positions, normals, uv, colours, materials and CAD faces are carried through.
-/// Holes are not filled.
 ///
 /// Cost: O(n log n), a few linear passes for CAD soups; about 250 bytes per triangle. Deterministic.
 /// @throws InvalidInput when an index is out of range, a position is not finite, `weld_mm` is negative or not finite,

@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <span>
-#include <vector>
 
 #include "papilla/core/trace.hpp"
 #include "papilla/meshing/deviation.hpp"
@@ -65,25 +63,5 @@ struct SimplifyResult {
 /// tolerance
 ///         is not positive, the angle is not in [0, 180], or passes are not in [1, 6].
 SimplifyResult simplify(const TriangleMesh& mesh, const SimplifyOptions& options);
-
-/// A part of a scene that shares a triangle budget.
-struct BudgetPart {
-  const TriangleMesh* mesh = nullptr;
-  double importance = 1;      ///< > 0. A part of twice the importance gets half the error of the others.
-  std::size_t instances = 1;  ///< How often it is drawn.
-};
-
-struct BudgetResult {
-  std::vector<SimplifyResult> parts;  ///< In the order given.
-  std::size_t triangles = 0;          ///< Drawn in the scene: sum over parts of triangles times instances.
-  bool reached = false;               ///< `triangles` <= the budget. False when borders and seams allow no more.
-};
-
-/// Simplifies the parts of a scene until it draws at most `max_triangles`, all with the same collapse error times
-/// importance; a scene that needs nothing comes back as it is. The deviations are measured and reported, not limited.
-/// @param options Its tolerance, target and passes do not matter.
-/// @throws InvalidInput as simplify(), naming the part; also for a missing mesh or an importance that is not positive.
-BudgetResult simplify_to_budget(std::span<const BudgetPart> parts, std::size_t max_triangles,
-                                const SimplifyOptions& options = {});
 
 }  // namespace papilla

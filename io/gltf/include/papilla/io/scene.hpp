@@ -64,13 +64,21 @@ struct Material {
       extensions_json;  ///< glTF extensions as they were; texture numbers stay valid, textures are only appended.
 };
 
-/// One shape: a mesh and the materials its triangles name. Shared by all its instances.
+/// A coarser stand-in for a part's mesh, with the same material slots.
+struct PartLevel {
+  TriangleMesh mesh;
+  double screen_coverage = 0;  ///< Shown where the part's bounding sphere takes less of the picture's height than this.
+};
+
+/// One shape: a mesh and the materials its triangles name. Shared by all its instances: the nodes that name it. This is
+/// the scene's only form of instancing, whatever a file's own one is.
 struct Part {
   std::string name;
   std::string id;  ///< Stable over re-import: the assembly path of the first instance.
   TriangleMesh mesh;
   std::vector<std::uint32_t> materials;  ///< TriangleMesh::material slot -> Scene::materials.
   std::string extras_json;
+  std::vector<PartLevel> levels;  ///< Ever coarser, coverage descending within [0, 1]; only write_glb() keeps them.
 };
 
 struct Node {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <STEPCAFControl_Reader.hxx>
+#include <TDocStd_Document.hxx>
+#include <map>
+#include <string>
+
+#include "cad_text.hpp"
+
+namespace papilla::cad {
+
+/// What a STEP file says beside its geometry and what the library's document has no place for.
+struct StepMetadata {
+  Json header;                              ///< {"schema", "name", "time_stamp", "author", "organization", "system"}.
+  std::map<std::string, Json> properties;   ///< By entry of the part's or instance's label: {name: value}.
+  Json annotations;                         ///< Names of annotations that are only drawn, not meant.
+};
+
+/// @param reader after its transfer into the document.
+StepMetadata read_step_metadata(STEPCAFControl_Reader& reader, const Handle(TDocStd_Document) & document);
+
+}  // namespace papilla::cad

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "polygon_mesh.hpp"
+
+#include <array>
+#include <utility>
+
+#include "polygon_triangulation.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr Triangle k_no_values = {k_no_value, k_no_value, k_no_value};
+
+/// Triangles that have no value of their own take their vertices'.
+template <class T>
+CornerAttribute<T> merged(std::vector<T> of_vertices, const std::vector<T>& of_polygons,
+                          const std::vector<Triangle>& own, const std::vector<Triangle>& triangles) {
+  CornerAttribute<T> attribute;
+  if (of_vertices.empty() && of_polygons.empty()) return attribute;
+  const auto offset = static_cast<Index>(of_vertices.size());
+  attribute.indices = triangles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle values = t < own.size() ? own[t] : k_no_values;
+    if (values != k_no_values)
+      attribute.indices[t] = {values[0] + offset, values[1] + offset, values[2] + offset};
+    else if (of_vertices.empty())
+      attribute.indices[t] = k_no_values;
+  }
+  attribute.values = std::move(of_vertices);
+  attribute.values.insert(attribute.values.end(), of_polygons.begin(), of_polygons.end());
+  return attribute;
+}
+
+}  // namespace
+
+void PolygonMesh::add(const Polygon& polygon) {
+  if (polygon.corners.size() < 3) {
+    ++short_polygons_;
+    return;
+  }
+  const auto first_uv = static_cast<Index>(polygon_uv_.size());
+  polygon_uv_.insert(polygon_uv_.end(), polygon.uv.begin(), polygon.uv.end());
+  Index color = k_no_value;
+  if (polygon.color) {
+    if (polygon_colors_.empty() || !(polygon_colors_.back() == *polygon.color))
+      polygon_colors_.push_back(*polygon.color);
+    color = static_cast<Index>(polygon_colors_.size() - 1);
+  }
+  if (polygon.corners.size() == 3) return add_triangle(polygon, {0, 1, 2}, first_uv, color);
+  points_.clear();
+  for (const Index corner : polygon.corners) points_.push_back(positions[corner]);
+  for (const auto& triangle : triangulate_polygon(points_)) add_triangle(polygon, triangle, first_uv, color);
+}
+
+void PolygonMesh::add_triangle(const Polygon& polygon, std::array<std::size_t, 3> corners, Index first_uv,
+                               Index color) {
+  const std::size_t before = mesh_.triangles.size();
+  mesh_.triangles.push_back({polygon.corners[corners[0]], polygon.corners[corners[1]], polygon.corners[corners[2]]});
+  if (!polygon.uv.empty()) {
+    uv_indices_.resize(before, k_no_values);
+    uv_indices_.push_back({first_uv + static_cast<Index>(corners[0]), first_uv + static_cast<Index>(corners[1]),
+                           first_uv + static_cast<Index>(corners[2])});
+  }
+  if (color != k_no_value) {
+    color_indices_.resize(before, k_no_values);
+    color_indices_.push_back({color, color, color});
+  }
+  if (polygon.material != 0) {
+    mesh_.material.resize(before, 0);
+    mesh_.material.push_back(polygon.material);
+  }
+}
+
+TriangleMesh PolygonMesh::finish() {
+  mesh_.positions = std::move(positions);
+  if (!normals.empty()) mesh_.normals = {std::move(normals), mesh_.triangles};
+  mesh_.uv = merged(std::move(uv), polygon_uv_, uv_indices_, mesh_.triangles);
+  mesh_.colors = merged(std::move(colors), polygon_colors_, color_indices_, mesh_.triangles);
+  if (!mesh_.material.empty()) mesh_.material.resize(mesh_.triangles.size(), 0);
+  return std::move(mesh_);
+}
+
+}  // namespace papilla

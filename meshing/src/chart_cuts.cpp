@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/chart_cuts.hpp"
+
+#include <string>
+
+#include "check_charts.hpp"
+#include "cut_patch.hpp"
+#include "halve_chart.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/meshing/submesh.hpp"
+#include "seam_set.hpp"
+
+namespace papilla {
+namespace {
+
+using namespace detail;
+
+/// Edges bent by this angle hide a seam as well as sharper ones, as in SegmentationOptions.
+constexpr double k_feature_angle_deg = 45;
+
+}  // namespace
+
+ChartSet open_charts(const TriangleMesh& mesh, const ChartSet& charts, bool disks) {
+  check_charts(mesh, charts, "open_charts");
+  const Surface surface(mesh);
+  const SeamWeights weights(surface, k_feature_angle_deg);
+  std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
+  PieceCutter cutter(surface, seam);
+  for (auto& triangles : triangles_of_charts(charts_between(surface, seam)))
+    open_patch(surface, weights, disks, std::move(triangles), cutter, seam);
+  return charts_between(surface, seam);
+}
+
+ChartSet halve_charts(const TriangleMesh& mesh, const ChartSet& charts, std::span<const std::uint32_t> numbers) {
+  check_charts(mesh, charts, "halve_charts");
+  const Surface surface(mesh);
+  const SeamWeights weights(surface, k_feature_angle_deg);
+  std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
+  PieceCutter cutter(surface, seam);
+  const auto triangles = triangles_of_charts(charts);
+  for (const std::uint32_t c : numbers) {
+    if (c >= charts.count)
+      throw InvalidInput("halve_charts: chart " + std::to_string(c) + " of " + std::to_string(charts.count));
+    if (triangles[c].size() < 2) continue;
+    const Piece piece = cutter.cut(triangles[c]);
+    for (const Index h : cut_in_halves(piece, weights)) {
+      const Index global = piece.halfedge_of(h);
+      seam[global] = seam[surface.opposite[global]] = 1;
+    }
+  }
+  return charts_between(surface, seam);
+}
+
+}  // namespace papilla

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "chart_field.hpp"
+
+#include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace papilla::detail {
+namespace {
+
+/// Nodes of the system: pieces with more interior vertices are clustered.
+constexpr std::size_t k_max_nodes = 4000;
+/// Cotangents beyond this belong to needles; their edges conduct as if welded.
+constexpr double k_max_cotangent = 1e4;
+/// Edges whose cotangents cancel still conduct a little, so that the system stays definite.
+constexpr double k_min_weight = 1e-3;
+
+/// The angle at a between b and c; the angles of any triangle sum to π, also of one without area.
+double angle_at(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 p = b - a, q = c - a;
+  return std::atan2(norm(cross(p, q)), dot(p, q));
+}
+
+std::array<double, 3> triangle_angles(const Piece& piece, Index t) {
+  const Triangle& v = piece.triangles[t];
+  const Vec3 &a = piece.positions[v[0]], &b = piece.positions[v[1]], &c = piece.positions[v[2]];
+  if (a == b) return {std::numbers::pi / 2, std::numbers::pi / 2, 0};
+  if (b == c) return {0, std::numbers::pi / 2, std::numbers::pi / 2};
+  if (c == a) return {std::numbers::pi / 2, 0, std::numbers::pi / 2};
+  const double alpha = angle_at(a, b, c), beta = angle_at(b, c, a);
+  return {alpha, beta, std::max(0.0, std::numbers::pi - alpha - beta)};
+}
+
+double cotangent(double angle) {
+  return std::clamp(1 / std::tan(std::max(angle, 0.1 / k_max_cotangent)), -k_max_cotangent, k_max_cotangent);
+}
+
+}  // namespace
+
+std::vector<double> angle_defects(const Piece& piece) {
+  std::vector<double> defect(piece.vertex_count());
+  for (Index v = 0; v < defect.size(); ++v) defect[v] = piece.on_border(v) ? std::numbers::pi : 2 * std::numbers::pi;
+  for (Index t = 0; t < piece.size(); ++t) {
+    const auto angle = triangle_angles(piece, t);
+    for (std::size_t k = 0; k < 3; ++k) defect[piece.triangles[t][k]] -= angle[k];
+  }
+  return defect;
+}
+
+ChartField::ChartField(const Piece& piece) {
+  cluster(piece);
+  connect(piece);
+  defect_ = angle_defects(piece);
+  charge_.assign(centre_.size(), 0);
+  area_.assign(centre_.size(), 0);
+  for (Index v = 0; v < node_.size(); ++v)
+    if (node_[v] != k_none) charge_[node_[v]] += defect_[v];
+  for (Index t = 0; t < piece.size(); ++t) {
+    const double third = piece.area(t) / 3;
+    for (const Index v : piece.triangles[t]) (node_[v] == k_none ? border_area_ : area_[node_[v]]) += third;
+  }
+  solve({});
+}
+
+/// Grows clusters of equally many vertices over the edges, in the order of vertices.
+void ChartField::cluster(const Piece& piece) {
+  constexpr Index k_open = k_none - 1;
+  std::size_t interior = 0;
+  node_.assign(piece.vertex_count(), k_none);
+  for (Index v = 0; v < node_.size(); ++v)
+    if (!piece.on_border(v)) node_[v] = k_open, ++interior;
+  const std::size_t size = interior / k_max_nodes + 1;
+  std::vector<Index> queue;
+  for (Index seed = 0; seed < node_.size(); ++seed) {
+    if (node_[seed] != k_open) continue;
+    const auto number = static_cast<Index>(centre_.size());
+    centre_.push_back(seed);
+    queue.assign(1, seed);
+    node_[seed] = number;
+    for (std::size_t i = 0; i < queue.size() && queue.size() < size; ++i)
+      piece.visit_edges(queue[i], [&](Index, Index w) {
+        if (node_[w] != k_open || queue.size() >= size) return;
+        node_[w] = number;
+        queue.push_back(w);
+      });
+  }
+}
+
+/// Conductances by finite volumes: the length of the dual edges between two nodes over the distance of their centres.
+void ChartField::connect(const Piece& piece) {
+  std::vector<Vec3> middle(centre_.size());
+  std::vector<double> members(centre_.size(), 0);
+  for (Index v = 0; v < node_.size(); ++v)
+    if (node_[v] != k_none) {
+      middle[node_[v]] = middle[node_[v]] + piece.positions[v];
+      members[node_[v]] += 1;
+    }
+  for (Index n = 0; n < middle.size(); ++n) middle[n] = (1 / members[n]) * middle[n];
+
+  std::vector<double> cotangents(piece.opposite.size());
+  for (Index t = 0; t < piece.size(); ++t) {
+    const auto angle = triangle_angles(piece, t);
+    for (Index k = 0; k < 3; ++k) cotangents[3 * t + k] = cotangent(angle[(k + 2) % 3]);
+  }
+  for (Index h = 0; h < piece.opposite.size(); ++h) {
+    const Index other = piece.opposite[h];
+    if (other == k_none || other < h) continue;
+    Index v = piece.from(h), w = piece.to(h);
+    if (node_[v] == k_none) std::swap(v, w);
+    if (node_[v] == k_none || node_[v] == node_[w]) continue;
+    const double weight = std::max(0.5 * (cotangents[h] + cotangents[other]), k_min_weight);
+    const Vec3 end = node_[w] == k_none ? piece.positions[w] : middle[node_[w]];
+    const double distance = norm(end - middle[node_[v]]), length = piece.length(h);
+    links_.push_back({node_[v], node_[w], w, distance > length ? weight * length / distance : weight});
+  }
+}
+
+void ChartField::solve(const std::vector<std::uint8_t>& cut_vertex) {
+  std::vector<std::uint8_t> fixed(centre_.size(), 0);
+  for (Index v = 0; v < cut_vertex.size(); ++v)
+    if (cut_vertex[v] && node_[v] != k_none) fixed[node_[v]] = 1;
+  std::vector<int> row(centre_.size(), -1);
+  int rows = 0;
+  for (std::size_t n = 0; n < row.size(); ++n)
+    if (!fixed[n]) row[n] = rows++;
+
+  using Matrix = Eigen::SparseMatrix<double>;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(3 * links_.size());
+  bool grounded = false;
+  for (const Link& link : links_) {
+    const int a = row[link.a], b = link.b == k_none ? -1 : row[link.b];
+    if (a >= 0) entries.emplace_back(a, a, link.weight);
+    if (b >= 0) entries.emplace_back(b, b, link.weight);
+    if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), -link.weight);
+    grounded = grounded || (a >= 0) != (b >= 0);
+  }
+  Eigen::VectorXd right(rows);
+  const double total_charge = std::accumulate(charge_.begin(), charge_.end(), 0.0);
+  const double total_area = std::accumulate(area_.begin(), area_.end(), border_area_);
+  for (std::size_t n = 0; n < row.size(); ++n)
+    if (row[n] >= 0)
+      right[row[n]] = charge_[n] - (grounded || !(total_area > 0) ? 0 : total_charge * area_[n] / total_area);
+  // Nothing holds a closed surface: the scale of its first node is zero.
+  for (int r = 0; r < rows; ++r) entries.emplace_back(r, r, r == 0 && !grounded ? 1.0 : 1e-12);
+  Matrix matrix(rows, rows);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  u_.assign(centre_.size(), 0);
+  if (rows > 0) {
+    const Eigen::SimplicialLDLT<Matrix> factor(matrix);
+    const Eigen::VectorXd solution = factor.solve(right);
+    for (std::size_t n = 0; n < row.size(); ++n)
+      if (row[n] >= 0 && std::isfinite(solution[row[n]])) u_[n] = solution[row[n]];
+  }
+  sum_up();
+}
+
+void ChartField::sum_up() {
+  double total = border_area_;
+  mean_ = 0;
+  for (std::size_t n = 0; n < u_.size(); ++n) {
+    total += area_[n];
+    mean_ += area_[n] * u_[n];
+  }
+  distortion_ = squared_scale_ = 0;
+  if (!(total > 0)) return;
+  mean_ /= total;
+  const auto excess = [](double u) {
+    const double s = std::sinh(std::clamp(u, -20.0, 20.0));
+    return 8 * s * s;
+  };
+  distortion_ = border_area_ * excess(mean_);
+  for (std::size_t n = 0; n < u_.size(); ++n) {
+    distortion_ += area_[n] * excess(u_[n] - mean_);
+    squared_scale_ += area_[n] * excess(u_[n]);
+  }
+  distortion_ /= total;
+  squared_scale_ /= total;
+}
+
+ChartField::Extremes ChartField::extremes() const {
+  Extremes result;
+  if (u_.empty()) return result;
+  const auto [low, high] = std::minmax_element(u_.begin(), u_.end());
+  if (*high > 0) result.largest = centre_[static_cast<std::size_t>(high - u_.begin())];
+  if (*low < 0) result.smallest = centre_[static_cast<std::size_t>(low - u_.begin())];
+  return result;
+}
+
+std::vector<Vec2> ChartField::lay_out(const Piece& piece, const std::vector<Index>& outer) const {
+  std::vector<double> turning = defect_;
+  for (const Link& link : links_)
+    if (link.b == k_none) turning[link.border_vertex] += link.weight * u_[link.a];
+  double sum = 0, perimeter = 0;
+  for (const Index h : outer) {
+    sum += turning[piece.from(h)];
+    perimeter += piece.length(h);
+  }
+  // Other loops may have taken some of the turn.
+  const double correction = (2 * std::numbers::pi - sum) / std::max(perimeter, 1e-300);
+  std::vector<Vec2> polygon;
+  polygon.reserve(outer.size());
+  Vec2 at;
+  double direction = 0;
+  for (const Index h : outer) {
+    const double length = piece.length(h);
+    direction += turning[piece.from(h)] + correction * length;
+    polygon.push_back(at);
+    at = at + length * Vec2{std::cos(direction), std::sin(direction)};
+  }
+  const Vec2 gap = at;
+  double walked = 0;
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    polygon[i] = polygon[i] - (perimeter > 0 ? walked / perimeter : 0) * gap;
+    walked += piece.length(outer[i]);
+  }
+  return polygon;
+}
+
+}  // namespace papilla::detail

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "papilla/core/vec.hpp"
+#include "piece.hpp"
+
+namespace papilla::detail {
+
+/// Curvature of a piece as angles: per interior vertex 2π - Σ angles, per border vertex π - Σ angles. A flat vertex,
+/// whatever the creases through it, has none; the sum over the piece is 2π χ (Gauss, Bonnet).
+std::vector<double> angle_defects(const Piece& piece);
+
+/// The conformal map of a piece with the least variation of scale [Springborn, Schröder, Pinkall 2008; Sawhney, Crane
+/// 2017]: the logarithm u of its scale solves Δu = K with u = 0 on the border. Pieces of more than some thousand
+/// vertices are solved on clusters of them, so that any size costs O(n).
+class ChartField {
+ public:
+  explicit ChartField(const Piece& piece);
+
+  /// Makes these vertices border, too, where a cut would run.
+  void solve(const std::vector<std::uint8_t>& cut_vertex);
+
+  /// Area mean of σ1² + σ2² + σ1⁻² + σ2⁻² - 4 = 8 sinh² (u - mean).
+  double distortion() const noexcept { return distortion_; }
+  /// The same of u itself, without the mean taken off.
+  double squared_scale() const noexcept { return squared_scale_; }
+  /// angle_defects() of a vertex.
+  double defect(Index v) const noexcept { return defect_[v]; }
+  /// u at a vertex.
+  double scale(Index v) const noexcept { return node_[v] == k_none ? 0 : u_[node_[v]]; }
+  /// Where u is largest, if anywhere above zero, and smallest, if below.
+  struct Extremes {
+    Index largest = k_none, smallest = k_none;
+  };
+  Extremes extremes() const;
+
+  /// Where the border comes to lie in that map: the polygon of the outer loop (border_loops().front()), from turning
+  /// angles k - ∂u/∂n and true lengths; what is missing for closing is spread along it.
+  std::vector<Vec2> lay_out(const Piece& piece, const std::vector<Index>& outer) const;
+
+ private:
+  struct Link {
+    Index a, b;  ///< Nodes; b is k_none for the border, which `border_vertex` then names.
+    Index border_vertex;
+    double weight;
+  };
+  void cluster(const Piece& piece);
+  void connect(const Piece& piece);
+  void sum_up();
+
+  std::vector<Index> node_;     ///< Per vertex; k_none on the border.
+  std::vector<Index> centre_;   ///< A vertex of each node.
+  std::vector<double> defect_;  ///< Per vertex.
+  std::vector<double> charge_, area_, u_;
+  std::vector<Link> links_;
+  double border_area_ = 0, mean_ = 0, distortion_ = 0, squared_scale_ = 0;
+};
+
+}  // namespace papilla::detail

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge_table.hpp"
+#include "papilla/meshing/degenerate.hpp"
+#include "papilla/meshing/duplicate.hpp"
+#include "papilla/meshing/fill_holes.hpp"
+#include "papilla/meshing/manifold.hpp"
+#include "papilla/meshing/orient.hpp"
+#include "papilla/meshing/t_junction.hpp"
+#include "papilla/meshing/weld.hpp"
+
+/// The steps of repair() without the checks of their public functions, which share the table of edges. Each changes
+/// the mesh in place, adds to the counts of its result (whose mesh stays empty), and returns true when it changed
+/// triangles or vertices so that the table is no longer that of the mesh.
+namespace papilla::detail {
+
+/// Makes positions that are exactly equal one vertex and drops those that no triangle names; returns how many were
+/// merged.
+std::size_t merge_equal(TriangleMesh& mesh);
+
+bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction,
+                  WeldResult& result);
+bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, DuplicateResult& result);
+bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result);
+bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, TJunctionResult& result);
+bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result);
+/// A copy of a vertex for a fan that touches others only in that point, and the vertex: they stay in one place.
+struct TouchingCopy {
+  Index original, copy;
+  auto operator<=>(const TouchingCopy&) const = default;
+};
+bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result,
+                 std::vector<TouchingCopy>& touching);
+bool fill_borders(TriangleMesh& mesh, const EdgeTable& edges, const FillHolesOptions& options, FillHolesResult& result);
+
+/// Renumbers vertices so that the given copies come last, in the order of their originals.
+void move_to_end(TriangleMesh& mesh, std::vector<TouchingCopy> copies);
+
+/// What another pass would look for; see repair().
+bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction);
+bool has_duplicates(const std::vector<Triangle>& triangles, const EdgeTable& edges);
+bool has_degenerate(const TriangleMesh& mesh, double tolerance_mm);
+bool has_bad_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges);
+
+}  // namespace papilla::detail

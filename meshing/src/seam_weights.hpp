@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "surface.hpp"
+
+namespace papilla::detail {
+
+/// How much a seam shows along each edge: w = o (1 - s), with o the share of directions in which the edge is open to
+/// the outside, from k_least_openness up, and s = 1/2 on creases of the feature angle and sharper, 3/4 when they are
+/// concave, and proportionally less on flatter ones.
+class SeamWeights {
+ public:
+  SeamWeights(const Surface& surface, double feature_angle_deg);
+
+  double of(Index halfedge) const noexcept { return double{weight_[halfedge]}; }
+  /// Length times weight.
+  double cost(Index halfedge) const noexcept { return of(halfedge) * surface_.length(halfedge); }
+
+ private:
+  const Surface& surface_;
+  std::vector<float> weight_;
+};
+
+}  // namespace papilla::detail

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/triangle_budget.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "papilla/core/error.hpp"
+#include "simplifier.hpp"
+
+namespace papilla {
+namespace {
+
+using detail::Simplifier;
+
+constexpr double k_first_error = 1e-6, k_last_error = 4;  ///< Of the largest part's diagonal.
+constexpr double k_used = 0.97;                           ///< This share of the budget is good enough.
+constexpr double k_narrow = 1.05;                         ///< So is a tolerance known to this factor.
+constexpr int k_most_trials = 12;
+
+using IndexLists = std::vector<std::vector<Index>>;
+
+/// Parts of a scene on their way to a budget.
+class BudgetRun {
+ public:
+  BudgetRun(std::span<const BudgetPart> parts, std::size_t budget, const SimplifyOptions& options)
+      : parts_(parts), budget_(budget), simplifiers_(parts.size()) {
+    each([&](std::size_t i) {
+      const std::string name = "simplify_to_budget: parts[" + std::to_string(i) + "]";
+      if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
+      if (!(parts[i].importance > 0)) throw InvalidInput(name + ": the importance is not positive");
+      simplifiers_[i] = std::make_unique<Simplifier>(*parts[i].mesh, options, name);
+    });
+  }
+
+  BudgetResult run() {
+    BudgetResult result;
+    IndexLists indices = whole();
+    note(indices, result.trace);
+    if (drawn(indices) > budget_) {
+      const double error = find_error(indices);
+      if (drawn(indices) <= budget_)
+        result.tolerance_mm = find_tolerance(error, indices, result.trace);
+      else
+        note(indices, result.trace);
+    }
+    result.triangles = drawn(indices);
+    result.reached = result.triangles <= budget_;
+    measure(indices, result);
+    return result;
+  }
+
+ private:
+  IndexLists whole() const {
+    IndexLists indices;
+    for (const auto& simplifier : simplifiers_) indices.push_back(simplifier->all());
+    return indices;
+  }
+
+  std::size_t drawn(const IndexLists& indices) const {
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) sum += parts_[i].instances * (indices[i].size() / 3);
+    return sum;
+  }
+
+  void note(const IndexLists& indices, Trace& trace) const {
+    trace.push_back({clock_.seconds(), static_cast<double>(drawn(indices)) / static_cast<double>(budget_)});
+  }
+
+  /// The first error of a doubling ladder at which unmeasured collapses meet the budget, or the last one. Leaves their
+  /// result in `indices`.
+  double find_error(IndexLists& indices) const {
+    double largest = 0;
+    for (const auto& simplifier : simplifiers_) largest = std::max(largest, simplifier->diagonal());
+    double error = k_first_error * largest;
+    for (; drawn(indices) > budget_ && error < k_last_error * largest; error *= 2)
+      each([&](std::size_t i) { indices[i] = simplifiers_[i]->collapse(indices[i], error / parts_[i].importance, 0); });
+    return error / 2;
+  }
+
+  IndexLists within(double tolerance_mm) const {
+    IndexLists result(parts_.size());
+    each([&](std::size_t i) {
+      Trace trace;
+      result[i] =
+          simplifiers_[i]->within(simplifiers_[i]->all(), tolerance_mm / parts_[i].importance, 0, clock_, trace);
+    });
+    return result;
+  }
+
+  /// A tolerance that was tried, with what it drew.
+  struct Trial {
+    double tolerance_mm = 0;
+    std::size_t triangles = 0;
+  };
+
+  /// Between two trials: where a power law through both meets a count just below the budget, but not too near to
+  /// either.
+  double next_tolerance(const Trial& low, const Trial& high) const {
+    constexpr double k_least_step = 0.1;
+    const double wanted = 0.5 * (1 + k_used) * static_cast<double>(budget_);
+    const auto logarithm = [](std::size_t n) { return std::log(std::max(1.0, static_cast<double>(n))); };
+    const double fall = logarithm(low.triangles) - logarithm(high.triangles);
+    const double share = fall > 0 ? (logarithm(low.triangles) - std::log(std::max(1.0, wanted))) / fall : 0.5;
+    return low.tolerance_mm *
+           std::pow(high.tolerance_mm / low.tolerance_mm, std::clamp(share, k_least_step, 1 - k_least_step));
+  }
+
+  /// Looks between a tolerance that is too small and one that is not, both held by measurement. `error` is a guess that
+  /// is right to a factor of about two. Leaves the best result in `indices`, which meets the budget unmeasured.
+  double find_tolerance(double error, IndexLists& indices, Trace& trace) const {
+    Trial low, high;
+    double tolerance = error;
+    for (int trial = 0; trial < k_most_trials; ++trial) {
+      IndexLists tried = within(tolerance);
+      note(tried, trace);
+      const std::size_t count = drawn(tried);
+      (count <= budget_ ? high : low) = {tolerance, count};
+      if (count <= budget_) indices = std::move(tried);
+      const bool is_used = count <= budget_ && static_cast<double>(count) >= k_used * static_cast<double>(budget_);
+      if (is_used ||
+          (low.tolerance_mm > 0 && high.tolerance_mm > 0 && high.tolerance_mm <= k_narrow * low.tolerance_mm))
+        break;
+      if (low.tolerance_mm > 0 && high.tolerance_mm > 0)
+        tolerance = next_tolerance(low, high);
+      else
+        tolerance *= high.tolerance_mm > 0 ? 0.5 : 2;
+    }
+    return high.tolerance_mm;
+  }
+
+  void measure(const IndexLists& indices, BudgetResult& result) const {
+    const double limit = result.tolerance_mm > 0 ? result.tolerance_mm : std::numeric_limits<double>::infinity();
+    result.parts.resize(parts_.size());
+    each([&](std::size_t i) {
+      result.parts[i] = simplifiers_[i]->result(indices[i], limit / parts_[i].importance);
+      if (!result.reached) result.parts[i].stop = StopReason::iteration_limit;
+    });
+    if (result.tolerance_mm > 0) return;
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      result.tolerance_mm = std::max(result.tolerance_mm, parts_[i].importance * result.parts[i].deviation.bound());
+  }
+
+  template <class Body>
+  void each(const Body& body) const {
+    oneapi::tbb::parallel_for(std::size_t{0}, parts_.size(), body);
+  }
+
+  std::span<const BudgetPart> parts_;
+  std::size_t budget_;
+  std::vector<std::unique_ptr<Simplifier>> simplifiers_;
+  Stopwatch clock_;
+};
+
+}  // namespace
+
+BudgetResult simplify_to_budget(std::span<const BudgetPart> parts, std::size_t max_triangles,
+                                const SimplifyOptions& options) {
+  if (max_triangles == 0) throw InvalidInput("simplify_to_budget: the budget is 0");
+  return BudgetRun(parts, max_triangles, options).run();
+}
+
+}  // namespace papilla

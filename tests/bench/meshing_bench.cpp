@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "bench/bench_json.hpp"
+#include "bench/whole_process.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/io/scene_file.hpp"
+#include "papilla/meshing/deviation.hpp"
+#include "papilla/meshing/duplicate.hpp"
+#include "papilla/meshing/repair.hpp"
+#include "papilla/meshing/statistics.hpp"
+#include "papilla/meshing/weld.hpp"
+
+namespace {
+
+using namespace papilla;
+namespace fs = std::filesystem;
+using bench::Recorder;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("papilla-bench-{}", ::getpid())) {
+    fs::create_directories(path_);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+// --- speed and memory -----------------------------------------------------------------------------------------------
+
+struct Soup {
+  std::string name, file;
+  std::size_t triangles = 0;
+};
+
+/// The sample cockpit as one binary STL: every triangle on its own, parts that touch.
+Soup cockpit_soup(const TemporaryFolder& folder, double chord_mm, double angle_deg) {
+  ReadOptions options;
+  options.chord_mm = chord_mm;
+  options.angle_deg = angle_deg;
+  const std::string file = folder / fmt::format("cockpit-{}.stl", chord_mm);
+  write_scene(read_scene(PAPILLA_COCKPIT, options), file);
+  const std::size_t triangles = (fs::file_size(file) - 84) / 50;
+  return {fmt::format("cockpit soup, {} k", triangles / 1000), file, triangles};
+}
+
+void repair_scene(Scene& scene) {
+  for (Part& part : scene.parts) part.mesh = repair(std::move(part.mesh)).mesh;
+}
+
+void add_speed(bench::BenchReport& report, const Soup& soup, const TemporaryFolder& folder) {
+  report.add({.method = "repair", .input = soup.name, .notes = "binary STL in, GLB out, within the process"},
+             [&soup, out = folder / "in-process.glb"](Recorder& recorder) {
+               const double before = bench::process_cpu_seconds();
+               Scene scene = read_scene(soup.file);
+               repair_scene(scene);
+               write_scene(scene, out);
+               recorder.record("cpu_ns_per_triangle",
+                               1e9 * (bench::process_cpu_seconds() - before) / static_cast<double>(soup.triangles));
+             });
+  const auto add_process = [&](const std::string& method, const std::vector<std::string>& command) {
+    report.add({.method = method, .input = soup.name, .notes = "whole process"}, [&soup, command](Recorder& recorder) {
+      const bench::ProcessCost cost = bench::run_process(command);
+      recorder.record("process_cpu_seconds", cost.cpu_seconds);
+      recorder.record("process_seconds", cost.seconds);
+      recorder.record("peak_bytes_per_triangle",
+                      static_cast<double>(cost.peak_bytes) / static_cast<double>(soup.triangles));
+    });
+  };
+  add_process("papilla repair", {PAPILLA_PROGRAM, "repair", soup.file, "-o", folder / "papilla.glb"});
+  if (bench::has_program("assimp"))
+    add_process("assimp export", {"assimp", "export", soup.file, folder / "assimp.glb", "-f", "glb2"});
+}
+
+void report_speed(bench::BenchReport& report, const std::vector<Soup>& soups) {
+  const auto of = [&](const char* method, const Soup& soup, const char* quantity) {
+    return report.median_of(method, soup.name, quantity);
+  };
+  bench::EvidenceTable table{
+      "Repair of a soup",
+      "Binary STL in, clean GLB out. Processor time within the process (read, repair, write), of the whole program "
+      "`papilla repair`, and of `assimp export` to GLB, which reads and writes the same file and repairs nothing.",
+      {"input", "ns per triangle", "program [cpu s]", "assimp [cpu s]", "ratio", "program peak [bytes/triangle]"},
+      {}};
+  const bool with_assimp = bench::has_program("assimp");
+  double least = 1e300, most = 0, worst_ratio = 0;
+  for (const Soup& soup : soups) {
+    const double ns = of("repair", soup, "cpu_ns_per_triangle");
+    const double own = of("papilla repair", soup, "process_cpu_seconds");
+    least = std::min(least, ns);
+    most = std::max(most, ns);
+    const double other = with_assimp ? of("assimp export", soup, "process_cpu_seconds") : 0;
+    worst_ratio = with_assimp ? std::max(worst_ratio, own / other) : 0;
+    table.rows.push_back({soup.name, fmt::format("{:.0f}", ns), fmt::format("{:.2f}", own),
+                          with_assimp ? fmt::format("{:.2f}", other) : "-",
+                          with_assimp ? fmt::format("{:.2f}", own / other) : "-",
+                          fmt::format("{:.0f}", of("papilla repair", soup, "peak_bytes_per_triangle"))});
+  }
+  report.table(std::move(table));
+  const Soup& largest = soups.back();
+  const auto holds = [&](bool value) { return report.options().quick ? std::nullopt : std::optional(value); };
+  report.target({"soup of two million triangles to clean GLB in at most 3 times assimp's plain read and write",
+                 with_assimp ? fmt::format("at most {:.2f} times", worst_ratio) : "no assimp here",
+                 with_assimp ? holds(worst_ratio <= 3) : std::nullopt});
+  const double bytes = of("papilla repair", largest, "peak_bytes_per_triangle");
+  report.target({"peak memory of the whole program at most 250 bytes per input triangle",
+                 fmt::format("{:.0f} bytes on {}", bytes, largest.name), holds(bytes <= 250)});
+  report.target({"time per triangle constant within 1.3 from 20 k to two million",
+                 fmt::format("{:.0f} to {:.0f} ns, a factor of {:.2f}", least, most, most / least),
+                 holds(most <= 1.3 * least)});
+}
+
+// --- every file -----------------------------------------------------------------------------------------------------
+
+/// What repair makes of all parts of a file.
+struct Outcome {
+  std::size_t triangles_in = 0, triangles_out = 0;
+  std::size_t loops_in = 0, loops_once = 0, loops_out = 0, parted = 0;
+  std::size_t defects_in = 0, defects_out = 0;
+  double stated_mm = 0, measured_mm = 0, relative = 0;
+  std::size_t open_edges = 0;
+  bool settled = true, again_same = true;
+};
+
+/// Distances below this fraction of the diagonal are rounding: single precision resolves six times that.
+constexpr double k_rounding = 1e-8;
+
+std::size_t defects(const MeshStatistics& s) {
+  return s.nonmanifold_edges + s.degenerate_triangles + s.duplicate_triangles + s.flipped_edges + s.t_junctions;
+}
+
+/// What the deviation is measured from: walls between touching solids are no surface to see or feel, and repair drops
+/// them on purpose.
+TriangleMesh without_walls(const TriangleMesh& mesh) {
+  DuplicateResult result = remove_duplicates(weld_equal(mesh).mesh);
+  return result.walls > 0 ? std::move(result.mesh) : mesh;
+}
+
+void add_part(const TriangleMesh& mesh, Outcome& sum) {
+  const MeshStatistics before = mesh_statistics(mesh);
+  const RepairResult result = repair(mesh);
+  const MeshStatistics after = mesh_statistics(result.mesh);
+  const RepairResult again = repair(result.mesh);
+  sum.triangles_in += before.triangles;
+  sum.triangles_out += after.triangles;
+  sum.loops_in += before.boundary_loops;
+  sum.loops_once += mesh_statistics(remove_duplicates(weld_equal(mesh).mesh).mesh).boundary_loops;
+  sum.loops_out += after.boundary_loops;
+  sum.parted += result.counts.parted_edges;
+  sum.defects_in += defects(before);
+  sum.defects_out += defects(after);
+  sum.open_edges += after.boundary_edges;
+  sum.settled = sum.settled && result.settled;
+  sum.again_same =
+      sum.again_same && again.mesh.triangles == result.mesh.triangles && again.mesh.positions == result.mesh.positions;
+  sum.stated_mm = std::max(sum.stated_mm, result.max_deviation_mm);
+  if (mesh.triangles.empty() || result.mesh.triangles.empty()) return;
+  const double measured = surface_deviation(without_walls(mesh), result.mesh).value();
+  sum.measured_mm = std::max(sum.measured_mm, measured);
+  sum.relative = std::max(sum.relative, measured / norm(before.high - before.low));
+}
+
+Outcome outcome_of(const Scene& scene) {
+  Outcome sum;
+  for (const Part& part : scene.parts) add_part(part.mesh, sum);
+  return sum;
+}
+
+const std::set<std::string> k_cad = {".step", ".stp", ".p21", ".igs", ".iges", ".brep", ".brp"};
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension;
+}
+
+/// The files that were given, those in folders included, in the order of their names.
+std::vector<fs::path> model_files(const std::vector<std::string>& inputs) {
+  static const std::set<std::string> k_mesh = {".stl", ".obj", ".ply", ".off", ".glb", ".gltf"};
+  std::vector<fs::path> files;
+  for (const std::string& input : inputs) {
+    if (!fs::is_directory(input)) {
+      files.emplace_back(input);
+      continue;
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(input))
+      if (entry.is_regular_file() &&
+          (k_mesh.contains(lower_extension(entry.path())) || k_cad.contains(lower_extension(entry.path()))))
+        files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> row_of(const std::string& name, const Outcome& o) {
+  return {name,
+          fmt::format("{} → {}", o.triangles_in, o.triangles_out),
+          fmt::format("{} → {}", o.defects_in, o.defects_out),
+          fmt::format("{} / {} → {}", o.loops_in, o.loops_once, o.loops_out),
+          std::to_string(o.parted),
+          std::to_string(o.open_edges),
+          fmt::format("{:.2g} / {:.2g}", o.stated_mm, o.measured_mm),
+          fmt::format("{:.1g}", o.relative),
+          o.settled && o.again_same ? "yes" : "no"};
+}
+
+void report_files(bench::BenchReport& report) {
+  bench::EvidenceTable table{
+      "Every file",
+      "Defects: non-manifold edges, degenerate and duplicate triangles, neighbours of opposite sense, T-junctions, as "
+      "`papilla inspect` counts them. Boundary loops: as read / with every double sheet counted once → after; where "
+      "sheets meet in a non-manifold edge, parting them gives one of them a border, which can add a loop. Deviation: "
+      "the bound that repair states / the largest distance measured between the surfaces, both ways [mm], and that "
+      "over the bounding diagonal of the part; walls between touching solids, which repair drops, left out. CAD files "
+      "are tessellated at 0.5 mm.",
+      {"file", "triangles", "defects", "boundary loops", "parted edges", "open edges", "deviation", "relative",
+       "again the same"},
+      {}};
+  std::size_t clean = 0, within = 0, fewer = 0, same = 0, read = 0, solids = 0, closed = 0;
+  std::vector<std::string> risen;
+  for (const fs::path& file : model_files(report.options().inputs)) {
+    const std::string name = file.filename().string();
+    Outcome o;
+    try {
+      o = outcome_of(read_scene(file));
+    } catch (const Error& error) {
+      table.rows.push_back({name, "refused: " + std::string(error.what()), "", "", "", "", "", "", ""});
+      continue;
+    }
+    ++read;
+    clean += o.defects_out == 0;
+    within += o.measured_mm <= o.stated_mm * (1 + 1e-9) || o.relative <= k_rounding;
+    const bool no_more = o.loops_out <= std::max(o.loops_in, o.loops_once);
+    fewer += no_more;
+    if (!no_more)
+      risen.push_back(fmt::format("{} ({} → {}, {} edges parted)", name, o.loops_in, o.loops_out, o.parted));
+    same += o.settled && o.again_same;
+    if (k_cad.contains(lower_extension(file))) {
+      ++solids;
+      closed += o.open_edges == 0;
+    }
+    table.rows.push_back(row_of(name, o));
+  }
+  if (read == 0) return;
+  report.table(std::move(table));
+  const auto all = [&](const char* promise, std::size_t count, std::size_t of, const std::string& notes = "") {
+    report.target({promise, fmt::format("{} of {} files{}", count, of, notes), count == of});
+  };
+  std::string notes;
+  for (const std::string& name : risen) notes += (notes.empty() ? "; not: " : ", ") + name;
+  all("after repair no non-manifold edge, degenerate or duplicate triangle, flipped neighbour, T-junction", clean,
+      read);
+  all("the measured deviation is within the stated bound", within, read);
+  all("boundary loops never rise", fewer, read, notes);
+  if (solids > 0) all("closed CAD solids come out closed", closed, solids);
+  all("repairing again changes nothing", same, read);
+}
+
+void body(bench::BenchReport& report) {
+  const bool quick = report.options().quick;
+  const TemporaryFolder folder;
+  std::vector<Soup> soups;
+  soups.push_back(cockpit_soup(folder, 20, 60));
+  if (!quick) {
+    soups.push_back(cockpit_soup(folder, 0.5, 28));
+    soups.push_back(cockpit_soup(folder, 0.012, 10));
+  }
+  for (const Soup& soup : soups) add_speed(report, soup, folder);
+  if (bench::has_program("assimp")) report.compare("papilla repair", "assimp export", "process_cpu_seconds");
+  report.measure();
+  report_speed(report, soups);
+  report_files(report);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return bench::run_benchmark("meshing", "Repair of meshes", argc, argv, body); }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/triangle_budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include "papilla/core/error.hpp"
+#include "papilla_test/shapes.hpp"
+
+namespace papilla {
+namespace {
+
+TEST(TriangleBudget, AllPartsHoldTheSmallestCommonToleranceThatMeetsIt) {
+  const TriangleMesh a = test::uv_sphere(10, 45, 45), b = test::uv_sphere(20, 45, 45),
+                     plane = test::plane(30, 20, 30, 20);
+  const std::vector<BudgetPart> parts{{&a, 1, 1}, {&b, 1, 3}, {&plane, 1, 1}};
+  const BudgetResult r = simplify_to_budget(parts, 2400);
+  EXPECT_TRUE(r.reached);
+  EXPECT_LE(r.triangles, 2400U);
+  EXPECT_GE(r.triangles, 2000U);
+  EXPECT_EQ(r.triangles,
+            r.parts[0].mesh.triangles.size() + 3 * r.parts[1].mesh.triangles.size() + r.parts[2].mesh.triangles.size());
+  EXPECT_EQ(r.parts[2].mesh.triangles.size(), 2U) << "flat faces cost nothing, so they go first";
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LE(surface_deviation(*parts[i].mesh, r.parts[i].mesh).value(), r.tolerance_mm);
+    EXPECT_GT(r.parts[i].deviation.value(), 0.5 * r.tolerance_mm) << "no part is much better than the others";
+  }
+  // A tolerance a third smaller needs more than the budget.
+  SimplifyOptions smaller;
+  smaller.tolerance_mm = r.tolerance_mm / 1.5;
+  EXPECT_GT(simplify(a, smaller).mesh.triangles.size() + 3 * simplify(b, smaller).mesh.triangles.size() + 2, 2400U);
+  ASSERT_GE(r.trace.size(), 2U);
+  EXPECT_GT(r.trace.front().error, 1);
+}
+
+TEST(TriangleBudget, ImportanceDividesTheTolerance) {
+  const TriangleMesh a = test::uv_sphere(10, 40, 40), b = a;
+  const std::vector<BudgetPart> parts{{&a, 10, 1}, {&b, 1, 1}};
+  const BudgetResult r = simplify_to_budget(parts, 1500);
+  EXPECT_TRUE(r.reached);
+  EXPECT_GT(r.parts[0].mesh.triangles.size(), 2 * r.parts[1].mesh.triangles.size());
+  EXPECT_LE(r.parts[0].deviation.bound(), r.tolerance_mm / 10);
+  EXPECT_LE(r.parts[1].deviation.bound(), r.tolerance_mm);
+}
+
+TEST(TriangleBudget, LeavesAloneWhatFitsAndSaysWhatCannot) {
+  const TriangleMesh cube = test::cube(10);
+  const std::vector<BudgetPart> parts{{&cube}};
+  const BudgetResult fits = simplify_to_budget(parts, 12);
+  EXPECT_TRUE(fits.reached);
+  EXPECT_EQ(fits.parts[0].mesh.triangles.size(), 12U);
+  EXPECT_EQ(fits.tolerance_mm, 0);
+  const BudgetResult cannot = simplify_to_budget(parts, 5);
+  EXPECT_FALSE(cannot.reached);
+  EXPECT_EQ(cannot.triangles, 12U);
+}
+
+TEST(TriangleBudget, PartsThatAreNotDrawnCountForNothing) {
+  const TriangleMesh a = test::uv_sphere(10, 40, 40);
+  const std::vector<BudgetPart> parts{{&a, 1, 0}};
+  EXPECT_EQ(simplify_to_budget(parts, 1).triangles, 0U);
+  EXPECT_TRUE(simplify_to_budget({}, 1).reached);
+}
+
+TEST(TriangleBudget, RefusesBadInput) {
+  const TriangleMesh cube = test::cube(10);
+  EXPECT_THROW(simplify_to_budget(std::vector<BudgetPart>{{nullptr}}, 5), InvalidInput);
+  EXPECT_THROW(simplify_to_budget(std::vector<BudgetPart>{{&cube, 0}}, 5), InvalidInput);
+  EXPECT_THROW(simplify_to_budget(std::vector<BudgetPart>{{&cube}}, 0), InvalidInput);
+}
+
+}  // namespace
+}  // namespace papilla
