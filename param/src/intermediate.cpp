@@ -20,6 +20,9 @@ constexpr double k_pi = std::numbers::pi;
 /// Objects without extent in a direction count as having this fraction of their diagonal there.
 constexpr double k_least_extent = 1e-3;
 
+/// Rays that meet the shape farther away than this, in half diagonals of the object, miss it.
+constexpr double k_reach = 16;
+
 struct Ray {
   Vec3 origin, direction;
 };
@@ -107,7 +110,7 @@ class Mapper {
     if (options_.rule != IntermediateRule::intermediate_normal) {
       const Ray r = ray(p, turn(normals_[vertex]));
       const double s = hit(r);
-      if (s > 0 && std::isfinite(s)) return describe(r.origin + s * r.direction);
+      if (s > 0 && s * norm(r.direction) <= k_reach * norm(around_.half)) return describe(r.origin + s * r.direction);
     }
     return foot(p);
   }

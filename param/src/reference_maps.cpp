@@ -41,7 +41,8 @@ Flattening flatten_reference(const TriangleMesh& mesh, const ChartSet& charts, c
   check(options);
   const auto method = [&](const ChartSurface& chart) {
     const Stopwatch clock;
-    ConformalMap solution = solve(chart, options);
+    // CGAL's ARAP compares energies with an absolute number: a chart of area 1 makes it relative.
+    ConformalMap solution = solve(to_unit(chart).surface, options);
     ChartMap map{std::move(solution.uv), std::move(solution.failure), StopReason::direct, {}, false};
     if (!map.failure.empty()) return map;
     const double seconds = clock.seconds();
