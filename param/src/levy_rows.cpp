@@ -19,6 +19,7 @@ constexpr double k_length_scale = 0.012;
 /// The derivative across an edge is (apex - (1-s) from - s to) / height.
 struct Across {
   double s = 0.5, height = 1, area = 0;
+  double trust = 1;  ///< The true height over `height`, at most 1: what is left of the conditions on a sliver.
 };
 
 Across across_edge(Vec3 from, Vec3 to, Vec3 apex) {
@@ -29,6 +30,7 @@ Across across_edge(Vec3 from, Vec3 to, Vec3 apex) {
   if (square > 0) result.s = std::clamp(dot(p, e) / square, -1e3, 1e3);
   const double height = square > 0 ? 2 * result.area / std::sqrt(square) : 0;
   result.height = std::max({height, k_least_height * longest, 1e-300});
+  result.trust = height / result.height;
   return result;
 }
 
@@ -124,9 +126,10 @@ LinearRows length_rows(const ChartSurface& chart) {
       const Across one = across_edge(at(a), at(b), at(c)), two = across_edge(at(a), at(b), at(d));
       const double apart = (one.height + two.height) / 3;
       const double weight = std::sqrt(k_length_scale * (one.area + two.area) / 3) / apart;
-      rows.add(std::array{a, b, c, d}, std::array{weight * ((one.s - 1) / one.height + (two.s - 1) / two.height),
-                                                  weight * (-one.s / one.height - two.s / two.height),
-                                                  weight / one.height, weight / two.height});
+      // Multiplied by both trusts, so that the true heights divide nothing; linear maps keep satisfying the condition.
+      const double p = weight * two.trust / one.height, q = weight * one.trust / two.height;
+      rows.add(std::array{a, b, c, d},
+               std::array{p * (one.s - 1) + q * (two.s - 1), -p * one.s - q * two.s, p, q});
     }
   return rows;
 }
