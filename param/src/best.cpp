@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "best_options.hpp"
 #include "chart_driver.hpp"
 #include "multilevel_map.hpp"
 #include "papilla/core/error.hpp"
@@ -14,8 +15,10 @@ using namespace param_detail;
 
 constexpr const char* k_function = "flatten_best";
 
-void check(const BestOptions& options) {
-  const auto refuse = [](const std::string& what) { throw InvalidInput(std::string(k_function) + ": " + what); };
+}  // namespace
+
+void param_detail::check_best_options(const BestOptions& options, std::string_view function) {
+  const auto refuse = [&](const std::string& what) { throw InvalidInput(std::string(function) + ": " + what); };
   if (!(options.tolerance > 0 && options.tolerance < 1))
     refuse("tolerance is " + std::to_string(options.tolerance) + ", it must lie between 0 and 1");
   if (options.max_iterations < 0)
@@ -24,10 +27,8 @@ void check(const BestOptions& options) {
     refuse("time_limit_s is " + std::to_string(options.time_limit_s) + ", it must not be negative");
 }
 
-}  // namespace
-
 Flattening flatten_best(const TriangleMesh& mesh, const ChartSet& charts, const BestOptions& options) {
-  check(options);
+  check_best_options(options, k_function);
   const auto method = [&](const ChartSurface& chart) {
     const UnitChart unit = to_unit(chart);
     MultilevelMap solution =

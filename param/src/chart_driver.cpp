@@ -23,6 +23,7 @@ struct MappedChart {
   double area = 0;
   StopReason stop = StopReason::direct;
   Trace trace;
+  MethodChoice choice;
 };
 
 MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, const DriverOptions& options) {
@@ -36,6 +37,7 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
     return result;
   }
   ChartMap map = method(chart);
+  result.choice = std::move(map.choice);
   result.failure = map.failure;
   if (!result.failure.empty()) return result;
   if (!map.keep_place) normalise(chart, options.up, options.scale_to_area, map.uv);
@@ -131,6 +133,7 @@ Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, cons
     if (members.of(c).empty()) return;
     const ChartSurface surface = cutter.cut(c, members.of(c));
     mapped[c] = map_chart(surface, method, options);
+    if (options.choices) (*options.choices)[c] = mapped[c].choice;
     if (mapped[c].failure.empty() || !options.fall_back) return;
     if (!unfold_instead(surface, options, mapped[c])) project_instead(surface, options, mapped[c]);
   });

@@ -12,6 +12,11 @@
 
 namespace papilla::param_detail {
 
+/// Which of several methods a chart got, and why.
+struct MethodChoice {
+  std::string method, reason;
+};
+
 /// The map of one chart, or why there is none.
 struct ChartMap {
   std::vector<Vec2> uv;  ///< Per vertex of the chart; empty when `failure` says why.
@@ -19,6 +24,7 @@ struct ChartMap {
   StopReason stop = StopReason::direct;
   Trace trace;              ///< Error: what the method minimises, summed over the chart; seconds since its start.
   bool keep_place = false;  ///< Do not scale and turn: the caller said where it goes.
+  MethodChoice choice = {};  ///< Of methods that choose.
 };
 
 using ChartMethod = std::function<ChartMap(const ChartSurface&)>;
@@ -34,6 +40,7 @@ struct DriverOptions {
   /// What trace errors are divided by: the charts' area, or 1.
   bool error_per_area = true;
   TriplanarOptions projection;
+  std::vector<MethodChoice>* choices = nullptr;  ///< Filled per chart when given; its size is that of the chart set.
 };
 
 /// Maps every chart on its own, in parallel, and puts the maps together. The trace is the sum over the charts as if

@@ -128,8 +128,7 @@ LinearRows length_rows(const ChartSurface& chart) {
       const double weight = std::sqrt(k_length_scale * (one.area + two.area) / 3) / apart;
       // Multiplied by both trusts, so that the true heights divide nothing; linear maps keep satisfying the condition.
       const double p = weight * two.trust / one.height, q = weight * one.trust / two.height;
-      rows.add(std::array{a, b, c, d},
-               std::array{p * (one.s - 1) + q * (two.s - 1), -p * one.s - q * two.s, p, q});
+      rows.add(std::array{a, b, c, d}, std::array{p * (one.s - 1) + q * (two.s - 1), -p * one.s - q * two.s, p, q});
     }
   return rows;
 }

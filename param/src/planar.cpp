@@ -6,14 +6,12 @@
 #include "mesh_frame.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/projections.hpp"
+#include "principal_axis.hpp"
 
 namespace papilla {
 namespace {
 
 using namespace param_detail;
-
-/// Power iteration ends here; directions that are as good as each other need not be told apart.
-constexpr int k_power_steps = 200;
 
 /// The direction d of greatest Σ A (n·d)², on the side of Σ A n.
 Vec3 dominant_normal(const TriangleMesh& mesh) {
@@ -25,15 +23,7 @@ Vec3 dominant_normal(const TriangleMesh& mesh) {
     sum = sum + doubled;
     x = x + (doubled.x / area) * doubled, y = y + (doubled.y / area) * doubled, z = z + (doubled.z / area) * doubled;
   }
-  const auto times = [&](Vec3 d) { return Vec3{dot(x, d), dot(y, d), dot(z, d)}; };
-  Vec3 best{0, 0, 1};
-  // From every axis, so that none is orthogonal to the answer.
-  for (const Vec3 start : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-    Vec3 d = start;
-    for (int i = 0; i < k_power_steps; ++i)
-      if (const Vec3 next = normalized(times(d)); norm(next) > 0) d = next;
-    if (dot(d, times(d)) > (1 + 1e-9) * dot(best, times(best))) best = d;
-  }
+  const Vec3 best = principal_axis({x, y, z});
   return dot(best, sum) < 0 ? -best : best;
 }
 

@@ -56,12 +56,12 @@ struct IntermediateOptions {
 /// The shapes stand upright around the middle of the bounding box, with R half its larger horizontal extent: sphere
 /// whose radius S is half the largest extent, u = S φ and v = S λ (φ longitude, λ latitude); cylinder of radius R, u =
 /// R φ and v = height; cone of radius R at the top and 2 R at the bottom of the box, unrolled; the box itself,
-/// projected. Angles come from atan2. Rays that miss the shape, or meet it more than eight diagonals of the object away,
-/// take intermediate_normal. Guarantees: what Flattening
-/// promises; triangles across the back (φ = ±π) keep together, the seam lies between them. Charts may overlap
-/// themselves. Distortion is that of the rule: intermediate_normal is an isometry for an object that has the
-/// intermediate surface's own shape. O(n), deterministic. Source: E. Bier, K. Sloan, Two-part texture mappings, 1986;
-/// section 4.2.2.2 of the thesis on haptic textures, with u and v of the sphere exchanged and atan2 for arccos.
+/// projected. Angles come from atan2. Rays that miss the shape, or meet it more than eight diagonals of the object
+/// away, take intermediate_normal. Guarantees: what Flattening promises; triangles across the back (φ = ±π) keep
+/// together, the seam lies between them. Charts may overlap themselves. Distortion is that of the rule:
+/// intermediate_normal is an isometry for an object that has the intermediate surface's own shape. O(n), deterministic.
+/// Source: E. Bier, K. Sloan, Two-part texture mappings, 1986; section 4.2.2.2 of the thesis on haptic textures, with u
+/// and v of the sphere exchanged and atan2 for arccos.
 /// @throws InvalidInput when a position is not finite, an index out of range, or the eye is not finite.
 ProjectionResult flatten_intermediate(const TriangleMesh& mesh, const IntermediateOptions& options = {});
 
