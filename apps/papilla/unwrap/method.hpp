@@ -6,6 +6,7 @@
 #include <string>
 
 #include "papilla/meshing/segmentation.hpp"
+#include "papilla/param/automatic.hpp"
 #include "papilla/param/best.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/levy.hpp"
@@ -30,7 +31,8 @@ enum class UnwrapMethod {
   mvc,
   lscm,
   arap,
-  best
+  best,
+  automatic
 };
 
 /// The methods by the names that the command line has for them.
@@ -43,9 +45,26 @@ bool takes_charts(UnwrapMethod method);
 /// Where the charts come from: made by segmentation, or every connected component is one.
 enum class ChartSource { automatic, keep };
 
+/// Along what the grain runs.
+enum class GrainSource {
+  up,         ///< Upright: grain_direction().
+  longest,    ///< Along the part: longest_direction().
+  direction,  ///< As given.
+};
+
+/// What a part is beside others, and what its grain is: automatic decides by it.
+struct PartContext {
+  GrainUp up = GrainUp::z;
+  Vec2 tile_mm{0, 0};          ///< Of the grain; 0: unknown.
+  std::size_t parts = 1;       ///< That are unwrapped together.
+  double scene_extent_mm = 0;  ///< Bounding diagonal of all of them.
+};
+
 /// The chosen method and the options of each. Orientation, tile and fallback are set for all by flatten_part().
 struct MethodOptions {
-  UnwrapMethod method = UnwrapMethod::lscm;
+  UnwrapMethod method = UnwrapMethod::automatic;
+  GrainSource grain = GrainSource::up;
+  Vec3 grain_direction{0, 0, 1};  ///< Of GrainSource::direction.
   ChartSource charts = ChartSource::automatic;
   SegmentationOptions segmentation;
   NaturalOptions natural;
@@ -58,15 +77,26 @@ struct MethodOptions {
   LscmOptions lscm;
   ReferenceOptions reference;
   BestOptions best;
+  AutomaticOptions automatic;
   /// Of the methods that iterate; not given: the method's own.
   std::optional<int> iterations;
   std::optional<double> tolerance, time_limit_s;
 };
 
-/// The part's charts and uv in millimetres (environment: in textures), not placed yet. Equal positions must be one
-/// vertex.
+struct FlattenedPart {
+  Flattening flattening;             ///< uv in millimetres (environment: in textures), not placed yet.
+  std::string method, reason;        ///< Of the part: the method that was taken, and, when it was chosen, why.
+  std::vector<ChartChoice> choices;  ///< Of automatic: per chart.
+  double segment_seconds = 0;
+};
+
+/// Charts and maps one part. Equal positions must be one vertex. Charts that the method can't map are halved a few
+/// times before another map takes their place. Automatic takes triplanar for parts that are smaller than one repeat of
+/// the grain, and for small ones among many under fine grain; else a method for every chart.
 /// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
-Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, Vec2 tile_mm, const MethodOptions& options,
-                        double& segment_seconds);
+FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options);
+
+/// The bounding diagonal of a mesh's positions.
+double bounding_diagonal(const TriangleMesh& mesh);
 
 }  // namespace papilla::app

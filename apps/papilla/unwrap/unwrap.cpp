@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unwrap/unwrap.hpp"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -56,6 +58,8 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
     AlignedPhase aligned = align_phase(scene.parts[p].mesh, f, {.tile_mm = options.tile_mm});
     f.uv = std::move(aligned.uv);
     report.parts[p].grain_continued_mm = aligned.continued_mm;
+    report.parts[p].seams =
+        seam_visibility(scene.parts[p].mesh, f.uv, {.tile_mm = options.tile_mm, .grain_mm = report.grain_mm});
   }
   if (options.layout == UvLayout::tile) return;
   const AllCharts all = gather(report.parts);
@@ -63,6 +67,51 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
   const Atlas atlas = pack_atlas(all.uv, all.charts, {.gutter_mm = gutter, .tile_mm = options.tile_mm});
   report.fill_rate = atlas.fill_rate;
   scatter(atlas.uv, report.parts);
+}
+
+double density_of(const std::string& part, const UnwrapOptions& options) {
+  for (const auto& [pattern, density] : options.density)
+    if (::fnmatch(pattern.c_str(), part.c_str(), 0) == 0) return density;
+  return 1;
+}
+
+/// Gives the parts channel 1.
+void place_unique(Scene& scene, const UnwrapOptions& options, UnwrapReport& report) {
+  const AllCharts all = gather(report.parts);
+  UniqueAtlasOptions unique{options.unique->texture_px, options.unique->gutter_px, {}};
+  for (std::size_t p = 0; p < report.parts.size(); ++p)
+    unique.density.insert(unique.density.end(), report.parts[p].flattening.charts.count,
+                          density_of(scene.parts[p].name, options));
+  UniqueAtlas atlas = pack_unique(all.uv, all.charts, unique);
+  auto next = atlas.uv.values.begin();
+  for (std::size_t p = 0; p < report.parts.size(); ++p) {
+    const CornerAttribute<Vec2>& uv = report.parts[p].flattening.uv;
+    if (uv.empty()) continue;
+    const auto end = next + static_cast<std::ptrdiff_t>(uv.values.size());
+    scene.parts[p].mesh.uv1 = {{next, end}, uv.indices};
+    next = end;
+  }
+  atlas.uv = {};
+  report.unique = std::move(atlas);
+}
+
+double grain_size(const UnwrapOptions& options) {
+  if (options.grain_mm) return *options.grain_mm;
+  const double tile = std::min(options.tile_mm.x, options.tile_mm.y);
+  return tile > 0 ? tile / 8 : 1;
+}
+
+/// What the parts have in common.
+PartContext context_of(const Scene& scene, const UnwrapOptions& options) {
+  PartContext context;
+  context.up = scene.up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  context.tile_mm = options.tile_mm;
+  context.parts = scene.parts.size();
+  TriangleMesh all;
+  for (const Part& part : scene.parts)
+    all.positions.insert(all.positions.end(), part.mesh.positions.begin(), part.mesh.positions.end());
+  context.scene_extent_mm = bounding_diagonal(all);
+  return context;
 }
 
 void add_trace(const Flattening& flattening, double start, UnwrapReport& report) {
@@ -80,7 +129,8 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
     throw InvalidInput("no part has triangles to unwrap");
   UnwrapReport report;
   report.parts.resize(scene.parts.size());
-  const GrainUp up = scene.up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  report.grain_mm = grain_size(options);
+  const PartContext context = context_of(scene, options);
   std::exception_ptr first_failure;
   bool any = false;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
@@ -89,9 +139,14 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
     UnwrappedPart& result = report.parts[p];
     try {
       part.mesh = weld_equal(std::move(part.mesh)).mesh;
-      const double start = clock.seconds(), before = report.seconds.segment;
-      result.flattening = flatten_part(part.mesh, up, options.tile_mm, options.method, report.seconds.segment);
-      report.seconds.solve += clock.seconds() - start - (report.seconds.segment - before);
+      const double start = clock.seconds();
+      FlattenedPart flattened = flatten_part(part.mesh, context, options.method);
+      report.seconds.segment += flattened.segment_seconds;
+      report.seconds.solve += clock.seconds() - start - flattened.segment_seconds;
+      result.flattening = std::move(flattened.flattening);
+      result.method = std::move(flattened.method);
+      result.reason = std::move(flattened.reason);
+      result.choices = std::move(flattened.choices);
       add_trace(result.flattening, start, report);
       any = true;
     } catch (const SolverFailure& error) {
@@ -104,7 +159,10 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
   }
   if (!any && first_failure) std::rethrow_exception(first_failure);
   const double start = clock.seconds();
-  if (options.method.method != UnwrapMethod::environment) place(scene, options, report);
+  if (options.method.method != UnwrapMethod::environment) {
+    if (options.unique) place_unique(scene, options, report);
+    place(scene, options, report);
+  }
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
     if (!report.parts[p].failure.empty()) continue;
     scene.parts[p].mesh.uv = report.parts[p].flattening.uv;

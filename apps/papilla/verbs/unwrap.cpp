@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <charconv>
 #include <map>
 #include <memory>
 
@@ -22,6 +23,10 @@ namespace {
 struct Options {
   std::string input, output, trace, picture;
   std::string solver, direction, eye;  // empty: the method's own
+  std::string grain = "up";
+  int texture_px = 0;  // 0: no second set of uv
+  double gutter_px = 4;
+  std::vector<std::string> density;
   std::vector<double> tile{0, 0};
   SceneOptions scene;
   UnwrapOptions unwrap;
@@ -33,6 +38,24 @@ std::string trace_csv(const Trace& trace) {
   return csv;
 }
 
+Json choices_json(const std::vector<ChartChoice>& choices) {
+  Json json = Json::array();
+  for (const ChartChoice& c : choices) json.push_back({{"chart", c.chart}, {"method", c.method}, {"reason", c.reason}});
+  return json;
+}
+
+Json seams_json(const SeamVisibility& s) {
+  return {{"seam_mm", s.seam_mm},         {"visible_mm", s.visible_mm},       {"mean_jump_mm", s.mean_jump_mm},
+          {"max_jump_mm", s.max_jump_mm}, {"mean_turn_deg", s.mean_turn_deg}, {"per_size", s.per_size}};
+}
+
+Json unique_json(const UnwrapReport& report) {
+  if (!report.unique) return {};
+  return {{"fill_rate", report.unique->fill_rate},
+          {"texels_per_mm", report.unique->texels_per_mm},
+          {"gutter_px", report.unique->gutter_px}};
+}
+
 Json parts_json(const Scene& scene, const UnwrapReport& report) {
   Json parts = Json::array();
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
@@ -41,9 +64,13 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
     for (const ChartNote& note : part.flattening.notes) notes.push_back(note.reason);
     parts.push_back({{"name", scene.parts[p].name},
                      {"triangles", scene.parts[p].mesh.triangles.size()},
+                     {"method", part.method},
+                     {"reason", part.reason.empty() ? Json() : Json(part.reason)},
                      {"charts", part.flattening.charts.count},
+                     {"choices", choices_json(part.choices)},
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
                      {"grain_continued_mm", part.grain_continued_mm},
+                     {"seam_visibility", seams_json(part.seams)},
                      {"notes", std::move(notes)},
                      {"failure", part.failure.empty() ? Json() : Json(part.failure)}});
   }
@@ -54,6 +81,7 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
 std::string remarks(const UnwrapReport& report) {
   std::string text;
   for (const UnwrappedPart& part : report.parts) {
+    if (!part.reason.empty() && part.failure.empty()) text += part.method + ": " + part.reason + "\n";
     if (!part.failure.empty()) text += "not unwrapped: " + part.failure + "\n";
     if (!part.flattening.notes.empty())
       text += fmt::format("{} charts did not take the method, the first: {}\n", part.flattening.notes.size(),
@@ -92,15 +120,37 @@ MethodOptions method_options(const Options& options) {
   if (!takes_charts(method.method) && method.charts == ChartSource::keep)
     throw UsageError("--charts keep: " + unwrap_method_name(method.method) + " makes its own charts");
   choose_solver(options.solver, method);
+  if (options.grain == "longest") {
+    method.grain = GrainSource::longest;
+  } else if (options.grain != "up") {
+    method.grain = GrainSource::direction;
+    method.grain_direction = parse_vector("--grain", options.grain);
+    if (!(norm(method.grain_direction) > 0)) throw UsageError("--grain " + options.grain + ": it has no length");
+  }
   if (!options.direction.empty()) method.planar.direction = parse_vector("--direction", options.direction);
   if (!options.eye.empty()) method.intermediate.eye = method.environment.eye = parse_vector("--eye", options.eye);
   return method;
+}
+
+/// PATTERN=FACTOR.
+std::pair<std::string, double> parse_density(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  double factor = 0;
+  const char* end = text.data() + text.size();
+  if (equals != std::string::npos) {
+    const auto [rest, error] = std::from_chars(text.data() + equals + 1, end, factor);
+    if (error == std::errc() && rest == end && factor >= 1e-3 && factor <= 1e3) return {text.substr(0, equals), factor};
+  }
+  throw UsageError("--density '" + text + "': expected PART=FACTOR with a number from 0.001 to 1000");
 }
 
 UnwrapOptions unwrap_options(const Options& options) {
   UnwrapOptions unwrap = options.unwrap;
   unwrap.method = method_options(options);
   unwrap.tile_mm = {options.tile[0], options.tile[1]};
+  if (options.texture_px > 0) unwrap.unique = UniqueUv{options.texture_px, options.gutter_px};
+  if (!options.density.empty() && !unwrap.unique) throw UsageError("--density needs --texture-px");
+  for (const std::string& text : options.density) unwrap.density.push_back(parse_density(text));
   return unwrap;
 }
 
@@ -146,6 +196,8 @@ Json run(const Options& options, VerbContext& context) {
             {"pack", report.seconds.pack},
             {"total", report.seconds.total}}},
           {"fill_rate", report.fill_rate},
+          {"grain_mm", report.grain_mm},
+          {"unique", unique_json(report)},
           {"distortion", distortion_json(distortion.report)},
           {"parts", parts_json(scene, report)},
           {"losses", scene.losses}};
@@ -213,18 +265,19 @@ void add_method_options(CLI::App& verb, Options& options) {
 
 void add_unwrap(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  options->unwrap.method.method = UnwrapMethod::best;
+  options->unwrap.method.method = UnwrapMethod::automatic;
   UnwrapOptions& unwrap = options->unwrap;
   CLI::App* verb = add_verb(program,
                             {"unwrap", "Make charts and texture coordinates in millimetres.",
-                             "papilla unwrap part.stl -o part.glb --method best --picture part.png"},
+                             "papilla unwrap part.stl -o part.glb --picture part.png"},
                             [options](VerbContext& context) { return run(*options, context); });
   verb->add_option("IN", options->input, "Mesh, CAD or glTF file")->required();
   verb->add_option("-o,--output", options->output, "File with texture coordinates: .glb, .obj")->required();
   add_choice<UnwrapMethod>(
       verb, "--method", unwrap.method.method, unwrap_methods(),
-      "best (default): lowest distortion, no flips, no overlap; lscm, levy: conformal; maillot, arap: "
-      "lengths and areas; tutte, mvc: border on a circle; natural: the CAD surface's parameters; "
+      "auto (default): chart by chart, the cheapest that does it well; best: lowest distortion, no flips, no "
+      "overlap; lscm, levy: conformal; maillot, arap: lengths and areas; tutte, mvc: border on a circle; natural: the "
+      "CAD surface's parameters; "
       "triplanar, planar, intermediate: projections; environment: sphere map, for previews")
       ->type_name("NAME");
   add_choice<ChartSource>(verb, "--charts", unwrap.method.charts,
@@ -249,6 +302,23 @@ void add_unwrap(CLI::App& program) {
       ->expected(2)
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("MM");
+  verb->add_option("--grain", options->grain,
+                   "Direction of the grain: up (default), longest: along each part, or a vector")
+      ->type_name("up|longest|X,Y,Z");
+  verb->add_option("--grain-size", unwrap.grain_mm,
+                   "Size of one grain, by which seams are judged; default: an eighth of the tile")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->type_name("MM");
+  verb->add_option("--texture-px", options->texture_px,
+                   "Add a second set of uv for one texture of so many texels a side in which nothing overlaps")
+      ->check(CLI::Range(16, 65536))
+      ->type_name("PX");
+  verb->add_option("--gutter-px", options->gutter_px, "Texels between charts there")
+      ->check(CLI::Range(0.0, 16384.0))
+      ->type_name("PX")
+      ->capture_default_str();
+  verb->add_option("--density", options->density, "Texel density there of parts by name (* and ? match), relative to 1")
+      ->type_name("PART=FACTOR");
   verb->add_option("--gutter", unwrap.gutter_mm, "Least distance of charts in the atlas; default: 0.5 % of its side")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("MM");
