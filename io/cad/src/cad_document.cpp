@@ -21,6 +21,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "iges_syntax.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
 #include "step_syntax.hpp"
@@ -179,6 +180,7 @@ void read_iges(const std::filesystem::path& path, CadDocument& result, const Pro
   reader.SetNameMode(true);
   reader.SetColorMode(true);
   reader.SetLayerMode(true);
+  check_iges_syntax(path);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw InvalidInput(path.string() + ": IGES file is damaged (its sections can't be parsed)");
   const Handle(TCollection_HAsciiString) unit_name = reader.IGESModel()->GlobalSection().UnitName();
