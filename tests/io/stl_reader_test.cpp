@@ -62,7 +62,7 @@ TEST_F(StlReader, BinaryThatBeginsWithSolid) {
 
 /// The bytes with the attribute of a triangle set.
 std::string with_attribute(std::string bytes, std::size_t triangle, std::uint16_t attribute) {
-  std::memcpy(bytes.data() + 84 + 50 * triangle + 48, &attribute, sizeof attribute);
+  bytes.replace(84 + 50 * triangle + 48, sizeof attribute, reinterpret_cast<const char*>(&attribute), sizeof attribute);
   return bytes;
 }
 
