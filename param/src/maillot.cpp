@@ -81,7 +81,8 @@ ChartMap map_chart(const ChartSurface& chart, const MaillotOptions& options) {
   ChartMap map{std::move(start.uv), std::move(start.failure), StopReason::direct, {}};
   if (!map.failure.empty()) return map;
   const double started = clock.seconds(), square_mm = 1 / (unit.scale * unit.scale);
-  const MaillotEnergy energy(unit.surface.positions, unit.surface.triangles, options.length_weight);
+  const std::span<const Index> across(unit.surface.across.front().data(), 3 * unit.surface.across.size());
+  const MaillotEnergy energy(unit.surface.positions, unit.surface.triangles, across, options.length_weight);
   DescentOptions descent;
   descent.max_iterations = options.max_iterations;
   descent.tolerance = options.tolerance;
@@ -114,11 +115,10 @@ void measure(const TriangleMesh& mesh, MaillotResult& result) {
   cut.triangles = uv.indices;
   for (std::size_t t = 0; t < uv.indices.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) cut.positions[uv.indices[t][k]] = mesh.corner(t, static_cast<int>(k));
-  const MaillotEnergy lengths(cut.positions, cut.triangles, 1), areas(cut.positions, cut.triangles, 0);
-  result.length_energy = total_energy({cut.triangles, &lengths}, uv.values);
-  result.area_energy = total_energy({cut.triangles, &areas}, uv.values);
-  const std::vector<Vec2> point(uv.values.size());
-  result.squared_edges = total_energy({cut.triangles, &lengths}, point);  // d = 0: Σ D²
+  const MaillotEnergy::Sums sums = MaillotEnergy(cut.positions, cut.triangles, 0.5).sums(cut.triangles, uv.values);
+  result.length_energy = sums.length;
+  result.area_energy = sums.area;
+  result.squared_edges = sums.squared_edges;
   for (const Triangle& t : uv.indices)
     result.flipped += cross(uv.values[t[1]] - uv.values[t[0]], uv.values[t[2]] - uv.values[t[0]]) < 0;
 }

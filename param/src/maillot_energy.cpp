@@ -23,18 +23,26 @@ std::array<Vec2, 3> determinant_gradient(const MapEdges& m) {
   return {turned(m.edge[1]), turned(m.edge[2]), turned(m.edge[0])};
 }
 
-}  // namespace
-
-MaillotEnergy::MaillotEnergy(std::span<const Vec3> positions, std::span<const Triangle> triangles, double length_weight)
-    : rest_(triangles.size()) {
+Adjacency neighbours(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
   TriangleMesh mesh;
   mesh.positions.assign(positions.begin(), positions.end());
   mesh.triangles.assign(triangles.begin(), triangles.end());
-  const Adjacency across = connect_triangles(mesh);
+  return connect_triangles(mesh);
+}
+
+}  // namespace
+
+MaillotEnergy::MaillotEnergy(std::span<const Vec3> positions, std::span<const Triangle> triangles, double length_weight)
+    : MaillotEnergy(positions, triangles, neighbours(positions, triangles), length_weight) {}
+
+MaillotEnergy::MaillotEnergy(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                             std::span<const Index> across, double length_weight)
+    : rest_(triangles.size()) {
   double longest = 0;
   for (std::size_t t = 0; t < rest_.size(); ++t) {
     Rest& rest = rest_[t];
-    rest.doubled_area = norm(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
+    const auto& [a, b, c] = triangles[t];
+    rest.doubled_area = norm(cross(positions[b] - positions[a], positions[c] - positions[a]));
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 e = positions[triangles[t][(k + 1) % 3]] - positions[triangles[t][k]];
       rest.squared[k] = dot(e, e);
@@ -46,9 +54,29 @@ MaillotEnergy::MaillotEnergy(std::span<const Vec3> positions, std::span<const Tr
     const double own = *std::max_element(rest.squared.begin(), rest.squared.end());
     if (rest.doubled_area > k_least * own) rest.area_weight = (1 - length_weight) / rest.doubled_area;
     for (std::size_t k = 0; k < 3; ++k)
-      if (rest.squared[k] > k_least * k_least * longest)
-        rest.length_weight[k] = length_weight * (across[3 * t + k] == k_no_triangle ? 1 : 0.5) / rest.squared[k];
+      if (rest.squared[k] > k_least * k_least * longest) {
+        rest.share[k] = across[3 * t + k] == k_no_triangle ? 1 : 0.5;
+        rest.length_weight[k] = length_weight * rest.share[k] / rest.squared[k];
+      }
   }
+}
+
+MaillotEnergy::Sums MaillotEnergy::sums(std::span<const Triangle> triangles, std::span<const Vec2> uv) const {
+  Sums sums;
+  for (std::size_t t = 0; t < rest_.size(); ++t) {
+    const Rest& rest = rest_[t];
+    const MapEdges m(uv[triangles[t][0]], uv[triangles[t][1]], uv[triangles[t][2]]);
+    const double own = *std::max_element(rest.squared.begin(), rest.squared.end());
+    const double excess = m.determinant - rest.doubled_area;
+    if (rest.doubled_area > k_least * own) sums.area += excess * excess / rest.doubled_area;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (rest.share[k] == 0) continue;
+      const double longer = dot(m.edge[k], m.edge[k]) - rest.squared[k];
+      sums.length += rest.share[k] * longer * longer / rest.squared[k];
+      sums.squared_edges += rest.share[k] * rest.squared[k];
+    }
+  }
+  return sums;
 }
 
 double MaillotEnergy::value(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c) const {
