@@ -28,8 +28,8 @@ std::vector<WeldStep> weld_ladder(const TriangleMesh& mesh, std::span<const doub
     step.triangles = welded.mesh.triangles.size();
     const detail::EdgeTable edges(welded.mesh.triangles, welded.mesh.positions.size());
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      step.boundary_edges += edges.halfedges(e).size() == 1 ? 1U : 0U;
-      step.nonmanifold_edges += edges.halfedges(e).size() > 2 ? 1U : 0U;
+      step.boundary_edges += edges.halfedges(e).size() == 1 ? 1u : 0u;
+      step.nonmanifold_edges += edges.halfedges(e).size() > 2 ? 1u : 0u;
     }
     steps.push_back(step);
   }

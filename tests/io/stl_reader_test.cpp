@@ -96,11 +96,15 @@ TEST_F(StlReader, ManyBlocksKeepTheirOrder) {
 }
 
 TEST_F(StlReader, UnitAndAxis) {
-  const Scene scene = read(binary_stl(k_square, 2), {25.4, UpAxis::y, 0.1, 20});
+  ReadOptions options, wrong;
+  options.millimetres_per_unit = 25.4;
+  options.up = UpAxis::y;
+  wrong.millimetres_per_unit = -1;
+  const Scene scene = read(binary_stl(k_square, 2), options);
   EXPECT_EQ(scene.parts[0].mesh.positions[1], (Vec3{25.4, 0, 0}));
   EXPECT_EQ(scene.unit, "in");
   EXPECT_EQ(scene.up, UpAxis::y);
-  EXPECT_THROW(read(binary_stl(k_square, 2), {-1, {}, 0.1, 20}), InvalidInput);
+  EXPECT_THROW(read(binary_stl(k_square, 2), wrong), InvalidInput);
 }
 
 TEST_F(StlReader, HugeClaimsAreRefused) {

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
+#include "papilla/io/tessellation_trace.hpp"
 
-#include <array>
+#include <fmt/format.h>
 
 #include "evaluate/evaluation.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/cad_reader.hpp"
 
 namespace papilla::app {
 namespace {
 
-constexpr std::array<double, 7> k_chords_mm = {2, 1, 0.5, 0.2, 0.1, 0.05, 0.02};
+/// From a room's distance to what a fingertip feels.
+constexpr double k_coarsest_mm = 2, k_finest_mm = 0.02;
+constexpr std::size_t k_steps = 7;
+
+CadReadOptions cad_options(const ReadOptions& read) {
+  CadReadOptions options;
+  options.angle_deg = read.angle_deg;
+  options.millimetres_per_unit = read.cad_millimetres_per_unit;
+  return options;
+}
 
 }  // namespace
 
@@ -25,16 +33,13 @@ std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input) {
                           {},
                           "direct",
                           ""};
-  for (const double chord : k_chords_mm) {
-    CadReadOptions options;
-    options.chord_mm = chord;
-    options.angle_deg = read.angle_deg;
-    options.millimetres_per_unit = read.millimetres_per_unit;
-    CadReport report;
-    read_cad(input.file, options, &report, input.progress);
-    deviation.trace.push_back({report.seconds_tessellate, report.max_deviation_mm});
-    deviation.notes += fmt::format("chord {:g} mm: {} triangles, deviation {:.3g} mm, {} faces failed; ", chord,
-                                   report.triangles, report.max_deviation_mm, report.failed_faces.size());
+  for (const TessellationSample& sample :
+       trace_tessellation(input.file, chord_ladder(k_coarsest_mm, k_finest_mm, k_steps), cad_options(read),
+                          input.progress)) {
+    deviation.trace.push_back({sample.seconds, sample.deviation_mm});
+    deviation.notes += fmt::format("chord {:.3g} mm: {} triangles, deviation {:.3g} mm, {} faces failed, {} off; ",
+                                   sample.chord_mm, sample.triangles, sample.deviation_mm, sample.failed_faces,
+                                   sample.off_faces);
   }
   return {std::move(deviation)};
 }
