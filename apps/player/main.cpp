@@ -4,8 +4,10 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <optional>
 #include <string>
 
+#include "device_choice.hpp"
 #include "exit_code.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
@@ -21,23 +23,19 @@ using namespace papilla;
 using namespace papilla::player;
 
 std::atomic<bool> g_stop{false};
+std::atomic<int> g_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 struct Options {
   std::string file, device = "sim", trajectory, record, json;
   double rate_hz = 1000, seconds = 0, probe_radius_mm = 0;
-  bool quiet = false;
+  std::vector<double> origin;
+  bool quiet = false, list = false;
 };
 
 constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
-
-/// "sim" or "sim:PRESET".
-const DevicePreset& chosen_preset(const std::string& device) {
-  if (device == "sim") return device_presets().front();
-  if (device.starts_with("sim:")) return device_preset(device.substr(4));
-  throw app::UsageError("--device " + device + ": is not sim or sim:PRESET");
-}
+constexpr double k_clearance_m = 0.01;  // Of a real device's middle from the surface.
 
 Trajectory hand_of(const Options& options, const TaggedScene& scene, const ContactSurface& surface) {
   if (!options.trajectory.empty()) return parse_trajectory(read_file(options.trajectory), options.trajectory);
@@ -47,18 +45,28 @@ Trajectory hand_of(const Options& options, const TaggedScene& scene, const Conta
   return press_and_stroke(surface, largest.material, largest.centre, stroke);
 }
 
-std::uint64_t ticks_of(const Options& options, const Trajectory& hand) {
+/// Where the middle of a real device's workspace lies: given, or a little in front of the largest tagged surface.
+Vec3 origin_of(const Options& options, const TaggedScene& scene, const ContactSurface& surface) {
+  if (!options.origin.empty()) return {options.origin[0], options.origin[1], options.origin[2]};
+  const LargestMaterial largest = largest_material(scene);
+  const double everywhere = norm(largest.centre - surface.low()) + norm(surface.high() - surface.low());
+  const auto nearest = surface.closest_point(largest.centre, everywhere, largest.material);
+  if (!nearest) throw InvalidInput(options.file + ": no triangle of its largest material");
+  return nearest->point + (k_clearance_m + nearest->height_m + surface.probe_radius_m()) * nearest->face_normal;
+}
+
+std::uint64_t ticks_of(const Options& options, const std::optional<Trajectory>& hand) {
   double seconds = options.seconds;
-  if (!(seconds > 0)) seconds = options.trajectory.empty() ? k_default_seconds : hand.end_s() - hand.start_s();
+  const bool of_file = !options.trajectory.empty() && hand;
+  if (!(seconds > 0)) seconds = of_file ? hand->end_s() - hand->start_s() : hand ? k_default_seconds : k_longest_seconds;
   if (!(seconds <= k_longest_seconds)) throw InvalidInput("the run would last longer than a million seconds");
   // The recording of n ticks ends at tick n − 1: the same number when it is played again.
-  const double periods = seconds * options.rate_hz;
-  return static_cast<std::uint64_t>(std::llround(periods)) +
-         (options.seconds > 0 || options.trajectory.empty() ? 0 : 1);
+  return static_cast<std::uint64_t>(std::llround(seconds * options.rate_hz)) +
+         (options.seconds > 0 || !of_file ? 0 : 1);
 }
 
 int run(const Options& options) {
-  const DevicePreset& preset = chosen_preset(options.device);
+  const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
   RunReport report;
   report.file = options.file;
@@ -71,7 +79,9 @@ int run(const Options& options) {
     scene = tagged_scene(read, options.file, 1e-3 * options.probe_radius_mm);
   }
   ContactSurface surface(scene.mesh, scene.materials, std::move(scene.heights), 1e-3 * options.probe_radius_mm);
-  const Trajectory hand = hand_of(options, scene, surface);
+  std::optional<Trajectory> hand;
+  if (choice.preset != nullptr) hand = hand_of(options, scene, surface);
+  const Vec3 origin = choice.preset != nullptr ? Vec3{} : origin_of(options, scene, surface);
   scene.mesh = {};
   report.load_seconds = clock.seconds();
   report.triangles = surface.triangles();
@@ -85,7 +95,15 @@ int run(const Options& options) {
                                {"triangle_degenerate", std::to_string(surface.skipped_triangles()) +
                                                            " triangles without area were left out"}});
 
-  SimDevice device(preset.caps(), hand, period);
+  std::optional<SimDevice> simulated;
+  std::optional<OpenedDevice> opened;
+  if (hand)
+    simulated.emplace(choice.preset->caps(), *hand, period);
+  else
+    opened.emplace(choice.filter, origin);
+  HapticDevice& device = simulated ? *simulated : opened->device();
+  if (opened && !opened->watched())
+    report.warnings.push_back({"", {"device_unwatched", "no second process watches over the device"}});
   report.device = device.caps().name;
   report.stiffness_limit = stiffness_limit(device.caps().dynamics, period, 0);
   report.clamps = clamp_to_stable(surface, device.caps().dynamics, period);
@@ -94,7 +112,7 @@ int run(const Options& options) {
   LoopOptions loop;
   loop.rate_hz = options.rate_hz;
   loop.ticks = ticks_of(options, hand);
-  loop.hand = &hand;
+  loop.hand = hand ? &*hand : nullptr;
   loop.record = options.record.empty() ? nullptr : &rows;
   loop.stop = &g_stop;
   report.loop = run_haptic_loop(device, surface, loop);
@@ -115,6 +133,19 @@ int run(const Options& options) {
     throw DeviceError(report.device + ": no fresh position, forces are off");
   if (report.loop.fault == ForceGuard::Fault::not_finite)
     throw DeviceError(report.device + ": a position or force was not finite, forces are off");
+  if (g_signal != 0) throw DeviceError(report.device + ": stopped by signal " + std::to_string(g_signal) + ", forces are off");
+  return app::k_exit_done;
+}
+
+int list_devices(const Options& options) {
+  const auto list = device_list();
+  if (options.json != "-" && !options.quiet) std::cout << device_list_text(list);
+  const std::string text = list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (options.json == "-")
+    std::cout << text;
+  else if (!options.json.empty())
+    write_atomically(options.json, text);
+  if (!std::cout.flush()) throw IoError("standard output: cannot be written");
   return app::k_exit_done;
 }
 
@@ -127,14 +158,27 @@ std::string preset_names() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { g_stop = true; });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int number) {
+      g_signal = number;
+      g_stop = true;
+    });
 
   Options options;
   CLI::App program("papilla-player: feel the materials of a glTF file with a force device", "papilla-player");
   program.set_version_flag("--version", std::string("papilla-player ") + version());
-  program.add_option("file", options.file, "The .glb or .gltf file")->required()->type_name("FILE");
-  program.add_option("--device", options.device, "sim or sim:PRESET; presets: " + preset_names())
+  auto* const file = program.add_option("file", options.file, "The .glb or .gltf file")->type_name("FILE");
+  program.add_flag("--list-devices", options.list, "List force devices, connected and simulated, and end");
+  program
+      .add_option("--device", options.device,
+                  "sim[:PRESET] or hid[:VID:PID[:SERIAL]]; hid takes the first force device; presets: " + preset_names())
       ->capture_default_str();
+  program
+      .add_option("--origin", options.origin,
+                  "Where the middle of a hid device's workspace lies in the scene; default: 10 mm in front of the largest "
+                  "tagged surface")
+      ->type_name("X,Y,Z [m]")
+      ->delimiter(',')
+      ->expected(3);
   program.add_option("--rate", options.rate_hz, "Ticks per second")
       ->type_name("HZ")
       ->check(CLI::Range(100.0, 20000.0))
@@ -163,6 +207,8 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 2 usage, 3 input, 5 device.");
   try {
     program.parse(argc, argv);
+    if (options.list) return list_devices(options);
+    if (file->empty()) throw app::UsageError("a FILE is required");
     return run(options);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? app::k_exit_done : app::k_exit_usage;

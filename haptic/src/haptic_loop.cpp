@@ -19,6 +19,7 @@ namespace {
 
 constexpr int k_priority = 80;  // Below the kernel's own threads at 99, above interrupt threads at 50.
 constexpr std::uint64_t k_longest_recording = 20'000'000;
+constexpr double k_longest_frame_s = 0.05;  // A device that is silent for longer is seen by the guard.
 constexpr double k_largest_lag_periods = 10;  // After a longer stall the clock starts anew instead of catching up.
 
 double seconds_of(clockid_t clock) noexcept {
@@ -137,8 +138,11 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
     Pacer pacer(period);
     while (result.ticks < options.ticks && !(options.stop && options.stop->load(std::memory_order_relaxed))) {
       const std::uint64_t i = result.ticks;
-      if (options.paced) result.wakeup_us.add(pacer.wait(i));
-      const double before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+      if (device.is_clock())
+        result.wakeup_us.add(1e6 * device.wait(k_longest_frame_s));
+      else if (options.paced)
+        result.wakeup_us.add(pacer.wait(i));
+      const double awake = seconds_of(CLOCK_MONOTONIC), before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
       DeviceState state;
       result.device_lost = !device.read(state);
       if (result.device_lost) break;
@@ -147,7 +151,8 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       result.tick_us.add((seconds_of(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6);
 
       ++result.ticks;
-      if (options.paced && pacer.missed(i)) ++result.missed_deadlines;
+      if (device.is_clock() ? seconds_of(CLOCK_MONOTONIC) - awake > period : options.paced && pacer.missed(i))
+        ++result.missed_deadlines;
       if (tick.proxy().in_contact) ++result.contact_ticks;
       if (tick.lost()) ++result.lost_contact_ticks;
       result.max_force_n = std::max(result.max_force_n, norm(force));

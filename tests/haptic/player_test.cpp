@@ -13,6 +13,7 @@
 
 #include "haptic/tagged_glb.hpp"
 #include "papilla/haptic/sha256.hpp"
+#include "player/sentinel.hpp"
 
 namespace papilla {
 namespace {
@@ -194,10 +195,56 @@ TEST_F(Player, SignalEndsItWithAReport) {
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(WEXITSTATUS(status), 5);
   const Json report = Json::parse(slurp(json));
   EXPECT_GT(report["ticks"], 10);
   EXPECT_LT(report["ticks"], 50000);
+}
+
+TEST_F(Player, ListsDevices) {
+  const Outcome text = play("--list-devices");
+  EXPECT_EQ(text.code, 0);
+  EXPECT_NE(text.out.find("sim:lambda7"), std::string::npos);
+  const Outcome json = play("--list-devices --json -");
+  EXPECT_EQ(json.json()["simulated"].size(), 7U);
+  EXPECT_TRUE(json.json()["connected"].is_array());
+}
+
+TEST_F(Player, NoSuchDeviceIsExitCode5) {
+  const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  expect_refusal(play("'" + glb + "' --device hid:ffff:fffe"), 5);
+  expect_refusal(play("'" + glb + "' --device hid:nonsense"), 3);
+}
+
+/// A process with a sentinel that writes a file when it has to act.
+void with_sentinel(const fs::path& trace, int ready, bool wait) {
+  const player::Sentinel sentinel([&] { std::ofstream(trace) << "off"; });
+  const char byte = sentinel.watched() ? 1 : 0;
+  if (::write(ready, &byte, 1) == 1 && wait) ::pause();
+}
+
+TEST_F(Player, KilledPlayerIsSwitchedOffByItsSentinel) {
+  for (const bool killed : {true, false}) {
+    const fs::path trace = folder_ / "trace";
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      with_sentinel(trace, ends[1], killed);
+      ::_exit(0);
+    }
+    ::close(ends[1]);
+    char byte = 0;
+    ASSERT_EQ(::read(ends[0], &byte, 1), 1);
+    EXPECT_EQ(byte, 1);
+    if (killed) ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    // The sentinel holds the other end of the pipe until it is done.
+    EXPECT_EQ(::read(ends[0], &byte, 1), 0);
+    ::close(ends[0]);
+    EXPECT_EQ(fs::exists(trace), killed);
+    fs::remove(trace);
+  }
 }
 
 }  // namespace
