@@ -28,7 +28,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 
 struct Options {
   std::string file, device = "sim", trajectory, record, json;
-  double rate_hz = 1000, seconds = 0, probe_radius_mm = 0;
+  double rate_hz = 1000, seconds = 0, probe_radius_mm = 0, watchdog_ms = 10;
   std::vector<double> origin;
   bool quiet = false, list = false;
 };
@@ -115,6 +115,7 @@ int run(const Options& options) {
   loop.hand = hand ? &*hand : nullptr;
   loop.record = options.record.empty() ? nullptr : &rows;
   loop.stop = &g_stop;
+  loop.watchdog_s = 1e-3 * options.watchdog_ms;
   report.loop = run_haptic_loop(device, surface, loop);
 
   if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
@@ -198,6 +199,10 @@ int main(int argc, char** argv) {
   program.add_option("--probe-radius", options.probe_radius_mm, "Radius of the probe; 0 is a point")
       ->type_name("MM")
       ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  program.add_option("--watchdog", options.watchdog_ms, "Age of a position from which on there is no force")
+      ->type_name("MS")
+      ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
   program.add_option("--json", options.json, "Write the machine-readable result to FILE, or to stdout with -")
       ->type_name("FILE|-");

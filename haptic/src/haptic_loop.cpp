@@ -130,7 +130,9 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
     options.record->clear();
     options.record->resize(options.ticks);  // Touches every page, so that none is missing in the loop.
   }
-  HapticTick tick(surface, safety_limits(device.caps().max_force_n), period);
+  SafetyLimits limits = safety_limits(device.caps().max_force_n);
+  limits.watchdog_s = options.watchdog_s;
+  HapticTick tick(surface, limits, period);
   const StopAtEnd stop_at_end(device);
   {
     const Realtime realtime(result);

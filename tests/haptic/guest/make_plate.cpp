@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// usage: papilla-guest-plate FILE.glb
+#include <fstream>
+
+#include "haptic/tagged_glb.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const nlohmann::json tag = {{"haptic", {{"version", 1}, {"stiffness", 300}}}};
+  std::ofstream(argv[1], std::ios::binary) << papilla::testing::plate_glb(tag, "");
+  return 0;
+}
