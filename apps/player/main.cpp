@@ -58,7 +58,8 @@ Vec3 origin_of(const Options& options, const TaggedScene& scene, const ContactSu
 std::uint64_t ticks_of(const Options& options, const std::optional<Trajectory>& hand) {
   double seconds = options.seconds;
   const bool of_file = !options.trajectory.empty() && hand;
-  if (!(seconds > 0)) seconds = of_file ? hand->end_s() - hand->start_s() : hand ? k_default_seconds : k_longest_seconds;
+  if (!(seconds > 0))
+    seconds = of_file ? hand->end_s() - hand->start_s() : hand ? k_default_seconds : k_longest_seconds;
   if (!(seconds <= k_longest_seconds)) throw InvalidInput("the run would last longer than a million seconds");
   // The recording of n ticks ends at tick n − 1: the same number when it is played again.
   return static_cast<std::uint64_t>(std::llround(seconds * options.rate_hz)) +
@@ -134,7 +135,8 @@ int run(const Options& options) {
     throw DeviceError(report.device + ": no fresh position, forces are off");
   if (report.loop.fault == ForceGuard::Fault::not_finite)
     throw DeviceError(report.device + ": a position or force was not finite, forces are off");
-  if (g_signal != 0) throw DeviceError(report.device + ": stopped by signal " + std::to_string(g_signal) + ", forces are off");
+  if (g_signal != 0)
+    throw DeviceError(report.device + ": stopped by signal " + std::to_string(g_signal) + ", forces are off");
   return app::k_exit_done;
 }
 
@@ -159,7 +161,8 @@ std::string preset_names() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int number) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, [](int number) {
       g_signal = number;
       g_stop = true;
     });
@@ -170,13 +173,15 @@ int main(int argc, char** argv) {
   auto* const file = program.add_option("file", options.file, "The .glb or .gltf file")->type_name("FILE");
   program.add_flag("--list-devices", options.list, "List force devices, connected and simulated, and end");
   program
-      .add_option("--device", options.device,
-                  "sim[:PRESET] or hid[:VID:PID[:SERIAL]]; hid takes the first force device; presets: " + preset_names())
+      .add_option(
+          "--device", options.device,
+          "sim[:PRESET] or hid[:VID:PID[:SERIAL]]; hid takes the first force device; presets: " + preset_names())
       ->capture_default_str();
   program
-      .add_option("--origin", options.origin,
-                  "Where the middle of a hid device's workspace lies in the scene; default: 10 mm in front of the largest "
-                  "tagged surface")
+      .add_option(
+          "--origin", options.origin,
+          "Where the middle of a hid device's workspace lies in the scene; default: 10 mm in front of the largest "
+          "tagged surface")
       ->type_name("X,Y,Z [m]")
       ->delimiter(',')
       ->expected(3);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int k_priority = 80;  // Below the kernel's own threads at 99, above interrupt threads at 50.
 constexpr std::uint64_t k_longest_recording = 20'000'000;
-constexpr double k_longest_frame_s = 0.05;  // A device that is silent for longer is seen by the guard.
+constexpr double k_longest_frame_s = 0.05;    // A device that is silent for longer is seen by the guard.
 constexpr double k_largest_lag_periods = 10;  // After a longer stall the clock starts anew instead of catching up.
 
 double seconds_of(clockid_t clock) noexcept {

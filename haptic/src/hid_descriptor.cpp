@@ -113,8 +113,8 @@ class Parser {
       case 5: {
         const auto exponent = static_cast<int>(item.number());
         // Devices write a nibble in two's complement, or a plain number.
-        g.unit_exponent = exponent >= 0 && exponent <= 15 ? (exponent > 7 ? exponent - 16 : exponent)
-                                                          : std::clamp(exponent, -8, 7);
+        g.unit_exponent =
+            exponent >= 0 && exponent <= 15 ? (exponent > 7 ? exponent - 16 : exponent) : std::clamp(exponent, -8, 7);
         break;
       }
       case 6: g.unit = item.data; break;

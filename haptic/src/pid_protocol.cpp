@@ -221,10 +221,9 @@ class Pid final : public ForceProtocol {
         Axis axis{i, &f, *element, 0, 0, 0};
         const auto counts = static_cast<double>(f.logical_max) - static_cast<double>(f.logical_min);
         const bool in_metres = f.unit == k_length_unit && f.physical_max > f.physical_min;
-        const double range =
-            in_metres ? 1e-2 * std::pow(10, f.unit_exponent) *
-                            (static_cast<double>(f.physical_max) - static_cast<double>(f.physical_min))
-                      : 2 * options.workspace_radius_m;
+        const double range = in_metres ? 1e-2 * std::pow(10, f.unit_exponent) *
+                                             (static_cast<double>(f.physical_max) - static_cast<double>(f.physical_min))
+                                       : 2 * options.workspace_radius_m;
         axis.metres_per_count = range / counts;
         axis.centre_m =
             -axis.metres_per_count * 0.5 * (static_cast<double>(f.logical_max) + static_cast<double>(f.logical_min));
@@ -234,7 +233,8 @@ class Pid final : public ForceProtocol {
       }
     if (axes_.empty()) throw DeviceError(path_ + ": its descriptor has no position 01:30, 01:31 or 01:32");
     for (const HidField& f : descriptor_.fields)
-      if (buttons_ == nullptr && f.kind == HidReportKind::input && f.variable && f.usages.front() >> 16 == k_buttons_page)
+      if (buttons_ == nullptr && f.kind == HidReportKind::input && f.variable &&
+          f.usages.front() >> 16 == k_buttons_page)
         buttons_ = &f;
   }
 

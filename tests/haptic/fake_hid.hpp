@@ -15,12 +15,12 @@ namespace papilla::testing {
 struct FakeWire {
   std::mutex mutex;
   std::condition_variable changed;
-  std::deque<std::vector<std::byte>> input;               ///< Reports that read() will yield.
-  std::vector<std::vector<std::byte>> output, features;   ///< Written to the device, in order.
-  std::vector<std::vector<std::byte>> answers;            ///< To get_feature(), by number, in turn.
-  std::size_t fail_from = 1000000;                        ///< Writes from this one on fail.
+  std::deque<std::vector<std::byte>> input;              ///< Reports that read() will yield.
+  std::vector<std::vector<std::byte>> output, features;  ///< Written to the device, in order.
+  std::vector<std::vector<std::byte>> answers;           ///< To get_feature(), by number, in turn.
+  std::size_t fail_from = 1000000;                       ///< Writes from this one on fail.
   bool unplugged = false;
-  std::function<std::vector<std::byte>()> hand;           ///< Makes the next report when one is waited for; empty: none.
+  std::function<std::vector<std::byte>()> hand;  ///< Makes the next report when one is waited for; empty: none.
 
   void send(std::vector<std::byte> report) {
     const std::lock_guard lock(mutex);

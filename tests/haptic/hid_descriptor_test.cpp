@@ -79,9 +79,7 @@ TEST(HidDescriptor, PushPopLongItemsAndUnsignedMaxima) {
 }
 
 TEST(HidDescriptor, RefusesWhatIsDamaged) {
-  const auto refused = [](DescriptorBuilder d) {
-    EXPECT_THROW(parse_hid_descriptor(d.bytes), InvalidInput);
-  };
+  const auto refused = [](DescriptorBuilder d) { EXPECT_THROW(parse_hid_descriptor(d.bytes), InvalidInput); };
   refused(DescriptorBuilder().end());
   refused(DescriptorBuilder().begin(4, 1));
   refused(DescriptorBuilder().item(0xB4, 0, 0));

@@ -32,8 +32,8 @@ void answer_loads(FakeWire& wire, int first, int status = 1) {
 
 HidReport caps_report() {
   // Version 1, 1000 Hz, 4000 mN, 10000 nm a count, 80 mm, 50 g, 700 mN·s/m, 200 mN, 30000 nm, 500 µs.
-  return report({3, 1, 0, 0xE8, 3, 0xA0, 0x0F, 0x10, 0x27, 0, 0, 80, 0, 50, 0, 0xBC, 2, 200, 0, 0x30, 0x75, 0, 0,
-                 0xF4, 1});
+  return report(
+      {3, 1, 0, 0xE8, 3, 0xA0, 0x0F, 0x10, 0x27, 0, 0, 80, 0, 50, 0, 0xBC, 2, 200, 0, 0x30, 0x75, 0, 0, 0xF4, 1});
 }
 
 TEST(Pid, StartsInTheOrderOfTheStandardWithTheNumbersOfTheDescriptor) {
@@ -47,15 +47,18 @@ TEST(Pid, StartsInTheOrderOfTheStandardWithTheNumbersOfTheDescriptor) {
     // Create New Effect: constant force is the second of the types.
     EXPECT_EQ(wire.features, std::vector<HidReport>(3, report({first + 6, 2})));
     const std::vector<HidReport> expected = {
-        report({first + 5, 4}),                                    // Reset.
-        report({first + 1, 7, 2, 0xFF, 0x7F, 0xFF, 0xFF, 1}),      // Set Effect: no end, full gain, no button, x.
-        report({first + 1, 8, 2, 0xFF, 0x7F, 0xFF, 0xFF, 2}),      // y.
-        report({first + 1, 9, 2, 0xFF, 0x7F, 0xFF, 0xFF, 4}),      // z.
-        report({first + 5, 1}),                                    // Enable actuators.
-        report({first + 4, 255}),                                  // Device gain.
-        report({first + 2, 7, 0, 0}), report({first + 3, 7, 1, 1}),  // No force, start.
-        report({first + 2, 8, 0, 0}), report({first + 3, 8, 1, 1}),
-        report({first + 2, 9, 0, 0}), report({first + 3, 9, 1, 1})};
+        report({first + 5, 4}),                                // Reset.
+        report({first + 1, 7, 2, 0xFF, 0x7F, 0xFF, 0xFF, 1}),  // Set Effect: no end, full gain, no button, x.
+        report({first + 1, 8, 2, 0xFF, 0x7F, 0xFF, 0xFF, 2}),  // y.
+        report({first + 1, 9, 2, 0xFF, 0x7F, 0xFF, 0xFF, 4}),  // z.
+        report({first + 5, 1}),                                // Enable actuators.
+        report({first + 4, 255}),                              // Device gain.
+        report({first + 2, 7, 0, 0}),
+        report({first + 3, 7, 1, 1}),  // No force, start.
+        report({first + 2, 8, 0, 0}),
+        report({first + 3, 8, 1, 1}),
+        report({first + 2, 9, 0, 0}),
+        report({first + 3, 9, 1, 1})};
     EXPECT_EQ(wire.output, expected);
   }
 }
@@ -150,8 +153,8 @@ TEST(ForceReport, HasTheDocumentedBytes) {
   EXPECT_EQ(bytes, report({1, 0x34, 0x12, 0xFF, 0x7F, 0x01, 0x80, 0, 0, 1, 20}));
   EXPECT_EQ(protocol->stop_reports(), std::vector<HidReport>{report({1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 20})});
   DeviceSample sample;
-  ASSERT_TRUE(protocol->decode(
-      report({2, 5, 0, 0, 0, 0, 0, 0xE8, 3, 0, 0, 0x18, 0xFC, 0xFF, 0xFF, 1, 0, 0, 0, 3, 0}), sample));
+  ASSERT_TRUE(
+      protocol->decode(report({2, 5, 0, 0, 0, 0, 0, 0xE8, 3, 0, 0, 0x18, 0xFC, 0xFF, 0xFF, 1, 0, 0, 0, 3, 0}), sample));
   EXPECT_NEAR(sample.position.x, 0.01, 1e-12);
   EXPECT_NEAR(sample.position.y, -0.01, 1e-12);
   EXPECT_NEAR(sample.position.z, 1e-5, 1e-12);

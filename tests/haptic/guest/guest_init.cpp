@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The first process of a virtual machine: makes fake force devices with /dev/uhid, lets /player feel /plate.glb with them
-// through hidapi and the kernel's HID layer, and says what they were told. The last line is "guest: all passed" or not.
+// The first process of a virtual machine: makes fake force devices with /dev/uhid, lets /player feel /plate.glb with
+// them through hidapi and the kernel's HID layer, and says what they were told. The last line is "guest: all passed" or
+// not.
 #include <fcntl.h>
 #include <linux/reboot.h>
 #include <linux/uhid.h>
@@ -103,7 +104,8 @@ class Device {
       return last.size() == 11 && std::all_of(last.begin() + 1, last.end() - 1, [](std::uint8_t b) { return b == 0; });
     if (last != Bytes{10, 2}) return false;  // Device Control: disable is the second of the codes.
     for (const int block : {1, 2, 3}) {
-      const auto newest = std::find_if(all.rbegin(), all.rend(), [&](const Bytes& r) { return r[0] == 7 && r[1] == block; });
+      const auto newest =
+          std::find_if(all.rbegin(), all.rend(), [&](const Bytes& r) { return r[0] == 7 && r[1] == block; });
       if (newest == all.rend() || number(*newest, 2) != 0) return false;
     }
     return true;
@@ -111,7 +113,8 @@ class Device {
 
  private:
   std::vector<std::size_t> force_places(const Bytes& r) const {
-    if (kind_ == Kind::pid) return r[0] == 7 && r.size() >= 4 ? std::vector<std::size_t>{2} : std::vector<std::size_t>{};
+    if (kind_ == Kind::pid)
+      return r[0] == 7 && r.size() >= 4 ? std::vector<std::size_t>{2} : std::vector<std::size_t>{};
     return r[0] == 1 && r.size() >= 11 ? std::vector<std::size_t>{3, 5, 7} : std::vector<std::size_t>{};
   }
   static int number(const Bytes& r, std::size_t at) { return static_cast<std::int16_t>(r[at] + 256 * r[at + 1]); }
@@ -140,11 +143,9 @@ class Device {
         uhid_event reply{};
         reply.type = UHID_GET_REPORT_REPLY;
         reply.u.get_report_reply.id = event.u.get_report.id;
-        const Bytes answer =
-            kind_ == Kind::pid
-                ? Bytes{12, static_cast<std::uint8_t>(++blocks_), 1}
-                : Bytes{3, 1, 0, 0xE8, 3, 0xA0, 0x0F, 0x10, 0x27, 0, 0, 80, 0, 50, 0, 0xBC, 2, 200, 0, 0x30, 0x75, 0, 0,
-                        0xF4, 1};
+        const Bytes answer = kind_ == Kind::pid ? Bytes{12, static_cast<std::uint8_t>(++blocks_), 1}
+                                                : Bytes{3,  1, 0,    0xE8, 3,   0xA0, 0x0F, 0x10, 0x27, 0, 0,    80, 0,
+                                                        50, 0, 0xBC, 2,    200, 0,    0x30, 0x75, 0,    0, 0xF4, 1};
         std::memcpy(&reply.u.get_report_reply.data, answer.data(), answer.size());
         reply.u.get_report_reply.size = static_cast<std::uint16_t>(answer.size());
         send(reply);

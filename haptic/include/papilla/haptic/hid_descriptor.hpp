@@ -37,7 +37,7 @@ struct HidField {
 
 /// What a HID report descriptor says of the reports; padding is left out.
 struct HidDescriptor {
-  std::vector<HidField> fields;            ///< In the order of the descriptor.
+  std::vector<HidField> fields;             ///< In the order of the descriptor.
   std::vector<std::uint32_t> applications;  ///< Usages of the outermost collections.
   bool numbered = false;                    ///< Reports begin with a byte that holds their number.
 

@@ -22,8 +22,8 @@ namespace papilla {
 /// that grows when it is silent.
 class HidDevice final : public HapticDevice {
  public:
-  /// Starts the protocol, calls `started` (before there is a thread; the reports that switch the device off are given to
-  /// it, for whoever outlives this process), then starts the writer.
+  /// Starts the protocol, calls `started` (before there is a thread; the reports that switch the device off are given
+  /// to it, for whoever outlives this process), then starts the writer.
   /// @param origin where the middle of the workspace lies in the scene.
   /// @throws DeviceError as ForceProtocol::start() does; forces are off then.
   HidDevice(std::unique_ptr<HidTransport> transport, std::unique_ptr<ForceProtocol> protocol, Vec3 origin,

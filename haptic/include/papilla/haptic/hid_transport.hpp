@@ -16,7 +16,7 @@ namespace papilla {
 struct HidInfo {
   std::string path;  ///< What the system opens.
   std::uint16_t vendor = 0, product = 0;
-  std::string serial, name;  ///< UTF-8, may be empty.
+  std::string serial, name;           ///< UTF-8, may be empty.
   std::vector<std::byte> descriptor;  ///< Report descriptor; empty when it can't be read.
 };
 
