@@ -4,11 +4,13 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 
 #include "device_choice.hpp"
 #include "exit_code.hpp"
+#include "live_view.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/haptic/sim_device.hpp"
@@ -29,24 +31,53 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 struct Options {
   std::string file, device = "sim", trajectory, record, json;
   double rate_hz = 1000, seconds = 0, probe_radius_mm = 0, watchdog_ms = 10;
+  double reach_mm = 0, speed = 0.1;
+  std::string motion = "stroke";
+  std::uint64_t seed = 1;
   std::vector<double> origin;
   bool quiet = false, list = false;
 };
 
 constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
-constexpr double k_clearance_m = 0.01;  // Of a real device's middle from the surface.
+constexpr double k_default_reach_m = 0.15;  // A little more than any workspace's radius.
+constexpr double k_clearance_m = 0.01;      // Of a real device's middle from the surface.
 
-Trajectory hand_of(const Options& options, const TaggedScene& scene, const ContactSurface& surface) {
+const std::map<std::string, Motion> k_motions = {
+    {"stroke", Motion::stroke}, {"circle", Motion::circle}, {"slide", Motion::slide}, {"tap", Motion::tap}};
+
+/// What can be reached and carried of the scene.
+HapticSceneOptions scene_options(const Options& options, const DeviceChoice& choice) {
+  HapticSceneOptions scene;
+  scene.probe_radius_m = 1e-3 * options.probe_radius_mm;
+  scene.shortest_wave_m = 2 * options.speed / options.rate_hz;
+  if (!options.origin.empty() && choice.preset == nullptr) {
+    scene.reach_around = {{options.origin[0], options.origin[1], options.origin[2]}};
+    scene.reach_m = options.reach_mm > 0 ? 1e-3 * options.reach_mm : k_default_reach_m;
+  } else if (options.reach_mm > 0 && !options.trajectory.empty()) {
+    scene.reach_m = 1e-3 * options.reach_mm;
+    const Trajectory hand = parse_trajectory(read_file(options.trajectory), options.trajectory);
+    for (const auto& sample : hand.samples())
+      if (scene.reach_around.empty() || norm(sample.position - scene.reach_around.back()) > 0.25 * scene.reach_m)
+        scene.reach_around.push_back(sample.position);
+    scene.reach_m *= 1.25;
+  }
+  return scene;
+}
+
+Trajectory hand_of(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
   if (!options.trajectory.empty()) return parse_trajectory(read_file(options.trajectory), options.trajectory);
   const LargestMaterial largest = largest_material(scene);
   StrokeOptions stroke;
+  stroke.motion = k_motions.at(options.motion);
+  stroke.seed = options.seed;
+  stroke.speed_m_per_s = options.speed;
   stroke.seconds = options.seconds > 0 ? options.seconds : k_default_seconds;
   return press_and_stroke(surface, largest.material, largest.centre, stroke);
 }
 
 /// Where the middle of a real device's workspace lies: given, or a little in front of the largest tagged surface.
-Vec3 origin_of(const Options& options, const TaggedScene& scene, const ContactSurface& surface) {
+Vec3 origin_of(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
   if (!options.origin.empty()) return {options.origin[0], options.origin[1], options.origin[2]};
   const LargestMaterial largest = largest_material(scene);
   const double everywhere = norm(largest.centre - surface.low()) + norm(surface.high() - surface.low());
@@ -74,10 +105,10 @@ int run(const Options& options) {
   report.rate_hz = options.rate_hz;
 
   const Stopwatch clock;
-  TaggedScene scene;
+  HapticScene scene;
   {
     const Scene read = read_gltf(options.file);
-    scene = tagged_scene(read, options.file, 1e-3 * options.probe_radius_mm);
+    scene = haptic_scene(read, options.file, scene_options(options, choice));
   }
   ContactSurface surface(scene.mesh, scene.materials, std::move(scene.heights), 1e-3 * options.probe_radius_mm);
   std::optional<Trajectory> hand;
@@ -89,6 +120,8 @@ int run(const Options& options) {
   report.contact_bytes = surface.bytes();
   report.maps_loaded = scene.maps_loaded;
   report.maps_missing = scene.maps_missing;
+  report.maps_coarsened = scene.maps_coarsened;
+  report.triangles_out_of_reach = scene.triangles_out_of_reach;
   report.warnings = std::move(scene.warnings);
   report.material_names = std::move(scene.names);
   if (surface.skipped_triangles() > 0)
@@ -117,7 +150,12 @@ int run(const Options& options) {
   loop.record = options.record.empty() ? nullptr : &rows;
   loop.stop = &g_stop;
   loop.watchdog_s = 1e-3 * options.watchdog_ms;
-  report.loop = run_haptic_loop(device, surface, loop);
+  LoopStatus status;
+  loop.status = &status;
+  {
+    const std::optional<LiveView> view = options.quiet ? std::nullopt : std::optional<LiveView>(std::in_place, status);
+    report.loop = run_haptic_loop(device, surface, loop);
+  }
 
   if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
   if (!options.quiet && options.json != "-") std::cout << summary(report);
@@ -195,8 +233,23 @@ int main(int argc, char** argv) {
   program
       .add_option("--trajectory", options.trajectory,
                   "The hand as CSV: t,x,y,z in seconds and metres; default: press 1 mm "
-                  "into the largest tagged surface and stroke it at 0.1 m/s")
+                  "into the largest tagged surface and move there")
       ->type_name("T.csv");
+  program.add_option("--motion", options.motion, "How the hand moves without a trajectory")
+      ->check(CLI::IsMember({"stroke", "circle", "slide", "tap"}))
+      ->capture_default_str();
+  program.add_option("--seed", options.seed, "Of the random slide")->capture_default_str();
+  program
+      .add_option("--speed", options.speed,
+                  "Of the hand; finer relief than the rate can carry at this speed is left out")
+      ->type_name("M/S")
+      ->check(CLI::Range(1e-3, 2.0))
+      ->capture_default_str();
+  program
+      .add_option("--reach", options.reach_mm,
+                  "Load only what is this near to the trajectory or to --origin; default: all, or 150 around --origin")
+      ->type_name("MM")
+      ->check(CLI::Range(1.0, 1e5));
   program
       .add_option("--record", options.record,
                   "Write hand, probe, proxy and force of every tick; can be played again as T.csv")

@@ -109,6 +109,17 @@ class StopAtEnd {
   HapticDevice& device_;
 };
 
+void show(LoopStatus& status, const LoopResult& result, double force_n, double tick_us, double late_us) noexcept {
+  constexpr auto relaxed = std::memory_order_relaxed;
+  status.ticks.store(result.ticks, relaxed);
+  status.contact_ticks.store(result.contact_ticks, relaxed);
+  status.lost_contact_ticks.store(result.lost_contact_ticks, relaxed);
+  status.missed_deadlines.store(result.missed_deadlines, relaxed);
+  status.force_n.store(force_n, relaxed);
+  status.tick_us.store(tick_us, relaxed);
+  status.wakeup_us.store(late_us, relaxed);
+}
+
 void append(std::string& text, double value) {
   char buffer[32];
   const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
@@ -140,17 +151,20 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
     Pacer pacer(period);
     while (result.ticks < options.ticks && !(options.stop && options.stop->load(std::memory_order_relaxed))) {
       const std::uint64_t i = result.ticks;
+      double late_us = 0;
       if (device.is_clock())
-        result.wakeup_us.add(1e6 * device.wait(k_longest_frame_s));
+        late_us = 1e6 * device.wait(k_longest_frame_s);
       else if (options.paced)
-        result.wakeup_us.add(pacer.wait(i));
+        late_us = pacer.wait(i);
+      if (device.is_clock() || options.paced) result.wakeup_us.add(late_us);
       const double awake = seconds_of(CLOCK_MONOTONIC), before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
       DeviceState state;
       result.device_lost = !device.read(state);
       if (result.device_lost) break;
       const Vec3 force = tick(state);
       result.device_lost = !device.write(force);
-      result.tick_us.add((seconds_of(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6);
+      const double tick_us = (seconds_of(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6;
+      result.tick_us.add(tick_us);
 
       ++result.ticks;
       if (device.is_clock() ? seconds_of(CLOCK_MONOTONIC) - awake > period : options.paced && pacer.missed(i))
@@ -167,6 +181,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
                                 force,
                                 tick.proxy().in_contact};
       }
+      if (options.status) show(*options.status, result, norm(force), tick_us, late_us);
       result.fault = tick.guard().fault();
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
     }

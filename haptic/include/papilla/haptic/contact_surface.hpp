@@ -18,6 +18,7 @@ struct SweepHit {
   double t = 0;                ///< Place on the way in [0, 1] where the probe touches.
   Vec3 normal;                 ///< Unit, out of the obstacle: the gradient of the clearance there.
   double penetration_m = 0;    ///< Minus the clearance at t: positive when the probe was too deep at the start already.
+  double skin_m = 0;           ///< How thick the skin is along `normal`: less than skin_m() on a sloping relief.
   std::uint32_t triangle = 0;  ///< Number in the ContactMesh.
   std::uint32_t material = 0;
 };

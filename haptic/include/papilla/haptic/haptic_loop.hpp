@@ -22,6 +22,12 @@ struct RecordRow {
   bool in_contact = false;
 };
 
+/// What the loop is doing now, for other threads to look at. The numbers are from about the same tick.
+struct LoopStatus {
+  std::atomic<std::uint64_t> ticks{0}, contact_ticks{0}, lost_contact_ticks{0}, missed_deadlines{0};
+  std::atomic<double> force_n{0}, tick_us{0}, wakeup_us{0};
+};
+
 struct LoopOptions {
   double rate_hz = 1000;
   std::uint64_t ticks = 2000;
@@ -29,6 +35,7 @@ struct LoopOptions {
   bool paced = true;                 ///< False: ticks follow each other at once (tests, replays faster than time).
   const Trajectory* hand = nullptr;  ///< For the recording's hand columns; without it they repeat the probe.
   std::vector<RecordRow>* record = nullptr;  ///< Filled with one row a tick; its memory is taken before the loop.
+  LoopStatus* status = nullptr;              ///< Kept up to date, lock-free.
   const std::atomic<bool>* stop = nullptr;   ///< The loop ends at the next tick when it is true.
 };
 

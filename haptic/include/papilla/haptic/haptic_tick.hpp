@@ -32,6 +32,17 @@ class HapticTick {
     return guard_.apply(force, period_, device.age_s);
   }
 
+  /// Puts the probe somewhere without touching what lies between; clears a fault, and forces fade in again.
+  void reset(Vec3 position) noexcept {
+    proxy_.reset(position);
+    audit_ = ContactAudit(*surface_);
+    guard_.resume();
+    velocity_ = {};
+    last_ = position;
+    started_ = true;
+    lost_ = false;
+  }
+
   const ProxyState& proxy() const noexcept { return proxy_.state(); }
   bool lost() const noexcept { return lost_; }  ///< The last tick lost its contact.
   ForceGuard& guard() noexcept { return guard_; }
