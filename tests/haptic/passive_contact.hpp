@@ -51,8 +51,9 @@ inline PortEnergy wall_contact(const DevicePreset& preset, double share, double 
   return energy;
 }
 
-/// Speed of the handle, root mean square over the last 0.3 s, after a hand that is only a spring has come down on a wall
-/// at half a metre a second and kept pressing for eight seconds: zero when the wall is stable, else it keeps bouncing.
+/// Speed of the handle, root mean square over the last 0.3 s, after a hand that is only a spring has come down on a
+/// wall at half a metre a second and kept pressing for eight seconds: zero when the wall is stable, else it keeps
+/// bouncing.
 inline double speed_at_rest(const DevicePreset& preset, double share) {
   const double period = 1e-3;
   const DeviceCaps caps = preset.caps();
