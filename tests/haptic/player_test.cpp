@@ -110,15 +110,7 @@ TEST_F(Player, FindsTheMapAsDataUriAndAsSidecar) {
   EXPECT_EQ(play_glb({{"haptic", data}}, "").json()["height_maps"]["loaded"], 1);
 
   const std::string png = testing::grey16_png(1, 1, {1234});
-  std::string base64;
-  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) base64 += i + k > png.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
-  }
-  data["height"]["uri"] = "data:image/png;base64," + base64;
+  data["height"]["uri"] = "data:image/png;base64," + testing::base64(png);
   data["height"]["sha256"] = sum(png);
   const Outcome outcome = play_glb({{"haptic", data}}, "");
   EXPECT_EQ(outcome.json()["height_maps"]["loaded"], 1) << outcome.out;
