@@ -43,6 +43,11 @@ void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& material
     for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.stribeck_velocity})
       if (!(value >= 0) || !std::isfinite(value))
         fail("material " + std::to_string(i) + " has a number that is not >= 0");
+    if (!std::isfinite(m.amplitude)) fail("material " + std::to_string(i) + " has an amplitude that is not finite");
+    if (m.stimulus && *m.stimulus >= heights.size())
+      fail("material " + std::to_string(i) + " names a missing height field");
+    if (m.stimulus && mesh.corner_uv.empty())
+      fail("material " + std::to_string(i) + " has a stimulus but the mesh has no uv");
     if (m.height && *m.height >= heights.size())
       fail("material " + std::to_string(i) + " names a missing height field");
     if (m.height && mesh.corner_uv.empty())
@@ -177,6 +182,7 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
     const double* s = &base.shifts[3 * t];
     return s[0] < 0 || s[1] < 0 || s[2] < 0 || materials_[material_of(t)].height.has_value();
   };
+  const auto has_uv = [&](std::uint32_t t) { return has_relief(t) || materials_[material_of(t)].stimulus.has_value(); };
   const auto highest = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
     const auto& height = materials_[material_of(t)].height;
@@ -191,7 +197,7 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const double tall = highest(kept[i]);
     tallest_ = std::max(tallest_, tall);
-    any_relief = any_relief || has_relief(kept[i]);
+    any_relief = any_relief || has_uv(kept[i]);
     boxes[i] = box_of({rounded(kept[i], 0), rounded(kept[i], 1), rounded(kept[i], 2)}, tall);
   }
   bvh_ = Bvh(boxes);
@@ -205,7 +211,7 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
     const std::uint32_t t = kept[item];
     std::array<std::uint32_t, 3> named{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 uv = has_relief(t) && !mesh.corner_uv.empty() ? mesh.corner_uv[3 * t + k] : Vec2{};
+      const Vec2 uv = has_uv(t) && !mesh.corner_uv.empty() ? mesh.corner_uv[3 * t + k] : Vec2{};
       named[k] = weld.add(rounded(t, k),
                           {static_cast<float>(is_finite(uv) ? uv.x : 0), static_cast<float>(is_finite(uv) ? uv.y : 0),
                            static_cast<float>(base.shifts[3 * t + k])});
@@ -266,6 +272,14 @@ double ContactSurface::top_of(std::uint32_t place) const noexcept {
   return {t.a + v * ab + w * ac, v, w, Foot::On::face, {}};
 }
 
+/// ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane; zero on a needle.
+Vec3 ContactSurface::in_plane(const Corners& t, double by_v, double by_w) noexcept {
+  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
+  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
+  if (!(det > 0)) return {};
+  return (1 / det) * ((by_v * bb - by_w * c) * ab + (by_w * aa - by_v * c) * ac);
+}
+
 /// Height of the relief above the base at a foot, and its gradient within the triangle's plane.
 double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Foot& foot,
                                  Vec3* gradient) const noexcept {
@@ -282,13 +296,7 @@ double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Fo
   if (gradient == nullptr) return std::max(0.0, height);
   *gradient = {};
   if (height <= 0) return 0;
-  // ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane.
-  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
-  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
-  if (det > 0) {
-    const double hv = dot(sample.gradient_m, by_v) - sv, hw = dot(sample.gradient_m, by_w) - sw;
-    *gradient = (1 / det) * ((hv * bb - hw * c) * ab + (hw * aa - hv * c) * ac);
-  }
+  *gradient = in_plane(t, dot(sample.gradient_m, by_v) - sv, dot(sample.gradient_m, by_w) - sw);
   return height;
 }
 
@@ -431,12 +439,8 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
   const Clearance there = clearance_of(place, t, from + outside * way);
   // The relief carries the skin on top of its height; along the normal that is less by the slope's cosine.
   const double slope = norm(there.gradient);
-  const SweepHit hit{outside,
-                     normalized(there.gradient),
-                     -there.value,
-                     slope > 1 ? skin_ / slope : skin_,
-                     source_[place],
-                     material_of(place)};
+  const SweepHit hit{outside,        normalized(there.gradient), -there.value, slope > 1 ? skin_ / slope : skin_,
+                     source_[place], material_of(place)};
   if (!best || comes_before(hit, *best)) best = hit;
 }
 
@@ -564,6 +568,46 @@ std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_
 std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m,
                                                           std::uint32_t material) const noexcept {
   return nearest(p, radius_m, [material](std::uint32_t other) noexcept { return other == material; });
+}
+
+std::optional<StimulusSample> ContactSurface::stimulus(Vec3 p, double radius_m) const noexcept {
+  std::uint32_t found = k_nothing;
+  Foot at;
+  double reach = radius_m;
+  const Vec3 x = p - origin_;
+  bvh_.within(x, reach, [&](std::uint32_t begin, std::uint32_t end) noexcept {
+    for (std::uint32_t place = begin; place < end; ++place) {
+      if (!materials_[material_of(place)].stimulus) continue;
+      const Foot f = foot(corners(place), x);
+      const double distance = norm(x - f.point);
+      if (distance > reach) continue;
+      reach = distance;
+      found = place;
+      at = f;
+    }
+  });
+  if (found == k_nothing) return std::nullopt;
+  const Corners t = corners(found);
+  const HeightField& field = heights_[*materials_[material_of(found)].stimulus];
+  const auto uv = [&](std::size_t k) {
+    return Vec2{static_cast<double>(relief(found, k).u), static_cast<double>(relief(found, k).v)};
+  };
+  const Vec2 by_v = uv(1) - uv(0), by_w = uv(2) - uv(0);
+  const HeightSample height = field.sample(uv(0) + at.v * by_v + at.w * by_w);
+  const Vec3 area = cross(t.b - t.a, t.c - t.a);
+  const auto texels = field.texels_per_uv();
+  const double texel_area =
+      std::abs(cross(by_v.x * texels[0] + by_v.y * texels[1], by_w.x * texels[0] + by_w.y * texels[1]));
+  StimulusSample sample;
+  sample.point = at.point + origin_;
+  sample.normal = normalized(area);
+  sample.height_m = height.height_m;
+  sample.grey = field.greys_per_m() * height.height_m;
+  sample.slope = field.greys_per_m() * in_plane(t, dot(height.gradient_m, by_v), dot(height.gradient_m, by_w));
+  sample.along_u = normalized(in_plane(t, by_v.x, by_w.x));
+  sample.pixel_m = texel_area > 0 ? std::sqrt(norm(area) / texel_area) : 0;
+  sample.material = material_of(found);
+  return sample;
 }
 
 int ContactSurface::crossings(Vec3 from, Vec3 to) const noexcept {

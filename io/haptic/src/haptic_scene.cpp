@@ -11,6 +11,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/roughness_field.hpp"
+#include "papilla/haptic/stimulus.hpp"
 #include "papilla/io/gltf_reader.hpp"
 
 namespace papilla {
@@ -44,8 +45,7 @@ class Builder {
         tex_coord_[i] = tag->height ? tag->height->tex_coord : 0;
         result.names.push_back(scene_.materials[i].name.empty() ? "material " + std::to_string(i)
                                                                 : scene_.materials[i].name);
-        result.materials.push_back({tag->stiffness, tag->damping, tag->static_friction, tag->dynamic_friction,
-                                    tag->stribeck_velocity, relief_of(*tag, i, warnings)});
+        result.materials.push_back(contact_material(*tag, i, warnings));
       }
       for (HapticWarning& warning : warnings) result.warnings.push_back({scene_.materials[i].name, std::move(warning)});
     }
@@ -75,7 +75,8 @@ class Builder {
       const bool has_uv = uv.has_value(t);
       for (std::size_t k = 0; k < 3; ++k)
         result.mesh.corner_uv.push_back(has_uv ? gltf_uv(uv.values[uv.indices[t][k]]) : Vec2{});
-      if (result.materials[*felt_[source]].height) check_uv(source, !has_uv);
+      if (result.materials[*felt_[source]].height || result.materials[*felt_[source]].stimulus)
+        check_uv(source, !has_uv);
     }
     if (!used) return;
     for (const Vec3& p : mesh.positions)
@@ -108,6 +109,22 @@ class Builder {
   HapticScene result;
 
  private:
+  ContactMaterial contact_material(const MaterialTag& tag, std::size_t material, std::vector<HapticWarning>& warnings) {
+    ContactMaterial made;
+    made.stiffness = tag.stiffness;
+    made.damping = tag.damping;
+    made.static_friction = tag.static_friction;
+    made.dynamic_friction = tag.dynamic_friction;
+    made.stribeck_velocity = tag.stribeck_velocity;
+    made.height = relief_of(tag, material, warnings);
+    if (!tag.force_model) return made;
+    made.model = force_model(tag.force_model->name).value_or(ForceModel::heightfield);
+    made.amplitude = tag.force_model->amplitude;
+    made.literal_sign = tag.force_model->literal;
+    if (made.model != ForceModel::heightfield) std::swap(made.height, made.stimulus);
+    return made;
+  }
+
   std::optional<std::uint32_t> relief_of(const MaterialTag& tag, std::size_t material,
                                          std::vector<HapticWarning>& warnings) {
     if (!tag.height) return std::nullopt;

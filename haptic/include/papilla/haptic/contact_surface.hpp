@@ -34,6 +34,17 @@ struct SurfacePoint {
   std::uint32_t material = 0;
 };
 
+/// What a stimulus reads of a relief that displaces nothing.
+struct StimulusSample {
+  double grey = 0;  ///< Grey levels above that of height 0.
+  Vec3 slope;       ///< Its gradient along the surface, grey levels per metre.
+  Vec3 along_u;     ///< Unit tangent along which u grows.
+  Vec3 point, normal;
+  double height_m = 0;
+  double pixel_m = 0;  ///< Length of a pixel on the surface.
+  std::uint32_t material = 0;
+};
+
 /// What one probe can touch in a scene: triangles with relief, ready for the tick.
 ///
 /// A ball of radius r at x touches triangle T when its clearance
@@ -80,6 +91,9 @@ class ContactSurface {
 
   /// The same, among the triangles of one material.
   std::optional<SurfacePoint> closest_point(Vec3 p, double radius_m, std::uint32_t material) const noexcept;
+
+  /// The stimulus of the nearest triangle within `radius_m` that has one.
+  std::optional<StimulusSample> stimulus(Vec3 p, double radius_m) const noexcept;
 
   /// How often the straight way from `from` up to, but without, `to` goes through the base triangles (Möller and
   /// Trumbore 1997). Triangles met at the same place, as duplicates and at edges, count once; at most 16.
@@ -128,6 +142,7 @@ class ContactSurface {
   static Foot foot(const Corners& t, Vec3 x) noexcept;
   Clearance clearance_of(std::uint32_t place, const Corners& t, Vec3 x) const noexcept;
   double relief_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* gradient) const noexcept;
+  static Vec3 in_plane(const Corners& t, double by_v, double by_w) noexcept;
   double texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept;
   static void look(const Corners& t, Vec3 from, Vec3 way, double at, Approach& state) noexcept;
   bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double t_max, Approach& state) const noexcept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -73,6 +74,8 @@ class HeightField {
   double max_m() const noexcept { return max_m_; }
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
+  /// Grey levels, of which there are 256, per metre of height.
+  double greys_per_m() const noexcept { return options_.scale_m != 0 ? 256 / std::abs(options_.scale_m) : 0; }
   /// Samples met per unit of untransformed u and v: the columns of the map from uv to texels.
   std::array<Vec2, 2> texels_per_uv() const noexcept;
 
