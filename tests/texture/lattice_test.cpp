@@ -135,8 +135,8 @@ TEST(Lattice, NoneInFlatAndTinyPictures) {
 
 TEST(Lattice, RefusesBadArguments) {
   const FeatureMatrix matrix = feature_matrix(test::noise_image(16, 16, 1));
-  EXPECT_THROW(find_lattice(matrix, {0.0, 0.8, 24}), InvalidInput);
-  EXPECT_THROW(find_lattice(matrix, {0.3, 0.8, 1}), InvalidInput);
+  EXPECT_THROW(find_lattice(matrix, {.least_significance = 0}), InvalidInput);
+  EXPECT_THROW(find_lattice(matrix, {.most_candidates = 1}), InvalidInput);
   EXPECT_THROW(find_lattice(FeatureMatrix{}), InvalidInput);
 }
 

@@ -14,8 +14,9 @@ namespace papilla {
 struct LatticeOptions {
   double least_significance =
       0.3;  ///< Below this there is no lattice; leather and gravel reach about 0.1, fabrics 0.5 to 1.
-  double node_tolerance = 0.82;  ///< Correlation, relative to the best, from which a shift counts as a repetition.
-  int most_candidates = 24;      ///< Shortest good minima that are paired to candidate bases.
+  double node_tolerance = 0.82;   ///< Correlation, relative to the best, from which a shift counts as a repetition.
+  double index_tolerance = 0.95;  ///< Of two lattices, one within the other, the finer one is taken from this share on.
+  int most_candidates = 24;       ///< Shortest good minima that are paired to candidate bases.
 };
 
 /// The translations under which a picture repeats; see find_lattice().
