@@ -7,6 +7,7 @@
 
 #include "correlation_map.hpp"
 #include "papilla/core/error.hpp"
+#include "projection_lattice.hpp"
 
 namespace papilla {
 namespace {
@@ -223,6 +224,26 @@ Basis with_right_index(const CorrelationMap& map, Basis basis, const LatticeOpti
   return basis;
 }
 
+/// The source's method on the minima as deep as node_tolerance of the deepest, on both sides of the origin.
+std::optional<Basis> projected(const std::vector<Peak>& peaks, const LatticeOptions& options) {
+  std::vector<Vec2> points = {{0, 0}};
+  for (const Peak& peak : peaks) {
+    if (peak.correlation < options.node_tolerance * peaks.front().correlation) continue;
+    points.push_back(peak.t);
+    points.push_back(-1.0 * peak.t);
+  }
+  const auto vectors = texture_detail::projection_lattice(points);
+  if (!vectors) return std::nullopt;
+  const Basis basis = reduced({(*vectors)[0], (*vectors)[1]});
+  return is_plausible(basis) ? std::optional(basis) : std::nullopt;
+}
+
+std::optional<Basis> fitted(const CorrelationMap& map, const std::vector<Peak>& peaks, const LatticeOptions& options) {
+  const std::optional<Basis> pair = best_pair(map, peaks, options);
+  if (!pair) return std::nullopt;
+  return with_right_index(map, refined(map, *pair), options);
+}
+
 /// How far the correlation rises at a node above its mean over the cell around it.
 double contrast(const CorrelationMap& map, const Basis& basis, Vec2 node) {
   constexpr int k_samples = 8;
@@ -287,12 +308,14 @@ Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options)
   const std::vector<Peak> peaks = deepest_first(map);
   constexpr std::size_t k_reported_minima = 500;
   for (std::size_t i = 0; i < std::min(peaks.size(), k_reported_minima); ++i) lattice.minima.push_back(peaks[i].t);
-  const std::optional<Basis> pair = peaks.empty() ? std::nullopt : best_pair(map, peaks, options);
-  if (!pair) {
+  std::optional<Basis> found;
+  if (!peaks.empty())
+    found = options.method == LatticeMethod::projection ? projected(peaks, options) : fitted(map, peaks, options);
+  if (!found) {
     lattice.reason = "no two shifts repeat the picture";
     return lattice;
   }
-  const Basis basis = with_right_index(map, refined(map, *pair), options);
+  const Basis basis = *found;
   const std::vector<Node> nodes = lattice_nodes(map, basis, whole_radius(map), 2000);
   lattice.nodes = static_cast<int>(nodes.size());
   lattice.significance = significance(map, basis, nodes);
