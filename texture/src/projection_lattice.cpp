@@ -49,7 +49,8 @@ double frequent_distance(const std::vector<double>& values) {
     for (int k = -reach; k <= reach; ++k) {
       const auto other = static_cast<std::ptrdiff_t>(at) + k;
       // Points of one line have no distance; those nearer than half the least length are such.
-      if (static_cast<double>(other) * k_step_px < k_least_length_px / 2 || other >= static_cast<std::ptrdiff_t>(size)) continue;
+      if (static_cast<double>(other) * k_step_px < k_least_length_px / 2 || other >= static_cast<std::ptrdiff_t>(size))
+        continue;
       const double deviation = k * k_step_px / k_spread_px;
       density += counts[static_cast<std::size_t>(other)] * std::exp(-deviation * deviation / 2);
     }
