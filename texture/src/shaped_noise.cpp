@@ -63,6 +63,7 @@ void filter(std::vector<double>& field, int width, int height, bool periodic,
   double* value = transform.data();
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u, ++value) *value *= norm * gain(0.5 * u / width, 0.5 * v / height);
+  transform.backward();
   std::copy_n(transform.data(), field.size(), field.begin());
 }
 
