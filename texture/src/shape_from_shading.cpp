@@ -253,22 +253,101 @@ Field solve_coarsest(const GreyImage& image, const ShadingOptions& options, doub
   return std::move(state.z);
 }
 
+constexpr int k_share = 10;         ///< A finer level takes this part of the coarsest level's steps.
+constexpr int k_tile_side = 1024;   ///< Levels of more than twice this are refined tile by tile.
+constexpr int k_tile_overlap = 64;  ///< Mixed over between tiles: longer than what a few steps still change.
+
+StopReason refine(const GreyImage& image, const ShadingOptions& options, double begin, double end,
+                  const Stopwatch& clock, Field& z, ShadingResult& result) {
+  ShadingEnergy energy(image, options);
+  InverseBilaplacian inverse(image.width, image.height, options.periodic);
+  Descent state{energy, inverse, options, clock, result, begin, end, std::move(z), Field(image.pixels.size())};
+  const StopReason stop = descend(state, options.smoothness, std::max(1, options.iterations / k_share));
+  z = std::move(state.z);
+  return stop;
+}
+
+/// Where tiles begin along one side, and their common length.
+struct Tiles {
+  int count, length, stride;
+  explicit Tiles(int side) : count(std::max(1, side / k_tile_side)) {
+    stride = (side + count - 1) / count;
+    length = count == 1 ? side : std::min(side, stride + k_tile_overlap);
+  }
+};
+
+/// Weight of sample i of a tile: a ramp over the overlap at ends that another tile covers too.
+double ramp(int i, int length, bool open_before, bool open_after) {
+  double weight = 1;
+  if (open_before) weight = std::min(weight, (i + 1.0) / (k_tile_overlap + 1));
+  if (open_after) weight = std::min(weight, static_cast<double>(length - i) / (k_tile_overlap + 1));
+  return weight;
+}
+
+/// Refines a level too large for one piece: overlapping tiles with free borders from the common start, mixed by ramps.
+/// What is left to do at this level is local.
+StopReason refine_by_tiles(const GreyImage& image, const ShadingOptions& options, double begin, double end,
+                           const Stopwatch& clock, Field& z, ShadingResult& result) {
+  const Tiles across(image.width), down(image.height);
+  ShadingOptions local = options;
+  local.periodic = false;
+  std::vector<float> sum(z.size(), 0), weight(z.size(), 0);
+  double squares = 0;
+  StopReason stop = StopReason::converged;
+  for (int t = 0; t < across.count * down.count; ++t) {
+    const int left = t % across.count * across.stride, top = t / across.count * down.stride;
+    const auto column = [&](int x) { return texture_detail::wrapped(left + x, image.width); };
+    const auto row = [&](int y) { return texture_detail::wrapped(top + y, image.height); };
+    // Only a picture that tiles goes on beyond its last column.
+    const int width = options.periodic ? across.length : std::min(across.length, image.width - left);
+    const int height = options.periodic ? down.length : std::min(down.length, image.height - top);
+    GreyImage part{width, height, {}, 0, image.bits};
+    Field heights;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const std::size_t i = pixel_index(column(x), row(y), image.width);
+        part.pixels.push_back(image.pixels[i]);
+        heights.push_back(z[i]);
+      }
+    const double share = (end - begin) / (across.count * down.count);
+    ShadingResult steps;
+    if (refine(part, local, begin + share * t, begin + share * (t + 1), clock, heights, steps) != StopReason::converged)
+      stop = StopReason::iteration_limit;
+    if (!steps.trace.empty()) squares += steps.trace.back().error * steps.trace.back().error;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const bool before = options.periodic || left > 0, after = options.periodic || left + width < image.width;
+        const bool above = options.periodic || top > 0, below = options.periodic || top + height < image.height;
+        const double w = ramp(x, width, before && across.count > 1, after && across.count > 1) *
+                         ramp(y, height, above && down.count > 1, below && down.count > 1);
+        const std::size_t i = pixel_index(column(x), row(y), image.width);
+        sum[i] += static_cast<float>(w * (heights[pixel_index(x, y, width)] - z[i]));
+        weight[i] += static_cast<float>(w);
+      }
+  }
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] += static_cast<double>(sum[i] / weight[i]);
+  result.trace.push_back({clock.seconds(), std::sqrt(squares / (across.count * down.count))});
+  return stop;
+}
+
 /// From coarse to fine: large waves converge where they are cheap, the finest level adds the smallest ones.
 Field solve(const GreyImage& image, const ShadingOptions& options, double end, const Stopwatch& clock,
             ShadingResult& result) {
-  if (std::min(image.width, image.height) < 2 * k_coarsest_side)
+  if (std::min(image.width, image.height) < 2 * k_coarsest_side &&
+      std::max(image.width, image.height) <= 2 * k_tile_side)
     return solve_coarsest(image, options, 0, end, clock, result);
   ShadingOptions coarse = options;
   coarse.smoothness /= 4;  // The heights halve with the pixels and the pixels are a quarter: keeps the energies' ratio.
-  const GreyImage half = texture_detail::halved(image);
-  Field z = texture_detail::doubled(solve(half, coarse, end / 4, clock, result), half.width, half.height, image.width,
-                                    image.height, options.periodic);
-  ShadingEnergy energy(image, options);
-  InverseBilaplacian inverse(image.width, image.height, options.periodic);
-  Descent state{energy, inverse, options, clock, result, end / 4, end, std::move(z), Field(image.pixels.size())};
-  constexpr int k_share = 10;  // Of the coarsest level's steps.
-  result.stop = descend(state, options.smoothness, std::max(1, options.iterations / k_share));
-  return std::move(state.z);
+  Field z;
+  {
+    const GreyImage half = texture_detail::halved(image);
+    z = texture_detail::doubled(solve(half, coarse, end / 4, clock, result), half.width, half.height, image.width,
+                                image.height, options.periodic);
+  }
+  const bool large = std::max(image.width, image.height) > 2 * k_tile_side;
+  result.stop = large ? refine_by_tiles(image, options, end / 4, end, clock, z, result)
+                      : refine(image, options, end / 4, end, clock, z, result);
+  return z;
 }
 
 }  // namespace
