@@ -198,7 +198,13 @@ void read_brep(const std::filesystem::path& path, CadDocument& result) {
   BRep_Builder builder;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": can't be opened");
-  BRepTools::Read(shape, file, builder);
+  // The library does not look whether its reads succeed: it would count to whatever a damaged number says.
+  file.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    BRepTools::Read(shape, file, builder);
+  } catch (const std::ios::failure&) {
+    throw InvalidInput(path.string() + ": BREP file is damaged (it ends early or has text where a number belongs)");
+  }
   if (shape.IsNull()) throw InvalidInput(path.string() + ": BREP file is damaged or truncated (no shape in it)");
   XCAFDoc_DocumentTool::ShapeTool(result.document->Main())->AddShape(shape, shape.ShapeType() == TopAbs_COMPOUND);
 }

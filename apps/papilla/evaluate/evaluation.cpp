@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "evaluate/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace papilla::app {
+namespace {
+
+constexpr std::array<EvaluationKind, 3> k_kinds = {{
+    {"weld", "tolerance of the weld against boundary edges left and deviation", evaluate_weld},
+    {"simplification", "tolerance of simplify against triangles left and deviation", evaluate_simplification},
+    {"tessellation", "chord of CAD tessellation against deviation", evaluate_tessellation},
+}};
+
+std::string quoted(const std::string& field) {
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+  std::string out = "\"";
+  for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::span<const EvaluationKind> evaluation_kinds() { return k_kinds; }
+
+Json runs_json(const std::vector<EvaluationRun>& runs) {
+  Json json = Json::array();
+  for (const EvaluationRun& run : runs) {
+    Json trace = Json::array();
+    for (const TraceSample& s : run.trace) trace.push_back({{"seconds", s.seconds}, {"error", s.error}});
+    json.push_back({{"method", run.method},
+                    {"solver", run.solver},
+                    {"input", run.input},
+                    {"error_name", run.error_name},
+                    {"trace", std::move(trace)},
+                    {"stop", run.stop},
+                    {"notes", run.notes}});
+  }
+  return json;
+}
+
+std::string runs_csv(const std::vector<EvaluationRun>& runs) {
+  std::string csv = "method,solver,input,error_name,seconds,error\r\n";
+  for (const EvaluationRun& run : runs)
+    for (const TraceSample& s : run.trace)
+      csv += fmt::format("{},{},{},{},{},{}\r\n", quoted(run.method), quoted(run.solver), quoted(run.input),
+                         quoted(run.error_name), s.seconds, s.error);
+  return csv;
+}
+
+std::vector<std::uint32_t> largest_parts(const Scene& scene, std::size_t most) {
+  std::vector<std::uint32_t> order(scene.parts.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return scene.parts[a].mesh.triangles.size() > scene.parts[b].mesh.triangles.size();
+  });
+  order.resize(std::min(order.size(), most));
+  return order;
+}
+
+double bounding_diagonal_mm(const TriangleMesh& mesh) {
+  if (mesh.positions.empty()) return 0;
+  Vec3 low = mesh.positions.front(), high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+}  // namespace papilla::app
