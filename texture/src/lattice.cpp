@@ -324,6 +324,7 @@ Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options)
     return lattice;
   }
   if (is_striped(map, basis)) {
+    lattice.stripes = std::clamp(std::max(map.sample(basis.a), map.sample(basis.b)), 0.0, 1.0);
     lattice.reason = "the picture repeats in one direction only";
     return lattice;
   }

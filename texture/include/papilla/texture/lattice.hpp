@@ -34,6 +34,8 @@ struct Lattice {
   /// node, divided by the share of variance that is not pixel noise: about 1 for an exact repetition under any noise,
   /// about 0 where nothing repeats.
   double significance = 0;
+  double stripes =
+      0;          ///< Correlation of a picture that repeats in one direction only with itself at that period, else 0.
   int nodes = 0;  ///< Nodes of the half plane the vectors were fitted to.
   std::vector<Vec2>
       minima;          ///< Local minima of the feature matrix (half plane), sub-pixel, deepest first, at most 500.
