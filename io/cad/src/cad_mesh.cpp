@@ -65,7 +65,7 @@ class Gatherer {
     const FacePatch& patch = face.patch;
     std::vector<Index> inner(patch.nodes.size(), k_no_value);
     CornerWriter corners(face, mesh);
-    for (std::uint32_t t = 0; t < patch.triangles.size(); ++t) {
+    for (const std::uint32_t t : patch.in_rings()) {
       Triangle positions{}, values{};
       for (std::size_t k = 0; k < 3; ++k) positions[k] = position(patch, patch.triangles[t][k], inner);
       if (positions[0] == positions[1] || positions[1] == positions[2] || positions[2] == positions[0]) {

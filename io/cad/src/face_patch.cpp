@@ -116,6 +116,24 @@ bool FacePatch::remove(const std::vector<std::uint8_t>& gone) {
   return connect();
 }
 
+std::vector<std::uint32_t> FacePatch::in_rings() const {
+  std::vector<std::uint32_t> order;
+  order.reserve(triangles.size());
+  std::vector<std::uint8_t> reached(triangles.size(), 0);
+  for (std::uint32_t first = 0; first < triangles.size(); ++first) {
+    if (reached[first] != 0) continue;
+    reached[first] = 1;
+    order.push_back(first);
+    for (std::size_t i = order.size() - 1; i < order.size(); ++i)
+      for (HalfEdge h = 3 * order[i]; h < 3 * order[i] + 3; ++h) {
+        if (is_boundary(h) || reached[opposite(h) / 3] != 0) continue;
+        reached[opposite(h) / 3] = 1;
+        order.push_back(opposite(h) / 3);
+      }
+  }
+  return order;
+}
+
 Vec2 FacePatch::uv_in(std::uint32_t triangle, const std::array<double, 3>& w) const {
   double u = 0, v = 0, u_weight = 0, v_weight = 0;
   for (std::size_t k = 0; k < 3; ++k) {
