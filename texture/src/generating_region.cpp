@@ -39,6 +39,16 @@ std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, Vec2 keep, Vec2 othe
   return result;
 }
 
+/// Without corners that rounding made two of.
+std::vector<Vec2> simplified(const std::vector<Vec2>& corners) {
+  const double least = 0.01 * std::sqrt(polygon_area(corners));
+  std::vector<Vec2> kept;
+  for (const Vec2 corner : corners)
+    if (kept.empty() || (norm(corner - kept.back()) > least && norm(corner - kept.front()) > least))
+      kept.push_back(corner);
+  return kept;
+}
+
 }  // namespace
 
 double polygon_area(const std::vector<Vec2>& corners) {
@@ -70,7 +80,7 @@ std::vector<Vec2> generating_region(const std::array<Vec2, 2>& vectors, const st
   std::vector<Vec2> region = {centre + Vec2{-reach, -reach}, centre + Vec2{reach, -reach}, centre + Vec2{reach, reach},
                               centre + Vec2{-reach, reach}};
   for (const Vec2 image : images(operations, origin, chosen)) region = clipped(region, centre, in_plane(image));
-  return region;
+  return simplified(region);
 }
 
 }  // namespace papilla::texture_detail
