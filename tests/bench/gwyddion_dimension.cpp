@@ -2,6 +2,7 @@
 #include "gwyddion_dimension.hpp"
 
 #include <libprocess/fractals.h>
+#include <libprocess/gwyprocess.h>
 
 #include <algorithm>
 
