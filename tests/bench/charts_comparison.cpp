@@ -18,7 +18,7 @@
 #include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/meshing/submesh.hpp"
-#include "papilla/param/lscm.hpp"
+#include "papilla/param/best.hpp"
 #include "papilla/param/measure.hpp"
 #include "support/formula_meshes.hpp"
 #include "support/solid_meshes.hpp"
@@ -67,10 +67,8 @@ Quality flatten(const TriangleMesh& mesh, const ChartSet& charts, double worst) 
   while (!pending.empty()) {
     const Piece piece = std::move(pending.back());
     pending.pop_back();
-    LscmOptions options;
-    options.solver = LscmSolver::hermitian;
     const ChartSet one = test::one_chart(piece.mesh);
-    const Flattening flattening = flatten_lscm(piece.mesh, one, options);
+    const Flattening flattening = flatten_best(piece.mesh, one);
     const DistortionReport report = measure_distortion(piece.mesh, flattening.uv);
     const double mean = report.measured_triangles > 0 ? report.symmetric_dirichlet.mean : 4;
     const bool good = flattening.notes.empty() && mean <= worst * (1 + 1e-9);

@@ -45,6 +45,8 @@ std::vector<EvaluationRun> evaluate_simplification(const EvaluationInput& input)
 /// read_cad(): deviation for a ladder of chords. Takes CAD files only.
 std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input);
 
+/// All ways to map one chart: error for a ladder of iterations, and the methods' own traces.
+std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input);
 /// All estimators of the fractal dimension on growing middle parts of a picture: the interval's half width.
 std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input);
 /// Both ways to a lattice and both feature matrices on growing middle parts of a picture: what stays unexplained.
@@ -66,6 +68,18 @@ Json runs_json(const std::vector<EvaluationRun>& runs);
 
 /// method,solver,input,error_name,seconds,error: a line a sample, fields quoted as RFC 4180 has it.
 std::string runs_csv(const std::vector<EvaluationRun>& runs);
+
+/// A picture of runs that have an input and an error in common.
+struct EvaluationPicture {
+  std::string title, svg;
+  std::vector<std::string> front;  ///< Methods on the Pareto front of error and run time.
+};
+
+std::vector<EvaluationPicture> runs_pictures(const std::vector<EvaluationRun>& runs);
+
+/// One page that needs no other file: all pictures and a table of the runs.
+std::string runs_html(const std::string& kind, const std::vector<EvaluationPicture>& pictures,
+                      const std::vector<EvaluationRun>& runs);
 
 /// The largest parts of a scene, most triangles first: what is evaluated when a file has many.
 std::vector<std::uint32_t> largest_parts(const Scene& scene, std::size_t most);

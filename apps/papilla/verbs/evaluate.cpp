@@ -50,8 +50,20 @@ Json evaluate(VerbContext& context, const EvaluateOptions& options) {
   Json json = {{"kind", options.kind}, {"runs", runs_json(runs)}};
   write_atomically(folder / (name + ".json"), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   write_atomically(folder / (name + ".csv"), runs_csv(runs));
+  const std::vector<EvaluationPicture> pictures = runs_pictures(runs);
+  write_atomically(folder / (name + ".html"), runs_html(options.kind, pictures, runs));
   context.console.print(table_of(runs));
-  json["files"] = {(folder / (name + ".json")).string(), (folder / (name + ".csv")).string()};
+  json["files"] = {(folder / (name + ".json")).string(), (folder / (name + ".csv")).string(),
+                   (folder / (name + ".html")).string()};
+  json["pareto"] = Json::array();
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const fs::path file = folder / fmt::format("{}-{}.svg", name, i + 1);
+    write_atomically(file, pictures[i].svg);
+    json["files"].push_back(file.string());
+    json["pareto"].push_back({{"title", pictures[i].title}, {"front", pictures[i].front}});
+    context.console.print(
+        fmt::format("on the Pareto front of {}: {}\n", pictures[i].title, fmt::join(pictures[i].front, ", ")));
+  }
   return json;
 }
 
@@ -71,7 +83,7 @@ void add_evaluate(CLI::App& program) {
   }
   verb->add_option("kind", options->kind, help)->type_name("KIND")->check(CLI::IsMember(names))->required();
   verb->add_option("file", options->files, "Files to read")->type_name("FILE")->required();
-  verb->add_option("-o,--output", options->folder, "Folder for evaluate-KIND.json and evaluate-KIND.csv")
+  verb->add_option("-o,--output", options->folder, "Folder for evaluate-KIND.json, .csv, .html and pictures")
       ->type_name("DIR")
       ->required();
   options->read.add_to(*verb);

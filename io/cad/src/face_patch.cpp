@@ -16,9 +16,8 @@ bool FacePatch::connect() {
   sides.reserve(3 * triangles.size());
   for (HalfEdge h = 0; h < 3 * triangles.size(); ++h)
     sides.push_back({std::min(from(h), to(h)), std::max(from(h), to(h)), h});
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.h) < std::tie(b.low, b.high, b.h);
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::tie(a.low, a.high, a.h) < std::tie(b.low, b.high, b.h); });
   opposite_.assign(3 * triangles.size(), k_no_value);
   fixed_.resize(3 * triangles.size(), 0);
   bool manifold = true;
