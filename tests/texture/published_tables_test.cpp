@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace papilla {
 namespace {
@@ -17,7 +18,10 @@ TEST_P(DimensionTable, IsReproduced) {
   EXPECT_NEAR(measured[3], GetParam().published[3], 0.04);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cells, DimensionTable, testing::ValuesIn(test::k_dimension_table));
+INSTANTIATE_TEST_SUITE_P(Cells, DimensionTable, testing::ValuesIn(test::k_dimension_table), [](const auto& cell) {
+  return "Of" + std::to_string(std::lround(10 * cell.param.dimension)) + "TenthsAt" +
+         std::to_string(cell.param.side_px) + "Pixels";
+});
 
 /// Cho et al. 2017, table 2.
 TEST(SignatureTable, IsReproduced) {
