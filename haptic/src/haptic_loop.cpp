@@ -144,6 +144,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
   SafetyLimits limits = safety_limits(device.caps().max_force_n);
   limits.watchdog_s = options.watchdog_s;
   HapticTick tick(surface, limits, period);
+  if (options.control_passivity) tick.control_passivity(device.caps().dynamics);
   const StopAtEnd stop_at_end(device);
   {
     const Realtime realtime(result);
@@ -186,6 +187,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
     }
     result.seconds = seconds_of(CLOCK_MONOTONIC) - begin;
+    result.passivity_interventions = tick.passivity_interventions();
   }
   if (options.record) options.record->resize(result.ticks);
   return result;
