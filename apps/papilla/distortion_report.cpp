@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 
 #include "bake/mesh_assembly.hpp"
 #include "papilla/core/error.hpp"
+#include "pictures/uv_layout.hpp"
 
 namespace papilla::app {
 namespace {
@@ -14,6 +18,31 @@ namespace {
 Json json_of(const MeanMax& m) { return {{"mean", m.mean}, {"max", m.max}}; }
 Json json_of(const MinMeanMax& m) { return {{"min", m.min}, {"mean", m.mean}, {"max", m.max}}; }
 Json json_of(const Percentiles& p) { return {{"p50", p.p50}, {"p90", p.p90}, {"p99", p.p99}}; }
+
+/// Upper ends of the bins; a last one follows without end.
+constexpr std::array k_dirichlet_bins{4.0001, 4.001, 4.003, 4.01, 4.03, 4.1, 4.3, 5.0, 7.0, 14.0, 104.0};
+constexpr std::array k_stretch_bins{1.0001, 1.001, 1.003, 1.01, 1.03, 1.1, 1.3, 2.0, 4.0, 10.0};
+constexpr std::array k_angle_bins{0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 40.0};
+
+template <std::size_t N>
+std::vector<double> shares(const DistortionReport& report, const std::array<double, N>& bins,
+                           double TriangleDistortion::*value) {
+  std::vector<double> share(N + 1, 0);
+  double total = 0;
+  for (const TriangleDistortion& d : report.per_triangle) {
+    if (!d.measured) continue;
+    const auto bin = std::lower_bound(bins.begin(), bins.end(), d.*value) - bins.begin();
+    share[static_cast<std::size_t>(bin)] += d.area_mm2;
+    total += d.area_mm2;
+  }
+  for (double& s : share) s = total > 0 ? s / total : 0;
+  return share;
+}
+
+float linear(unsigned char srgb) {
+  const double c = srgb / 255.0;
+  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
 
 }  // namespace
 
@@ -97,6 +126,51 @@ std::string distortion_csv(const SceneDistortion& distortion) {
                    d.overlaps_chart, d.overlaps_any);
   }
   return csv;
+}
+
+Json histogram_json(const DistortionReport& report) {
+  const auto one = [&](const auto& bins, double TriangleDistortion::*value) {
+    return Json{{"below", bins}, {"area_fraction", shares(report, bins, value)}};
+  };
+  return {{"symmetric_dirichlet", one(k_dirichlet_bins, &TriangleDistortion::symmetric_dirichlet)},
+          {"stretch_l2", one(k_stretch_bins, &TriangleDistortion::stretch_l2)},
+          {"angle_error_deg", one(k_angle_bins, &TriangleDistortion::angle_error_deg)}};
+}
+
+std::string histogram_text(const DistortionReport& report) {
+  const std::vector<double> share = shares(report, k_dirichlet_bins, &TriangleDistortion::symmetric_dirichlet);
+  std::string text = "symmetric Dirichlet, share of the area:\n";
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const bool last = i == k_dirichlet_bins.size();
+    text += fmt::format("  {} {:<8} {:6.2f} % {}\n", last ? "above" : "up to", k_dirichlet_bins[last ? i - 1 : i],
+                        100 * share[i], std::string(static_cast<std::size_t>(std::lround(40 * share[i])), '#'));
+  }
+  return text;
+}
+
+void colour_by_distortion(const SceneDistortion& distortion, double worst, Scene& scene) {
+  std::size_t next = 0;
+  scene.materials.assign(1, {});
+  scene.materials.front().name = "distortion";
+  for (Part& part : scene.parts) {
+    TriangleMesh& mesh = part.mesh;
+    mesh.colors = {};
+    mesh.colors.values.reserve(mesh.triangles.size());
+    const bool measured = !mesh.uv.empty() && !mesh.triangles.empty();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto i = static_cast<Index>(t);
+      mesh.colors.indices.push_back({i, i, i});
+      if (!measured || !mesh.uv.has_value(t)) {
+        mesh.colors.values.push_back({0.5F, 0.5F, 0.5F, 1});
+        continue;
+      }
+      const Rgb c = distortion_colour(distortion.report.per_triangle[next + t], worst);
+      mesh.colors.values.push_back({linear(c[0]), linear(c[1]), linear(c[2]), 1});
+    }
+    if (measured) next += mesh.triangles.size();
+    mesh.material.clear();
+    part.materials = {0};
+  }
 }
 
 }  // namespace papilla::app

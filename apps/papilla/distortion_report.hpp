@@ -32,4 +32,15 @@ std::string distortion_text(const DistortionReport& report);
 /// Every triangle of the scene as a line of CSV.
 std::string distortion_csv(const SceneDistortion& distortion);
 
+/// How the surface's area is spread over distortion: for each measure, the upper ends of the bins and the share of the
+/// area in them; the last bin has no end.
+Json histogram_json(const DistortionReport& report);
+
+/// The same for symmetric Dirichlet as bars for people.
+std::string histogram_text(const DistortionReport& report);
+
+/// Gives every triangle that has uv the colour of its distortion, as corner colours; the others are grey.
+/// @param report of measure_scene() for this scene with all parts wanted.
+void colour_by_distortion(const SceneDistortion& distortion, double worst, Scene& scene);
+
 }  // namespace papilla::app

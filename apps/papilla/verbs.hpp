@@ -13,9 +13,11 @@ void add_simplify(CLI::App& program);
 void add_unwrap(CLI::App& program);
 void add_measure(CLI::App& program);
 void add_analyze(CLI::App& program);
+void add_prepare(CLI::App& program);
 void add_synthesize(CLI::App& program);
 void add_height(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
+void add_evaluate(CLI::App& program);
 
 }  // namespace papilla::app

@@ -36,7 +36,8 @@ class Flattener {
     flat_.normals = normals_.take();
     flat_.uv = uv_.take();
     if (has_colors_) flat_.colors = colors_.take();
-    if (!flat_.uv.empty() || !has_uv_) flat_.triangle_uv.clear();
+    if (!flat_.uv.empty()) flat_.triangle_uv.clear();
+    if (!flat_.triangle_uv.empty()) flat_.triangle_uv.resize(flat_.triangles.size());
     flat_.keeps.normals = !flat_.normals.empty();
     flat_.keeps.colors = !flat_.colors.empty();
     flat_.keeps.uv = true;
@@ -50,7 +51,6 @@ class Flattener {
       throw InvalidInput("write: the scene has more than 2^32 - 2 positions");
     normals_.add(value_per_position<Vec3>(mesh, {placed.normals, mesh.normals.indices}));
     uv_.add(value_per_position(mesh, mesh.uv));
-    has_uv_ |= !mesh.uv.empty();
     has_colors_ |= !mesh.colors.empty();
     colors_.add(mesh.colors.empty() ? std::vector<Color>(mesh.positions.size())
                                     : value_per_position(mesh, mesh.colors));
@@ -65,10 +65,10 @@ class Flattener {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& corners = mesh.triangles[t];
       flat_.triangles.push_back({offset + corners[order[0]], offset + corners[order[1]], offset + corners[order[2]]});
-      auto& uv = flat_.triangle_uv.emplace_back();
       if (!mesh.uv.has_value(t)) continue;
-      uv.emplace();
-      for (std::size_t k = 0; k < 3; ++k) (*uv)[k] = mesh.uv.values[mesh.uv.indices[t][order[k]]];
+      flat_.triangle_uv.resize(flat_.triangles.size());
+      auto& uv = flat_.triangle_uv.back().emplace();
+      for (std::size_t k = 0; k < 3; ++k) uv[k] = mesh.uv.values[mesh.uv.indices[t][order[k]]];
     }
   }
 
@@ -77,7 +77,7 @@ class Flattener {
   VertexList<Vec3> normals_;
   VertexList<Vec2> uv_;
   VertexList<Color> colors_;
-  bool has_uv_ = false, has_colors_ = false;
+  bool has_colors_ = false;
 };
 
 }  // namespace

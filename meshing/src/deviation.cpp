@@ -152,9 +152,9 @@ class TriangleRefiner {
   bool divide(const Pending& whole, double& settled_bound) {
     const Vec3 centre = whole.piece.centre();
     const ClosestPoint found = measure(centre, whole.hint);
-    const double bound =
-        std::min({whole.bound, std::sqrt(found.squared_distance) + farthest_corner(whole.piece, centre),
-                  distance_bound(whole.piece, found.triangle)});
+    const double extent = farthest_corner(whole.piece, centre);
+    const double bound = std::min(
+        {whole.bound, std::sqrt(found.squared_distance) + extent, distance_bound(whole.piece, found.triangle)});
     if (bound <= limit()) {
       settled_bound = std::max(settled_bound, bound);
       return true;
@@ -178,7 +178,8 @@ class TriangleRefiner {
   }
 
   /// Cuts along the planes through the edges of the closest triangle, upright on it. Inside, the distance to it is
-  /// a linear height, so its bound there is exact for that triangle.
+  /// a linear height, so its bound there is exact for that triangle. Slices thinner than a hundredth of the piece are
+  /// not cut off: two triangles nearly as close could take such slices from each other for ever.
   bool cut_along_prism(const Pending& whole) {
     const TriangleFrame& frame = to_.frame(whole.hint);
     if (frame.thin) return false;
@@ -190,8 +191,7 @@ class TriangleRefiner {
     bool is_cut = false;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 outwards = cross(edge[k], normal);
-      constexpr double k_slack = 1e-12;  // of the edge: thinner slices are rounding
-      const auto halves = inside.cut(origin[k], outwards, k_slack * norm(outwards) * norm(edge[k]));
+      const auto halves = inside.cut(origin[k], outwards, least_slice(inside, origin[k], outwards, norm(edge[k])));
       if (halves.behind.size() == 0) return false;
       is_cut |= halves.ahead.size() > 0;
       outside[k] = halves.ahead;
@@ -202,6 +202,19 @@ class TriangleRefiner {
       if (piece.size() > 0) push(piece, whole.bound, whole.hint);
     push_inside(inside, whole);
     return true;
+  }
+
+  /// The slack of ConvexPiece::cut() with which a thin slice ahead stays, while a thin one behind is no hindrance.
+  static double least_slice(const ConvexPiece& piece, const Vec3& origin, const Vec3& outwards, double edge) noexcept {
+    constexpr double k_rounding = 1e-12;  // of the edge
+    constexpr double k_thinnest = 1e-3;   // of the piece
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& v : piece.corners()) {
+      const double height = dot(v - origin, outwards);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    return std::max(k_rounding * edge * norm(outwards), std::min(k_thinnest * (high - low), -0.5 * low));
   }
 
   /// Takes the distance at the farthest corner at once: mostly that is the piece's maximum.

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
 #include "lscm_solvers.hpp"
+#include "sparse_cholesky.hpp"
 
 namespace papilla::param_detail {
 namespace {
 
 using Complex = std::complex<double>;
-using Matrix = Eigen::SparseMatrix<Complex>;
-using Vector = Eigen::Matrix<Complex, Eigen::Dynamic, 1>;
 
 /// Doubled areas are not taken below this fraction of the longest edge squared: the energy of a triangle
 /// grows with its inverse, and one without area must not outweigh all others.
@@ -43,56 +41,50 @@ std::pair<Index, Index> choose_pins(const ChartSurface& chart, const std::vector
   return {first, farthest(first)};
 }
 
-struct System {
-  Matrix matrix;  ///< Lower half.
-  Vector right;
-};
-
-/// The normal equations Wᴴ W over the free vertices; pinned ones move to the right side.
-System assemble(const ChartSurface& chart, const std::vector<int>& row, const std::vector<Complex>& pinned, int free) {
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(6 * chart.triangles.size());
-  System system{Matrix(free, free), Vector::Zero(free)};
-  for (const Triangle& t : chart.triangles) {
-    const auto w = weighted_edges(chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (row[t[i]] < 0) continue;
-      for (std::size_t j = 0; j < 3; ++j) {
-        const Complex entry = std::conj(w[i]) * w[j];
-        if (row[t[j]] < 0)
-          system.right[row[t[i]]] -= entry * pinned[t[j]];
-        else if (row[t[j]] <= row[t[i]])
-          entries.emplace_back(row[t[i]], row[t[j]], entry);
-      }
-    }
-  }
-  system.matrix.setFromTriplets(entries.begin(), entries.end());
-  return system;
-}
-
 }  // namespace
 
 ConformalMap solve_lscm_hermitian(const ChartSurface& chart) {
   const auto [first, second] = choose_pins(chart, border_loops(chart).front());
   const double distance = norm(chart.positions[second] - chart.positions[first]);
   if (!(distance > 0)) return {{}, "the border is a single point"};
-  std::vector<Complex> pinned(chart.positions.size(), 0);
-  pinned[second] = distance;
-  std::vector<int> row(chart.positions.size());
-  int free = 0;
-  for (Index v = 0; v < row.size(); ++v) row[v] = v == first || v == second ? -1 : free++;
+  std::vector<Complex> uv(chart.positions.size(), 0);
+  uv[second] = distance;
+  constexpr Index pinned = ~Index{0};
+  std::vector<Index> row(chart.positions.size(), pinned);
+  std::vector<Vec3> where;
+  for (Index v = 0; v < row.size(); ++v)
+    if (v != first && v != second) row[v] = static_cast<Index>(where.size()), where.push_back(chart.positions[v]);
 
-  const System system = assemble(chart, row, pinned, free);
-  const Eigen::SimplicialLDLT<Matrix> factor(system.matrix);
-  if (factor.info() != Eigen::Success) return {{}, "the Hermitian system is singular"};
-  const Vector solution = factor.solve(system.right);
-
-  ConformalMap map;
-  map.uv.resize(chart.positions.size());
-  for (std::size_t v = 0; v < row.size(); ++v) {
-    const Complex z = row[v] < 0 ? pinned[v] : solution[row[v]];
-    map.uv[v] = {z.real(), z.imag()};
+  // The normal equations Wᴴ W over the free vertices; pinned ones move to the right side.
+  Elements elements;
+  std::vector<Complex> right(where.size(), 0);
+  const auto weights = [&](const Triangle& t) {
+    return weighted_edges(chart.positions[t[0]], chart.positions[t[1]], chart.positions[t[2]]);
+  };
+  for (const Triangle& t : chart.triangles) {
+    std::vector<Index> free;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (row[t[i]] == pinned) continue;
+      free.push_back(row[t[i]]);
+      for (std::size_t j = 0; j < 3; ++j)
+        if (row[t[j]] == pinned) right[row[t[i]]] -= std::conj(weights(t)[i]) * weights(t)[j] * uv[t[j]];
+    }
+    elements.add(free);
   }
+  SparseCholesky<Complex> factor(elements, where, 1);
+  factor.factor([&](std::size_t e, Complex* matrix) {
+    const Triangle& t = chart.triangles[e];
+    const auto w = weights(t);
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (row[t[i]] != pinned && row[t[j]] != pinned) *matrix++ = std::conj(w[i]) * w[j];
+  });
+  factor.solve(right);
+  for (std::size_t v = 0; v < row.size(); ++v)
+    if (row[v] != pinned) uv[v] = right[row[v]];
+  ConformalMap map;
+  map.uv.reserve(uv.size());
+  for (const Complex z : uv) map.uv.push_back({z.real(), z.imag()});
   return map;
 }
 

@@ -133,29 +133,6 @@ bool edge_separates(Vec2 p, Vec2 q, const std::array<Vec2, 3>& b, double toleran
   return cross(d, b[0] - p) <= limit && cross(d, b[1] - p) <= limit && cross(d, b[2] - p) <= limit;
 }
 
-/// Whether two border edges meet elsewhere than in a named common end point. Contact counts.
-bool edges_conflict(const BorderEdge& e, const BorderEdge& f, double tolerance) {
-  const Vec2 d = e.b - e.a, g = f.b - f.a;
-  const double length_e = norm(d), length_f = norm(g);
-  const bool shares_start = e.from == f.from || e.from == f.to, shares_end = e.to == f.from || e.to == f.to;
-  if (shares_start && shares_end) return true;
-  if (shares_start || shares_end) {
-    const Vec2 along_e = shares_start ? d : -1.0 * d;
-    const bool f_leaves = f.from == (shares_start ? e.from : e.to);
-    const Vec2 along_f = f_leaves ? g : -1.0 * g;
-    return dot(along_e, along_f) > 0 && std::abs(cross(along_e, along_f)) <= tolerance * std::max(length_e, length_f);
-  }
-  const auto one_side = [](double s, double t, double limit) {
-    return (s > limit && t > limit) || (s < -limit && t < -limit);
-  };
-  if (one_side(cross(d, f.a - e.a), cross(d, f.b - e.a), tolerance * length_e)) return false;
-  if (one_side(cross(g, e.a - f.a), cross(g, e.b - f.a), tolerance * length_f)) return false;
-  // On one line: apart unless their boxes meet.
-  const Box x = box_of(e), y = box_of(f);
-  return x.low.x <= y.high.x + tolerance && y.low.x <= x.high.x + tolerance && x.low.y <= y.high.y + tolerance &&
-         y.low.y <= x.high.y + tolerance;
-}
-
 /// The border visits no named point twice and has exactly one counter-clockwise loop.
 bool has_one_outer_loop(const std::vector<BorderEdge>& border) {
   std::vector<std::pair<Index, Index>> start;  // (from, edge)
@@ -188,6 +165,28 @@ bool is_border_triangle(const PlaneSheet& sheet, Index t) {
 }
 
 }  // namespace
+
+bool edges_conflict(const BorderEdge& e, const BorderEdge& f, double tolerance) {
+  const Vec2 d = e.b - e.a, g = f.b - f.a;
+  const double length_e = norm(d), length_f = norm(g);
+  const bool shares_start = e.from == f.from || e.from == f.to, shares_end = e.to == f.from || e.to == f.to;
+  if (shares_start && shares_end) return true;
+  if (shares_start || shares_end) {
+    const Vec2 along_e = shares_start ? d : -1.0 * d;
+    const bool f_leaves = f.from == (shares_start ? e.from : e.to);
+    const Vec2 along_f = f_leaves ? g : -1.0 * g;
+    return dot(along_e, along_f) > 0 && std::abs(cross(along_e, along_f)) <= tolerance * std::max(length_e, length_f);
+  }
+  const auto one_side = [](double s, double t, double limit) {
+    return (s > limit && t > limit) || (s < -limit && t < -limit);
+  };
+  if (one_side(cross(d, f.a - e.a), cross(d, f.b - e.a), tolerance * length_e)) return false;
+  if (one_side(cross(g, e.a - f.a), cross(g, e.b - f.a), tolerance * length_f)) return false;
+  // On one line: apart unless their boxes meet.
+  const Box x = box_of(e), y = box_of(f);
+  return x.low.x <= y.high.x + tolerance && y.low.x <= x.high.x + tolerance && x.low.y <= y.high.y + tolerance &&
+         y.low.y <= x.high.y + tolerance;
+}
 
 bool interiors_meet(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k) {

@@ -22,6 +22,10 @@ struct PlaneSheet {
   std::vector<std::array<Index, 3>> across;  ///< Neighbours inside the sheet, or k_no_triangle.
 };
 
+/// Whether two border edges meet elsewhere than in a named common end point. Contact up to `tolerance` (a length)
+/// counts.
+bool edges_conflict(const BorderEdge& e, const BorderEdge& f, double tolerance);
+
 /// Whether the interiors of two counter-clockwise triangles meet by more than `tolerance` (a length).
 bool interiors_meet(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b, double tolerance);
 

@@ -62,7 +62,7 @@ TEST_F(StlReader, BinaryThatBeginsWithSolid) {
 
 /// The bytes with the attribute of a triangle set.
 std::string with_attribute(std::string bytes, std::size_t triangle, std::uint16_t attribute) {
-  std::memcpy(bytes.data() + 84 + 50 * triangle + 48, &attribute, sizeof attribute);
+  bytes.replace(84 + 50 * triangle + 48, sizeof attribute, reinterpret_cast<const char*>(&attribute), sizeof attribute);
   return bytes;
 }
 
@@ -96,11 +96,15 @@ TEST_F(StlReader, ManyBlocksKeepTheirOrder) {
 }
 
 TEST_F(StlReader, UnitAndAxis) {
-  const Scene scene = read(binary_stl(k_square, 2), {25.4, UpAxis::y, 0.1, 20});
+  ReadOptions options, wrong;
+  options.millimetres_per_unit = 25.4;
+  options.up = UpAxis::y;
+  wrong.millimetres_per_unit = -1;
+  const Scene scene = read(binary_stl(k_square, 2), options);
   EXPECT_EQ(scene.parts[0].mesh.positions[1], (Vec3{25.4, 0, 0}));
   EXPECT_EQ(scene.unit, "in");
   EXPECT_EQ(scene.up, UpAxis::y);
-  EXPECT_THROW(read(binary_stl(k_square, 2), {-1, {}, 0.1, 20}), InvalidInput);
+  EXPECT_THROW(read(binary_stl(k_square, 2), wrong), InvalidInput);
 }
 
 TEST_F(StlReader, HugeClaimsAreRefused) {

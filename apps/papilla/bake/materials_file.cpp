@@ -101,7 +101,7 @@ class Value {
 HeightRule read_height(const Value& value) {
   value.expect_keys({"method", "depth_mm", "scale"});
   HeightRule rule;
-  if (const auto v = value.get("method")) rule.method = v->one_of({"auto", "variational", "tsai-shah", "intensity"});
+  if (const auto v = value.get("method")) rule.method = v->one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"});
   if (const auto v = value.get("depth_mm")) rule.depth_mm = v->number(1e-6, 100);
   if (const auto v = value.get("scale")) rule.scale = v->number(0, 100);
   return rule;
@@ -134,7 +134,7 @@ MaterialRule read_material(const Value& value, const std::string& name, const st
   if (rule.static_friction && rule.dynamic_friction && *rule.dynamic_friction > *rule.static_friction)
     value.fail("dynamicFriction must not exceed staticFriction");
   if (const auto v = value.get("height")) rule.height = read_height(*v);
-  if (const auto v = value.get("unwrap")) rule.unwrap = v->one_of({"auto", "triplanar", "lscm"});
+  if (const auto v = value.get("unwrap")) rule.unwrap = v->one_of({"auto", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
   if (const auto v = value.get("color")) rule.color = v->hex_colour();
   return rule;

@@ -88,8 +88,9 @@ constexpr Decision picture(const Wanted& wanted, const Given& given) {
 
 constexpr Decision tag(const Wanted& wanted, const Given& given) {
   if (!given.left_out.empty()) return {false, given.left_out};
+  if (!wanted.feel) return {false, "no haptic material is assigned"};
   if (given.is_only_seen) return {false, reason_of(LeftOut::unreachable)};
-  return wanted.feel ? Decision{true, "it is to be felt"} : Decision{false, "no haptic material is assigned"};
+  return {true, "it is to be felt"};
 }
 
 }  // namespace stage_rules

@@ -3,8 +3,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <limits>
+#include <map>
 
 #include "papilla/core/trace.hpp"
 #include "papilla/param/pack.hpp"
@@ -13,37 +12,33 @@
 namespace papilla::app {
 namespace {
 
-double bounding_diagonal(const TriangleMesh& mesh) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high = -low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return mesh.positions.empty() ? 0 : norm(high - low);
-}
-
-void choose_method(const TriangleMesh& mesh, const std::string& wanted, Vec2 tile_mm, SurfaceUv& result) {
-  if (wanted != "auto") {
-    result.method = wanted;
-    result.reason = "as the material says";
-    return;
-  }
-  const double tile = std::max(tile_mm.x, tile_mm.y), extent = bounding_diagonal(mesh);
-  result.method = extent < tile ? "triplanar" : "lscm";
-  result.reason = fmt::format("its extent of {:.3g} mm is {} than one repeat of the grain", extent, extent < tile ? "less" : "more");
+/// How many charts each method got.
+std::string by_chart(const std::vector<ChartChoice>& choices) {
+  std::map<std::string, std::size_t> count;
+  for (const ChartChoice& choice : choices) ++count[choice.method];
+  std::string text;
+  for (const auto& [method, charts] : count)
+    text += fmt::format("{}{} {}", text.empty() ? "charts: " : ", ", charts, method);
+  return text;
 }
 
 }  // namespace
 
 SurfaceUv make_surface_uv(const TriangleMesh& mesh, const std::string& wanted, Vec2 tile_mm, UpAxis up) {
-  SurfaceUv result;
-  choose_method(mesh, wanted, tile_mm, result);
-  UnwrapOptions options;
-  options.method = result.method == "triplanar" ? UnwrapMethod::triplanar : UnwrapMethod::lscm;
-  options.tile_mm = tile_mm;
+  MethodOptions options;
+  options.method = unwrap_methods().at(wanted);
+  PartContext context;
+  context.up = up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  context.tile_mm = tile_mm;
   const Stopwatch clock;
-  result.flattening = flatten_part(mesh, up == UpAxis::z ? GrainUp::z : GrainUp::y, options, result.segment_seconds);
+  FlattenedPart part = flatten_part(mesh, context, options);
+  SurfaceUv result;
+  result.segment_seconds = part.segment_seconds;
+  result.flattening = std::move(part.flattening);
+  result.method = part.method;
+  result.reason = wanted != "auto"      ? "as the material says"
+                  : part.reason.empty() ? by_chart(part.choices)
+                                        : part.reason;
   AlignedPhase aligned = align_phase(mesh, result.flattening, {.tile_mm = tile_mm});
   result.flattening.uv = std::move(aligned.uv);
   result.grain_continued_mm = aligned.continued_mm;

@@ -12,15 +12,14 @@ namespace papilla::app {
 struct SurfaceUv {
   double grain_continued_mm = 0;  ///< Length of the seam over which the grain goes on.
   Flattening flattening;  ///< uv in millimetres, grain upright, charts placed so that its phase goes on over seams.
-  std::string method;     ///< "lscm" or "triplanar".
+  std::string method;     ///< A name of unwrap_methods().
   std::string reason;     ///< Why that one.
   double segment_seconds = 0, flatten_seconds = 0;
 };
 
 /// New uv for a surface with tiling grain.
 /// @param mesh repaired.
-/// @param wanted "lscm", "triplanar", or "auto": triplanar for surfaces smaller than one repeat of the grain, which show
-///        too little of it for distortion to matter; lscm, whose charts are fewer, for all others.
+/// @param wanted a name of unwrap_methods(); "auto" lets flatten_part() choose.
 /// @throws InvalidInput, SolverFailure of the method.
 SurfaceUv make_surface_uv(const TriangleMesh& mesh, const std::string& wanted, Vec2 tile_mm, UpAxis up);
 

@@ -13,8 +13,6 @@
 namespace papilla::app {
 namespace {
 
-using Rgb = std::array<unsigned char, 3>;
-
 constexpr Rgb k_ink = {0, 0, 0}, k_wrong = {220, 30, 30};
 constexpr int k_margin = 16, k_legend_height = 64, k_bar_height = 18;
 
@@ -182,6 +180,11 @@ Bounds bounds_of(const CornerAttribute<Vec2>& uv) {
 
 }  // namespace
 
+Rgb distortion_colour(const TriangleDistortion& distortion, double worst) {
+  if (distortion.flipped || !distortion.measured) return k_wrong;
+  return viridis((distortion.symmetric_dirichlet - 4) / (worst - 4));
+}
+
 ColorImage draw_uv_layout(const CornerAttribute<Vec2>& uv, const DistortionReport& report,
                           const UvLayoutOptions& options) {
   const Bounds b = bounds_of(uv);
@@ -197,10 +200,8 @@ ColorImage draw_uv_layout(const CornerAttribute<Vec2>& uv, const DistortionRepor
   };
   for (std::size_t t = 0; t < uv.indices.size(); ++t) {
     if (!uv.has_value(t)) continue;
-    const TriangleDistortion& d = report.per_triangle[t];
-    const bool wrong = d.flipped || !d.measured;
     fill_triangle(fine, {place(uv.indices[t][0]), place(uv.indices[t][1]), place(uv.indices[t][2])},
-                  wrong ? k_wrong : viridis((d.symmetric_dirichlet - 4) / (options.worst - 4)));
+                  distortion_colour(report.per_triangle[t], options.worst));
   }
   for (const auto& [from, to] : border_edges(uv)) draw_line(fine, place(from), place(to), options.samples, k_ink);
   Canvas canvas(width, height + k_legend_height);

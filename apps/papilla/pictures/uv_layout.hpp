@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+
 #include "papilla/meshing/triangle_mesh.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla/texture/image.hpp"
@@ -12,6 +14,12 @@ struct UvLayoutOptions {
   int samples = 3;     ///< Samples per pixel and axis; 1 to 8.
   double worst = 5;    ///< Symmetric Dirichlet distortion at the end of the scale; above 4.
 };
+
+/// A colour of sRGB, 0 to 255.
+using Rgb = std::array<unsigned char, 3>;
+
+/// The colour of a triangle by its symmetric Dirichlet distortion, as draw_uv_layout() has it.
+Rgb distortion_colour(const TriangleDistortion& distortion, double worst);
 
 /// Draws the triangles in the plane, v upwards, each in the colour of its symmetric Dirichlet distortion on a scale
 /// from 4 (isometry, dark blue) to `worst` and more (yellow), which grows evenly in lightness for every kind of colour

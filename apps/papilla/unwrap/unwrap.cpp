@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unwrap/unwrap.hpp"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
 
 #include "papilla/core/error.hpp"
-#include "papilla/meshing/chart_cuts.hpp"
-#include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/weld.hpp"
-#include "papilla/param/components.hpp"
-#include "papilla/param/grain_frame.hpp"
 #include "papilla/param/pack.hpp"
 
 namespace papilla::app {
@@ -60,6 +58,8 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
     AlignedPhase aligned = align_phase(scene.parts[p].mesh, f, {.tile_mm = options.tile_mm});
     f.uv = std::move(aligned.uv);
     report.parts[p].grain_continued_mm = aligned.continued_mm;
+    report.parts[p].seams =
+        seam_visibility(scene.parts[p].mesh, f.uv, {.tile_mm = options.tile_mm, .grain_mm = report.grain_mm});
   }
   if (options.layout == UvLayout::tile) return;
   const AllCharts all = gather(report.parts);
@@ -69,28 +69,49 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
   scatter(atlas.uv, report.parts);
 }
 
-/// Least squares maps need no disks: holes of flat sheets stay. Grain of known size wants its direction kept.
-SegmentationOptions segmentation_of(const UnwrapOptions& options, GrainUp up) {
-  SegmentationOptions segmentation = options.segmentation;
-  segmentation.disks = false;
-  if (options.tile_mm.x > 0 && options.tile_mm.y > 0)
-    segmentation.grain = [up](Vec3 normal) { return grain_direction(normal, up); };
-  return segmentation;
+double density_of(const std::string& part, const UnwrapOptions& options) {
+  for (const auto& [pattern, density] : options.density)
+    if (::fnmatch(pattern.c_str(), part.c_str(), 0) == 0) return density;
+  return 1;
 }
 
-/// Halves charts that have no valid map, a few times, before planar projections take their place.
-Flattening flatten_or_halve(const TriangleMesh& mesh, ChartSet charts, const LscmOptions& options) {
-  constexpr int k_max_halvings = 6;
-  for (int i = 0;; ++i) {
-    Flattening flattening = flatten_lscm(cut_open(mesh, charts), charts, options);
-    if (flattening.notes.empty() || i == k_max_halvings) {
-      keep_cuts(mesh, charts.cuts, flattening.charts);
-      return flattening;
-    }
-    std::vector<std::uint32_t> failed;
-    for (const ChartNote& note : flattening.notes) failed.push_back(note.chart);
-    charts = halve_charts(mesh, charts, failed);
+/// Gives the parts channel 1.
+void place_unique(Scene& scene, const UnwrapOptions& options, UnwrapReport& report) {
+  const AllCharts all = gather(report.parts);
+  UniqueAtlasOptions unique{options.unique->texture_px, options.unique->gutter_px, {}};
+  for (std::size_t p = 0; p < report.parts.size(); ++p)
+    unique.density.insert(unique.density.end(), report.parts[p].flattening.charts.count,
+                          density_of(scene.parts[p].name, options));
+  UniqueAtlas atlas = pack_unique(all.uv, all.charts, unique);
+  auto next = atlas.uv.values.begin();
+  for (std::size_t p = 0; p < report.parts.size(); ++p) {
+    const CornerAttribute<Vec2>& uv = report.parts[p].flattening.uv;
+    if (uv.empty()) continue;
+    const auto end = next + static_cast<std::ptrdiff_t>(uv.values.size());
+    scene.parts[p].mesh.uv1 = {{next, end}, uv.indices};
+    next = end;
   }
+  atlas.uv = {};
+  report.unique = std::move(atlas);
+}
+
+double grain_size(const UnwrapOptions& options) {
+  if (options.grain_mm) return *options.grain_mm;
+  const double tile = std::min(options.tile_mm.x, options.tile_mm.y);
+  return tile > 0 ? tile / 8 : 1;
+}
+
+/// What the parts have in common.
+PartContext context_of(const Scene& scene, const UnwrapOptions& options) {
+  PartContext context;
+  context.up = scene.up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  context.tile_mm = options.tile_mm;
+  context.parts = scene.parts.size();
+  TriangleMesh all;
+  for (const Part& part : scene.parts)
+    all.positions.insert(all.positions.end(), part.mesh.positions.begin(), part.mesh.positions.end());
+  context.scene_extent_mm = bounding_diagonal(all);
+  return context;
 }
 
 void add_trace(const Flattening& flattening, double start, UnwrapReport& report) {
@@ -102,30 +123,14 @@ void add_trace(const Flattening& flattening, double start, UnwrapReport& report)
 
 }  // namespace
 
-Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOptions& options, double& segment_seconds) {
-  TriplanarOptions projection;
-  projection.up = up;
-  projection.tile_mm = options.tile_mm;
-  if (options.method == UnwrapMethod::triplanar) return flatten_triplanar(mesh, projection).flattening;
-  const Stopwatch clock;
-  const bool keep = options.charts == ChartSource::keep;
-  const ChartSet charts = keep ? components_as_charts(mesh) : segment_charts(mesh, segmentation_of(options, up)).charts;
-  segment_seconds += clock.seconds();
-  LscmOptions lscm;
-  lscm.up = up;
-  lscm.solver = options.solver;
-  lscm.fall_back = !keep;
-  lscm.projection = projection;
-  return flatten_or_halve(mesh, charts, lscm);
-}
-
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress) {
   const Stopwatch clock;
   if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
     throw InvalidInput("no part has triangles to unwrap");
   UnwrapReport report;
   report.parts.resize(scene.parts.size());
-  const GrainUp up = scene.up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  report.grain_mm = grain_size(options);
+  const PartContext context = context_of(scene, options);
   std::exception_ptr first_failure;
   bool any = false;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
@@ -134,9 +139,14 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
     UnwrappedPart& result = report.parts[p];
     try {
       part.mesh = weld_equal(std::move(part.mesh)).mesh;
-      const double start = clock.seconds(), before = report.seconds.segment;
-      result.flattening = flatten_part(part.mesh, up, options, report.seconds.segment);
-      report.seconds.solve += clock.seconds() - start - (report.seconds.segment - before);
+      const double start = clock.seconds();
+      FlattenedPart flattened = flatten_part(part.mesh, context, options.method);
+      report.seconds.segment += flattened.segment_seconds;
+      report.seconds.solve += clock.seconds() - start - flattened.segment_seconds;
+      result.flattening = std::move(flattened.flattening);
+      result.method = std::move(flattened.method);
+      result.reason = std::move(flattened.reason);
+      result.choices = std::move(flattened.choices);
       add_trace(result.flattening, start, report);
       any = true;
     } catch (const SolverFailure& error) {
@@ -149,7 +159,10 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
   }
   if (!any && first_failure) std::rethrow_exception(first_failure);
   const double start = clock.seconds();
-  place(scene, options, report);
+  if (options.method.method != UnwrapMethod::environment) {
+    if (options.unique) place_unique(scene, options, report);
+    place(scene, options, report);
+  }
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
     if (!report.parts[p].failure.empty()) continue;
     scene.parts[p].mesh.uv = report.parts[p].flattening.uv;

@@ -7,37 +7,33 @@
 
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
-#include "papilla/meshing/segmentation.hpp"
 #include "papilla/param/flattening.hpp"
-#include "papilla/param/lscm.hpp"
-#include "papilla/param/triplanar.hpp"
+#include "papilla/param/pack_unique.hpp"
+#include "papilla/param/seam_visibility.hpp"
+#include "unwrap/method.hpp"
 
 namespace papilla::app {
-
-enum class UnwrapMethod { triplanar, lscm };
-
-/// Where the charts come from: made by segmentation, or every connected component is one.
-enum class ChartSource { automatic, keep };
 
 /// Atlas: no two charts of the scene overlap. Tile: the grain's phase goes on over seams, charts may lie over one
 /// another.
 enum class UvLayout { atlas, tile };
 
+/// A second set of uv (channel 1, in [0, 1]) for one texture in which every place of every part has texels of its own.
+struct UniqueUv {
+  int texture_px = 2048;
+  double gutter_px = 4;
+};
+
 struct UnwrapOptions {
-  UnwrapMethod method = UnwrapMethod::lscm;
-  ChartSource charts = ChartSource::automatic;  ///< Of lscm; triplanar makes its own charts.
-  LscmSolver solver = LscmSolver::cgal;
-  SegmentationOptions segmentation;
+  MethodOptions method;
   UvLayout layout = UvLayout::atlas;
   std::optional<double> gutter_mm;  ///< Not given: 0.5 % of the side of a square with the area of all charts.
   Vec2 tile_mm{0, 0};               ///< Of the grain; 0: unknown.
+  std::optional<double> grain_mm;   ///< Size of one grain; not given: an eighth of the tile's smaller side, or 1 mm.
+  std::optional<UniqueUv> unique;   ///< Given: all parts share one texture in channel 1.
+  /// Texel density there of parts whose names match the pattern (* and ?), the first match counts; others have 1.
+  std::vector<std::pair<std::string, double>> density;
 };
-
-/// The part's charts and uv in millimetres, not placed yet. Equal positions must be one vertex.
-/// Grain of known size keeps its direction over feature edges that a chart goes on over. Charts that lscm can't map are
-/// halved a few times before planar projections take their place.
-/// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
-Flattening flatten_part(const TriangleMesh& mesh, GrainUp up, const UnwrapOptions& options, double& segment_seconds);
 
 struct UnwrapSeconds {
   double segment = 0, solve = 0, pack = 0, total = 0;
@@ -45,21 +41,26 @@ struct UnwrapSeconds {
 
 struct UnwrappedPart {
   Flattening flattening;
-  double grain_continued_mm = 0;  ///< Length of the seam over which the grain goes on.
-  std::string failure;            ///< Why the part has no uv; empty when it has.
+  std::string method, reason;        ///< What was taken for the part, and why when that was chosen.
+  std::vector<ChartChoice> choices;  ///< Of automatic, per chart.
+  SeamVisibility seams;              ///< For the tile and the grain's size.
+  double grain_continued_mm = 0;     ///< Length of the seam over which the grain goes on.
+  std::string failure;               ///< Why the part has no uv; empty when it has.
 };
 
 struct UnwrapReport {
   std::vector<UnwrappedPart> parts;  ///< As in the scene.
   std::uint32_t charts = 0;
   StopReason stop = StopReason::direct;
-  Trace trace;           ///< Of all parts in turn.
-  double fill_rate = 0;  ///< Of the atlas; 0 for tiles.
+  Trace trace;                        ///< Of all parts in turn.
+  double fill_rate = 0;               ///< Of the atlas; 0 for tiles.
+  double grain_mm = 1;                ///< The size of grain that seams are judged by.
+  std::optional<UniqueAtlas> unique;  ///< Without its uv, which the parts have.
   UnwrapSeconds seconds;
 };
 
-/// Welds equal positions of every part and gives it uv (channel 0, millimetres). Parts whose method fails keep
-/// what they had and say why; when all fail, the first failure is thrown.
+/// Welds equal positions of every part and gives it uv (channel 0, millimetres; environment: textures, not placed).
+/// Parts whose method fails keep what they had and say why; when all fail, the first failure is thrown.
 /// @throws InvalidInput when there is no triangle.
 UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress = {});
 

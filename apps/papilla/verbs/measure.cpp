@@ -11,6 +11,7 @@
 #include "papilla/io/image_file.hpp"
 #include "pictures/uv_layout.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -18,7 +19,9 @@ namespace papilla::app {
 namespace {
 
 struct Options {
-  std::string input, picture, csv;
+  std::string input, picture, csv, colored;
+  bool histogram = false;
+  double worst = 5;
   std::vector<std::string> gates;
   SceneOptions scene;
   double texture_px = 1024, uv_per_texture = 1;
@@ -91,7 +94,7 @@ Json run(const Options& options, VerbContext& context) {
   MeasureOptions measure;
   measure.texture_px = {options.texture_px, options.texture_px};
   measure.uv_per_texture = {options.uv_per_texture, options.uv_per_texture};
-  const Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
+  Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   SceneDistortion distortion;
   try {
     distortion = measure_scene(scene, measure);
@@ -101,9 +104,15 @@ Json run(const Options& options, VerbContext& context) {
   Json result = distortion_json(distortion.report);
   context.console.print(distortion_text(distortion.report));
   if (!options.picture.empty())
-    write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
+    write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report, {.worst = options.worst}));
   if (!options.csv.empty()) write_atomically(options.csv, distortion_csv(distortion));
+  result["histogram"] = histogram_json(distortion.report);
+  if (options.histogram) context.console.print(histogram_text(distortion.report));
   if (scene.parts.size() > 1) result["parts"] = parts_json(scene, measure);
+  if (!options.colored.empty()) {
+    colour_by_distortion(distortion, options.worst, scene);
+    write_output(scene, options.colored, context.console);
+  }
   result["failed"] = check_gates(gates, result, context);
   return result;
 }
@@ -120,6 +129,13 @@ void add_measure(CLI::App& program) {
   verb->add_option("IN", options->input, "Mesh or glTF file")->required();
   verb->add_option("--picture", options->picture, "Draw the layout, coloured by symmetric Dirichlet distortion")
       ->type_name("PNG");
+  verb->add_option("--colored", options->colored,
+                   "Write the mesh, every triangle in the colour of its distortion: .glb, .ply, .obj")
+      ->type_name("FILE");
+  verb->add_flag("--histogram", options->histogram, "Print how the area is spread over distortion");
+  verb->add_option("--worst", options->worst, "Symmetric Dirichlet distortion at the end of the colours")
+      ->check(CLI::Range(4.0001, 1e6))
+      ->capture_default_str();
   verb->add_option("--csv", options->csv, "Write a line per triangle")->type_name("FILE");
   verb->add_option("--fail-above", options->gates, "Exit with 1 when the number NAME of the report exceeds VALUE")
       ->type_name("NAME=VALUE");

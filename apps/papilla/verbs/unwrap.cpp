@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <charconv>
 #include <map>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "scene_options.hpp"
 #include "scene_output.hpp"
 #include "unwrap/unwrap.hpp"
+#include "vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -20,6 +22,11 @@ namespace {
 
 struct Options {
   std::string input, output, trace, picture;
+  std::string solver, direction, eye;  // empty: the method's own
+  std::string grain = "up";
+  int texture_px = 0;  // 0: no second set of uv
+  double gutter_px = 4;
+  std::vector<std::string> density, pins;
   std::vector<double> tile{0, 0};
   SceneOptions scene;
   UnwrapOptions unwrap;
@@ -31,6 +38,24 @@ std::string trace_csv(const Trace& trace) {
   return csv;
 }
 
+Json choices_json(const std::vector<ChartChoice>& choices) {
+  Json json = Json::array();
+  for (const ChartChoice& c : choices) json.push_back({{"chart", c.chart}, {"method", c.method}, {"reason", c.reason}});
+  return json;
+}
+
+Json seams_json(const SeamVisibility& s) {
+  return {{"seam_mm", s.seam_mm},         {"visible_mm", s.visible_mm},       {"mean_jump_mm", s.mean_jump_mm},
+          {"max_jump_mm", s.max_jump_mm}, {"mean_turn_deg", s.mean_turn_deg}, {"per_size", s.per_size}};
+}
+
+Json unique_json(const UnwrapReport& report) {
+  if (!report.unique) return {};
+  return {{"fill_rate", report.unique->fill_rate},
+          {"texels_per_mm", report.unique->texels_per_mm},
+          {"gutter_px", report.unique->gutter_px}};
+}
+
 Json parts_json(const Scene& scene, const UnwrapReport& report) {
   Json parts = Json::array();
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
@@ -39,9 +64,13 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
     for (const ChartNote& note : part.flattening.notes) notes.push_back(note.reason);
     parts.push_back({{"name", scene.parts[p].name},
                      {"triangles", scene.parts[p].mesh.triangles.size()},
+                     {"method", part.method},
+                     {"reason", part.reason.empty() ? Json() : Json(part.reason)},
                      {"charts", part.flattening.charts.count},
+                     {"choices", choices_json(part.choices)},
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
                      {"grain_continued_mm", part.grain_continued_mm},
+                     {"seam_visibility", seams_json(part.seams)},
                      {"notes", std::move(notes)},
                      {"failure", part.failure.empty() ? Json() : Json(part.failure)}});
   }
@@ -52,17 +81,100 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
 std::string remarks(const UnwrapReport& report) {
   std::string text;
   for (const UnwrappedPart& part : report.parts) {
+    if (!part.reason.empty() && part.failure.empty()) text += part.method + ": " + part.reason + "\n";
     if (!part.failure.empty()) text += "not unwrapped: " + part.failure + "\n";
     if (!part.flattening.notes.empty())
-      text += fmt::format("{} charts fell back to planar projection, the first: {}\n", part.flattening.notes.size(),
+      text += fmt::format("{} charts did not take the method, the first: {}\n", part.flattening.notes.size(),
                           part.flattening.notes.front().reason);
   }
   return text;
 }
 
+/// The solvers of the methods that have several.
+void choose_solver(const std::string& name, MethodOptions& method) {
+  if (name.empty()) return;
+  const auto pick = [&]<class Value>(const std::map<std::string, Value>& choices, Value& value) {
+    const auto found = choices.find(name);
+    if (found != choices.end()) value = found->second;
+    return found != choices.end();
+  };
+  using Lscm = LscmSolver;
+  using Maillot = MaillotSolver;
+  using Levy = LevySolver;
+  bool known = false;
+  if (method.method == UnwrapMethod::lscm)
+    known = pick(std::map<std::string, Lscm>{{"cgal", Lscm::cgal}, {"hermitian", Lscm::hermitian}}, method.lscm.solver);
+  if (method.method == UnwrapMethod::maillot)
+    known = pick(std::map<std::string, Maillot>{{"gradient-descent", Maillot::gradient_descent},
+                                                {"gauss-newton", Maillot::gauss_newton}},
+                 method.maillot.solver);
+  if (method.method == UnwrapMethod::levy)
+    known = pick(std::map<std::string, Levy>{{"gauss-seidel", Levy::gauss_seidel}, {"direct", Levy::direct}},
+                 method.levy.solver);
+  if (!known) throw UsageError("--solver " + name + ": " + unwrap_method_name(method.method) + " has no such solver");
+}
+
+/// X,Y,Z=U,V.
+PlacedPin parse_pin(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  PlacedPin pin;
+  double* const uv[] = {&pin.uv.x, &pin.uv.y};
+  if (equals != std::string::npos) {
+    pin.position = parse_vector("--pin", text.substr(0, equals));
+    const char *at = text.data() + equals + 1, *end = text.data() + text.size();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto [rest, error] = std::from_chars(at, end, *uv[k]);
+      if (error != std::errc() || (k == 0 ? rest == end || *rest != ',' : rest != end)) break;
+      if (k == 1) return pin;
+      at = rest + 1;
+    }
+  }
+  throw UsageError("--pin '" + text + "': expected X,Y,Z=U,V");
+}
+
+/// What is left to do when the command line is read.
+MethodOptions method_options(const Options& options) {
+  MethodOptions method = options.unwrap.method;
+  if (!takes_charts(method.method) && method.charts == ChartSource::keep)
+    throw UsageError("--charts keep: " + unwrap_method_name(method.method) + " makes its own charts");
+  choose_solver(options.solver, method);
+  if (!options.pins.empty() && method.method != UnwrapMethod::levy) throw UsageError("--pin needs --method levy");
+  for (const std::string& text : options.pins) method.pins.push_back(parse_pin(text));
+  if (options.grain == "longest") {
+    method.grain = GrainSource::longest;
+  } else if (options.grain != "up") {
+    method.grain = GrainSource::direction;
+    method.grain_direction = parse_vector("--grain", options.grain);
+    if (!(norm(method.grain_direction) > 0)) throw UsageError("--grain " + options.grain + ": it has no length");
+  }
+  if (!options.direction.empty()) method.planar.direction = parse_vector("--direction", options.direction);
+  if (!options.eye.empty()) method.intermediate.eye = method.environment.eye = parse_vector("--eye", options.eye);
+  return method;
+}
+
+/// PATTERN=FACTOR.
+std::pair<std::string, double> parse_density(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  double factor = 0;
+  const char* end = text.data() + text.size();
+  if (equals != std::string::npos) {
+    const auto [rest, error] = std::from_chars(text.data() + equals + 1, end, factor);
+    if (error == std::errc() && rest == end && factor >= 1e-3 && factor <= 1e3) return {text.substr(0, equals), factor};
+  }
+  throw UsageError("--density '" + text + "': expected PART=FACTOR with a number from 0.001 to 1000");
+}
+
+UnwrapOptions unwrap_options(const Options& options) {
+  UnwrapOptions unwrap = options.unwrap;
+  unwrap.method = method_options(options);
+  unwrap.tile_mm = {options.tile[0], options.tile[1]};
+  if (options.texture_px > 0) unwrap.unique = UniqueUv{options.texture_px, options.gutter_px};
+  if (!options.density.empty() && !unwrap.unique) throw UsageError("--density needs --texture-px");
+  for (const std::string& text : options.density) unwrap.density.push_back(parse_density(text));
+  return unwrap;
+}
+
 void check_usage(const Options& options) {
-  if (options.unwrap.method == UnwrapMethod::triplanar && options.unwrap.charts == ChartSource::keep)
-    throw UsageError("--charts keep: triplanar makes its own charts");
   const std::filesystem::path output(options.output);
   if (output.extension() == ".stl" || output.extension() == ".STL")
     throw UsageError("-o " + options.output + ": STL has no place for texture coordinates");
@@ -82,9 +194,10 @@ UnwrapReport unwrap_named(const std::string& file, Scene& scene, const UnwrapOpt
 
 Json run(const Options& options, VerbContext& context) {
   check_usage(options);
+  const UnwrapOptions unwrap = unwrap_options(options);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  UnwrapOptions unwrap = options.unwrap;
-  unwrap.tile_mm = {options.tile[0], options.tile[1]};
+  if (!options.pins.empty() && scene.parts.size() != 1)
+    throw UsageError("--pin: " + options.input + " has " + std::to_string(scene.parts.size()) + " parts, expected one");
   const UnwrapReport report = unwrap_named(options.input, scene, unwrap, context.progress);
   const SceneDistortion distortion =
       measure_scene(scene, {}, [&](std::size_t p) { return report.parts[p].failure.empty(); });
@@ -93,7 +206,7 @@ Json run(const Options& options, VerbContext& context) {
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
 
-  const std::string method = unwrap.method == UnwrapMethod::lscm ? "lscm" : "triplanar";
+  const std::string method = unwrap_method_name(unwrap.method.method);
   context.console.print(fmt::format("{}: {} charts in {:.3f} s\n", method, report.charts, report.seconds.total) +
                         distortion_text(distortion.report) + remarks(report));
   return {{"method", method},
@@ -105,6 +218,8 @@ Json run(const Options& options, VerbContext& context) {
             {"pack", report.seconds.pack},
             {"total", report.seconds.total}}},
           {"fill_rate", report.fill_rate},
+          {"grain_mm", report.grain_mm},
+          {"unique", unique_json(report)},
           {"distortion", distortion_json(distortion.report)},
           {"parts", parts_json(scene, report)},
           {"losses", scene.losses}};
@@ -117,31 +232,91 @@ CLI::Option* add_choice(CLI::App* verb, const std::string& name, Value& value,
       ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case).description(""));
 }
 
+/// What only some methods know; the help names them.
+void add_method_options(CLI::App& verb, Options& options) {
+  MethodOptions& m = options.unwrap.method;
+  verb.add_option("--iterations", m.iterations, "Of best, maillot, levy (rounds), arap: at most so many")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--tolerance", m.tolerance, "Of the same: stop when the error falls by less than this fraction")
+      ->check(CLI::Range(1e-15, 0.999));
+  verb.add_option("--time-limit", m.time_limit_s, "Of best, maillot, levy: stop iterating a chart after so long")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  verb.add_option("--phi", m.maillot.length_weight, "Of maillot: weight of lengths against areas")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb.add_flag("--allow-flips", m.maillot.allow_flips, "Of maillot: let triangles turn over, as the source does");
+  add_choice<MaillotStart>(&verb, "--start", m.maillot.start,
+                           {{"coarse-to-fine", MaillotStart::coarse_to_fine}, {"conformal", MaillotStart::conformal}},
+                           "Of maillot: the map to start from; coarse-to-fine (default) is valid on every disk");
+  add_choice<LevyWeights>(&verb, "--weights", m.levy.weights,
+                          {{"uniform", LevyWeights::uniform},
+                           {"cotangent", LevyWeights::cotangent},
+                           {"mean-value", LevyWeights::mean_value}},
+                          "Of levy's smoothness; default: mean-value");
+  add_choice<LevyBorder>(&verb, "--border", m.levy.border, {{"convex", LevyBorder::convex}, {"free", LevyBorder::free}},
+                         "Of levy; default: free");
+  add_choice<LevyCoupling>(&verb, "--coupling", m.levy.coupling,
+                           {{"conformal", LevyCoupling::conformal}, {"orthogonal", LevyCoupling::orthogonal}},
+                           "Of levy: conformal (default) is linear, orthogonal alternates between u and v");
+  const auto weight = [&](const char* name, double& value, const char* help) {
+    verb.add_option(name, value, help)->check(CLI::NonNegativeNumber)->capture_default_str();
+  };
+  weight("--smoothness", m.levy.smoothness, "Of levy: weight of smooth interpolation");
+  weight("--orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
+  weight("--length", m.levy.length, "Of levy: weight of even lengths");
+  verb.add_option("--pin", options.pins, "Of levy: the vertex nearest to a place gets these uv; two or more")
+      ->type_name("X,Y,Z=U,V");
+  add_choice<IntermediateShape>(&verb, "--shape", m.intermediate.shape,
+                                {{"sphere", IntermediateShape::sphere},
+                                 {"cylinder", IntermediateShape::cylinder},
+                                 {"cone", IntermediateShape::cone},
+                                 {"box", IntermediateShape::box}},
+                                "Of intermediate; default: box");
+  add_choice<IntermediateRule>(&verb, "--rule", m.intermediate.rule,
+                               {{"reflected-ray", IntermediateRule::reflected_ray},
+                                {"object-normal", IntermediateRule::object_normal},
+                                {"object-centroid", IntermediateRule::object_centroid},
+                                {"intermediate-normal", IntermediateRule::intermediate_normal}},
+                               "Of intermediate: how points find the shape; default: intermediate-normal");
+  verb.add_option("--direction", options.direction, "Of planar: outward direction; default: the dominant normal")
+      ->type_name("X,Y,Z");
+  verb.add_option("--eye", options.eye, "Of environment and of reflected-ray; default: in front of each part")
+      ->type_name("X,Y,Z");
+}
+
 }  // namespace
 
 void add_unwrap(CLI::App& program) {
   auto options = std::make_shared<Options>();
+  options->unwrap.method.method = UnwrapMethod::automatic;
   UnwrapOptions& unwrap = options->unwrap;
   CLI::App* verb = add_verb(program,
                             {"unwrap", "Make charts and texture coordinates in millimetres.",
-                             "papilla unwrap part.stl -o part.glb --method lscm --picture part.png"},
+                             "papilla unwrap part.stl -o part.glb --picture part.png"},
                             [options](VerbContext& context) { return run(*options, context); });
   verb->add_option("IN", options->input, "Mesh, CAD or glTF file")->required();
   verb->add_option("-o,--output", options->output, "File with texture coordinates: .glb, .obj")->required();
-  add_choice<UnwrapMethod>(verb, "--method", unwrap.method,
-                           {{"triplanar", UnwrapMethod::triplanar}, {"lscm", UnwrapMethod::lscm}},
-                           "triplanar: projection along the axes; lscm (default): least squares conformal maps");
-  add_choice<ChartSource>(verb, "--charts", unwrap.charts,
+  add_choice<UnwrapMethod>(
+      verb, "--method", unwrap.method.method, unwrap_methods(),
+      "auto (default): chart by chart, the cheapest that does it well; best: lowest distortion, no flips, no "
+      "overlap; lscm, levy: conformal; maillot, arap: lengths and areas; tutte, mvc: border on a circle; natural: the "
+      "CAD surface's parameters; "
+      "triplanar, planar, intermediate: projections; environment: sphere map, for previews")
+      ->type_name("NAME");
+  add_choice<ChartSource>(verb, "--charts", unwrap.method.charts,
                           {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
-                          "Of lscm. auto (default): segment the surface; keep: each component is one chart");
-  add_choice<LscmSolver>(verb, "--solver", unwrap.solver,
-                         {{"cgal", LscmSolver::cgal}, {"hermitian", LscmSolver::hermitian}},
-                         "Of lscm: cgal (default) or the faster hermitian");
-  verb->add_option("--feature-angle", unwrap.segmentation.feature_angle_deg, "Edges bent by more degrees part charts")
+                          "auto (default): segment the surface; keep: each component is one chart");
+  verb->add_option("--solver", options->solver,
+                   "lscm: cgal, hermitian; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
+      ->type_name("NAME");
+  add_method_options(*verb, *options);
+  verb->add_option("--feature-angle", unwrap.method.segmentation.feature_angle_deg,
+                   "Edges bent by more degrees part charts")
       ->check(CLI::Range(1.0, 180.0))
       ->type_name("DEG")
       ->capture_default_str();
-  verb->add_option("--seam-cost", unwrap.segmentation.seam_cost,
+  verb->add_option("--seam-cost", unwrap.method.segmentation.seam_cost,
                    "What seams cost against distortion: 0.01 cuts generously, 0.5 hardly ever")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
@@ -151,6 +326,23 @@ void add_unwrap(CLI::App& program) {
       ->expected(2)
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("MM");
+  verb->add_option("--grain", options->grain,
+                   "Direction of the grain: up (default), longest: along each part, or a vector")
+      ->type_name("up|longest|X,Y,Z");
+  verb->add_option("--grain-size", unwrap.grain_mm,
+                   "Size of one grain, by which seams are judged; default: an eighth of the tile")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->type_name("MM");
+  verb->add_option("--texture-px", options->texture_px,
+                   "Add a second set of uv for one texture of so many texels a side in which nothing overlaps")
+      ->check(CLI::Range(16, 65536))
+      ->type_name("PX");
+  verb->add_option("--gutter-px", options->gutter_px, "Texels between charts there")
+      ->check(CLI::Range(0.0, 16384.0))
+      ->type_name("PX")
+      ->capture_default_str();
+  verb->add_option("--density", options->density, "Texel density there of parts by name (* and ? match), relative to 1")
+      ->type_name("PART=FACTOR");
   verb->add_option("--gutter", unwrap.gutter_mm, "Least distance of charts in the atlas; default: 0.5 % of its side")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("MM");

@@ -36,8 +36,7 @@ std::vector<TopoDS_Edge> edges_of(const TopoDS_Face& face) {
 }
 
 /// The triangles of the mesher, or the reason why there are none.
-std::string take_triangles(const Handle(Poly_Triangulation) & source, const TopLoc_Location& location,
-                           FaceMesh& mesh) {
+std::string take_triangles(const Handle(Poly_Triangulation) & source, const TopLoc_Location& location, FaceMesh& mesh) {
   if (source.IsNull() || source->NbTriangles() == 0) return "no triangles";
   if (!source->HasUVNodes()) return "triangles without parameters";
   const FaceSurface surface(mesh.face);
@@ -134,8 +133,8 @@ std::string tie(FaceMesh& mesh, const EdgeNet& net) {
   return mesh.patch.remove(collapsed) ? std::string() : "its triangles overlap";
 }
 
-/// Whether the triangles' boundary is the face's: each segment of its edges once, nothing else. Edges inside of the face
-/// are marked.
+/// Whether the triangles' boundary is the face's: each segment of its edges once, nothing else. Edges inside of the
+/// face are marked.
 bool covers_boundary(FaceMesh& mesh, const EdgeNet& net) {
   FacePatch& patch = mesh.patch;
   std::vector<std::pair<std::pair<Index, Index>, HalfEdge>> sides;

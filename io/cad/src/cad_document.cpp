@@ -21,6 +21,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "iges_syntax.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
 #include "step_syntax.hpp"
@@ -179,6 +180,7 @@ void read_iges(const std::filesystem::path& path, CadDocument& result, const Pro
   reader.SetNameMode(true);
   reader.SetColorMode(true);
   reader.SetLayerMode(true);
+  check_iges_syntax(path);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw InvalidInput(path.string() + ": IGES file is damaged (its sections can't be parsed)");
   const Handle(TCollection_HAsciiString) unit_name = reader.IGESModel()->GlobalSection().UnitName();
@@ -196,7 +198,13 @@ void read_brep(const std::filesystem::path& path, CadDocument& result) {
   BRep_Builder builder;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": can't be opened");
-  BRepTools::Read(shape, file, builder);
+  // The library does not look whether its reads succeed: it would count to whatever a damaged number says.
+  file.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    BRepTools::Read(shape, file, builder);
+  } catch (const std::ios::failure&) {
+    throw InvalidInput(path.string() + ": BREP file is damaged (it ends early or has text where a number belongs)");
+  }
   if (shape.IsNull()) throw InvalidInput(path.string() + ": BREP file is damaged or truncated (no shape in it)");
   XCAFDoc_DocumentTool::ShapeTool(result.document->Main())->AddShape(shape, shape.ShapeType() == TopAbs_COMPOUND);
 }

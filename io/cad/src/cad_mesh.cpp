@@ -13,8 +13,7 @@ namespace {
 Vec3 limit_normal(const FacePatch& patch, const FaceSurface& surface, std::uint32_t t, std::size_t k) {
   constexpr double k_step = 1e-3;
   const Vec2 corner = patch.corner_uv(t, k);
-  const Vec2 middle =
-      (1.0 / 3) * (patch.corner_uv(t, 0) + patch.corner_uv(t, 1) + patch.corner_uv(t, 2));
+  const Vec2 middle = (1.0 / 3) * (patch.corner_uv(t, 0) + patch.corner_uv(t, 1) + patch.corner_uv(t, 2));
   const Vec3 n = surface.at(corner + k_step * (middle - corner)).normal;
   if (norm(n) > 0 && is_finite(n)) return n;
   const Triangle& nodes = patch.triangles[t];
@@ -65,7 +64,7 @@ class Gatherer {
     const FacePatch& patch = face.patch;
     std::vector<Index> inner(patch.nodes.size(), k_no_value);
     CornerWriter corners(face, mesh);
-    for (std::uint32_t t = 0; t < patch.triangles.size(); ++t) {
+    for (const std::uint32_t t : patch.in_rings()) {
       Triangle positions{}, values{};
       for (std::size_t k = 0; k < 3; ++k) positions[k] = position(patch, patch.triangles[t][k], inner);
       if (positions[0] == positions[1] || positions[1] == positions[2] || positions[2] == positions[0]) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cad_parallel.hpp"
 
+#include <oneapi/tbb/global_control.h>
 #include <OSD_Parallel.hxx>
 #include <OSD_ThreadPool.hxx>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <exception>
@@ -12,7 +12,7 @@
 namespace papilla::cad {
 namespace {
 
-bool g_started = false;  // The pool has threads in this process.
+bool g_started = false;   // The pool has threads in this process.
 bool g_orphaned = false;  // They stayed in the parent.
 
 }  // namespace

@@ -22,46 +22,44 @@ namespace papilla::cad {
 namespace {
 
 /// In the order of XCAFDimTolObjects_DimensionType.
-constexpr std::array<const char*, 32> k_dimension_types = {
-    "location",
-    "curved distance",
-    "linear distance",
-    "linear distance from center to outer",
-    "linear distance from center to inner",
-    "linear distance from outer to center",
-    "linear distance from outer to outer",
-    "linear distance from outer to inner",
-    "linear distance from inner to center",
-    "linear distance from inner to outer",
-    "linear distance from inner to inner",
-    "angular location",
-    "oriented location",
-    "location with path",
-    "curve length",
-    "diameter",
-    "spherical diameter",
-    "radius",
-    "spherical radius",
-    "toroidal minor diameter",
-    "toroidal major diameter",
-    "toroidal minor radius",
-    "toroidal major radius",
-    "toroidal high major diameter",
-    "toroidal low major diameter",
-    "toroidal high major radius",
-    "toroidal low major radius",
-    "thickness",
-    "angle",
-    "size with path",
-    "common label",
-    "presentation"};
+constexpr std::array<const char*, 32> k_dimension_types = {"location",
+                                                           "curved distance",
+                                                           "linear distance",
+                                                           "linear distance from center to outer",
+                                                           "linear distance from center to inner",
+                                                           "linear distance from outer to center",
+                                                           "linear distance from outer to outer",
+                                                           "linear distance from outer to inner",
+                                                           "linear distance from inner to center",
+                                                           "linear distance from inner to outer",
+                                                           "linear distance from inner to inner",
+                                                           "angular location",
+                                                           "oriented location",
+                                                           "location with path",
+                                                           "curve length",
+                                                           "diameter",
+                                                           "spherical diameter",
+                                                           "radius",
+                                                           "spherical radius",
+                                                           "toroidal minor diameter",
+                                                           "toroidal major diameter",
+                                                           "toroidal minor radius",
+                                                           "toroidal major radius",
+                                                           "toroidal high major diameter",
+                                                           "toroidal low major diameter",
+                                                           "toroidal high major radius",
+                                                           "toroidal low major radius",
+                                                           "thickness",
+                                                           "angle",
+                                                           "size with path",
+                                                           "common label",
+                                                           "presentation"};
 
 /// In the order of XCAFDimTolObjects_GeomToleranceType.
 constexpr std::array<const char*, 16> k_tolerance_types = {
-    "tolerance",    "angularity",  "circular runout", "circularity",      "coaxiality",
-    "concentricity", "cylindricity", "flatness",        "parallelism",      "perpendicularity",
-    "position",     "profile of line", "profile of surface", "straightness", "symmetry",
-    "total runout"};
+    "tolerance",          "angularity",   "circular runout", "circularity",      "coaxiality", "concentricity",
+    "cylindricity",       "flatness",     "parallelism",     "perpendicularity", "position",   "profile of line",
+    "profile of surface", "straightness", "symmetry",        "total runout"};
 
 template <std::size_t N>
 const char* name_in(const std::array<const char*, N>& names, int index) {
@@ -110,9 +108,7 @@ Json describe(const Handle(XCAFDimTolObjects_DatumObject) & datum) {
 }
 
 /// The part that a shape's label belongs to: itself or the label above a face's.
-TDF_Label part_of(const TDF_Label& shape) {
-  return XCAFDoc_ShapeTool::IsSubShape(shape) ? shape.Father() : shape;
-}
+TDF_Label part_of(const TDF_Label& shape) { return XCAFDoc_ShapeTool::IsSubShape(shape) ? shape.Father() : shape; }
 
 class PmiReader {
  public:

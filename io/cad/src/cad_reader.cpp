@@ -142,8 +142,8 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   if (progress) progress("read", 0);
   cad::allow_processor_time(reading_seconds(path));
   cad::CadTree tree = cad::build_tree(cad::read_document(path, progress));
-  const double scale = options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit) /
-                       tree.scene.millimetres_per_unit;
+  const double scale =
+      options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit) / tree.scene.millimetres_per_unit;
   if (tree.scene.format == "BREP" && !options.millimetres_per_unit)
     tree.scene.warnings.push_back("BREP carries no unit: taken as mm");
   const CadReadOptions unscaled = in_file_units(options, scale);

@@ -27,8 +27,8 @@
 namespace papilla::cad {
 namespace {
 
-/// More triangles than this in one model are a mistake in the options.
-constexpr std::size_t k_max_triangles = 200'000'000;
+/// More triangles than this in one face are a mistake in the options.
+constexpr std::size_t k_max_triangles = 20'000'000;
 /// The mesher's own shortest edge, relative to the chord.
 constexpr double k_min_edge = 0.1;
 
@@ -146,8 +146,24 @@ std::size_t part_bridges(std::vector<FaceMesh>& faces) {
   return count;
 }
 
+/// Largest distance of a boundary node from where its parameters put it, in any direction.
+double largest_offset(const FacePatch& patch) {
+  double largest = 0;
+  for (const PatchNode& node : patch.nodes) largest = std::max(largest, norm(node.gap));
+  return largest;
+}
+
+/// Whether the boundary lies so far off the surface that triangles between the two would follow neither.
+bool is_torn(const FaceMesh& mesh) {
+  constexpr double k_tolerated = 0.05;
+  const Vec3 origin = mesh.patch.nodes.front().position;
+  double reach = 0;
+  for (const PatchNode& node : mesh.patch.nodes) reach = std::max(reach, norm(node.position - origin));
+  return largest_offset(mesh.patch) > std::max(k_tolerated * reach, 2 * mesh.limits.chord);
+}
+
 std::size_t refine_face(FaceMesh& mesh) {
-  if (mesh.patch.triangles.empty()) return 0;
+  if (mesh.patch.triangles.empty() || is_torn(mesh)) return 0;
   return refine_patch(mesh.patch, FaceSurface(mesh.face), mesh.limits);
 }
 
@@ -174,13 +190,16 @@ TessellatedShape prepare(const TopoDS_Shape& shape, const RefineLimits& limits, 
   TessellatedShape result;
   std::vector<BaseFace> bases = base_faces(shape, net, limits);
   for (std::uint32_t i = 0; i < bases.size(); ++i) {
-    if (!bases[i].refused.empty())
-      result.troubles.push_back({i, bases[i].refused, bases[i].tried, bases[i].solved});
+    if (!bases[i].refused.empty()) result.troubles.push_back({i, bases[i].refused, bases[i].tried, bases[i].solved});
     FaceMesh& mesh = result.faces.emplace_back(std::move(bases[i].mesh));
     mesh.limits = limits;
     // What the edges lie off the surface by their CAD tolerance is not left for the triangles.
     constexpr double k_least = 0.5;
-    mesh.limits.chord = std::max(k_least * limits.chord, limits.chord - largest_gap(mesh.patch));
+    const double gap = largest_gap(mesh.patch);
+    mesh.limits.chord = std::max(k_least * limits.chord, limits.chord - gap);
+    // Triangles between an edge and a surface that lie further apart can't keep the chord, however many there are.
+    constexpr std::size_t k_max_torn = 200'000;
+    if (largest_offset(mesh.patch) > limits.chord) mesh.limits.max_triangles = k_max_torn;
   }
   if (meshing == CadMeshing::refined) result.added_nodes = net.refine(result.faces);
   result.points = net.points();

@@ -10,13 +10,13 @@
 #include <TopoDS_Compound.hxx>
 #include <XCAFDoc.hxx>
 #include <XCAFDoc_Area.hxx>
-#include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_Centroid.hxx>
+#include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_GraphNode.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_Material.hxx>
 #include <XCAFDoc_MaterialTool.hxx>
-#include <XCAFDoc_GraphNode.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XCAFDoc_ViewTool.hxx>
 #include <XCAFDoc_Volume.hxx>
@@ -254,8 +254,7 @@ class TreeBuilder {
       std::vector<std::uint32_t> faces =
           slots(face_colours(definition, body.shape, instance, from.colour), part.materials);
       const TopoDS_Shape unplaced = body.name.empty() ? body.shape : body.shape.Located(TopLoc_Location());
-      result.push_back({add_part(std::move(part), unplaced, std::move(faces), result), body.name,
-                        to_transform(where)});
+      result.push_back({add_part(std::move(part), unplaced, std::move(faces), result), body.name, to_transform(where)});
     }
     return result;
   }
@@ -322,9 +321,8 @@ class TreeBuilder {
 
 /// What the file says as a whole.
 Json scene_extras(const CadDocument& document, Scene& scene) {
-  Json source = {{"format", document.format},
-                 {"unit", document.unit},
-                 {"millimetres_per_unit", document.millimetres_per_unit}};
+  Json source = {
+      {"format", document.format}, {"unit", document.unit}, {"millimetres_per_unit", document.millimetres_per_unit}};
   merge_missing(source, document.metadata.header);
   Json extras = {{"source", std::move(source)}};
   if (!document.metadata.annotations.empty()) {
@@ -334,8 +332,7 @@ Json scene_extras(const CadDocument& document, Scene& scene) {
   }
   TDF_LabelSequence views;
   XCAFDoc_DocumentTool::ViewTool(document.document->Main())->GetViewLabels(views);
-  if (!views.IsEmpty())
-    scene.losses.push_back(std::to_string(views.Length()) + " saved views are not kept");
+  if (!views.IsEmpty()) scene.losses.push_back(std::to_string(views.Length()) + " saved views are not kept");
   return extras;
 }
 

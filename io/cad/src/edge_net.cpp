@@ -79,7 +79,9 @@ class LineRefiner {
     constexpr int k_max_depth = 14;
     const double t = 0.5 * (from.parameter + to.parameter);
     const Added middle{t, curve_.at(t)};
-    if (depth == k_max_depth || !(depth < least_depth_ || exceeds_curve(from, middle, to) || exceeds_surfaces(from, to))) return;
+    if (depth == k_max_depth ||
+        !(depth < least_depth_ || exceeds_curve(from, middle, to) || exceeds_surfaces(from, to)))
+      return;
     cut(from, middle, depth + 1, result);
     result.push_back(middle);
     cut(middle, to, depth + 1, result);

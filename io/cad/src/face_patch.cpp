@@ -16,9 +16,8 @@ bool FacePatch::connect() {
   sides.reserve(3 * triangles.size());
   for (HalfEdge h = 0; h < 3 * triangles.size(); ++h)
     sides.push_back({std::min(from(h), to(h)), std::max(from(h), to(h)), h});
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.h) < std::tie(b.low, b.high, b.h);
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::tie(a.low, a.high, a.h) < std::tie(b.low, b.high, b.h); });
   opposite_.assign(3 * triangles.size(), k_no_value);
   fixed_.resize(3 * triangles.size(), 0);
   bool manifold = true;
@@ -114,6 +113,24 @@ bool FacePatch::remove(const std::vector<std::uint8_t>& gone) {
   triangles.resize(kept);
   fixed_.assign(3 * kept, 0);
   return connect();
+}
+
+std::vector<std::uint32_t> FacePatch::in_rings() const {
+  std::vector<std::uint32_t> order;
+  order.reserve(triangles.size());
+  std::vector<std::uint8_t> reached(triangles.size(), 0);
+  for (std::uint32_t first = 0; first < triangles.size(); ++first) {
+    if (reached[first] != 0) continue;
+    reached[first] = 1;
+    order.push_back(first);
+    for (std::size_t i = order.size() - 1; i < order.size(); ++i)
+      for (HalfEdge h = 3 * order[i]; h < 3 * order[i] + 3; ++h) {
+        if (is_boundary(h) || reached[opposite(h) / 3] != 0) continue;
+        reached[opposite(h) / 3] = 1;
+        order.push_back(opposite(h) / 3);
+      }
+  }
+  return order;
 }
 
 Vec2 FacePatch::uv_in(std::uint32_t triangle, const std::array<double, 3>& w) const {

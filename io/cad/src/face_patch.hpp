@@ -58,6 +58,10 @@ class FacePatch {
   /// Removes triangles, then finds the neighbours anew; nodes stay.
   bool remove(const std::vector<std::uint8_t>& gone);
 
+  /// All triangles, each near those before it: rings around the first of every piece. Refinement leaves them scattered,
+  /// and whoever walks over scattered triangles waits for memory.
+  std::vector<std::uint32_t> in_rings() const;
+
   /// Parameters of the point with barycentric coordinates w; a meaningless parameter of a singular corner is taken from
   /// the other corners.
   Vec2 uv_in(std::uint32_t triangle, const std::array<double, 3>& w) const;

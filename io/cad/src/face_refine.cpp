@@ -39,8 +39,8 @@ constexpr double k_flattest = 0.05;
 /// Triangles are split when their samples exceed this part of the chord: the rest is for what lies between samples.
 constexpr double k_goal = 0.9;
 
-/// Barycentric coordinates at which a triangle is compared with the surface while it is refined: first those that do for
-/// surfaces of constant curvature, then also beside the quarters of the edges, between which others may wave.
+/// Barycentric coordinates at which a triangle is compared with the surface while it is refined: first those that do
+/// for surfaces of constant curvature, then also beside the quarters of the edges, between which others may wave.
 constexpr std::array<std::array<double, 3>, 13> k_samples = {{{1.0 / 3, 1.0 / 3, 1.0 / 3},
                                                               {0.1, 0.45, 0.45},
                                                               {0.45, 0.1, 0.45},

@@ -33,7 +33,8 @@ class Pipe {
  public:
   Pipe() {
     std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) throw IoError("read_cad: no pipe can be made (" + std::string(std::strerror(errno)) + ")");
+    if (::pipe(ends.data()) != 0)
+      throw IoError("read_cad: no pipe can be made (" + std::string(std::strerror(errno)) + ")");
     read_ = ends[0];
     write_ = ends[1];
   }

@@ -125,7 +125,8 @@ void bridge(Loop& outer, const Loop& hole, const std::vector<Vec2>& at) {
   std::vector<Bridge> bridges;
   for (std::size_t i = 0; i < outer.size(); ++i)
     for (std::size_t k = 0; k < hole.size(); ++k) bridges.push_back({norm(at[hole[k]] - at[outer[i]]), i, k});
-  std::stable_sort(bridges.begin(), bridges.end(), [](const Bridge& a, const Bridge& b) { return a.length < b.length; });
+  std::stable_sort(bridges.begin(), bridges.end(),
+                   [](const Bridge& a, const Bridge& b) { return a.length < b.length; });
   const auto is_free = [&](const Bridge& b) {
     const Index p = outer[b.from], q = hole[b.to];
     const auto crossed_by = [&](const Loop& loop) {

@@ -26,10 +26,8 @@ class Sender {
   explicit Sender(int pipe) : pipe_(pipe) {}
 
   template <class T>
-    requires k_plain<T>
-  void operator()(const T& value) {
-    append(&value, sizeof value);
-  }
+  requires k_plain<T>
+  void operator()(const T& value) { append(&value, sizeof value); }
   void operator()(const std::string& text) {
     (*this)(static_cast<std::uint64_t>(text.size()));
     append(text.data(), text.size());
@@ -69,10 +67,8 @@ class Receiver {
   explicit Receiver(int pipe) : pipe_(pipe) {}
 
   template <class T>
-    requires k_plain<T>
-  void operator()(T& value) {
-    receive_bytes(pipe_, &value, sizeof value);
-  }
+  requires k_plain<T>
+  void operator()(T& value) { receive_bytes(pipe_, &value, sizeof value); }
   void operator()(std::string& text) {
     text.resize(size_of(1));
     receive_bytes(pipe_, text.data(), text.size());
@@ -100,10 +96,8 @@ class Receiver {
 // One list of fields for both directions. Value is T or const T.
 
 template <class Pipe, class T>
-  requires k_plain<T> || std::is_same_v<std::remove_const_t<T>, std::string>
-void visit(Pipe& pipe, T& value) {
-  pipe(value);
-}
+requires k_plain<T> || std::is_same_v<std::remove_const_t<T>, std::string>
+void visit(Pipe& pipe, T& value) { pipe(value); }
 
 template <class Pipe, class Value>
 void corners(Pipe& pipe, Value& attribute) {
@@ -112,7 +106,7 @@ void corners(Pipe& pipe, Value& attribute) {
 }
 
 template <class Pipe, class Value>
-  requires std::is_same_v<std::remove_const_t<Value>, Part>
+requires std::is_same_v<std::remove_const_t<Value>, Part>
 void visit(Pipe& pipe, Value& part) {
   pipe(part.name), pipe(part.id), pipe(part.materials), pipe(part.extras_json);
   pipe(part.mesh.positions), pipe(part.mesh.triangles), pipe(part.mesh.material), pipe(part.mesh.face);
@@ -121,32 +115,30 @@ void visit(Pipe& pipe, Value& part) {
 }
 
 template <class Pipe, class Value>
-  requires std::is_same_v<std::remove_const_t<Value>, Node>
+requires std::is_same_v<std::remove_const_t<Value>, Node>
 void visit(Pipe& pipe, Value& node) {
   pipe(node.name), pipe(node.local), pipe(node.children), pipe(node.part), pipe(node.extras_json);
 }
 
 template <class Pipe, class Value>
-  requires std::is_same_v<std::remove_const_t<Value>, Material>
+requires std::is_same_v<std::remove_const_t<Value>, Material>
 void visit(Pipe& pipe, Value& material) {
   pipe(material.name), pipe(material.base_color), pipe(material.metallic), pipe(material.roughness);
   pipe(material.alpha_mode), pipe(material.extras_json);
 }
 
 template <class Pipe, class Value>
-  requires std::is_same_v<std::remove_const_t<Value>, CadPartReport>
+requires std::is_same_v<std::remove_const_t<Value>, CadPartReport>
 void visit(Pipe& pipe, Value& part) {
   pipe(part.part), pipe(part.max_deviation_mm), pipe(part.max_angle_deg), pipe(part.added_nodes);
 }
 
 template <class Pipe, class Value>
-  requires std::is_same_v<std::remove_const_t<Value>, CadFaceNote>
-void visit(Pipe& pipe, Value& note) {
-  pipe(note.part), pipe(note.face), pipe(note.reason), pipe(note.tried);
-}
+requires std::is_same_v<std::remove_const_t<Value>, CadFaceNote>
+void visit(Pipe& pipe, Value& note) { pipe(note.part), pipe(note.face), pipe(note.reason), pipe(note.tried); }
 
 template <class Pipe, class Value>
-  requires std::is_same_v<std::remove_const_t<Value>, Scene>
+requires std::is_same_v<std::remove_const_t<Value>, Scene>
 void visit(Pipe& pipe, Value& scene) {
   pipe(scene.format), pipe(scene.unit), pipe(scene.millimetres_per_unit), pipe(scene.up);
   pipe(scene.parts), pipe(scene.nodes), pipe(scene.roots), pipe(scene.materials);
@@ -154,7 +146,7 @@ void visit(Pipe& pipe, Value& scene) {
 }
 
 template <class Pipe, class Value>
-  requires std::is_same_v<std::remove_const_t<Value>, CadReport>
+requires std::is_same_v<std::remove_const_t<Value>, CadReport>
 void visit(Pipe& pipe, Value& report) {
   pipe(report.solids), pipe(report.faces), pipe(report.triangles), pipe(report.added_nodes);
   pipe(report.dropped_triangles), pipe(report.failed_faces), pipe(report.repaired_faces), pipe(report.off_faces);

@@ -36,8 +36,7 @@ Json header_of(const Handle(StepData_StepModel) & model) {
   const auto add = [&](const char* key, const std::string& text) {
     if (!text.empty()) json[key] = text;
   };
-  if (header.HasFs() && header.NbSchemaIdentifiers() > 0)
-    add("schema", text_of(header.SchemaIdentifiersValue(1)));
+  if (header.HasFs() && header.NbSchemaIdentifiers() > 0) add("schema", text_of(header.SchemaIdentifiersValue(1)));
   if (!header.HasFn()) return json;
   add("name", text_of(header.Name()));
   add("time_stamp", text_of(header.TimeStamp()));
@@ -137,8 +136,7 @@ class PropertyReader {
 StepMetadata read_step_metadata(STEPCAFControl_Reader& reader, const Handle(TDocStd_Document) & document) {
   StepMetadata result;
   result.annotations = Json::array();
-  const Handle(StepData_StepModel) model =
-      Handle(StepData_StepModel)::DownCast(reader.ChangeReader().WS()->Model());
+  const Handle(StepData_StepModel) model = Handle(StepData_StepModel)::DownCast(reader.ChangeReader().WS()->Model());
   if (model.IsNull()) return result;
   result.header = header_of(model);
   PropertyReader(reader, document, result).read(model);

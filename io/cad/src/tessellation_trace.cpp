@@ -26,8 +26,7 @@ std::vector<TessellationSample> trace_tessellation(const std::filesystem::path& 
                                                    const Progress& progress) {
   std::vector<TessellationSample> samples;
   for (const double chord : chords_mm) {
-    if (progress)
-      progress("tessellate", static_cast<double>(samples.size()) / static_cast<double>(chords_mm.size()));
+    if (progress) progress("tessellate", static_cast<double>(samples.size()) / static_cast<double>(chords_mm.size()));
     options.chord_mm = chord;
     CadReport report;
     read_cad(path, options, &report);

@@ -4,6 +4,7 @@
 
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -19,7 +20,9 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <gp_Ax1.hxx>
 #include <gp_Pln.hxx>
+#include <gp_Trsf.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -202,6 +205,15 @@ TEST_F(CadExactness, AngleIsKept) {
     EXPECT_LE(largest_turn, angle * (1 + 1e-9));
     EXPECT_LE(report_.max_angle_deg, angle * (1 + 1e-9));
     EXPECT_GT(report_.max_angle_deg, 0.3 * angle);
+  }
+}
+
+TEST_F(CadExactness, RoundingAtPolesAndApexesTurnsNoNormal) {
+  gp_Trsf turned;
+  turned.SetRotation(gp_Ax1(gp_Pnt(1, 2, 3), gp_Dir(0.3, -0.7, 0.2)), 1.1);
+  for (const TopoDS_Shape& shape : {BRepPrimAPI_MakeSphere(4).Shape(), BRepPrimAPI_MakeCone(20, 0, 30).Shape()}) {
+    read(BRepBuilderAPI_Transform(shape, turned, true).Shape(), options(0.1, 20));
+    EXPECT_LE(report_.max_angle_deg, 20 * (1 + 1e-9));
   }
 }
 

@@ -15,8 +15,8 @@ enum class LscmSolver {
 struct LscmOptions {
   GrainUp up = GrainUp::z;
   LscmSolver solver = LscmSolver::cgal;
-  /// What a chart gets that has no valid map: planar projections of its pieces and a note; or, when false, an
-  /// exception.
+  /// What a chart gets that has no valid map: one as flatten_best() makes, or planar projections of its pieces when it
+  /// is no disk, with a note; or, when false, an exception.
   bool fall_back = true;
   TriplanarOptions projection;  ///< Of the fallback; its `up` is taken from here.
 };
@@ -32,7 +32,7 @@ struct LscmOptions {
 /// Triangles without area get finite uv and count for nothing.
 /// Good input: charts of moderate curvature. Conformal maps keep angles, not sizes: caps of a sphere beyond a
 /// hemisphere and long fingers shrink without bound; LSCM may then also flip triangles. Cost: one sparse factorization
-/// per chart, O(n^1.5) time, about 2 kB (cgal) or 0.5 kB (hermitian) per vertex. Charts run in parallel; the result
+/// per chart, O(n^1.5) time, about 2 kB (cgal) or 1.2 kB (hermitian) per vertex. Charts run in parallel; the result
 /// does not depend on the number of threads. Trace: one sample, error = Σ A (σ1 - σ2)² / Σ A of the scaled maps; charts
 /// that fell back are left out. Paper: B. Lévy, S. Petitjean, N. Ray, J. Maillot, Least squares conformal maps for
 /// automatic texture atlas generation, SIGGRAPH 2002.

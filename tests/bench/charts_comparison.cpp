@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Charts of segment_charts() against CGAL's segmentation and a split at edges of 45 degrees, at equal maximal
-// distortion: all are opened by the same rule, flattened by the same method, and halved where a chart has no valid map;
-// the peers' charts are halved further until none is more distorted than the worst of segment_charts().
+#include "bench/charts_comparison.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdlib>
+#include <cctype>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
 
-#include "bench/bench_json.hpp"
 #include "bench/cgal_segmentation.hpp"
+#include "bench/model_files.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/meshing/submesh.hpp"
-#include "papilla/param/lscm.hpp"
+#include "papilla/param/best.hpp"
 #include "papilla/param/measure.hpp"
 #include "support/formula_meshes.hpp"
 #include "support/solid_meshes.hpp"
 
+namespace papilla::bench {
 namespace {
-
-using namespace papilla;
 
 constexpr int k_max_halvings = 24;
 /// The peers start from several levels of diameter; the best result counts.
@@ -67,10 +67,8 @@ Quality flatten(const TriangleMesh& mesh, const ChartSet& charts, double worst) 
   while (!pending.empty()) {
     const Piece piece = std::move(pending.back());
     pending.pop_back();
-    LscmOptions options;
-    options.solver = LscmSolver::hermitian;
     const ChartSet one = test::one_chart(piece.mesh);
-    const Flattening flattening = flatten_lscm(piece.mesh, one, options);
+    const Flattening flattening = flatten_best(piece.mesh, one);
     const DistortionReport report = measure_distortion(piece.mesh, flattening.uv);
     const double mean = report.measured_triangles > 0 ? report.symmetric_dirichlet.mean : 4;
     const bool good = flattening.notes.empty() && mean <= worst * (1 + 1e-9);
@@ -113,7 +111,7 @@ ChartSet as_charts(const std::vector<std::uint32_t>& labels) {
   return charts;
 }
 
-void record(const Quality& quality, bench::Recorder& recorder) {
+void record(const Quality& quality, Recorder& recorder) {
   recorder.record("charts", quality.charts);
   recorder.record("seam_over_root_area", quality.seam_over_root_area);
   recorder.record("symmetric_dirichlet_mean", quality.mean);
@@ -136,7 +134,7 @@ struct Comparison {
 Quality best_of_cgal(Comparison& comparison) {
   std::optional<Quality> best;
   for (const std::size_t clusters : k_clusters) {
-    const auto labels = bench::cgal_segments(comparison.input.mesh, clusters);
+    const auto labels = cgal_segments(comparison.input.mesh, clusters);
     const ChartSet charts = open_charts(comparison.input.mesh, as_charts(labels), false);
     const Quality quality = flatten(comparison.input.mesh, charts, comparison.worst());
     if (!best || quality.charts < best->charts) best = quality;
@@ -144,33 +142,33 @@ Quality best_of_cgal(Comparison& comparison) {
   return *best;
 }
 
-void add_comparison(Comparison& c, bench::BenchReport& report) {
+void add_comparison(Comparison& c, BenchReport& report) {
   const std::string error = "mean symmetric Dirichlet of the worst chart";
-  report.add({.method = "segment_charts", .input = c.input.name, .error_name = error}, [&](bench::Recorder& recorder) {
-    recorder.time([&] { bench::keep(segment_charts(c.input.mesh, our_options()).charts.count); });
+  report.add({.method = "segment_charts", .input = c.input.name, .error_name = error}, [&](Recorder& recorder) {
+    recorder.time([&] { keep(segment_charts(c.input.mesh, our_options()).charts.count); });
     record(c.own(), recorder);
   });
-  report.add({.method = "feature_45", .input = c.input.name, .error_name = error}, [&](bench::Recorder& recorder) {
-    recorder.time([&] { bench::keep(feature_split(c.input.mesh).count); });
+  report.add({.method = "feature_45", .input = c.input.name, .error_name = error}, [&](Recorder& recorder) {
+    recorder.time([&] { keep(feature_split(c.input.mesh).count); });
     if (!c.feature) c.feature = flatten(c.input.mesh, feature_split(c.input.mesh), c.worst());
     record(*c.feature, recorder);
   });
-  if (bench::cgal_segments(c.input.mesh, k_clusters[0]).empty()) return;  // CGAL can't hold it
-  report.add({.method = "cgal_sdf", .input = c.input.name, .error_name = error}, [&](bench::Recorder& recorder) {
-    recorder.time([&] { bench::keep(bench::cgal_segments(c.input.mesh, k_clusters[2]).size()); });
+  if (cgal_segments(c.input.mesh, k_clusters[0]).empty()) return;  // CGAL can't hold it
+  report.add({.method = "cgal_sdf", .input = c.input.name, .error_name = error}, [&](Recorder& recorder) {
+    recorder.time([&] { keep(cgal_segments(c.input.mesh, k_clusters[2]).size()); });
     if (!c.cgal) c.cgal = best_of_cgal(c);
     record(*c.cgal, recorder);
   });
 }
 
 /// Time per triangle and count of charts over the tessellation of one shape.
-void add_scaling(const std::string& shape, const TriangleMesh& mesh, bench::BenchReport& report) {
-  report.add({.method = "scaling", .input = shape}, [&mesh](bench::Recorder& recorder) {
+void add_scaling(const std::string& shape, const TriangleMesh& mesh, BenchReport& report) {
+  report.add({.method = "scaling", .input = shape}, [&mesh](Recorder& recorder) {
     SegmentationResult result;
-    const double before = bench::process_cpu_seconds();
+    const double before = process_cpu_seconds();
     recorder.time([&] { result = segment_charts(mesh, our_options()); });
     recorder.record("cpu_us_per_triangle",
-                    1e6 * (bench::process_cpu_seconds() - before) / static_cast<double>(mesh.triangles.size()));
+                    1e6 * (process_cpu_seconds() - before) / static_cast<double>(mesh.triangles.size()));
     recorder.record("charts", result.charts.count);
   });
 }
@@ -184,32 +182,31 @@ Input read(const std::filesystem::path& file) {
   return {file.filename().string(), repair(std::move(largest->mesh), {}).mesh};
 }
 
-std::vector<Input> inputs(const bench::BenchOptions& options) {
+/// Meshes that charts are worth comparing on, and that CGAL's segmentation gets through.
+bool is_input(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::uintmax_t k_least = 50'000, k_most = 4'000'000;
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  return (extension == ".stl" || extension == ".obj" || extension == ".off") && size >= k_least && size <= k_most;
+}
+
+std::vector<Input> inputs(const BenchOptions& options) {
   std::vector<Input> all;
-  if (!options.inputs.empty()) {
-    for (const std::string& file : options.inputs) all.push_back(read(file));
-    return all;
-  }
   all.push_back({"capped cylinder 64", test::capped_cylinder_mesh(64)});
   if (options.quick) return all;
   all.push_back({"panel 118 x 42", test::panel_mesh(118, 42)});
   all.push_back({"torus 200 x 50", test::torus_mesh(200, 50)});
   all.push_back({"handle 32 x 160", test::grid_mesh(32, 160, test::grab_handle, 0.15)});
   all.push_back({"hemisphere 50 x 101", test::hemisphere_mesh(50, 101)});
-  const char* shared = std::getenv("PAPILLA_SHARED_DATA");
-  if (shared == nullptr) return all;
-  std::vector<std::filesystem::path> files;
-  for (const char* folder : {"mesh/cad-stl", "param"})
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(shared) / folder))
-      if (entry.is_regular_file() && entry.file_size() > 50'000) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) all.push_back(read(file));
+  for (const std::filesystem::path& file : model_files(options.inputs))
+    if (is_input(file)) all.push_back(read(file));
   return all;
 }
 
-std::vector<Input> sizes(const bench::BenchOptions& options) {
+std::vector<Input> sizes(const BenchOptions& options) {
   std::vector<Input> all;
-  if (!options.inputs.empty()) return all;
   all.push_back({"panel 118 x 42", test::panel_mesh(118, 42)});
   if (options.quick) return all;
   all.push_back({"panel 374 x 134", test::panel_mesh(374, 134)});
@@ -221,17 +218,55 @@ std::vector<Input> sizes(const bench::BenchOptions& options) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return bench::run_benchmark("charts", "Charts: number, seams, speed", argc, argv, [](bench::BenchReport& report) {
-    std::vector<std::unique_ptr<Comparison>> comparisons;
-    for (Input& input : inputs(report.options()))
-      add_comparison(*comparisons.emplace_back(std::make_unique<Comparison>(Comparison{std::move(input), {}, {}, {}})),
-                     report);
-    const std::vector<Input> scaling = sizes(report.options());
-    for (const Input& input : scaling) add_scaling(input.name, input.mesh, report);
-    for (const char* peer : {"feature_45", "cgal_sdf"})
-      for (const char* quantity : {"charts", "seam_over_root_area", "cpu_seconds"})
-        report.compare("segment_charts", peer, quantity);
-    report.measure();
-  });
+struct ChartsComparison::State {
+  std::vector<std::unique_ptr<Comparison>> comparisons;
+  std::vector<Input> scaling;
+};
+
+ChartsComparison::ChartsComparison(BenchReport& report) : state_(std::make_unique<State>()) {
+  for (Input& input : inputs(report.options())) {
+    state_->comparisons.push_back(std::make_unique<Comparison>(Comparison{std::move(input), {}, {}, {}}));
+    add_comparison(*state_->comparisons.back(), report);
+  }
+  state_->scaling = sizes(report.options());
+  for (const Input& input : state_->scaling) add_scaling(input.name, input.mesh, report);
+  for (const char* peer : {"feature_45", "cgal_sdf"})
+    for (const char* quantity : {"charts", "seam_over_root_area"}) report.compare("segment_charts", peer, quantity);
 }
+
+ChartsComparison::~ChartsComparison() = default;
+
+void ChartsComparison::report(BenchReport& report) const {
+  EvidenceTable table{
+      "Charts",
+      "At equal maximal distortion: the peers' charts are halved until none has a larger mean symmetric "
+      "Dirichlet energy than the worst of segment_charts(). Number of charts, and seam length over the "
+      "root of the area. A dash: CGAL can't hold the mesh.",
+      {"input", "triangles", "worst chart", "ours", "45° split", "CGAL segmentation"},
+      {}};
+  std::size_t against_split = 0, against_cgal = 0, held_by_cgal = 0;
+  const auto better = [](const Quality& own, const Quality& peer) {
+    constexpr double k_rounding = 1 + 1e-9;
+    return own.charts <= peer.charts && own.seam_over_root_area <= peer.seam_over_root_area * k_rounding;
+  };
+  const auto text = [](const std::optional<Quality>& q) {
+    return q ? fmt::format("{:.0f}, {:.2f}", q->charts, q->seam_over_root_area) : std::string("-");
+  };
+  for (const auto& c : state_->comparisons) {
+    against_split += better(*c->ours, *c->feature) ? 1u : 0u;
+    held_by_cgal += c->cgal ? 1u : 0u;
+    against_cgal += c->cgal && better(*c->ours, *c->cgal) ? 1u : 0u;
+    table.rows.push_back({c->input.name, std::to_string(c->input.mesh.triangles.size()),
+                          fmt::format("{:.4f}", c->ours->worst_chart), text(c->ours), text(c->feature), text(c->cgal)});
+  }
+  report.table(std::move(table));
+  const auto target = [&](const char* peer, std::size_t count, std::size_t of) {
+    report.target({fmt::format("charts: no more of them and no longer seams than {} at equal maximal distortion", peer),
+                   fmt::format("{} of {} inputs", count, of),
+                   report.options().quick ? std::nullopt : std::optional(count == of)});
+  };
+  target("a split at 45°", against_split, state_->comparisons.size());
+  target("CGAL's segmentation", against_cgal, held_by_cgal);
+}
+
+}  // namespace papilla::bench

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "papilla/param/flattening.hpp"
+#include "papilla/param/triplanar.hpp"
+
+namespace papilla {
+
+/// Options of flatten_best(). All are dimensionless, so one set of values serves every size of chart.
+struct BestOptions {
+  GrainUp up = GrainUp::z;
+  double tolerance = 5e-4;      ///< Stop when an iteration lowers the energy by less than this fraction; in (0, 1).
+  int max_iterations = 50;      ///< Newton iterations on the whole chart; at least 0.
+  double time_limit_s = 0;      ///< Per chart, for the iterations on the whole chart; 0: none.
+  bool fall_back = true;        ///< Project charts that are no disk, with a note; false: throw.
+  TriplanarOptions projection;  ///< Of the fallback; its `up` is taken from here.
+};
+
+/// The map of every chart with the lowest distortion that keeps it valid: minimises the symmetric Dirichlet energy
+///     E = Σ_T A_T (σ1² + σ2² + σ1⁻² + σ2⁻²)
+/// with σ1, σ2 the singular values of the map on triangle T of area A_T. E is at least 4 ΣA, with equality for
+/// isometries only. Charts are then scaled so that their uv area is their area in space (mm²), and turned so that v
+/// follows grain_direction() on the area average.
+///
+/// Guarantees: what Flattening promises; no triangle flipped or collapsed, no chart that overlaps itself, however
+/// curved the chart. Triangles without area get finite uv and hold the others up as little as possible. Breaks down: a
+/// chart that is not a connected, orientable piece of genus 0 with a border (holes are welcome) has no such map and
+/// falls back or is refused; so does one with two edges between the same two vertices, and one whose parts shrink below
+/// what doubles resolve. Charts that lie over themselves when flattened freely (spiral ramps, knots of strips) are kept
+/// apart; how they are laid out then is a local optimum among many. Good input: any welded disk. Strongly curved charts
+/// (heads, hands) have maps of E / ΣA = 5 to 10 whatever one does: more charts help, iterations do not.
+///
+/// Method: the chart is coarsened vertex by vertex to a few triangles, these are mapped by Tutte's method, and the
+/// vertices come back in order, each into the kernel of its ring; every level is relaxed, first vertex by vertex, then
+/// (up to 200,000 vertices) by projected Newton steps on a nested-dissection factorization, with a line search that
+/// crosses no flip. If the result overlaps itself, all is done again with a barrier between the edges of the border.
+/// Cost: O(n) for coarsening and relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the
+/// factorization and sums run in parallel; the result does not depend on the number of threads.
+/// Trace: error = E / ΣA, from the first map of the whole chart on.
+/// Papers: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M. Rabinovich et al., Scalable
+/// locally injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith et al., Analytic
+/// eigensystems for isotropic distortion energies, 2019.
+///
+/// @param charts one number below charts.count for every triangle.
+/// @throws InvalidInput for a mesh, chart set or option that breaks these preconditions; without fall_back also for a
+///         chart of the wrong topology, naming chart and triangle; SolverFailure for one that has no valid map.
+Flattening flatten_best(const TriangleMesh& mesh, const ChartSet& charts, const BestOptions& options = {});
+
+}  // namespace papilla

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "papilla/param/flattening.hpp"
+#include "papilla/param/triplanar.hpp"
+
+namespace papilla {
+
+/// c(i,k), i ≠ k, of the smoothness condition; c(k,k) = -Σ_i c(i,k).
+enum class LevyWeights {
+  uniform,     ///< 1: what the source calls harmonic.
+  cotangent,   ///< (cot α + cot β) / 2; may be negative, which forfeits validity.
+  mean_value,  ///< (tan γ/2 + tan δ/2) / length [Floater 2003]; not symmetric.
+};
+
+enum class LevyBorder {
+  convex,  ///< On a circle of the chart's area, in proportion to its length.
+  free,    ///< Released; two or more pins fix position and scale.
+};
+
+/// How u and v are kept at right angles.
+enum class LevyCoupling {
+  conformal,  ///< Σ A |∇v - ∇u turned by 90°|²: right angles and gradients of equal length; linear in u and v together.
+  orthogonal,  ///< The source's Σ A (∇u·∇v)²; bilinear: rounds.
+};
+
+enum class LevySolver {
+  gauss_seidel,  ///< The source's descent: one unknown after the other.
+  direct,        ///< Sparse factorizations; their symbolic part is shared by all rounds.
+};
+
+/// A vertex that has a place.
+struct LevyPin {
+  Index vertex = 0;  ///< Of the mesh; on seams, in every chart that has it.
+  Vec2 uv;           ///< Millimetres.
+};
+
+/// Vertices that share their u, or their v.
+struct LevyIsoLine {
+  std::vector<Index> vertices;
+  bool is_u = true;             ///< u is the same for all; false: v.
+  std::optional<double> value;  ///< In millimetres; not given: found.
+};
+
+struct LevyOptions {
+  GrainUp up = GrainUp::z;
+  LevyWeights weights = LevyWeights::mean_value;
+  LevyBorder border = LevyBorder::free;
+  LevyCoupling coupling = LevyCoupling::conformal;
+  LevySolver solver = LevySolver::direct;
+  double smoothness = 0;     ///< Weight of R; not negative.
+  double orthogonality = 1;  ///< Weight of the coupling; not negative.
+  double length = 1;         ///< Weight of the length condition; not negative.
+  double tolerance = 1e-3;   ///< Stop when a round lowers the sum by less than this fraction; in (0, 1).
+  int max_rounds = 10;       ///< Alternations between u and v; at least 1.
+  int max_sweeps = 1000;     ///< Of gauss_seidel, per round; at least 1.
+  double time_limit_s = 0;   ///< Per chart; 0: none.
+  /// With pins the chart keeps the place and scale that they give. Pins on a free border must differ in u and in v.
+  std::vector<LevyPin> pins;
+  std::vector<LevyIsoLine> iso_lines;
+  bool fall_back = true;        ///< What a chart without a valid map gets: as in LscmOptions.
+  TriplanarOptions projection;  ///< Of the fallback; its `up` is taken from here.
+};
+
+struct LevyResult {
+  Flattening flattening;  ///< Trace: error = the sum F in mm², over all charts, after each round or sweep.
+  /// The parts of F at the end, without their weights, in mm².
+  double smoothness = 0, orthogonality = 0, length = 0;
+};
+
+/// Smooth interpolation of Lévy and Mallet: u and v minimise
+///     F = smoothness R + orthogonality O + length S L,
+///     R = Σ_k [(Σ_i c(i,k) u_i)² + (Σ_i c(i,k) v_i)²]   over interior vertices k,
+///     O = Σ_T A (∇u·∇v)²  or  Σ_T A |∇v - ∇u turned by 90°|², as `coupling` says,
+///     L = Σ_e (A_1 + A_2) / 3 [(Y_1 u + Y_2 u)² + (Y_1 v + Y_2 v)²] / h²   over interior edges e,
+/// where Y_1, Y_2 are the derivatives across e in its two triangles, each away from e: their sum is how much the
+/// gradient jumps (along the edge a continuous map's gradients always agree); h is the distance of the triangles'
+/// middles, so that L measures second derivatives and does not depend on how fine the mesh is; S is 1.2 % of the
+/// chart's area.
+///
+/// Free border, conformal, direct, no iso lines: one Hermitian system. All terms are homogeneous, so without pins the
+/// map is the one of least F among those of given inertia about their middle (inverse iteration, three solves).
+/// Convex border without coupling and length, no pins: the minimum is R = 0, found from one linear system.
+/// Else: u is found with v held, then v with u held, in rounds, O being (∇u·∇v)². Rounds on a free border start from
+/// the least squares conformal map; without pins the vertices that are farthest out keep the coordinate they are
+/// extreme in, and u and v are scaled in the end, each so that Σ A (|∇u|² + |∇u|⁻²) is least. Guarantees: what
+/// Flattening promises; no triangle flipped, no overlap, else the chart falls back. Convex border, uniform or
+/// mean-value weights and no other condition: valid on every disk, up to rounding. Breaks down: charts beyond half a
+/// sphere, where conformal starts flip or shrink without bound; large `length` on strongly curved charts, which have no
+/// map of constant gradient; uniform weights with a free border on uneven meshes. Gauss-Seidel needs O(n) sweeps; it is
+/// there to be compared with. Cost: O(n^1.5) per round. Result independent of the number of threads. Papers: B. Lévy,
+/// J.-L. Mallet, Non-distorted texture mapping for sheared triangulated meshes, SIGGRAPH 1998; M. Floater, Mean value
+/// coordinates, 2003.
+///
+/// @param charts one number below charts.count for every triangle.
+/// @throws InvalidInput for a mesh, chart set, pin, line or option that breaks these preconditions; without fall_back
+///         also for a chart of the wrong topology, naming chart and triangle; SolverFailure for one without a valid
+///         map.
+LevyResult flatten_levy(const TriangleMesh& mesh, const ChartSet& charts, const LevyOptions& options = {});
+
+}  // namespace papilla

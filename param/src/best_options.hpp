@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "papilla/param/best.hpp"
+
+namespace papilla::param_detail {
+
+/// @throws InvalidInput, in the name of `function`, for options out of range.
+void check_best_options(const BestOptions& options, std::string_view function);
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "border_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+namespace papilla::param_detail {
+namespace {
+
+/// Edges are not brought closer than this fraction of their mean length.
+constexpr double k_contact = 1e-3;
+
+/// Reach of the barrier over the shortest edge at hand.
+constexpr double k_reach = 0.25;
+
+/// Cells of the grid per edge of the border, at most.
+constexpr double k_cells_per_edge = 16;
+
+struct Extent {
+  Vec2 low, high;
+  double size() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+Extent extent_of(std::span<const BorderPair> border, std::span<const Vec2> uv) {
+  Extent e{uv[border[0][0]], uv[border[0][0]]};
+  for (const BorderPair& pair : border) {
+    const Vec2 p = uv[pair[0]];
+    e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y)};
+    e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y)};
+  }
+  return e;
+}
+
+/// The point of a segment that is closest to a vertex.
+struct Closest {
+  double along = 0;  ///< 0 at the start, 1 at the end.
+  Vec2 away;         ///< From there to the vertex.
+};
+
+Closest closest(Vec2 vertex, Vec2 from, Vec2 to) {
+  const Vec2 d = to - from;
+  const double square = dot(d, d);
+  const double along = square > 0 ? std::clamp(dot(vertex - from, d) / square, 0.0, 1.0) : 0.0;
+  return {along, vertex - from - along * d};
+}
+
+}  // namespace
+
+BorderGuard::BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv)
+    : border_(std::move(border)), uv_(std::move(uv)), edges_of_(uv_.size()) {
+  const Extent extent = extent_of(border_, uv_);
+  double length = 0;
+  for (const BorderPair& pair : border_) length += norm(uv_[pair[1]] - uv_[pair[0]]);
+  const double edges = static_cast<double>(border_.size());
+  cell_ = std::max(length / edges, extent.size() / std::sqrt(k_cells_per_edge * edges));
+  tolerance_ = k_contact * length / edges;
+  low_ = extent.low;
+  columns_ = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell_) + 1;
+  rows_ = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell_) + 1;
+  cells_.resize(columns_ * rows_);
+  for (Index e = 0; e < border_.size(); ++e) {
+    for (const Index v : border_[e]) edges_of_[v].push_back(e);
+    put_in(e);
+  }
+}
+
+std::size_t BorderGuard::column(double x) const {
+  return static_cast<std::size_t>(std::clamp((x - low_.x) / cell_, 0.0, static_cast<double>(columns_ - 1)));
+}
+
+std::size_t BorderGuard::row(double y) const {
+  return static_cast<std::size_t>(std::clamp((y - low_.y) / cell_, 0.0, static_cast<double>(rows_ - 1)));
+}
+
+template <class Visit>
+bool BorderGuard::any_cell(const BorderEdge& e, Visit visit) const {
+  const std::size_t x1 = column(std::max(e.a.x, e.b.x)), y1 = row(std::max(e.a.y, e.b.y));
+  for (std::size_t y = row(std::min(e.a.y, e.b.y)); y <= y1; ++y)
+    for (std::size_t x = column(std::min(e.a.x, e.b.x)); x <= x1; ++x)
+      if (visit(y * columns_ + x)) return true;
+  return false;
+}
+
+void BorderGuard::put_in(Index e) {
+  any_cell(edge(e), [&](std::size_t cell) {
+    cells_[cell].push_back(e);
+    return false;
+  });
+}
+
+void BorderGuard::take_out(Index e) {
+  any_cell(edge(e), [&](std::size_t cell) {
+    std::erase(cells_[cell], e);
+    return false;
+  });
+}
+
+template <class LeavesOut>
+bool BorderGuard::are_free(std::span<const BorderEdge> edges, LeavesOut leaves_out) const {
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      if (edges_conflict(edges[i], edges[j], tolerance_)) return false;
+    const bool conflict = any_cell(edges[i], [&](std::size_t cell) {
+      return std::any_of(cells_[cell].begin(), cells_[cell].end(), [&](Index other) {
+        return !leaves_out(other) && edges_conflict(edges[i], edge(other), tolerance_);
+      });
+    });
+    if (conflict) return false;
+  }
+  return true;
+}
+
+bool BorderGuard::may_move(Index vertex, Vec2 place) const {
+  std::vector<BorderEdge> moved;
+  for (const Index e : edges_of_[vertex]) {
+    moved.push_back(edge(e));
+    (moved.back().from == vertex ? moved.back().a : moved.back().b) = place;
+  }
+  return are_free(moved, [&](Index other) { return border_[other][0] == vertex || border_[other][1] == vertex; });
+}
+
+Index BorderGuard::edge_between(Index from, Index to) const {
+  return *std::find_if(edges_of_[from].begin(), edges_of_[from].end(), [&](Index e) {
+    return border_[e] == BorderPair{from, to};
+  });
+}
+
+bool BorderGuard::may_split(Index from, Index to, Index vertex, Vec2 place) const {
+  const Index old = edge_between(from, to);
+  const std::array<BorderEdge, 2> halves{BorderEdge{from, vertex, uv_[from], place},
+                                         BorderEdge{vertex, to, place, uv_[to]}};
+  return are_free(halves, [&](Index other) { return other == old; });
+}
+
+void BorderGuard::split(Index from, Index to, Index vertex, Vec2 place) {
+  const Index first = edge_between(from, to), second = static_cast<Index>(border_.size());
+  take_out(first);
+  uv_[vertex] = place;
+  border_[first][1] = vertex;
+  border_.push_back({vertex, to});
+  std::replace(edges_of_[to].begin(), edges_of_[to].end(), first, second);
+  edges_of_[vertex] = {first, second};
+  put_in(first);
+  put_in(second);
+}
+
+void BorderGuard::move(Index vertex, Vec2 place) {
+  for (const Index e : edges_of_[vertex]) take_out(e);
+  uv_[vertex] = place;
+  for (const Index e : edges_of_[vertex]) put_in(e);
+}
+
+BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec2> uv, double weight)
+    : border_(std::move(border)), reach_(uv.size(), std::numeric_limits<double>::infinity()), weight_(weight) {
+  for (const auto& [from, to] : border_) {
+    const double reach = k_reach * norm(uv[to] - uv[from]);
+    reach_[from] = std::min(reach_[from], reach);
+    reach_[to] = std::min(reach_[to], reach);
+    most_reach_ = std::max(most_reach_, reach);
+  }
+}
+
+std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2> uv) const {
+  // Vertices in cells of the longest reach; each edge looks into the cells along it.
+  const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / most_reach_)); };
+  const auto key = [](std::int64_t x, std::int64_t y) {
+    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu;
+  };
+  std::unordered_map<std::uint64_t, std::vector<Index>> cells;
+  for (const BorderPair& pair : border_) {
+    const Vec2 p = uv[pair[0]];
+    cells[key(cell_of(p.x), cell_of(p.y))].push_back(pair[0]);
+  }
+  std::vector<Pair> pairs;
+  for (const auto& [from, to] : border_) {
+    const Vec2 a = uv[from], b = uv[to];
+    const double edge_reach = std::min(reach_[from], reach_[to]);
+    const int steps = static_cast<int>(std::min(norm(b - a) / most_reach_, 1e6)) + 1;
+    const std::size_t first = pairs.size();
+    for (int s = 0; s <= steps; ++s) {
+      const Vec2 p = a + (static_cast<double>(s) / steps) * (b - a);
+      for (std::int64_t y = cell_of(p.y) - 1; y <= cell_of(p.y) + 1; ++y)
+        for (std::int64_t x = cell_of(p.x) - 1; x <= cell_of(p.x) + 1; ++x) {
+          const auto found = cells.find(key(x, y));
+          if (found == cells.end()) continue;
+          for (const Index v : found->second) {
+            const double reach = std::min(edge_reach, reach_[v]);
+            if (v != from && v != to && norm(closest(uv[v], a, b).away) < reach) pairs.push_back({v, from, to, reach});
+          }
+        }
+    }
+    const auto own = pairs.begin() + static_cast<std::ptrdiff_t>(first);
+    std::sort(own, pairs.end(), [](const Pair& p, const Pair& q) { return p.vertex < q.vertex; });
+    pairs.erase(std::unique(own, pairs.end(), [](const Pair& p, const Pair& q) { return p.vertex == q.vertex; }),
+                pairs.end());
+  }
+  return pairs;
+}
+
+double BorderBarrier::value(const Pair& pair, std::span<const Vec2> uv) const {
+  const double d = norm(closest(uv[pair.vertex], uv[pair.from], uv[pair.to]).away);
+  const double excess = pair.reach / d - 1;
+  return excess > 0 ? weight_ * excess * excess : 0;
+}
+
+std::array<Vec2, 3> BorderBarrier::gradient(const Pair& pair, std::span<const Vec2> uv) const {
+  const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
+  const double d = norm(c.away);
+  if (!(d < pair.reach)) return {};
+  // The closest point may be held: it is a minimum.
+  const Vec2 by_vertex = (-2 * weight_ * (pair.reach / d - 1) * pair.reach / (d * d * d)) * c.away;
+  return {by_vertex, (c.along - 1) * by_vertex, -c.along * by_vertex};
+}
+
+void BorderBarrier::hessian(const Pair& pair, std::span<const Vec2> uv, double* matrix) const {
+  const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
+  const double d = norm(c.away);
+  std::fill_n(matrix, 36, 0.0);
+  if (!(d < pair.reach)) return;
+  const double curvature = 2 * weight_ * pair.reach / (d * d * d) * (3 * pair.reach / d - 2);
+  const std::array<double, 3> share{1, c.along - 1, -c.along};
+  std::array<double, 6> direction;
+  for (std::size_t k = 0; k < 3; ++k)
+    direction[2 * k] = share[k] * c.away.x / d, direction[2 * k + 1] = share[k] * c.away.y / d;
+  for (std::size_t j = 0; j < 6; ++j)
+    for (std::size_t i = 0; i < 6; ++i) matrix[6 * j + i] = curvature * direction[i] * direction[j];
+}
+
+bool BorderBarrier::is_simple(std::span<const Vec2> uv) const {
+  std::vector<BorderEdge> edges;
+  edges.reserve(border_.size());
+  for (const auto& [from, to] : border_) edges.push_back({from, to, uv[from], uv[to]});
+  return border_proves_injective(edges);
+}
+
+}  // namespace papilla::param_detail

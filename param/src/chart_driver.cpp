@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "chart_driver.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "check_mesh.hpp"
+#include "multilevel_map.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla::param_detail {
+namespace {
+
+/// What one chart came to.
+struct MappedChart {
+  CornerAttribute<Vec2> uv;           ///< Triangles in the order of the chart.
+  std::vector<std::uint32_t> pieces;  ///< Chart number within this one, per triangle; empty: all 0.
+  std::uint32_t piece_count = 1;
+  std::string failure;  ///< Why the method gave no map.
+  std::string instead;  ///< What the chart got then.
+  bool wrong_topology = false;
+  double area = 0;
+  StopReason stop = StopReason::direct;
+  Trace trace;
+  MethodChoice choice;
+};
+
+MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, const DriverOptions& options) {
+  MappedChart result;
+  result.failure = topology_failure(chart);
+  result.wrong_topology = !result.failure.empty();
+  result.area = area_of(chart);
+  if (result.wrong_topology) return result;
+  if (!(result.area > 0)) {
+    result.failure = "it has no area";
+    return result;
+  }
+  ChartMap map = method(chart);
+  result.choice = std::move(map.choice);
+  result.failure = map.failure;
+  if (!result.failure.empty()) return result;
+  if (!map.keep_place) normalise(chart, options.up, options.scale_to_area, map.uv);
+  if (!options.allow_flips) result.failure = map_failure(chart, map.uv);
+  if (!result.failure.empty()) return result;
+  result.stop = map.stop;
+  result.trace = std::move(map.trace);
+  result.uv = {std::move(map.uv), chart.triangles};
+  return result;
+}
+
+/// A map of low distortion, for a chart that the method has no valid one for.
+bool unfold_instead(const ChartSurface& chart, const DriverOptions& options, MappedChart& result) {
+  if (result.wrong_topology || !(result.area > 0)) return false;
+  MultilevelMap map = map_multilevel(to_unit(chart).surface, {});
+  if (!map.failure.empty()) return false;
+  normalise(chart, options.up, true, map.uv);
+  if (!map_failure(chart, map.uv).empty()) return false;
+  result.uv = {std::move(map.uv), chart.triangles};
+  result.instead = "mapped with least distortion instead";
+  return true;
+}
+
+void project_instead(const ChartSurface& chart, const DriverOptions& options, MappedChart& result) {
+  TriangleMesh mesh;
+  mesh.positions = chart.positions;
+  mesh.triangles = chart.triangles;
+  TriplanarOptions projection = options.projection;
+  projection.up = options.up;
+  TriplanarResult projected = flatten_triplanar(mesh, projection);
+  result.uv = std::move(projected.flattening.uv);
+  result.pieces = std::move(projected.flattening.charts.of_triangle);
+  result.piece_count = projected.flattening.charts.count;
+  result.instead = "projected as " + std::to_string(result.piece_count) + " planar pieces instead";
+}
+
+void append(const MappedChart& chart, std::span<const Index> triangles, Flattening& result) {
+  const auto first_value = static_cast<Index>(result.uv.values.size());
+  result.uv.values.insert(result.uv.values.end(), chart.uv.values.begin(), chart.uv.values.end());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& corners = chart.uv.indices[i];
+    result.uv.indices[triangles[i]] = {first_value + corners[0], first_value + corners[1], first_value + corners[2]};
+    result.charts.of_triangle[triangles[i]] = result.charts.count + (chart.pieces.empty() ? 0 : chart.pieces[i]);
+  }
+  result.charts.count += chart.piece_count;
+}
+
+/// The sum of curves that run side by side; each holds its last value.
+Trace add_up(const std::vector<MappedChart>& mapped, bool per_area) {
+  struct Event {
+    double seconds, change;
+  };
+  std::vector<Event> events;
+  double error = 0, area = 0;
+  for (const MappedChart& chart : mapped) {
+    if (!chart.failure.empty() || chart.trace.empty()) continue;
+    error += chart.trace.front().error;
+    area += chart.area;
+    for (std::size_t i = 1; i < chart.trace.size(); ++i)
+      events.push_back({chart.trace[i].seconds, chart.trace[i].error - chart.trace[i - 1].error});
+  }
+  if (area == 0) return {{0, 0}};
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.seconds < b.seconds; });
+  const double scale = per_area ? 1 / area : 1;
+  Trace trace{{0, scale * error}};
+  if (mapped.size() == 1) trace.front().seconds = mapped.front().trace.front().seconds;
+  for (const Event& e : events) trace.push_back({e.seconds, scale * (error += e.change)});
+  return trace;
+}
+
+int severity(StopReason stop) {
+  switch (stop) {
+    case StopReason::direct: return 0;
+    case StopReason::converged: return 1;
+    case StopReason::line_search_stalled: return 2;
+    case StopReason::iteration_limit: return 3;
+    case StopReason::time_limit: return 4;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, const ChartMethod& method,
+                          const DriverOptions& options) {
+  check_mesh(mesh, options.function);
+  check_charts(mesh, charts, options.function);
+  const Adjacency across = connect_triangles(mesh);
+  const TrianglesOfCharts members = sort_by_chart(charts.of_triangle, charts.count);
+  const ChartCutter cutter(mesh, across, charts);
+  std::vector<MappedChart> mapped(charts.count);
+  oneapi::tbb::parallel_for(std::uint32_t{0}, charts.count, [&](std::uint32_t c) {
+    if (members.of(c).empty()) return;
+    const ChartSurface surface = cutter.cut(c, members.of(c));
+    mapped[c] = map_chart(surface, method, options);
+    if (options.choices) (*options.choices)[c] = mapped[c].choice;
+    if (mapped[c].failure.empty() || !options.fall_back) return;
+    if (!unfold_instead(surface, options, mapped[c])) project_instead(surface, options, mapped[c]);
+  });
+
+  Flattening result;
+  result.trace = add_up(mapped, options.error_per_area);
+  result.uv.indices.resize(mesh.triangles.size());
+  result.charts.of_triangle.resize(mesh.triangles.size());
+  for (std::uint32_t c = 0; c < charts.count; ++c) {
+    const auto own = members.of(c);
+    if (own.empty()) continue;
+    if (severity(mapped[c].stop) > severity(result.stop)) result.stop = mapped[c].stop;
+    if (!mapped[c].failure.empty()) {
+      const std::string what =
+          "chart[" + std::to_string(c) + "] (triangle[" + std::to_string(own.front()) + "]): " + mapped[c].failure;
+      if (!options.fall_back) {
+        const std::string message = std::string(options.function) + ": " + what;
+        if (mapped[c].wrong_topology) throw InvalidInput(message);
+        throw SolverFailure(message);
+      }
+      result.notes.push_back({c, what + "; " + mapped[c].instead});
+    }
+    append(mapped[c], own, result);
+    mapped[c] = {};
+  }
+  result.charts.seam_length_mm = seam_length(mesh, across, result.charts.of_triangle);
+  return result;
+}
+
+}  // namespace papilla::param_detail

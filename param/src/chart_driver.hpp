@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "disk_chart.hpp"
+#include "papilla/param/flattening.hpp"
+#include "papilla/param/triplanar.hpp"
+
+namespace papilla::param_detail {
+
+/// Which of several methods a chart got, and why.
+struct MethodChoice {
+  std::string method, reason;
+};
+
+/// The map of one chart, or why there is none.
+struct ChartMap {
+  std::vector<Vec2> uv;  ///< Per vertex of the chart; empty when `failure` says why.
+  std::string failure;
+  StopReason stop = StopReason::direct;
+  Trace trace;              ///< Error: what the method minimises, summed over the chart; seconds since its start.
+  bool keep_place = false;  ///< Do not scale and turn: the caller said where it goes.
+  MethodChoice choice = {};  ///< Of methods that choose.
+};
+
+using ChartMethod = std::function<ChartMap(const ChartSurface&)>;
+
+struct DriverOptions {
+  std::string_view function;  ///< Name in messages.
+  GrainUp up = GrainUp::z;
+  bool scale_to_area = true;
+  bool allow_flips = false;  ///< Flipped triangles and overlap are results, not failures.
+  /// A chart without a valid map gets one of low distortion, one that is no disk gets planar projections of its pieces,
+  /// both with a note; or, when false, an exception.
+  bool fall_back = true;
+  /// What trace errors are divided by: the charts' area, or 1.
+  bool error_per_area = true;
+  TriplanarOptions projection;
+  std::vector<MethodChoice>* choices = nullptr;  ///< Filled per chart when given; its size is that of the chart set.
+};
+
+/// Maps every chart on its own, in parallel, and puts the maps together. The trace is the sum over the charts as if
+/// they had run at the same time.
+/// @throws InvalidInput, SolverFailure as Flattening's producers say.
+Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, const ChartMethod& method,
+                          const DriverOptions& options);
+
+}  // namespace papilla::param_detail

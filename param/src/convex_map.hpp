@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "map_level.hpp"
+
+namespace papilla::param_detail {
+
+/// Tutte's map of a small disk, holes filled by fans, with uniform weights: the longest border goes to a circle of the
+/// disk's area, edges along it in proportion to their length as far as that leaves none too short. Valid for every
+/// triangulated disk without double edges, up to rounding.
+std::vector<Vec2> map_to_circle(const MapLevel& level, std::span<const Vec3> positions);
+
+}  // namespace papilla::param_detail

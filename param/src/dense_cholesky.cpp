@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "dense_cholesky.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// The loader picks the version for processors with fused multiplication when there is such a processor.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define PAPILLA_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define PAPILLA_VECTOR_CLONES
+#endif
+
+namespace papilla::param_detail {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// A pivot that is not positive becomes this: its unknown comes out as zero.
+constexpr double k_infinite_pivot = 1e150;
+
+typedef double Four __attribute__((vector_size(32), aligned(8)));
+
+/// c (8 × 4) -= a (8 × depth) bᵀ (depth × 4); a and b have `stride` numbers per column, c has `c_stride`.
+/// Only the first `height` × `width` numbers of c are written.
+inline __attribute__((always_inline)) void update_tile(const double* a, const double* b, std::size_t stride,
+                                                       std::size_t depth, double* c, std::size_t c_stride,
+                                                       std::size_t height, std::size_t width) {
+  Four low[4] = {}, high[4] = {};
+  for (std::size_t k = 0; k < depth; ++k, a += stride, b += stride) {
+    const Four x = *reinterpret_cast<const Four*>(a), y = *reinterpret_cast<const Four*>(a + 4);
+    for (int j = 0; j < 4; ++j) low[j] += x * b[j], high[j] += y * b[j];
+  }
+  if (height >= 8 && width >= 4) {
+    for (int j = 0; j < 4; ++j, c += c_stride) {
+      *reinterpret_cast<Four*>(c) -= low[j];
+      *reinterpret_cast<Four*>(c + 4) -= high[j];
+    }
+    return;
+  }
+  for (std::size_t j = 0; j < std::min<std::size_t>(width, 4); ++j, c += c_stride)
+    for (std::size_t i = 0; i < std::min<std::size_t>(height, 8); ++i) c[i] -= i < 4 ? low[j][i] : high[j][i - 4];
+}
+
+/// The same for complex numbers: c (4 × 2) -= a (4 × depth) bᴴ (depth × 2).
+inline __attribute__((always_inline)) void update_tile(const Complex* a, const Complex* b, std::size_t stride,
+                                                       std::size_t depth, Complex* c, std::size_t c_stride,
+                                                       std::size_t height, std::size_t width) {
+  Four real_low[2] = {}, real_high[2] = {}, imaginary_low[2] = {}, imaginary_high[2] = {};
+  for (std::size_t k = 0; k < depth; ++k, a += stride, b += stride) {
+    const auto* p = reinterpret_cast<const double*>(a);
+    const auto* q = reinterpret_cast<const double*>(b);
+    const Four x = *reinterpret_cast<const Four*>(p), y = *reinterpret_cast<const Four*>(p + 4);
+    for (int j = 0; j < 2; ++j) {
+      real_low[j] += x * q[2 * j], real_high[j] += y * q[2 * j];
+      imaginary_low[j] += x * q[2 * j + 1], imaginary_high[j] += y * q[2 * j + 1];
+    }
+  }
+  // (x + iy)(p - iq) = xp + yq + i(yp - xq)
+  for (std::size_t j = 0; j < std::min<std::size_t>(width, 2); ++j, c += c_stride)
+    for (std::size_t i = 0; i < std::min<std::size_t>(height, 4); ++i) {
+      const Four& r = i < 2 ? real_low[j] : real_high[j];
+      const Four& m = i < 2 ? imaginary_low[j] : imaginary_high[j];
+      const std::size_t k = 2 * (i % 2);
+      c[i] -= Complex(r[k] + m[k + 1], r[k + 1] - m[k]);
+    }
+}
+
+template <class Scalar>
+struct Tile;
+template <>
+struct Tile<double> {
+  static constexpr std::size_t height = 8, width = 4;
+};
+template <>
+struct Tile<Complex> {
+  static constexpr std::size_t height = 4, width = 2;
+};
+
+inline double conjugate(double x) { return x; }
+inline Complex conjugate(Complex x) { return {x.real(), -x.imag()}; }
+inline double real_part(double x) { return x; }
+inline double real_part(Complex x) { return x.real(); }
+inline double times(double x, double y) { return x * y; }
+inline Complex times(Complex x, Complex y) {  // without the checks for infinity of std::complex
+  return {x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()};
+}
+
+/// Factors `count` columns from `first` on, all earlier ones being subtracted already.
+template <class Scalar>
+inline __attribute__((always_inline)) std::size_t factor_strip(Scalar* a, std::size_t rows, std::size_t first,
+                                                               std::size_t count) {
+  std::size_t bad = 0;
+  for (std::size_t j = first; j < first + count; ++j) {
+    Scalar* column = a + j * rows;
+    for (std::size_t k = first; k < j; ++k) {
+      const Scalar factor = conjugate(a[k * rows + j]);
+      const Scalar* earlier = a + k * rows;
+      for (std::size_t i = j; i < rows; ++i) column[i] -= times(earlier[i], factor);
+    }
+    double pivot = real_part(column[j]);
+    if (!(pivot > 0)) pivot = k_infinite_pivot * k_infinite_pivot, ++bad;
+    const double inverse = 1 / std::sqrt(pivot);
+    column[j] = std::sqrt(pivot);
+    for (std::size_t i = j + 1; i < rows; ++i) column[i] *= inverse;
+  }
+  return bad;
+}
+
+template <class Scalar>
+inline __attribute__((always_inline)) std::size_t factor_any(Scalar* a, std::size_t rows, std::size_t columns) {
+  using T = Tile<Scalar>;
+  std::size_t bad = 0;
+  for (std::size_t j = 0; j < columns; j += T::width) {
+    const std::size_t width = std::min(T::width, columns - j);
+    if (j > 0)
+      for (std::size_t i = j; i < rows; i += T::height)
+        update_tile(a + i, a + j, rows, j, a + j * rows + i, rows, rows - i, width);
+    bad += factor_strip(a, rows, j, width);
+  }
+  return bad;
+}
+
+template <class Scalar>
+inline __attribute__((always_inline)) void subtract_any(const Scalar* panel, std::size_t rows, std::size_t columns,
+                                                        Scalar* c, std::size_t size) {
+  using T = Tile<Scalar>;
+  const Scalar* p = panel + (rows - size);
+  for (std::size_t j = 0; j < size; j += T::width)
+    for (std::size_t i = j; i < size; i += T::height)
+      update_tile(p + i, p + j, rows, columns, c + j * size + i, size, size - i, size - j);
+}
+
+}  // namespace
+
+PAPILLA_VECTOR_CLONES std::size_t factor_columns(double* a, std::size_t rows, std::size_t columns) {
+  return factor_any(a, rows, columns);
+}
+
+PAPILLA_VECTOR_CLONES std::size_t factor_columns(Complex* a, std::size_t rows, std::size_t columns) {
+  return factor_any(a, rows, columns);
+}
+
+PAPILLA_VECTOR_CLONES void subtract_square(const double* panel, std::size_t rows, std::size_t columns, double* c,
+                                           std::size_t size) {
+  subtract_any(panel, rows, columns, c, size);
+}
+
+PAPILLA_VECTOR_CLONES void subtract_square(const Complex* panel, std::size_t rows, std::size_t columns, Complex* c,
+                                           std::size_t size) {
+  subtract_any(panel, rows, columns, c, size);
+}
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <complex>
+#include <cstddef>
+
+namespace papilla::param_detail {
+
+/// Numbers that may be read, and are ignored, behind the end of the arrays of the functions below.
+inline constexpr std::size_t k_dense_slack = 64;
+
+/// Factors the first `columns` columns of a Hermitian matrix of `rows` rows, given its lower half, in place.
+/// @return how many pivots were not positive; these became `1e150`.
+std::size_t factor_columns(double* a, std::size_t rows, std::size_t columns);
+std::size_t factor_columns(std::complex<double>* a, std::size_t rows, std::size_t columns);
+
+/// Subtracts P Pᴴ from the lower half of c, a square matrix of `size`, where P is the lower `size` rows of a matrix
+/// of `rows` rows and `columns` columns.
+void subtract_square(const double* panel, std::size_t rows, std::size_t columns, double* c, std::size_t size);
+void subtract_square(const std::complex<double>* panel, std::size_t rows, std::size_t columns, std::complex<double>* c,
+                     std::size_t size);
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+#include "disk_hierarchy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace papilla::param_detail {
+namespace {
+
+constexpr Index k_none = ~Index{0};
+
+/// Vertices with more triangles stay until their neighbours are gone.
+constexpr std::size_t k_most_triangles = 24;
+
+/// Neighbours of a target that are looked through at most.
+constexpr std::size_t k_most_neighbors = 200;
+
+/// Shortest edges that are tried as ways to remove a vertex.
+constexpr std::size_t k_targets = 2;
+
+/// In one pass, only the cheapest part of the vertices is removed.
+constexpr double k_pass_share = 0.8;
+
+/// What the three rounds ask of new triangles: the least cosine of their normal with the old ones', and the least shape
+/// (4√3 area / sum of squared edges), unless they are half as good as the old ones. A map of the coarse mesh can be no
+/// better than its triangles; the last round serves topology alone.
+struct Round {
+  double cosine, shape;
+  std::size_t enough;
+};
+constexpr std::array<Round, 3> k_rounds{{{0.3, 0.1, 0}, {-0.5, 0.03, 0}, {-2.0, 0, 400}}};
+
+/// A pass that removes less than this part of the vertices lowers what is asked of the shape.
+constexpr double k_poor_pass = 0.02;
+
+}  // namespace
+
+class DiskHierarchy::Coarsener {
+ public:
+  Coarsener(DiskHierarchy& result, std::span<const Vec3> positions)
+      : h_(result),
+        positions_(positions),
+        head_(positions.size(), k_none),
+        tail_(positions.size(), k_none),
+        next_(3 * h_.triangles_.size(), k_none),
+        locked_(positions.size(), 0),
+        stamp_(positions.size(), 0) {
+    for (Index c = 0; c < next_.size(); ++c) {
+      const Index v = h_.triangles_[c / 3][c % 3];
+      if (head_[v] == k_none)
+        head_[v] = c;
+      else
+        next_[tail_[v]] = c;
+      tail_[v] = c;
+    }
+    for (Index v = 0; v < head_.size(); ++v)
+      if (head_[v] != k_none) vertices_.push_back(v);
+  }
+
+  void run(std::size_t enough) {
+    for (const Round& round : k_rounds)
+      while (vertices_.size() > std::max(enough, round.enough)) {
+        const std::size_t before = vertices_.size();
+        pass(round, std::max(enough, round.enough));
+        const double removed = static_cast<double>(before - vertices_.size());
+        if (removed < std::max(1.0, k_poor_pass * static_cast<double>(before))) break;
+      }
+    h_.vertex_count_ = vertices_.size();
+  }
+
+ private:
+  /// What surrounds a vertex, counter-clockwise; the border vertices first and last when it lies on the border.
+  struct Ring {
+    std::array<Index, k_most_triangles + 1> vertex;
+    std::array<Index, k_most_triangles> triangle;
+    std::size_t triangles = 0, size = 0;
+    bool closed = false;
+    Vec3 normal;  ///< Sum of the triangles' cross products; set by best_target().
+  };
+
+  struct Candidate {
+    double cost;
+    Index vertex, target;
+    bool operator<(const Candidate& other) const {
+      return cost != other.cost ? cost < other.cost : vertex < other.vertex;
+    }
+  };
+
+  void pass(const Round& round, std::size_t enough) {
+    std::vector<Candidate> candidates;
+    candidates.reserve(vertices_.size());
+    Ring ring{};
+    for (const Index v : vertices_) {
+      if (!find_ring(v, ring)) continue;
+      const Candidate c = best_target(v, ring, round);
+      if (c.target != k_none) candidates.push_back(c);
+    }
+    const auto used = candidates.begin() +
+                      static_cast<std::ptrdiff_t>(std::ceil(k_pass_share * static_cast<double>(candidates.size())));
+    std::nth_element(candidates.begin(), used, candidates.end());
+    std::sort(candidates.begin(), used);
+    ++pass_;
+    std::size_t left = vertices_.size();
+    for (auto c = candidates.begin(); c != used && left > enough; ++c) {
+      // An unlocked vertex still has the ring it was judged by; its target's neighbours may have changed.
+      if (locked_[c->vertex] == pass_ || !find_ring(c->vertex, ring) || !may_merge(ring, place_of(ring, c->target)))
+        continue;
+      remove(c->vertex, c->target, ring);
+      --left;
+    }
+    std::erase_if(vertices_, [&](Index v) { return head_[v] == k_none; });
+  }
+
+  static std::size_t place_of(const Ring& ring, Index vertex) {
+    return static_cast<std::size_t>(std::find(ring.vertex.begin(), ring.vertex.begin() + ring.size, vertex) -
+                                    ring.vertex.begin());
+  }
+
+  template <class Visit>
+  void each_corner(Index v, Visit visit) {
+    Index* link = &head_[v];
+    Index last = k_none;
+    while (*link != k_none) {
+      const Index c = *link;
+      if (!h_.alive_[c / 3]) {  // forgotten here, where it is met
+        *link = next_[c];
+        continue;
+      }
+      last = c;
+      if (!visit(c)) return;
+      link = &next_[c];
+    }
+    tail_[v] = last;
+  }
+
+  bool find_ring(Index v, Ring& ring) {
+    std::array<Index, k_most_triangles> from, to, triangle;
+    std::size_t count = 0;
+    bool small = true;
+    each_corner(v, [&](Index c) {
+      if (count == k_most_triangles) return small = false;
+      const Triangle& t = h_.triangles_[c / 3];
+      from[count] = t[(c % 3 + 1) % 3];
+      to[count] = t[(c % 3 + 2) % 3];
+      triangle[count++] = c / 3;
+      return true;
+    });
+    if (!small || count == 0) return false;
+    std::size_t start = 0;
+    ring.closed = true;
+    for (std::size_t i = 0; i < count; ++i)
+      if (std::find(to.begin(), to.begin() + count, from[i]) == to.begin() + count) start = i, ring.closed = false;
+    ring.triangles = count;
+    ring.size = 0;
+    std::size_t at = start;
+    for (std::size_t i = 0; i < count; ++i) {
+      ring.vertex[ring.size++] = from[at];
+      ring.triangle[i] = triangle[at];
+      const Index end = to[at];
+      if (i + 1 == count) {
+        if (ring.closed != (end == ring.vertex[0])) return false;
+        if (!ring.closed) ring.vertex[ring.size++] = end;
+        break;
+      }
+      at = static_cast<std::size_t>(std::find(from.begin(), from.begin() + count, end) - from.begin());
+      if (at == count) return false;
+    }
+    return ring.closed ? ring.size >= 3 : ring.triangles >= 2;
+  }
+
+  /// The vertex may slide onto ring vertex `place`: the target has no edge yet to those it will be linked with.
+  bool may_merge(const Ring& ring, std::size_t place) {
+    const Index target = ring.vertex[place];
+    ++mark_;
+    std::size_t count = 0;
+    bool small = true;
+    each_corner(target, [&](Index c) {
+      if (++count > k_most_neighbors) return small = false;
+      const Triangle& t = h_.triangles_[c / 3];
+      stamp_[t[(c % 3 + 1) % 3]] = stamp_[t[(c % 3 + 2) % 3]] = mark_;
+      return true;
+    });
+    if (!small) return false;
+    for (std::size_t i = 0; i < ring.size; ++i) {
+      const std::size_t apart = i > place ? i - place : place - i;
+      if (apart > 1 && !(ring.closed && apart == ring.size - 1) && stamp_[ring.vertex[i]] == mark_) return false;
+    }
+    return true;
+  }
+
+  Candidate best_target(Index v, Ring& ring, const Round& round) {
+    ring.normal = {};
+    for (std::size_t i = 0; i < ring.triangles; ++i)
+      ring.normal = ring.normal + cross(positions_[ring.vertex[i]] - positions_[v],
+                                        positions_[ring.vertex[(i + 1) % ring.size]] - positions_[v]);
+    Candidate best{std::numeric_limits<double>::infinity(), v, k_none};
+    if (!ring.closed) {
+      consider(v, ring, 0, round, best);
+      consider(v, ring, ring.size - 1, round, best);
+      return best;
+    }
+    std::array<std::pair<double, std::size_t>, k_most_triangles> by_length;
+    for (std::size_t i = 0; i < ring.size; ++i) {
+      const Vec3 e = positions_[ring.vertex[i]] - positions_[v];
+      by_length[i] = {dot(e, e), i};
+    }
+    const std::size_t tried = std::min(k_targets, ring.size);
+    std::partial_sort(by_length.begin(), by_length.begin() + tried, by_length.begin() + ring.size);
+    for (std::size_t i = 0; i < tried; ++i) consider(v, ring, by_length[i].second, round, best);
+    for (std::size_t i = tried; i < ring.size && best.target == k_none; ++i)
+      consider(v, ring, by_length[i].second, round, best);
+    return best;
+  }
+
+  /// 1 for an equilateral triangle, 0 for one without area.
+  static double shape(double doubled_area, double squares) {
+    return squares > 0 ? 2 * std::sqrt(3.0) * doubled_area / squares : 0;
+  }
+
+  double worst_shape(Vec3 origin, const Ring& ring) const {
+    double worst = 1;
+    for (std::size_t i = 0; i < ring.triangles; ++i) {
+      const Vec3 p = positions_[ring.vertex[i]] - origin, q = positions_[ring.vertex[(i + 1) % ring.size]] - origin;
+      const Vec3 r = q - p;
+      worst = std::min(worst, shape(norm(cross(p, q)), dot(p, p) + dot(q, q) + dot(r, r)));
+    }
+    return worst;
+  }
+
+  void consider(Index v, const Ring& ring, std::size_t place, const Round& round, Candidate& best) {
+    const Vec3 origin = positions_[v], target = positions_[ring.vertex[place]];
+    const Vec3 edge = target - origin, normal = ring.normal;
+    const double size = norm(normal);
+    double cosine = 1, quality = 1;
+    for (std::size_t i = 0; i < ring.triangles; ++i) {
+      const std::size_t j = (i + 1) % ring.size;
+      if (i == place || j == place) continue;
+      const Vec3 p = positions_[ring.vertex[i]] - target, q = positions_[ring.vertex[j]] - target, r = q - p;
+      const Vec3 doubled = cross(p, q);
+      const double area = norm(doubled);
+      if (area > 0 && size > 0) cosine = std::min(cosine, dot(doubled, normal) / (area * size));
+      quality = std::min(quality, shape(area, dot(p, p) + dot(q, q) + dot(r, r)));
+    }
+    if (cosine < round.cosine) return;
+    if (quality < round.shape && quality < 0.5 * worst_shape(origin, ring)) return;
+    if (!ring.closed) {
+      const Vec3 in = origin - positions_[ring.vertex.front()], out = positions_[ring.vertex[ring.size - 1]] - origin;
+      const double lengths = norm(in) * norm(out);
+      if (lengths > 0) cosine = std::min(cosine, dot(in, out) / lengths);
+    }
+    const double cost = dot(edge, edge) * (0.05 + 1 - cosine) / std::max(quality, 0.05);
+    if (cost < best.cost && may_merge(ring, place)) best.cost = cost, best.target = ring.vertex[place];
+  }
+
+  void remove(Index v, Index target, const Ring& ring) {
+    Removal removal{v, target, static_cast<Index>(h_.around_.size()), static_cast<Index>(ring.triangles)};
+    for (std::size_t i = 0; i < ring.triangles; ++i) {
+      const Index t = ring.triangle[i];
+      h_.around_.push_back(t);
+      Triangle& corners = h_.triangles_[t];
+      if (std::find(corners.begin(), corners.end(), target) != corners.end())
+        h_.alive_[t] = 0;
+      else
+        std::replace(corners.begin(), corners.end(), v, target);
+    }
+    for (std::size_t i = 0; i < ring.size; ++i) locked_[ring.vertex[i]] = pass_;
+    locked_[v] = pass_;
+    each_corner(v, [](Index) { return true; });
+    if (head_[v] != k_none) {
+      each_corner(target, [](Index) { return true; });
+      if (head_[target] == k_none)
+        head_[target] = head_[v];
+      else
+        next_[tail_[target]] = head_[v];
+      tail_[target] = tail_[v];
+      head_[v] = tail_[v] = k_none;
+    }
+    h_.removals_.push_back(removal);
+  }
+
+  DiskHierarchy& h_;
+  std::span<const Vec3> positions_;
+  std::vector<Index> head_, tail_, next_;  ///< Corners of each vertex as a list.
+  std::vector<std::uint32_t> locked_, stamp_;
+  std::uint32_t pass_ = 0, mark_ = 0;
+  std::vector<Index> vertices_;
+};
+
+DiskHierarchy::DiskHierarchy(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::size_t enough)
+    : triangles_(triangles.begin(), triangles.end()), alive_(triangles.size(), 1) {
+  Coarsener(*this, positions).run(enough);
+  removed_ = removals_.size();
+}
+
+Removal DiskHierarchy::restore() {
+  const Removal removal = removals_[--removed_];
+  for (const Index t : around(removal)) {
+    if (alive_[t]) std::replace(triangles_[t].begin(), triangles_[t].end(), removal.target, removal.vertex);
+    alive_[t] = 1;
+  }
+  ++vertex_count_;
+  return removal;
+}
+
+void DiskHierarchy::remove_again() {
+  const Removal removal = removals_[removed_++];
+  for (const Index t : around(removal)) {
+    Triangle& corners = triangles_[t];
+    if (std::find(corners.begin(), corners.end(), removal.target) != corners.end())
+      alive_[t] = 0;
+    else
+      std::replace(corners.begin(), corners.end(), removal.vertex, removal.target);
+  }
+  --vertex_count_;
+}
+
+}  // namespace papilla::param_detail

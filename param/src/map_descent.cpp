@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "map_descent.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "sparse_cholesky.hpp"
+
+namespace papilla::param_detail {
+namespace {
+
+/// Triangles that one task sums; decides the order of sums, so a constant.
+constexpr std::size_t k_chunk = 4096;
+
+/// Added to the diagonal once per triangle and corner: translations and rotations change no energy. The energy's own
+/// entries are about 1.
+constexpr double k_anchor = 1e-8;
+
+/// Part of the way to the first flip that a step may go.
+constexpr double k_before_flip = 0.9;
+
+constexpr double k_armijo = 1e-4;
+
+/// A full step that lowers the energy by this part of its slope or more (half of it is what a quadratic promises) is
+/// reason to keep the factorization.
+constexpr double k_good_step = 0.3;
+
+constexpr int k_halvings = 40;
+
+/// Bisections between the longest step that is accepted and the shortest that is refused.
+constexpr int k_refinements = 4;
+
+template <class Body>
+void for_chunks(std::size_t count, Body body) {
+  const std::size_t chunks = (count + k_chunk - 1) / k_chunk;
+  const auto run = [&](std::size_t chunk) { body(chunk, chunk * k_chunk, std::min(count, (chunk + 1) * k_chunk)); };
+  if (chunks == 1)
+    run(0);
+  else
+    oneapi::tbb::parallel_for(std::size_t{0}, chunks, run);
+}
+
+/// Sums `term(triangle)` in an order that depends on nothing but the number of triangles.
+template <class Term>
+double sum_over(std::size_t count, Term term) {
+  std::vector<double> sums((count + k_chunk - 1) / k_chunk, 0);
+  for_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t t = begin; t < end; ++t) sum += term(t);
+    sums[chunk] = sum;
+  });
+  double sum = 0;
+  for (const double s : sums) sum += s;
+  return sum;
+}
+
+double dot(std::span<const Vec2> a, std::span<const Vec2> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += papilla::dot(a[i], b[i]);
+  return sum;
+}
+
+using Pairs = std::vector<BorderBarrier::Pair>;
+
+double barrier_value(const DescentProblem& problem, std::span<const Vec2> uv) {
+  double sum = 0;
+  if (problem.barrier)
+    for (const auto& pair : problem.barrier->near_pairs(uv)) sum += problem.barrier->value(pair, uv);
+  return sum;
+}
+
+/// Factors for one state and solves H d = -g.
+class NewtonStep {
+ public:
+  NewtonStep(const DescentProblem& problem, std::span<const Vec2> uv) : problem_(problem) {
+    if (!problem.barrier) prepare(uv, {});
+  }
+
+  void factor(std::span<const Vec2> uv, const Pairs& pairs) {
+    if (problem_.barrier) prepare(uv, pairs);
+    const std::size_t triangles = problem_.triangles.size();
+    factor_->factor([&](std::size_t e, double* matrix) {
+      if (e >= triangles) return problem_.barrier->hessian(pairs[e - triangles], uv, matrix);
+      const auto [a, b, c] = problem_.triangles[e];
+      problem_.energy->hessian(e, uv[a], uv[b], uv[c], matrix);
+      for (std::size_t k = 0; k < 6; ++k) matrix[7 * k] += k_anchor;
+    });
+  }
+
+  std::vector<Vec2> direction(std::span<const Vec2> gradient) const {
+    const std::size_t count = gradient.size();
+    std::vector<double> right(2 * count);
+    for (std::size_t v = 0; v < count; ++v) right[2 * v] = -gradient[v].x, right[2 * v + 1] = -gradient[v].y;
+    factor_->solve(right);
+    std::vector<Vec2> direction(count);
+    for (std::size_t v = 0; v < count; ++v) direction[v] = {right[2 * v], right[2 * v + 1]};
+    return direction;
+  }
+
+ private:
+  void prepare(std::span<const Vec2> uv, const Pairs& pairs) {
+    Elements elements = elements_of(problem_.triangles);
+    for (const auto& pair : pairs) elements.add(std::array{pair.vertex, pair.from, pair.to});
+    std::vector<Vec3> where(uv.size());
+    for (std::size_t v = 0; v < uv.size(); ++v) where[v] = {uv[v].x, uv[v].y, 0};
+    factor_.emplace(elements, where, 2);
+  }
+
+  const DescentProblem& problem_;
+  std::optional<SparseCholesky<double>> factor_;
+};
+
+}  // namespace
+
+double total_energy(const DescentProblem& problem, std::span<const Vec2> uv) {
+  return sum_over(problem.triangles.size(), [&](std::size_t t) {
+    const auto [a, b, c] = problem.triangles[t];
+    return problem.energy->value(t, uv[a], uv[b], uv[c]);
+  });
+}
+
+std::vector<Vec2> energy_gradient(const DescentProblem& problem, std::span<const Vec2> uv) {
+  std::vector<CornerGradient> of_triangle(problem.triangles.size());
+  for_chunks(of_triangle.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = problem.triangles[t];
+      of_triangle[t] = problem.energy->gradient(t, uv[a], uv[b], uv[c]);
+    }
+  });
+  std::vector<Vec2> gradient(uv.size());
+  for (std::size_t t = 0; t < of_triangle.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec2& g = gradient[problem.triangles[t][k]];
+      g = g + of_triangle[t][k];
+    }
+  return gradient;
+}
+
+double step_to_first_flip(std::span<const Triangle> triangles, std::span<const Vec2> uv,
+                          std::span<const Vec2> direction, double most) {
+  double step = most;
+  for (const Triangle& t : triangles) {
+    const Vec2 m = uv[t[1]] - uv[t[0]], n = uv[t[2]] - uv[t[0]];
+    const Vec2 dm = direction[t[1]] - direction[t[0]], dn = direction[t[2]] - direction[t[0]];
+    // det(m + s dm, n + s dn) = c + b s + a s²
+    const double a = cross(dm, dn), b = cross(m, dn) + cross(dm, n), c = cross(m, n);
+    const double root = b * b - 4 * a * c;
+    if (root < 0) continue;
+    // Both roots without cancellation; the smaller positive one counts.
+    const double q = -0.5 * (b + std::copysign(std::sqrt(root), b));
+    if (a != 0 && q / a > 0) step = std::min(step, q / a);
+    if (q != 0 && c / q > 0) step = std::min(step, c / q);
+  }
+  return step;
+}
+
+namespace {
+
+struct Step {
+  double length = 0;     ///< 0: none was found.
+  bool refused = false;  ///< A longer one lowers the energy, but was not accepted.
+};
+
+/// Goes along `direction` as far as the energy falls (Armijo), no triangle turns over and nobody refuses.
+/// @param slope derivative of the energy along the direction, negative.
+/// @param energy of uv on entry, of the new uv on return.
+Step line_search(const DescentProblem& problem, std::span<const Vec2> direction, double slope, double first_length,
+                 bool allow_flips, std::vector<Vec2>& uv, double& energy) {
+  Step step;
+  double length = first_length;
+  if (!allow_flips) {
+    const double flip = step_to_first_flip(problem.triangles, uv, direction, first_length / k_before_flip);
+    length = std::min(first_length, k_before_flip * flip);
+  }
+  const double start = energy + barrier_value(problem, uv);
+  std::vector<Vec2> trial(uv.size()), best;
+  double shortening = 0;  // once a refused length is known: how much of it the next trial goes further or less far
+  for (int i = 0, tries = k_halvings; i < tries; ++i) {
+    for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + length * direction[v];
+    const bool simple = !problem.barrier || problem.barrier->is_simple(trial);
+    const double value = simple ? total_energy(problem, trial) : std::numeric_limits<double>::infinity();
+    const bool lower = simple && value + barrier_value(problem, trial) <= start + k_armijo * length * slope;
+    const bool good = lower && (!problem.accept || problem.accept(trial));
+    if (lower && !good) step.refused = true;
+    if (good) {
+      std::swap(best, trial);
+      trial.resize(uv.size());
+      energy = value;
+      step.length = length;
+      if (!step.refused) break;
+      if (shortening == 0) shortening = 0.5 * length, tries = i + 1 + k_refinements;
+      length += shortening;
+    } else if (shortening == 0) {
+      length *= 0.5;
+      continue;
+    } else {
+      length -= shortening;
+    }
+    shortening *= 0.5;
+  }
+  if (step.length > 0) std::swap(uv, best);
+  return step;
+}
+
+/// The iteration that both methods share: `direct(gradient, uv, pairs, good)` says where to go, `good` whether the last
+/// step did what was expected of it.
+template <class Direct>
+DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options,
+                      double growth, Direct direct) {
+  const Stopwatch clock;
+  DescentResult result;
+  result.energy = total_energy(problem, uv);
+  result.trace.push_back({clock.seconds(), result.energy});
+  double step = 1;
+  bool good = false;
+  while (result.iterations < options.max_iterations) {
+    if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
+      result.stop = StopReason::time_limit;
+      break;
+    }
+    std::vector<Vec2> gradient = energy_gradient(problem, uv);
+    Pairs pairs;
+    if (problem.barrier) {
+      pairs = problem.barrier->near_pairs(uv);
+      for (const auto& pair : pairs) {
+        const auto g = problem.barrier->gradient(pair, uv);
+        gradient[pair.vertex] = gradient[pair.vertex] + g[0];
+        gradient[pair.from] = gradient[pair.from] + g[1];
+        gradient[pair.to] = gradient[pair.to] + g[2];
+      }
+    }
+    const std::vector<Vec2> direction = direct(gradient, uv, pairs, good);
+    const double slope = dot(gradient, direction), before = result.energy;
+    ++result.iterations;
+    Step taken;
+    if (slope < 0) taken = line_search(problem, direction, slope, step, options.allow_flips, uv, result.energy);
+    if (taken.length == 0) {
+      // Near the minimum rounding hides how far the energy falls.
+      result.stop =
+          std::abs(slope) <= options.tolerance * before ? StopReason::converged : StopReason::line_search_stalled;
+      break;
+    }
+    result.trace.push_back({clock.seconds(), result.energy});
+    if (std::abs(before - result.energy) <= options.tolerance * result.energy) {
+      result.stop = StopReason::converged;
+      break;
+    }
+    if (taken.refused) {
+      result.stop = StopReason::line_search_stalled;
+      break;
+    }
+    good = taken.length == step && before - result.energy > -k_good_step * step * slope;
+    step = growth > 1 ? growth * taken.length : 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options) {
+  return iterate(problem, uv, options, 2,
+                 [](const std::vector<Vec2>& gradient, std::span<const Vec2>, const Pairs&, bool) {
+                   std::vector<Vec2> direction(gradient);
+                   for (Vec2& d : direction) d = -1.0 * d;
+                   return direction;
+                 });
+}
+
+DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options) {
+  NewtonStep newton(problem, uv);
+  return iterate(problem, uv, options, 1,
+                 [&](const std::vector<Vec2>& gradient, std::span<const Vec2> at, const Pairs& pairs, bool good) {
+                   if (!good || !options.reuse_factor) newton.factor(at, pairs);
+                   return newton.direction(gradient);
+                 });
+}
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "border_guard.hpp"
+#include "map_energy.hpp"
+#include "papilla/core/trace.hpp"
+
+namespace papilla::param_detail {
+
+struct DescentOptions {
+  int max_iterations = 100;
+  double tolerance = 1e-6;    ///< Stop when the energy falls by less than this fraction in an iteration.
+  double time_limit_s = 0;    ///< 0: none.
+  bool allow_flips = false;   ///< Let triangles turn over; the energy must then be finite for such.
+  bool reuse_factor = false;  ///< Factor again only when a step disappoints: for energies that are nearly quadratic.
+};
+
+struct DescentResult {
+  double energy = 0;  ///< Without the barrier's part.
+  int iterations = 0;
+  StopReason stop = StopReason::iteration_limit;
+  Trace trace;  ///< error = energy; one sample at the start and after each iteration.
+};
+
+/// A map's triangles and the energy to be lowered. With a barrier, no state is taken in which the border meets itself.
+/// `accept` may refuse states for reasons of its own; the descent ends where it does.
+struct DescentProblem {
+  std::span<const Triangle> triangles;
+  const MapEnergy* energy = nullptr;
+  const BorderBarrier* barrier = nullptr;
+  std::function<bool(std::span<const Vec2>)> accept = {};
+};
+
+double total_energy(const DescentProblem& problem, std::span<const Vec2> uv);
+std::vector<Vec2> energy_gradient(const DescentProblem& problem, std::span<const Vec2> uv);
+
+/// The largest step along `direction`, at most `most`, before the first triangle turns over.
+double step_to_first_flip(std::span<const Triangle> triangles, std::span<const Vec2> uv,
+                          std::span<const Vec2> direction, double most);
+
+/// Steepest descent with line search; each search begins at twice the step that the last one took.
+DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options);
+
+/// Projected Newton (Gauss-Newton for energies whose `hessian` is that) with line search. Without a barrier one
+/// symbolic factorization serves all iterations.
+DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options);
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "papilla/meshing/triangle_mesh.hpp"
+#include "papilla/param/grain_frame.hpp"
+
+namespace papilla::param_detail {
+
+/// Right, back and up seen by a viewer in front of the object: a right-handed frame.
+struct UprightFrame {
+  Vec3 right, back, up;
+};
+UprightFrame upright_frame(GrainUp up);
+
+struct Bounds {
+  Vec3 low, high;
+  Vec3 middle() const { return 0.5 * (low + high); }
+  double diagonal() const { return norm(high - low); }
+};
+/// Of the vertices that triangles use; zero for a mesh without triangles.
+Bounds bounds_of(const TriangleMesh& mesh);
+
+/// Area-weighted normals of the vertices; zero where triangles cancel out.
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
+
+}  // namespace papilla::param_detail

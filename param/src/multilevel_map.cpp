@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "multilevel_map.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "convex_map.hpp"
+#include "map_descent.hpp"
+#include "map_level.hpp"
+#include "ring_placement.hpp"
+
+namespace papilla::param_detail {
+namespace {
+
+/// Where coarsening ends.
+constexpr std::size_t k_base_vertices = 24;
+
+/// Vertices of a level over those of the one before; fewer where the border is watched and vertices have less room.
+constexpr std::size_t k_growth = 6;
+constexpr std::size_t k_guarded_growth = 3;
+
+/// Triangles of coarse levels count as having at least this part of the mean area: their shape is not the surface's,
+/// and slivers would only hold the others up.
+constexpr double k_coarse_area = 1e-3;
+
+/// Of levels that are only a step on the way.
+constexpr double k_coarse_tolerance = 1e-2;
+constexpr int k_coarse_iterations = 20;
+constexpr double k_relax_tolerance = 3e-3;
+constexpr int k_relax_sweeps = 10;
+
+/// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
+/// factorization takes 2 kB per vertex.
+constexpr std::size_t k_most_factored = 200'000;
+constexpr int k_fine_sweeps = 30;
+
+/// How hard a vertex and an edge of the border push each other away, in mean areas of a triangle.
+constexpr double k_push = 0.05;
+
+class Multilevel {
+ public:
+  Multilevel(const ChartSurface& chart, const MultilevelOptions& options)
+      : chart_(chart),
+        options_(options),
+        hierarchy_(chart.positions, chart.triangles, k_base_vertices),
+        all_removed_(hierarchy_.removed_count()),
+        uv_(chart.positions.size()),
+        least_edge_(least_edge(chart.positions, chart.triangles)) {}
+
+  /// @param guarded keep the border out of its own way from the first level on.
+  bool run(bool guarded) {
+    guarded_ = guarded;
+    while (hierarchy_.removed_count() < all_removed_) hierarchy_.remove_again();
+    result_ = {};
+    MapLevel level = make_level();
+    level.uv = map_to_circle(level, chart_.positions);
+    if (!std::isfinite(total(level))) return fail("Tutte's map of the coarsened chart is not valid");
+    for (;;) {
+      improve(level);
+      keep(level);
+      if (hierarchy_.removed_count() == 0) break;
+      if (!refine(level)) return fail("vertices have no room in the coarser map");
+    }
+    if (!make_barrier(level).is_simple(level.uv)) return fail("the chart overlaps itself");
+    result_.uv = uv_;
+    return true;
+  }
+
+  MultilevelMap take() { return std::move(result_); }
+
+ private:
+  bool fail(std::string why) {
+    result_.failure = std::move(why);
+    return false;
+  }
+
+  MapLevel make_level() const {
+    return current_level(hierarchy_, chart_.positions, uv_, hierarchy_.removed_count() > 0 ? least_area() : 0);
+  }
+
+  double least_area() const {
+    double area = 0;
+    std::size_t count = 0;
+    for (Index t = 0; t < hierarchy_.triangles().size(); ++t) {
+      if (!hierarchy_.alive(t)) continue;
+      const Triangle& c = hierarchy_.triangles()[t];
+      area += 0.5 * norm(cross(chart_.positions[c[1]] - chart_.positions[c[0]],
+                               chart_.positions[c[2]] - chart_.positions[c[0]]));
+      ++count;
+    }
+    return k_coarse_area * area / static_cast<double>(count);
+  }
+
+  double total(const MapLevel& level) const {
+    const SymmetricDirichlet energy(level.rest);
+    return total_energy({level.triangles, &energy, nullptr}, level.uv);
+  }
+
+  static BorderBarrier make_barrier(const MapLevel& level) {
+    return {level.border, level.uv, k_push * level.area / static_cast<double>(level.triangles.size())};
+  }
+
+  void improve(MapLevel& level) {
+    const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= k_most_factored;
+    trace(level, last);
+    const double relax_tolerance = last && !factored ? 0.1 * options_.tolerance : k_relax_tolerance;
+    relax(level, last && !factored ? k_fine_sweeps : k_relax_sweeps, relax_tolerance, guarded_);
+    trace(level, last);
+    if (!factored || (last && options_.max_iterations == 0)) return;
+    const SymmetricDirichlet dirichlet(level.rest);
+    const BorderBarrier barrier = make_barrier(level);
+    const double start = clock_.seconds();
+    DescentOptions descent;
+    descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
+    descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
+    descent.time_limit_s = options_.time_limit_s;
+    const DescentResult result =
+        descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
+    if (!last) return;
+    result_.stop = result.stop;
+    for (std::size_t i = 1; i < result.trace.size(); ++i)
+      result_.trace.push_back({start + result.trace[i].seconds, result.trace[i].error / level.area});
+  }
+
+  void trace(const MapLevel& level, bool last) {
+    if (last) result_.trace.push_back({clock_.seconds(), total(level) / level.area});
+  }
+
+  void keep(const MapLevel& level) {
+    for (std::size_t i = 0; i < level.vertices.size(); ++i) uv_[level.vertices[i]] = level.uv[i];
+  }
+
+  /// Brings vertices back until there are k_growth times as many, or all, or the next one finds no place.
+  bool refine(MapLevel& level) {
+    const std::size_t before = hierarchy_.removed_count();
+    const std::size_t growth = guarded_ ? k_guarded_growth : k_growth;
+    const std::size_t enough = growth * hierarchy_.vertex_count();
+    const std::size_t all = hierarchy_.removed_count() + hierarchy_.vertex_count();
+    // A rest that is smaller than a level of its own joins this one.
+    const std::size_t leave = 2 * all < 3 * enough ? 0 : all - enough;
+    const double least = leave > 0 ? least_area() / static_cast<double>(growth) : 0;
+    guard_.reset();
+    if (guarded_) {
+      std::vector<BorderPair> border = level.border;
+      for (BorderPair& pair : border) pair = {level.vertices[pair[0]], level.vertices[pair[1]]};
+      guard_.emplace(std::move(border), uv_);
+    }
+    while (hierarchy_.removed_count() > leave)
+      if (!insert(least)) {
+        hierarchy_.remove_again();
+        break;
+      }
+    if (hierarchy_.removed_count() == before) return false;
+    level = make_level();
+    return true;
+  }
+
+  bool insert(double least_area) {
+    const Removal removal = hierarchy_.restore();
+    ring_.clear();
+    Index first = ~Index{0}, last = first;
+    for (const Index t : hierarchy_.around(removal)) {
+      const Triangle& c = hierarchy_.triangles()[t];
+      const std::size_t k = c[0] == removal.vertex ? 0 : c[1] == removal.vertex ? 1 : 2;
+      const Index a = c[(k + 1) % 3], b = c[(k + 2) % 3];
+      if (ring_.empty()) first = a;
+      last = b;
+      ring_.push_back({uv_[a], uv_[b],
+                       rest_shape(chart_.positions[removal.vertex], chart_.positions[a], chart_.positions[b],
+                                  least_edge_, least_area)});
+    }
+    Vec2& place = uv_[removal.vertex];
+    if (!guard_ || first == last) return place_in_ring(ring_, {}, place);
+    // The border ran from the ring's last vertex to its first one.
+    const auto free = [&](Vec2 p) { return guard_->may_split(last, first, removal.vertex, p); };
+    if (!place_in_ring(ring_, free, place)) return false;
+    guard_->split(last, first, removal.vertex, place);
+    return true;
+  }
+
+  const ChartSurface& chart_;
+  const MultilevelOptions& options_;
+  Stopwatch clock_;
+  DiskHierarchy hierarchy_;
+  std::size_t all_removed_;
+  std::vector<Vec2> uv_;
+  double least_edge_;
+  bool guarded_ = false;
+  std::vector<RingEdge> ring_;
+  std::optional<BorderGuard> guard_;
+  MultilevelMap result_;
+};
+
+}  // namespace
+
+MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options) {
+  // Most charts do not overlap themselves when left alone, and are done faster so.
+  Multilevel multilevel(chart, options);
+  if (!multilevel.run(false)) multilevel.run(true);
+  return multilevel.take();
+}
+
+}  // namespace papilla::param_detail

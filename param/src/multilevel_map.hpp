@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chart_pieces.hpp"
+#include "papilla/core/trace.hpp"
+
+namespace papilla::param_detail {
+
+struct MultilevelOptions {
+  int max_iterations = 50;
+  double tolerance = 1e-3;
+  double time_limit_s = 0;
+};
+
+struct MultilevelMap {
+  std::vector<Vec2> uv;  ///< Per vertex; empty when `failure` says why.
+  std::string failure;
+  StopReason stop = StopReason::converged;
+  Trace trace;  ///< Error: mean symmetric Dirichlet energy of the whole chart, from the first map of it on.
+};
+
+/// A map of low symmetric Dirichlet energy that is injective: no triangle is flipped, and the chart does not overlap
+/// itself. The chart is coarsened to a few triangles, these are mapped, and vertices come back in order, each to a
+/// place where its triangles are positive; the map of every level is relaxed before the next one.
+/// @param chart connected, of genus 0, with a border; coordinates around 1.
+MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options);
+
+}  // namespace papilla::param_detail

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "sparse_cholesky.hpp"
+
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include <algorithm>
+
+#include "dense_cholesky.hpp"
+
+namespace papilla::param_detail {
+namespace {
+
+/// Unknowns at which dissection stops: smaller fronts cost more in bookkeeping than they save.
+constexpr Index k_leaf = 16;
+
+/// Branches with fewer multiplications are not worth a task of their own.
+constexpr std::size_t k_parallel_work = 200'000;
+
+double conjugate(double x) { return x; }
+std::complex<double> conjugate(std::complex<double> x) { return std::conj(x); }
+double real_part(double x) { return x; }
+double real_part(std::complex<double> x) { return x.real(); }
+
+}  // namespace
+
+/// What a front hands to its parent: a square matrix over its rows, lower half.
+template <class Scalar>
+struct SparseCholesky<Scalar>::Update {
+  std::vector<Scalar> values;
+  std::size_t size = 0;
+};
+
+template <class Scalar>
+SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const Vec3> where, int width)
+    : width_(static_cast<std::size_t>(width)), elements_(elements), dissection_(dissect(elements, where, k_leaf)) {
+  std::size_t total = 0;
+  for (const Front& front : dissection_.fronts) {
+    panel_.push_back(total);
+    total += width_ * front.size() * width_ * front.own();
+  }
+  for (std::size_t e = 0; e < elements_.count(); ++e)
+    largest_element_ = std::max(largest_element_, width_ * elements_.of(e).size());
+  factor_.resize(total + k_dense_slack);
+  bad_pivots_.resize(dissection_.fronts.size());
+}
+
+template <class Scalar>
+std::size_t SparseCholesky<Scalar>::factor(const FillElement& fill) {
+  std::fill(factor_.begin(), factor_.end(), Scalar(0));
+  if (!dissection_.fronts.empty()) eliminate(static_cast<Index>(dissection_.fronts.size() - 1), fill);
+  std::size_t bad = 0;
+  for (const std::size_t count : bad_pivots_) bad += count;
+  return bad;
+}
+
+template <class Scalar>
+typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index f, const FillElement& fill) {
+  const Front& front = dissection_.fronts[f];
+  Update left, right;
+  const auto first = [&] {
+    if (front.left != k_no_front) left = eliminate(front.left, fill);
+  };
+  const auto second = [&] {
+    if (front.right != k_no_front) right = eliminate(front.right, fill);
+  };
+  if (front.subtree_work * width_ * width_ * width_ > k_parallel_work)
+    oneapi::tbb::parallel_invoke(first, second);
+  else
+    first(), second();
+
+  Scalar* panel = factor_.data() + panel_[f];
+  Update update;
+  update.size = width_ * front.rows.size();
+  update.values.assign(update.size * update.size + k_dense_slack, Scalar(0));
+  assemble_elements(front, fill, panel, update);
+  if (front.left != k_no_front) assemble_child(front, dissection_.fronts[front.left], left, panel, update);
+  if (front.right != k_no_front) assemble_child(front, dissection_.fronts[front.right], right, panel, update);
+  const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
+  bad_pivots_[f] = factor_columns(panel, rows, columns);
+  subtract_square(panel, rows, columns, update.values.data(), update.size);
+  return update;
+}
+
+template <class Scalar>
+void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillElement& fill, Scalar* panel,
+                                               Update& update) const {
+  const std::size_t rows = width_ * front.size(), own = width_ * front.own();
+  std::vector<Scalar> matrix(largest_element_ * largest_element_);
+  std::vector<std::size_t> place(largest_element_);
+  for (const Index e : front.elements) {
+    const auto members = elements_.of(e);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const Index row = dissection_.position[members[i]];
+      place[i] =
+          row < front.end
+              ? row - front.begin
+              : front.own() + static_cast<std::size_t>(std::lower_bound(front.rows.begin(), front.rows.end(), row) -
+                                                       front.rows.begin());
+    }
+    fill(e, matrix.data());
+    const std::size_t size = width_ * members.size();
+    for (std::size_t j = 0; j < size; ++j)
+      for (std::size_t i = j; i < size; ++i) {
+        std::size_t row = width_ * place[i / width_] + i % width_, column = width_ * place[j / width_] + j % width_;
+        Scalar value = matrix[j * size + i];
+        if (row < column) std::swap(row, column), value = conjugate(value);
+        if (column < own)
+          panel[column * rows + row] += value;
+        else
+          update.values[(column - own) * update.size + (row - own)] += value;
+      }
+  }
+}
+
+template <class Scalar>
+void SparseCholesky<Scalar>::assemble_child(const Front& front, const Front& child, const Update& from, Scalar* panel,
+                                            Update& to) const {
+  const std::size_t rows = width_ * front.size(), own = width_ * front.own();
+  const Scalar* value = from.values.data();
+  for (std::size_t j = 0; j < from.size; ++j) {
+    const std::size_t column = width_ * child.into_parent[j / width_] + j % width_;
+    // Places ascend with rows, so that the lower half stays the lower half; before the shift by `own` a row's place in
+    // `to` may lie in front of the array, never after the shift.
+    Scalar* target = column < own ? panel + column * rows : to.values.data() + (column - own) * to.size;
+    const std::size_t shift = column < own ? 0 : own;
+    std::size_t i = j;
+    for (; i % width_ != 0; ++i) target[width_ * child.into_parent[i / width_] + i % width_ - shift] += value[i];
+    for (; i < from.size; i += width_) {
+      Scalar* place = target + (width_ * child.into_parent[i / width_] - shift);
+      for (std::size_t k = 0; k < width_; ++k) place[k] += value[i + k];
+    }
+    value += from.size;
+  }
+}
+
+template <class Scalar>
+void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
+  std::vector<Scalar> x(b.size()), local;
+  for (std::size_t i = 0; i < dissection_.order.size(); ++i)
+    for (std::size_t k = 0; k < width_; ++k) x[width_ * i + k] = b[width_ * dissection_.order[i] + k];
+  const auto each_row = [&](const Front& front, auto visit) {
+    std::size_t place = width_ * front.own();
+    for (const Index row : front.rows)
+      for (std::size_t k = 0; k < width_; ++k) visit(width_ * row + k, place++);
+  };
+  for (std::size_t f = 0; f < dissection_.fronts.size(); ++f) {
+    const Front& front = dissection_.fronts[f];
+    const std::size_t rows = width_ * front.size(), own = width_ * front.own();
+    local.assign(rows, Scalar(0));
+    std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
+    const Scalar* column = factor_.data() + panel_[f];
+    for (std::size_t j = 0; j < own; ++j, column += rows) {
+      const Scalar value = local[j] / real_part(column[j]);
+      local[j] = value;
+      for (std::size_t i = j + 1; i < rows; ++i) local[i] -= column[i] * value;
+    }
+    std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
+    each_row(front, [&](std::size_t row, std::size_t place) { x[row] += local[place]; });
+  }
+  for (std::size_t f = dissection_.fronts.size(); f-- > 0;) {
+    const Front& front = dissection_.fronts[f];
+    const std::size_t rows = width_ * front.size(), own = width_ * front.own();
+    local.resize(rows);
+    std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
+    each_row(front, [&](std::size_t row, std::size_t place) { local[place] = x[row]; });
+    for (std::size_t j = own; j-- > 0;) {
+      const Scalar* column = factor_.data() + panel_[f] + j * rows;
+      Scalar value = local[j];
+      for (std::size_t i = j + 1; i < rows; ++i) value -= conjugate(column[i]) * local[i];
+      local[j] = value / real_part(column[j]);
+    }
+    std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
+  }
+  for (std::size_t i = 0; i < dissection_.order.size(); ++i)
+    for (std::size_t k = 0; k < width_; ++k) b[width_ * dissection_.order[i] + k] = x[width_ * i + k];
+}
+
+template class SparseCholesky<double>;
+template class SparseCholesky<std::complex<double>>;
+
+}  // namespace papilla::param_detail

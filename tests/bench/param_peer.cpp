@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "bench/param_peer.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+
+#include "bench/whole_process.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_off(const fs::path& file, const TriangleMesh& mesh) {
+  std::ofstream out(file);
+  out << "OFF\n" << mesh.positions.size() << ' ' << mesh.triangles.size() << " 0\n" << std::setprecision(17);
+  for (const Vec3& p : mesh.positions) out << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const Triangle& t : mesh.triangles) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+}
+
+std::optional<PeerMap> read_result(const fs::path& file, const TriangleMesh& mesh) {
+  std::ifstream in(file);
+  PeerMap map;
+  if (!(in >> map.cpu_seconds >> map.peak_mib)) return {};
+  map.uv.values.resize(mesh.positions.size());
+  map.uv.indices = mesh.triangles;
+  for (Vec2& p : map.uv.values)
+    if (!(in >> p.x >> p.y) || !is_finite(p)) return {};
+  return map;
+}
+
+}  // namespace
+
+std::optional<PeerMap> peer_map(const std::string& method, const TriangleMesh& mesh) {
+  const char* program = std::getenv("PAPILLA_PARAM_PEER");
+  if (!program) return {};
+  const fs::path folder = fs::temp_directory_path() / ("papilla-peer-" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  write_off(folder / "mesh.off", mesh);
+  std::optional<PeerMap> map;
+  try {
+    run_process({program, method, (folder / "mesh.off").string(), (folder / "uv").string()});
+    map = read_result(folder / "uv", mesh);
+  } catch (const IoError&) {  // it refused the mesh
+  }
+  fs::remove_all(folder);
+  return map;
+}
+
+}  // namespace papilla::bench

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "papilla/meshing/triangle_mesh.hpp"
+
+namespace papilla::bench {
+
+/// What a program beside this one made of a mesh.
+struct PeerMap {
+  double cpu_seconds = 0, peak_mib = 0;
+  CornerAttribute<Vec2> uv;
+};
+
+/// Runs the program that the environment variable PAPILLA_PARAM_PEER names, for maps that no packaged library has:
+///     PROGRAM METHOD MESH.off RESULT
+/// writes "cpu_seconds peak_mib" and then a line "u v" per vertex to RESULT; cpu_seconds from arrays in memory to
+/// arrays in memory.
+/// @return nothing without such a program, when it fails, or when its uv are not finite.
+std::optional<PeerMap> peer_map(const std::string& method, const TriangleMesh& mesh);
+
+}  // namespace papilla::bench

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/param/best.hpp"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "papilla/core/error.hpp"
+#include "papilla/param/measure.hpp"
+#include "papilla_test/shapes.hpp"
+#include "support/formula_meshes.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr double k_pi = std::numbers::pi;
+
+/// Maps one chart and checks what is promised of every disk.
+DistortionReport valid_map(const TriangleMesh& mesh, const BestOptions& options = {}) {
+  const Flattening f = flatten_best(mesh, test::one_chart(mesh), options);
+  EXPECT_TRUE(f.notes.empty()) << f.notes.front().reason;
+  EXPECT_EQ(f.charts.count, 1u);
+  const DistortionReport r = measure_distortion(mesh, f.uv);
+  EXPECT_EQ(r.flipped, 0u);
+  EXPECT_EQ(r.degenerate_uv, 0u);
+  EXPECT_EQ(r.overlap_within_charts, 0);
+  EXPECT_EQ(r.overlapping_triangles, 0u);
+  EXPECT_EQ(r.mirrored_charts, 0u);
+  return r;
+}
+
+/// A tube of radius 1 and the given length that is closed at its end: convex maps shrink its tip by exp(-length).
+TriangleMesh finger(double length) {
+  const int rings = static_cast<int>(4 * length);
+  TriangleMesh mesh = test::grid_mesh(24, rings, [&](double s, double t) {
+    return Vec3{std::cos(2 * k_pi * s), std::sin(2 * k_pi * s), length * (t - 1)};
+  });
+  // Rolls the sheet up: the last column becomes the first one; the top ring is closed by a fan.
+  std::vector<Index> number(mesh.positions.size());
+  for (Index v = 0; v < number.size(); ++v) number[v] = v % 25 == 24 ? v - 24 : v;
+  for (Triangle& t : mesh.triangles)
+    for (Index& v : t) v = number[v];
+  const auto tip = static_cast<Index>(mesh.positions.size());
+  mesh.positions.push_back({0, 0, 0.5});
+  const auto top = static_cast<Index>(25 * rings);
+  for (Index i = 0; i < 24; ++i) mesh.triangles.push_back({top + i, top + (i + 1) % 24, tip});
+  return mesh;
+}
+
+/// A flat spiral strip, wound up on a cylinder of helical turns: free flattening lays the turns on one another.
+TriangleMesh spiral(int turns) {
+  return test::grid_mesh(24 * turns, 3, [&](double s, double t) {
+    const double angle = 2 * k_pi * turns * s, r = 10 + 5 * t;
+    return Vec3{r * std::cos(angle), -r * std::sin(angle), -2 * angle};
+  });
+}
+
+TEST(Best, DevelopableChartIsExact) {
+  const DistortionReport r = valid_map(test::grid_mesh(64, 30, test::open_cylinder));
+  EXPECT_NEAR(r.symmetric_dirichlet.mean, 4, 1e-9);
+  EXPECT_LT(r.maillot_length, 1e-9);
+  EXPECT_NEAR(r.uv_area, r.area_mm2, 1e-9 * r.area_mm2);
+}
+
+TEST(Best, ReachesTheKnownMinima) {
+  // Converged values of another solver (scalable locally injective mappings) on the same surfaces.
+  EXPECT_NEAR(valid_map(test::dashboard_mesh(118, 42)).symmetric_dirichlet.mean, 4.00777, 2e-4);
+  EXPECT_NEAR(valid_map(test::hemisphere_mesh(50, 101)).symmetric_dirichlet.mean, 4.1416, 1e-3);
+  EXPECT_NEAR(valid_map(test::grid_mesh(32, 160, test::grab_handle, 0.15)).symmetric_dirichlet.mean, 4.1293, 1e-3);
+}
+
+TEST(Best, GrainStandsUpright) {
+  const TriangleMesh mesh = test::grid_mesh(32, 16, test::open_cylinder);
+  const Flattening f = flatten_best(mesh, test::one_chart(mesh));
+  const Vec2 origin = f.uv.values[f.uv.indices[0][0]];
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(f.uv.values[f.uv.indices[t][k]].y - origin.y,
+                  mesh.corner(t, static_cast<int>(k)).z - mesh.corner(0, 0).z, 1);  // of a height of 2000
+}
+
+TEST(Best, LongFingerIsValid) {
+  // The tip of Tutte's map is exp(-30) wide; the best map opens the finger as far as its border allows.
+  EXPECT_LT(valid_map(finger(6)).symmetric_dirichlet.mean, 9.45);  // the minimum is 9.414
+  EXPECT_LT(valid_map(finger(30)).symmetric_dirichlet.mean, 40);
+}
+
+TEST(Best, NearlyClosedSphereIsValid) {
+  TriangleMesh mesh = test::uv_sphere(10, 30, 60);
+  mesh.triangles.resize(mesh.triangles.size() - 1);
+  valid_map(mesh);
+}
+
+TEST(Best, TurnsOfASpiralAreKeptApart) {
+  EXPECT_LT(valid_map(spiral(3)).symmetric_dirichlet.mean, 5);
+  EXPECT_LT(valid_map(spiral(30)).symmetric_dirichlet.mean, 6);
+  EXPECT_LT(valid_map(test::grid_mesh(60, 6, test::helical_ramp)).symmetric_dirichlet.mean, 5);
+}
+
+TEST(Best, CutTorusIsValid) {
+  const TriangleMesh mesh = test::grid_mesh(60, 30, [](double s, double t) {
+    const double a = 2 * k_pi * s, b = 2 * k_pi * t, r = 3 + std::cos(b);
+    return Vec3{r * std::cos(a), r * std::sin(a), std::sin(b)};
+  });
+  EXPECT_LT(valid_map(mesh).symmetric_dirichlet.mean, 5);
+}
+
+TEST(Best, HolesAreWelcome) {
+  TriangleMesh mesh = test::plane(40, 30, 40, 30);
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    const Vec3 c = (1.0 / 3) * (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]);
+    return std::hypot(c.x - 15, c.y - 15) < 5 || std::hypot(c.x - 30, c.y - 12) < 4;
+  });
+  EXPECT_NEAR(valid_map(mesh).symmetric_dirichlet.max, 4, 1e-3);
+}
+
+TEST(Best, SmallestCharts) {
+  TriangleMesh mesh;
+  mesh.positions = {{1, 2, 3}, {4, 2, 3}, {1, 6, 4}};
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_NEAR(valid_map(mesh).symmetric_dirichlet.max, 4, 1e-6);
+  mesh.positions.push_back({5, 6, 3});
+  mesh.triangles.push_back({1, 3, 2});
+  EXPECT_NEAR(valid_map(mesh).symmetric_dirichlet.max, 4, 1e-6);
+  EXPECT_NEAR(valid_map(test::needle_strip(1000, 1, 100)).symmetric_dirichlet.mean, 4, 1e-6);
+}
+
+TEST(Best, ScaleAndOffsetDoNotMatter) {
+  const TriangleMesh mesh = test::dashboard_mesh(60, 21);
+  const double original = valid_map(mesh).symmetric_dirichlet.mean;
+  for (const double scale : {1e-6, 1e6}) {
+    TriangleMesh scaled = mesh;
+    for (Vec3& p : scaled.positions) p = scale * p;
+    EXPECT_NEAR(valid_map(scaled).symmetric_dirichlet.mean, original, 1e-6 * original);
+  }
+  TriangleMesh moved = mesh;
+  for (Vec3& p : moved.positions) p.x += 1e7;
+  EXPECT_NEAR(valid_map(moved).symmetric_dirichlet.mean, original, 1e-6 * original);
+}
+
+TEST(Best, TrianglesWithoutAreaHardlyMatter) {
+  const TriangleMesh mesh = test::dashboard_mesh(60, 21);
+  const double original = valid_map(mesh).symmetric_dirichlet.mean;
+  for (const double height : {0.0, 1e-9}) {
+    TriangleMesh squashed = mesh;
+    for (Index v = 70; v < 1200; v += 97)  // slides vertices towards the opposite edge of one of their triangles
+      for (const Triangle& t : mesh.triangles)
+        if (t[0] == v) {
+          const Vec3 middle = 0.5 * (squashed.positions[t[1]] + squashed.positions[t[2]]);
+          squashed.positions[v] = middle + height * (squashed.positions[v] - middle);
+          break;
+        }
+    const Flattening f = flatten_best(squashed, test::one_chart(squashed));
+    EXPECT_TRUE(f.notes.empty());
+    for (const Vec2 p : f.uv.values) EXPECT_TRUE(is_finite(p));
+    const DistortionReport r = measure_distortion(squashed, f.uv);
+    EXPECT_EQ(r.flipped, 0u);
+    EXPECT_EQ(r.degenerate_uv, 0u);
+    EXPECT_LT(r.symmetric_dirichlet.mean, 1.01 * original);
+  }
+}
+
+TEST(Best, EnergyFallsAlongTheTrace) {
+  const TriangleMesh mesh = test::hemisphere_mesh(20, 40);
+  BestOptions options;
+  options.tolerance = 1e-9;
+  const Flattening f = flatten_best(mesh, test::one_chart(mesh), options);
+  ASSERT_GE(f.trace.size(), 3u);
+  for (std::size_t i = 1; i < f.trace.size(); ++i) {
+    EXPECT_LE(f.trace[i].error, f.trace[i - 1].error);
+    EXPECT_GE(f.trace[i].seconds, f.trace[i - 1].seconds);
+  }
+  EXPECT_NEAR(f.trace.back().error, measure_distortion(mesh, f.uv).symmetric_dirichlet.mean, 1e-3);
+}
+
+TEST(Best, SameBytesForAnyNumberOfThreads) {
+  const TriangleMesh mesh = test::grid_mesh(32, 100, test::grab_handle, 0.15);
+  std::vector<Flattening> results;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    results.push_back(flatten_best(mesh, test::one_chart(mesh)));
+  }
+  EXPECT_EQ(results[0].uv.values, results[1].uv.values);
+  EXPECT_EQ(results[0].uv.values, results[2].uv.values);
+}
+
+TEST(Best, WhatIsNoDiskFallsBackOrIsRefused) {
+  const TriangleMesh cube = test::cube(5);
+  const Flattening f = flatten_best(cube, test::one_chart(cube));
+  ASSERT_EQ(f.notes.size(), 1u);
+  EXPECT_NE(f.notes[0].reason.find("closed"), std::string::npos);
+  EXPECT_EQ(f.charts.count, 6u);
+  BestOptions strict;
+  strict.fall_back = false;
+  EXPECT_THROW(flatten_best(cube, test::one_chart(cube), strict), InvalidInput);
+  // Two triangles on the same three vertices, sewn along two edges: a border of two vertices.
+  TriangleMesh pocket;
+  pocket.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  pocket.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 1, 0}, {2, 1, 3}};
+  pocket.triangles.pop_back();
+  EXPECT_TRUE(flatten_best(pocket, test::one_chart(pocket)).notes.empty());
+}
+
+TEST(Best, BadInputIsNamed) {
+  EXPECT_TRUE(flatten_best({}, {}).uv.empty());
+  TriangleMesh mesh = test::plane(2, 2, 2, 2);
+  BestOptions options;
+  options.tolerance = 0;
+  EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh), options), InvalidInput);
+  options = {};
+  options.max_iterations = -1;
+  EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh), options), InvalidInput);
+  mesh.positions[3].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/param/levy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "papilla/core/error.hpp"
+#include "papilla/param/measure.hpp"
+#include "papilla/param/reference_maps.hpp"
+#include "papilla_test/shapes.hpp"
+#include "support/formula_meshes.hpp"
+
+namespace papilla {
+namespace {
+
+LevyOptions convex(LevyWeights weights) {
+  LevyOptions options;
+  options.border = LevyBorder::convex;
+  options.weights = weights;
+  options.smoothness = 1;
+  options.orthogonality = options.length = 0;
+  return options;
+}
+
+/// The uv of each mesh vertex of a one-chart map.
+std::vector<Vec2> per_vertex(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv) {
+  std::vector<Vec2> result(mesh.positions.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) result[mesh.triangles[t][k]] = uv.values[uv.indices[t][k]];
+  return result;
+}
+
+TEST(Levy, DevelopableChartIsExact) {
+  const TriangleMesh mesh = test::grid_mesh(64, 30, test::open_cylinder);
+  const LevyResult r = flatten_levy(mesh, test::one_chart(mesh));
+  EXPECT_TRUE(r.flattening.notes.empty());
+  const DistortionReport d = measure_distortion(mesh, r.flattening.uv);
+  EXPECT_LT(d.maillot_length, 1e-9);
+  EXPECT_NEAR(d.symmetric_dirichlet.max, 4, 1e-6);
+}
+
+TEST(Levy, LengthConditionEvensOutScale) {
+  const TriangleMesh mesh = test::hemisphere_mesh(30, 60);
+  LevyOptions options;
+  options.length = 0;
+  const double conformal = measure_distortion(mesh, flatten_levy(mesh, test::one_chart(mesh), options).flattening.uv)
+                               .symmetric_dirichlet.mean;
+  options.length = 1;
+  const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), options);
+  const double even = measure_distortion(mesh, r.flattening.uv).symmetric_dirichlet.mean;
+  EXPECT_GT(conformal, 4.3);
+  EXPECT_LT(even - 4, 0.55 * (conformal - 4));
+  EXPECT_GT(r.length, 0);
+}
+
+TEST(Levy, InteriorVerticesAreTheMeanOfTheirNeighbours) {
+  const TriangleMesh mesh = test::saddle(10, 20, 4, 11);
+  const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), convex(LevyWeights::uniform));
+  EXPECT_LT(r.smoothness, 1e-20);
+  const std::vector<Vec2> uv = per_vertex(mesh, r.flattening.uv);
+  std::map<Index, std::map<Index, int>> edges;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++edges[t[k]][t[(k + 1) % 3]], ++edges[t[(k + 1) % 3]][t[k]];
+  int interior = 0;
+  for (const auto& [v, around] : edges) {
+    Vec2 sum;
+    bool border = false;
+    for (const auto& [w, uses] : around) sum = sum + uv[w], border |= uses < 2;
+    if (border) continue;
+    ++interior;
+    const Vec2 mean = (1 / static_cast<double>(around.size())) * sum;
+    EXPECT_NEAR(mean.x, uv[v].x, 1e-9);
+    EXPECT_NEAR(mean.y, uv[v].y, 1e-9);
+  }
+  EXPECT_EQ(interior, 34);
+}
+
+TEST(Levy, AgreesWithAnotherImplementation) {
+  const TriangleMesh mesh = test::dashboard_mesh(30, 12);
+  const auto distortion = [&](const CornerAttribute<Vec2>& uv) { return measure_distortion(mesh, uv); };
+  const auto reference = [&](ReferenceMap map) {
+    ReferenceOptions options;
+    options.map = map;
+    return distortion(flatten_reference(mesh, test::one_chart(mesh), options).uv);
+  };
+  const auto own = [&](LevyWeights weights) {
+    return distortion(flatten_levy(mesh, test::one_chart(mesh), convex(weights)).flattening.uv);
+  };
+  const DistortionReport tutte = reference(ReferenceMap::tutte), uniform = own(LevyWeights::uniform);
+  EXPECT_NEAR(uniform.symmetric_dirichlet.mean, tutte.symmetric_dirichlet.mean, 1e-5 * tutte.symmetric_dirichlet.mean);
+  EXPECT_NEAR(uniform.maillot_length, tutte.maillot_length, 1e-5 * tutte.maillot_length);
+  const DistortionReport floater = reference(ReferenceMap::mean_value), mean_value = own(LevyWeights::mean_value);
+  EXPECT_NEAR(mean_value.maillot_length, floater.maillot_length, 1e-4 * floater.maillot_length);
+}
+
+TEST(Levy, DescentGoesWhereTheDirectSolutionIs) {
+  const TriangleMesh mesh = test::saddle(10, 20, 4, 11);
+  for (const LevyWeights weights : {LevyWeights::uniform, LevyWeights::cotangent, LevyWeights::mean_value}) {
+    LevyOptions options = convex(weights);
+    const std::vector<Vec2> direct = per_vertex(mesh, flatten_levy(mesh, test::one_chart(mesh), options).flattening.uv);
+    options.solver = LevySolver::gauss_seidel;
+    options.tolerance = 1e-14;
+    options.max_sweeps = 20000;
+    const LevyResult descent = flatten_levy(mesh, test::one_chart(mesh), options);
+    const std::vector<Vec2> slow = per_vertex(mesh, descent.flattening.uv);
+    for (std::size_t v = 0; v < direct.size(); ++v) {
+      EXPECT_NEAR(slow[v].x, direct[v].x, 1e-3);
+      EXPECT_NEAR(slow[v].y, direct[v].y, 1e-3);
+    }
+    EXPECT_LE(descent.flattening.trace.back().error, descent.flattening.trace.front().error);
+  }
+}
+
+TEST(Levy, OrthogonalRoundsKeepAPlaneFlat) {
+  const TriangleMesh mesh = test::plane(30, 20, 12, 8);
+  LevyOptions options;
+  options.coupling = LevyCoupling::orthogonal;
+  for (const LevySolver solver : {LevySolver::direct, LevySolver::gauss_seidel}) {
+    options.solver = solver;
+    const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), options);
+    EXPECT_TRUE(r.flattening.notes.empty());
+    EXPECT_NEAR(measure_distortion(mesh, r.flattening.uv).symmetric_dirichlet.mean, 4, 1e-6);
+    EXPECT_LT(r.orthogonality + r.length, 1e-9);
+  }
+}
+
+TEST(Levy, RoundsLowerTheSum) {
+  const TriangleMesh mesh = test::hemisphere_mesh(12, 30);
+  LevyOptions options;
+  options.coupling = LevyCoupling::orthogonal;
+  const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), options);
+  const Trace& trace = r.flattening.trace;
+  ASSERT_GE(trace.size(), 2u);
+  for (std::size_t i = 1; i < trace.size(); ++i) EXPECT_LE(trace[i].error, trace[i - 1].error * (1 + 1e-9));
+}
+
+TEST(Levy, PinsKeepTheirPlaces) {
+  const TriangleMesh mesh = test::dashboard_mesh(20, 8);
+  for (const LevyCoupling coupling : {LevyCoupling::conformal, LevyCoupling::orthogonal}) {
+    LevyOptions options;
+    options.coupling = coupling;
+    options.pins = {{0, {100, 50}}, {20, {1500, 80}}, {8 * 21, {60, 600}}};
+    const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), options);
+    ASSERT_TRUE(r.flattening.notes.empty()) << r.flattening.notes.front().reason;
+    const std::vector<Vec2> uv = per_vertex(mesh, r.flattening.uv);
+    for (const LevyPin& pin : options.pins) {
+      EXPECT_NEAR(uv[pin.vertex].x, pin.uv.x, 1e-6);
+      EXPECT_NEAR(uv[pin.vertex].y, pin.uv.y, 1e-6);
+    }
+  }
+}
+
+TEST(Levy, IsoLinesShareACoordinate) {
+  const TriangleMesh mesh = test::dashboard_mesh(20, 8);
+  LevyOptions options;
+  options.iso_lines.resize(2);
+  options.iso_lines[0].is_u = true;
+  options.iso_lines[0].value = 0.0;
+  options.iso_lines[1].is_u = false;
+  for (Index j = 0; j <= 8; ++j) options.iso_lines[0].vertices.push_back(21 * j);
+  for (Index i = 0; i <= 20; ++i) options.iso_lines[1].vertices.push_back(i);
+  options.pins = {{20, {1400, 0}}, {8 * 21, {0, 500}}};
+  const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), options);
+  ASSERT_TRUE(r.flattening.notes.empty()) << r.flattening.notes.front().reason;
+  const std::vector<Vec2> uv = per_vertex(mesh, r.flattening.uv);
+  for (const Index v : options.iso_lines[0].vertices) EXPECT_NEAR(uv[v].x, 0, 1e-9);
+  for (const Index v : options.iso_lines[1].vertices) EXPECT_NEAR(uv[v].y, 0, 1e-9);
+}
+
+TEST(Levy, BadInputIsNamed) {
+  const TriangleMesh mesh = test::plane(2, 2, 2, 2);
+  const ChartSet chart = test::one_chart(mesh);
+  const auto refused = [&](const LevyOptions& options, const std::string& word) {
+    try {
+      flatten_levy(mesh, chart, options);
+      ADD_FAILURE() << word;
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  LevyOptions options;
+  options.pins = {{0, {0, 0}}, {1, {0, 0}}};
+  refused(options, "on top of");
+  options.pins = {{0, {0, 0}}, {0, {1, 1}}};
+  refused(options, "on top of");
+  options.pins = {{0, {0, 0}}};
+  refused(options, "two pins");
+  options.pins = {{0, {0, 0}}, {1, {1, 0}}};
+  refused(options, "two pins");
+  options.pins = {{99, {0, 0}}};
+  refused(options, "99");
+  options = {};
+  options.orthogonality = options.length = 0;
+  refused(options, "weights are 0");
+  options = {};
+  options.length = -1;
+  refused(options, "length");
+  EXPECT_TRUE(flatten_levy({}, {}).flattening.uv.empty());
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// What the maps are made of: energies against finite differences, the factorization against the matrix it factors.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <map>
+#include <random>
+
+#include "border_guard.hpp"
+#include "disk_hierarchy.hpp"
+#include "maillot_energy.hpp"
+#include "map_descent.hpp"
+#include "papilla_test/shapes.hpp"
+#include "sparse_cholesky.hpp"
+#include "support/formula_meshes.hpp"
+
+namespace papilla::param_detail {
+namespace {
+
+/// A mesh with a map that is neither isometric nor flipped.
+struct Sample {
+  TriangleMesh mesh = test::spherical_cap(2, 0.9, 3, 7);
+  std::vector<RestShape> rest = rest_shapes(mesh.positions, mesh.triangles);
+  std::vector<Vec2> uv;
+  Sample() {
+    for (const Vec3& p : mesh.positions) uv.push_back({1.2 * p.x + 0.1 * p.y * p.y, 0.9 * p.y - 0.2 * p.x});
+  }
+};
+
+void expect_gradient_is_derivative(const DescentProblem& problem, std::vector<Vec2> uv) {
+  const std::vector<Vec2> gradient = energy_gradient(problem, uv);
+  const double step = 1e-5;
+  for (std::size_t v = 0; v < uv.size(); ++v)
+    for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+      const double at = uv[v].*axis;
+      uv[v].*axis = at + step;
+      const double ahead = total_energy(problem, uv);
+      uv[v].*axis = at - step;
+      const double behind = total_energy(problem, uv);
+      uv[v].*axis = at;
+      EXPECT_NEAR(gradient[v].*axis, (ahead - behind) / (2 * step), 1e-6 * (1 + std::abs(gradient[v].*axis)));
+    }
+}
+
+TEST(Energies, GradientsAreDerivatives) {
+  const Sample s;
+  const SymmetricDirichlet dirichlet(s.rest);
+  expect_gradient_is_derivative({s.mesh.triangles, &dirichlet}, s.uv);
+  for (const double phi : {0.0, 0.3, 1.0}) {
+    const MaillotEnergy maillot(s.mesh.positions, s.mesh.triangles, phi);
+    expect_gradient_is_derivative({s.mesh.triangles, &maillot}, s.uv);
+  }
+}
+
+TEST(Energies, DirichletHessianIsTheDerivativeWhereThatIsPositive) {
+  const Sample s;
+  const SymmetricDirichlet energy(s.rest);
+  // Stretched maps have no negative curvature.
+  std::vector<Vec2> uv = s.uv;
+  for (Vec2& p : uv) p = 2.0 * p;
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = s.mesh.triangles[t];
+    std::array<Vec2, 3> at{uv[a], uv[b], uv[c]};
+    CornerHessian h;
+    energy.hessian(t, at[0], at[1], at[2], h.data());
+    const double step = 1e-6;
+    for (std::size_t j = 0; j < 6; ++j) {
+      double& x = j % 2 == 0 ? at[j / 2].x : at[j / 2].y;
+      const double before = x;
+      x = before + step;
+      const CornerGradient ahead = energy.gradient(t, at[0], at[1], at[2]);
+      x = before - step;
+      const CornerGradient behind = energy.gradient(t, at[0], at[1], at[2]);
+      x = before;
+      for (std::size_t i = j; i < 6; ++i) {
+        const auto part = [&](const CornerGradient& g) { return i % 2 == 0 ? g[i / 2].x : g[i / 2].y; };
+        EXPECT_NEAR(h[6 * j + i], (part(ahead) - part(behind)) / (2 * step), 1e-4);
+      }
+    }
+  }
+}
+
+TEST(Energies, MaillotOfOneTriangleByHand) {
+  const std::vector<Vec3> positions{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  const std::vector<Vec2> uv{{0, 0}, {2, 0}, {0, 4}};
+  const MaillotEnergy lengths(positions, triangles, 1), areas(positions, triangles, 0);
+  // d² = 4, 20, 16; D² = 9, 25, 16; det = 8, A = 12
+  EXPECT_NEAR(total_energy({triangles, &lengths}, uv), 25.0 / 9 + 25.0 / 25, 1e-12);
+  EXPECT_NEAR(total_energy({triangles, &areas}, uv), 16.0 / 12, 1e-12);
+}
+
+TEST(Energies, EveryEdgeCountsOnce) {
+  const TriangleMesh mesh = test::plane(4, 3, 4, 3);
+  const MaillotEnergy lengths(mesh.positions, mesh.triangles, 1);
+  std::vector<Vec2> uv;
+  for (const Vec3& p : mesh.positions) uv.push_back({std::sqrt(2.0) * p.x, std::sqrt(2.0) * p.y});
+  // d² = 2 D², so every edge gives D²: 31 of length 1 and 12 diagonals of squared length 2.
+  EXPECT_NEAR(total_energy({mesh.triangles, &lengths}, uv), 31 + 24, 1e-9);
+}
+
+TEST(Energies, FlippedTrianglesAreInfinite) {
+  const Sample s;
+  const SymmetricDirichlet energy(s.rest);
+  std::vector<Vec2> mirrored = s.uv;
+  for (Vec2& p : mirrored) p.x = -p.x;
+  EXPECT_TRUE(std::isinf(total_energy({s.mesh.triangles, &energy}, mirrored)));
+}
+
+TEST(Descent, StepEndsAtTheFirstFlip) {
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  const std::vector<Vec2> uv{{0, 0}, {1, 0}, {0, 1}}, down{{0, 0}, {0, 0}, {0, -4}}, up{{0, 0}, {0, 0}, {0, 4}};
+  EXPECT_NEAR(step_to_first_flip(triangles, uv, down, 1), 0.25, 1e-12);
+  EXPECT_EQ(step_to_first_flip(triangles, uv, up, 1), 1);
+  // Two corners that change places collapse the triangle half way.
+  const std::vector<Vec2> turn{{0, 0}, {-1, 1}, {1, -1}};
+  EXPECT_NEAR(step_to_first_flip(triangles, uv, turn, 1), 0.5, 1e-12);
+}
+
+template <class Scalar>
+void expect_solution(int width) {
+  const TriangleMesh mesh = test::dashboard_mesh(23, 17);
+  const auto size = static_cast<std::size_t>(3 * width);
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  std::vector<std::vector<Scalar>> matrices(mesh.triangles.size(), std::vector<Scalar>(size * size));
+  for (auto& m : matrices)
+    for (std::size_t j = 0; j < size; ++j)
+      for (std::size_t i = j; i < size; ++i) {
+        Scalar value = uniform(generator);
+        if constexpr (!std::is_same_v<Scalar, double>) value += Scalar(0, i == j ? 0 : uniform(generator));
+        if (i == j) value = 4;
+        m[size * j + i] = value;
+        if constexpr (std::is_same_v<Scalar, double>)
+          m[size * i + j] = value;
+        else
+          m[size * i + j] = std::conj(value);
+      }
+  SparseCholesky<Scalar> factor(elements_of(mesh.triangles), mesh.positions, width);
+  const auto w = static_cast<std::size_t>(width);
+  std::vector<Scalar> x(w * mesh.positions.size()), b(x.size(), Scalar(0));
+  for (Scalar& v : x) v = uniform(generator);
+  for (std::size_t t = 0; t < matrices.size(); ++t)
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j)
+        b[w * mesh.triangles[t][i / w] + i % w] += matrices[t][size * j + i] * x[w * mesh.triangles[t][j / w] + j % w];
+  for (int round = 0; round < 2; ++round) {  // the structure serves again
+    std::vector<Scalar> solution = b;
+    EXPECT_EQ(factor.factor([&](std::size_t t, Scalar* m) { std::copy(matrices[t].begin(), matrices[t].end(), m); }),
+              0u);
+    factor.solve(solution);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT(std::abs(solution[i] - x[i]), 1e-12);
+  }
+}
+
+TEST(SparseCholesky, SolvesWhatItFactored) {
+  expect_solution<double>(1);
+  expect_solution<double>(2);
+  expect_solution<std::complex<double>>(1);
+}
+
+TEST(SparseCholesky, PivotsThatAreNotPositiveAreCountedAndHeld) {
+  Elements elements;
+  elements.add(std::array<Index, 1>{0});
+  elements.add(std::array<Index, 1>{1});
+  const std::vector<Vec3> where{{0, 0, 0}, {1, 0, 0}};
+  SparseCholesky<double> factor(elements, where, 1);
+  EXPECT_EQ(factor.factor([](std::size_t e, double* m) { *m = e == 0 ? 2 : -1; }), 1u);
+  std::vector<double> b{4, 5};
+  factor.solve(b);
+  EXPECT_NEAR(b[0], 2, 1e-12);
+  EXPECT_NEAR(b[1], 0, 1e-100);
+}
+
+TEST(DiskHierarchy, GoesBackToTheMeshItCameFrom) {
+  const TriangleMesh mesh = test::dashboard_mesh(20, 10);
+  DiskHierarchy hierarchy(mesh.positions, mesh.triangles, 10);
+  EXPECT_LT(hierarchy.vertex_count(), 40u);
+  const auto count_border = [&] {
+    std::map<std::pair<Index, Index>, int> uses;
+    for (Index t = 0; t < hierarchy.triangles().size(); ++t)
+      for (std::size_t k = 0; hierarchy.alive(t) && k < 3; ++k) {
+        const Index a = hierarchy.triangles()[t][k], b = hierarchy.triangles()[t][(k + 1) % 3];
+        ++uses[{std::min(a, b), std::max(a, b)}];
+      }
+    int border = 0;
+    for (const auto& [edge, count] : uses) {
+      EXPECT_LE(count, 2);
+      border += count == 1;
+    }
+    return std::pair(border, uses.size());
+  };
+  while (hierarchy.removed_count() > 0) {
+    const auto [border, edges] = count_border();
+    std::size_t alive = 0;
+    for (Index t = 0; t < hierarchy.triangles().size(); ++t) alive += hierarchy.alive(t);
+    EXPECT_EQ(hierarchy.vertex_count() + alive, edges + 1);  // a disk
+    EXPECT_GE(border, 3);
+    for (int i = 0; i < 20 && hierarchy.removed_count() > 0; ++i) hierarchy.restore();
+  }
+  EXPECT_EQ(hierarchy.triangles(), mesh.triangles);
+  EXPECT_EQ(hierarchy.vertex_count(), mesh.positions.size());
+}
+
+TEST(DiskHierarchy, RemoveAgainUndoesRestore) {
+  const TriangleMesh mesh = test::hemisphere_mesh(6, 12);
+  DiskHierarchy hierarchy(mesh.positions, mesh.triangles, 10);
+  const std::vector<Triangle> coarse = hierarchy.triangles();
+  const std::size_t vertices = hierarchy.vertex_count(), removed = hierarchy.removed_count();
+  while (hierarchy.removed_count() > 0) hierarchy.restore();
+  while (hierarchy.removed_count() < removed) hierarchy.remove_again();
+  EXPECT_EQ(hierarchy.vertex_count(), vertices);
+  for (Index t = 0; t < coarse.size(); ++t)
+    if (hierarchy.alive(t)) {
+      EXPECT_EQ(hierarchy.triangles()[t], coarse[t]);
+    }
+}
+
+/// A square with a notch that nearly closes: vertices 3 and 5 face each other.
+struct Notch {
+  std::vector<BorderPair> border;
+  std::vector<Vec2> uv{{0, 0}, {10, 0}, {10, 10}, {5.2, 10}, {5, 2}, {4.8, 10}, {0, 10}};
+  Notch() {
+    for (Index v = 0; v < uv.size(); ++v) border.push_back({v, (v + 1) % static_cast<Index>(uv.size())});
+  }
+};
+
+TEST(BorderGuard, SeesEdgesMeet) {
+  const Notch notch;
+  BorderGuard guard(notch.border, notch.uv);
+  EXPECT_TRUE(guard.may_move(3, {5.1, 10}));
+  EXPECT_FALSE(guard.may_move(3, {4.5, 9}));
+  guard.move(5, {3, 10});
+  EXPECT_TRUE(guard.may_move(3, {4.5, 9.5}));
+  std::vector<Vec2> uv = notch.uv;
+  uv.push_back({5, -1});
+  BorderGuard splitting(notch.border, uv);
+  EXPECT_TRUE(splitting.may_split(0, 1, 7, {5, -1}));
+  EXPECT_FALSE(splitting.may_split(0, 1, 7, {5, 5}));  // through the notch
+  splitting.split(0, 1, 7, {5, -1});
+  EXPECT_TRUE(splitting.on_border(7));
+  EXPECT_FALSE(splitting.may_move(4, {5, -0.999}));
+}
+
+TEST(BorderBarrier, GradientIsTheDerivative) {
+  Notch notch;
+  notch.uv[3] = {5.05, 10}, notch.uv[5] = {4.95, 9.9}, notch.uv[4] = {5, 9.5};
+  const BorderBarrier barrier(notch.border, notch.uv, 0.7);
+  const auto pairs = barrier.near_pairs(notch.uv);
+  ASSERT_FALSE(pairs.empty());
+  for (const auto& pair : pairs) {
+    const auto gradient = barrier.gradient(pair, notch.uv);
+    const std::array<Index, 3> members{pair.vertex, pair.from, pair.to};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+        std::vector<Vec2> uv = notch.uv;
+        uv[members[k]].*axis += 1e-7;
+        const double ahead = barrier.value(pair, uv);
+        uv[members[k]].*axis -= 2e-7;
+        const double behind = barrier.value(pair, uv);
+        EXPECT_NEAR(gradient[k].*axis, (ahead - behind) / 2e-7, 1e-4 * (1 + std::abs(gradient[k].*axis)));
+      }
+  }
+}
+
+}  // namespace
+}  // namespace papilla::param_detail
