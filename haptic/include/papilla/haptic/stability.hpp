@@ -22,10 +22,9 @@ double stiffness_limit(const DeviceDynamics& device, double period_s, double wal
 /// t_d before), Δx the way of the device in a period T and b the damping of the device itself, which burns some of it,
 ///     E ← E − F·Δx + b·|Δx|²/T
 /// is what the hand has put in. Each time that it falls below zero all forces become a tenth smaller and E starts again
-/// from zero; without that they recover over ten seconds. (The damping that the paper adds arrives too late on a bus with
-/// frames and makes things worse.)
-/// Only an estimate when the position is read in steps: it helps where a limit was stated too high, it replaces none.
-/// noexcept, no allocation.
+/// from zero; without that they recover over ten seconds. (The damping that the paper adds arrives too late on a bus
+/// with frames and makes things worse.) Only an estimate when the position is read in steps: it helps where a limit was
+/// stated too high, it replaces none. noexcept, no allocation.
 class PassivityController {
  public:
   explicit PassivityController(const DeviceDynamics& device) noexcept
