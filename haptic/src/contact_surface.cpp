@@ -517,7 +517,7 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, const Neighbou
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < near.count(); ++i) {
     open[count] = i;
-    count += static_cast<double>(earliest[i]) <= known ? 1 : 0;
+    count += static_cast<double>(earliest[i]) <= known ? 1U : 0U;
   }
   std::optional<SweepHit> best;
   while (count > 0) {
