@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Lowers a probe onto a glTF file from a place in front of it and prints the forces: forces FILE X Y Z, in metres. */
-#include <papilla/papilla_haptic.h>
+#include <papilla/io/papilla_haptic.h>
 #include <stdio.h>
 #include <stdlib.h>
 

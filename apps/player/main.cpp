@@ -35,7 +35,7 @@ struct Options {
   std::string motion = "stroke";
   std::uint64_t seed = 1;
   std::vector<double> origin;
-  bool quiet = false, list = false;
+  bool quiet = false, list = false, passivity = false;
 };
 
 constexpr double k_default_seconds = 2;
@@ -149,6 +149,7 @@ int run(const Options& options) {
   loop.hand = hand ? &*hand : nullptr;
   loop.record = options.record.empty() ? nullptr : &rows;
   loop.stop = &g_stop;
+  loop.control_passivity = options.passivity;
   loop.watchdog_s = 1e-3 * options.watchdog_ms;
   LoopStatus status;
   loop.status = &status;
@@ -258,6 +259,8 @@ int main(int argc, char** argv) {
       ->type_name("MM")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  program.add_flag("--passivity-control", options.passivity,
+                   "Soften a contact that gives energy to the hand, beside the limit of stiffness");
   program.add_option("--watchdog", options.watchdog_ms, "Age of a position from which on there is no force")
       ->type_name("MS")
       ->check(CLI::Range(1.0, 1000.0))

@@ -59,6 +59,7 @@ Json to_json(const RunReport& r) {
           {"tick_us", quantiles(loop.tick_us)},
           {"contact_ticks", loop.contact_ticks},
           {"lost_contact_ticks", loop.lost_contact_ticks},
+          {"passivity_interventions", loop.passivity_interventions},
           {"max_force_n", loop.max_force_n},
           {"stiffness_limit_n_per_m", std::isfinite(r.stiffness_limit) ? Json(r.stiffness_limit) : Json()},
           {"clamped_materials", clamped},

@@ -25,7 +25,6 @@ constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
 constexpr std::size_t k_most_materials = 32767;
-constexpr double k_first_piece = 0.12, k_piece_growth = 8;  // Of what is known around the start.
 
 void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
            const std::vector<HeightField>& heights, double radius) {
@@ -505,29 +504,32 @@ bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) c
   return fits;
 }
 
-/// The first hit before t_max among what was gathered; the whole way up to there must lie within its reach.
-std::optional<SweepHit> ContactSurface::sweep_near(const Neighbourhood& near, Vec3 start, Vec3 way,
-                                                   double t_max) const noexcept {
-  Neighbourhood::Mask mask;
-  near.near_way(start, t_max * way, contact_radius_m(), mask);
-  std::optional<SweepHit> best;
-  for (std::uint32_t i = 0; i < near.count(); ++i)
-    if (mask[i] != 0) sweep_one(near.place(i), start, way, t_max, best);
-  return best;
-}
-
+/// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
+/// hit.
 std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept {
-  const Vec3 way = to - from;
-  const Vec3 start = from - origin_;
+  const Vec3 start = from - origin_, way = to - from;
   const double length = norm(way), margin = near.margin(start);
   if (!(margin > 0)) return sweep(from, to);
   const double known = length > margin ? margin / length : 1;
-  // Most ways end soon: in pieces that grow, what lies far ahead is seldom looked at.
-  for (double t = std::min(known, k_first_piece * margin / length);; t = std::min(known, k_piece_growth * t)) {
-    if (const auto hit = sweep_near(near, start, way, t)) return hit;
-    if (t >= 1) return std::nullopt;
-    if (t >= known) return sweep(from, to);
+  Neighbourhood::Times earliest;
+  near.near_way(start, way, contact_radius_m(), earliest);
+  std::array<std::uint32_t, Neighbourhood::k_capacity> open;
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < near.count(); ++i) {
+    open[count] = i;
+    count += static_cast<double>(earliest[i]) <= known ? 1U : 0U;
   }
+  std::optional<SweepHit> best;
+  while (count > 0) {
+    std::uint32_t next = 0;
+    for (std::uint32_t k = 1; k < count; ++k)
+      if (earliest[open[k]] < earliest[open[next]]) next = k;
+    const std::uint32_t i = open[next];
+    if (best && static_cast<double>(earliest[i]) > best->t) break;
+    open[next] = open[--count];
+    sweep_one(near.place(i), start, way, known, best);
+  }
+  return best || known >= 1 ? best : sweep(from, to);
 }
 
 template <class Accept>

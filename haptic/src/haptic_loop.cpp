@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/haptic/haptic_loop.hpp"
 
+#include <fcntl.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -78,10 +80,15 @@ class Realtime {
     if (!fixed_) note("SCHED_FIFO");
     locked_ = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
     if (!locked_) note("mlockall");
+    // As long as this is open no processor sleeps so deeply that waking takes time; where it is not allowed, it does.
+    constexpr std::int32_t k_no_latency = 0;
+    latency_ = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+    if (latency_ >= 0 && ::write(latency_, &k_no_latency, sizeof k_no_latency) < 0) note("/dev/cpu_dma_latency");
     result.fixed_priority = fixed_;
     result.memory_locked = locked_;
   }
   ~Realtime() {
+    if (latency_ >= 0) ::close(latency_);
     if (locked_) munlockall();
     if (fixed_) sched_setscheduler(0, policy_, &before_);
   }
@@ -89,7 +96,7 @@ class Realtime {
   Realtime& operator=(const Realtime&) = delete;
 
  private:
-  int policy_ = SCHED_OTHER;
+  int policy_ = SCHED_OTHER, latency_ = -1;
   sched_param before_{};
   bool fixed_ = false, locked_ = false;
 };
@@ -144,6 +151,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
   SafetyLimits limits = safety_limits(device.caps().max_force_n);
   limits.watchdog_s = options.watchdog_s;
   HapticTick tick(surface, limits, period);
+  if (options.control_passivity) tick.control_passivity(device.caps().dynamics);
   const StopAtEnd stop_at_end(device);
   {
     const Realtime realtime(result);
@@ -186,6 +194,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
     }
     result.seconds = seconds_of(CLOCK_MONOTONIC) - begin;
+    result.passivity_interventions = tick.passivity_interventions();
   }
   if (options.record) options.record->resize(result.ticks);
   return result;

@@ -70,11 +70,11 @@ PAPILLA_WIDE void make_prisms(const Corners& t, const Prisms<float>& p, int coun
     }
 }
 
-/// With g the distance to the prism at x and p = min(0, g·(its slope along w)): the distance along the way is at least
-/// g + p·t/g, so a triangle is out of reach c when g > c and g² + p > c·g.
-PAPILLA_WIDE void mark(const Prisms<const float>& t, int count, const float* x, const float* w, float reach,
-                       std::int32_t* mask) {
-  const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2], reach2 = reach * reach;
+/// With g the distance to the prism at x and p/g its slope along w, the distance at x + t·w is at least g + t·p/g:
+/// reach c is not met before t = (g − c)·g/−p.
+PAPILLA_WIDE void meet(const Prisms<const float>& t, int count, const float* x, const float* w, float reach,
+                       float* earliest) {
+  const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2];
   for (int block = 0; block < count; block += k_block)
 #pragma GCC ivdep
     for (int i = block; i < block + k_block; ++i) {
@@ -89,10 +89,9 @@ PAPILLA_WIDE void mark(const Prisms<const float>& t, int count, const float* x, 
       const float v2 = t.m[6][i] * w0 + t.m[7][i] * w1 + t.m[8][i] * w2;
       const float m01 = m0 > m1 ? m0 : m1, v01 = m0 > m1 ? v0 : v1;
       const float dm = std::max(m01 > m2 ? m01 : m2, 0.0F), wm = m01 > m2 ? v01 : v2;
-      const float g2 = ds * ds + dm * dm;
-      const float left = g2 + std::min(ds * ws + dm * wm, 0.0F);
-      const bool apart = (g2 > reach2) & (left > 0.0F) & (left * left > reach2 * g2);
-      mask[i] = apart ? 0 : 1;
+      const float g = std::sqrt(ds * ds + dm * dm);
+      const float approach = std::max(-(ds * ws + dm * wm), k_least);
+      earliest[i] = std::max((g - reach) * g / approach * (1 - k_margin), 0.0F);
     }
 }
 
@@ -135,7 +134,7 @@ void Neighbourhood::finish() noexcept {
   make_prisms(corners, prisms, static_cast<int>(count_));
 }
 
-void Neighbourhood::near_way(Vec3 from, Vec3 way, double contact, Mask& mask) const noexcept {
+void Neighbourhood::near_way(Vec3 from, Vec3 way, double contact, Times& earliest) const noexcept {
   const Vec3 a =
       from - Vec3{static_cast<double>(frame_[0]), static_cast<double>(frame_[1]), static_cast<double>(frame_[2])};
   const float x[3] = {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
@@ -148,7 +147,7 @@ void Neighbourhood::near_way(Vec3 from, Vec3 way, double contact, Mask& mask) co
   point_to(prisms.beyond, beyond_);
   prisms.middle = middle_.data();
   prisms.thick = thick_.data();
-  mark(prisms, static_cast<int>(count_), x, w, reach, mask.data());
+  meet(prisms, static_cast<int>(count_), x, w, reach, earliest.data());
 }
 
 }  // namespace papilla

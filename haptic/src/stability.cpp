@@ -14,6 +14,23 @@ double stiffness_limit(const DeviceDynamics& d, double period_s, double wall_dam
   return std::max(0.0, std::min(held, rounded));
 }
 
+Vec3 PassivityController::apply(Vec3 force_n, Vec3 moved_m, double period_s) noexcept {
+  constexpr double k_softer = 0.9, k_least = 0.05, k_recovery_s = 10;
+  const auto late = std::min<std::uint64_t>(k_history - 1, 1 + static_cast<std::uint64_t>(delay_s_ / period_s + 0.5));
+  const Vec3 acted = tick_ >= late ? written_[(tick_ - late) % k_history] : Vec3{};
+  energy_ += damping_ * dot(moved_m, moved_m) / period_s - dot(acted, moved_m);
+  if (energy_ < 0) {
+    share_ = std::max(k_least, k_softer * share_);
+    energy_ = 0;
+    ++interventions_;
+  } else {
+    share_ = std::min(1.0, share_ + period_s / k_recovery_s);
+  }
+  const Vec3 softened = share_ < 1 ? share_ * force_n : force_n;
+  written_[tick_++ % k_history] = softened;
+  return softened;
+}
+
 std::vector<StabilityClamp> clamp_to_stable(ContactSurface& surface, const DeviceDynamics& device, double period_s) {
   std::vector<StabilityClamp> clamps;
   for (std::uint32_t i = 0; i < surface.material_count(); ++i) {

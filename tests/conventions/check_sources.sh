@@ -77,7 +77,7 @@ check_light_folders() {
 # Public headers: the standard library and papilla only, so that no user needs our libraries to compile.
 check_public_headers() {
   breach_each "a public header must not include %s" < <(cpp_sources core haptic io meshing param texture |
-    grep /include/ | includes | grep -vE ' (<[a-z0-9_]+>|"papilla/.*")$')
+    grep /include/ | includes | grep -vE ' (<[a-z0-9_]+>|<std(def|int|bool)\.h>|"papilla/.*")$')
 }
 
 # Which folders the files of a folder may include.

@@ -11,7 +11,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/gltf_reader.hpp"
-#include "papilla/papilla_haptic.h"
+#include "papilla/io/papilla_haptic.h"
 
 namespace papilla {
 namespace {

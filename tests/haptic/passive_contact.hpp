@@ -54,7 +54,7 @@ inline PortEnergy wall_contact(const DevicePreset& preset, double share, double 
 /// Speed of the handle, root mean square over the last 0.3 s, after a hand that is only a spring has come down on a
 /// wall at half a metre a second and kept pressing for eight seconds: zero when the wall is stable, else it keeps
 /// bouncing.
-inline double speed_at_rest(const DevicePreset& preset, double share) {
+inline double speed_at_rest(const DevicePreset& preset, double share, bool controlled = false) {
   const double period = 1e-3;
   const DeviceCaps caps = preset.caps();
   ContactMaterial wall;
@@ -65,6 +65,7 @@ inline double speed_at_rest(const DevicePreset& preset, double share) {
   SafetyLimits limits = safety_limits(1e6);
   limits.soft_start_s = 0;
   HapticTick tick(surface, limits, period);
+  if (controlled) tick.control_passivity(caps.dynamics);
   double sum = 0;
   constexpr int ticks = 8000, last = 300;
   for (int i = 0; i < ticks; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/papilla_haptic.h"
+#include "papilla/io/papilla_haptic.h"
 
 #include <algorithm>
 #include <cstring>

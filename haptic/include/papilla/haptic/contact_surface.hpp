@@ -154,7 +154,6 @@ class ContactSurface {
                    std::optional<SweepHit>& best) const noexcept;
   void sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                     std::optional<SweepHit>& best) const noexcept;
-  std::optional<SweepHit> sweep_near(const Neighbourhood& near, Vec3 start, Vec3 way, double t_max) const noexcept;
   template <class Accept>
   std::optional<SurfacePoint> nearest(Vec3 p, double radius, Accept&& accept) const noexcept;
 

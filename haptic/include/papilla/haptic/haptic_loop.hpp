@@ -31,6 +31,7 @@ struct LoopStatus {
 struct LoopOptions {
   double rate_hz = 1000;
   std::uint64_t ticks = 2000;
+  bool control_passivity = false;    ///< See PassivityController.
   double watchdog_s = 0.01;          ///< Age of the newest position from which on there is no force.
   bool paced = true;                 ///< False: ticks follow each other at once (tests, replays faster than time).
   const Trajectory* hand = nullptr;  ///< For the recording's hand columns; without it they repeat the probe.
@@ -41,7 +42,8 @@ struct LoopOptions {
 
 struct LoopResult {
   std::uint64_t ticks = 0, missed_deadlines = 0, contact_ticks = 0, lost_contact_ticks = 0;
-  double seconds = 0;      ///< Wall time of the loop.
+  double seconds = 0;  ///< Wall time of the loop.
+  std::uint64_t passivity_interventions = 0;
   double max_force_n = 0;  ///< Largest force written.
   Histogram wakeup_us;     ///< How late the loop woke up.
   Histogram tick_us;       ///< CPU time of the thread from reading the position to writing the force.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "papilla/haptic/contact_audit.hpp"
 #include "papilla/haptic/contact_surface.hpp"
 #include "papilla/haptic/device.hpp"
 #include "papilla/haptic/force_model.hpp"
 #include "papilla/haptic/proxy.hpp"
 #include "papilla/haptic/safety.hpp"
+#include "papilla/haptic/stability.hpp"
 #include "papilla/haptic/stimulus.hpp"
 
 namespace papilla {
@@ -18,10 +21,16 @@ class HapticTick {
   HapticTick(const ContactSurface& surface, const SafetyLimits& limits, double period_s) noexcept
       : surface_(&surface), period_(period_s), proxy_(surface), audit_(surface), stimulus_(surface), guard_(limits) {}
 
+  /// From now on energy that the contact gives is watched, and softens it. The clamp of the materials is the first
+  /// means; this helps where the device's numbers are too good.
+  void control_passivity(const DeviceDynamics& device) { passivity_.emplace(device); }
+  std::uint64_t passivity_interventions() const noexcept { return passivity_ ? passivity_->interventions() : 0; }
+
   /// @returns the force on the hand in newtons.
   Vec3 operator()(const DeviceState& device) noexcept {
     const Vec3 probe = device.position;
     // Wall damping acts on a velocity that is smoothed over k_smoothing_s: differences of encoder steps are noise.
+    const Vec3 moved = started_ ? probe - last_ : Vec3{};
     const double share = period_ / (period_ + k_smoothing_s);
     if (started_) velocity_ = velocity_ + share * ((1 / period_) * (probe - last_) - velocity_);
     last_ = probe;
@@ -31,6 +40,7 @@ class HapticTick {
     // A probe that is no number gives no force, not the one of the tick before.
     Vec3 force = is_finite(probe) ? heightfield_force(*surface_, state, probe, velocity_) : probe;
     if (is_finite(probe) && stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
+    if (passivity_ && is_finite(probe)) force = passivity_->apply(force, moved, period_);
     return guard_.apply(force, period_, device.age_s);
   }
 
@@ -57,6 +67,7 @@ class HapticTick {
   ContactAudit audit_;
   Stimulus stimulus_;
   ForceGuard guard_;
+  std::optional<PassivityController> passivity_;
   Vec3 last_, velocity_;
   bool started_ = false, lost_ = false;
 };

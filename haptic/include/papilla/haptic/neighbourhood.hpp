@@ -18,7 +18,7 @@ namespace papilla {
 class Neighbourhood {
  public:
   static constexpr std::uint32_t k_capacity = 1024;
-  using Mask = std::array<std::int32_t, k_capacity>;
+  using Times = std::array<float, k_capacity>;
 
   /// Nothing is known any more.
   void clear() noexcept { reach_ = -1, count_ = 0; }
@@ -36,8 +36,8 @@ class Neighbourhood {
   /// How far a probe may go from `from` in any direction so that all that it can touch is known; negative: not at all.
   double margin(Vec3 from) const noexcept { return reach_ - norm(from - centre_); }
 
-  /// mask[i] != 0 for each triangle that may come nearer than `contact` to the way from..from + way.
-  void near_way(Vec3 from, Vec3 way, double contact, Mask& mask) const noexcept;
+  /// earliest[i]: no t before it brings from + t·way nearer than `contact` to the triangle i.
+  void near_way(Vec3 from, Vec3 way, double contact, Times& earliest) const noexcept;
 
  private:
   using Floats = std::array<float, k_capacity>;
