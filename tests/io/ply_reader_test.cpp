@@ -46,7 +46,7 @@ class PlyReader : public testing::Test {
 };
 
 TEST_F(PlyReader, PolygonsInText) {
-  const Scene scene = read(header("ascii", k_vertices + k_faces) + k_corners + "4 0 1 2 3\n", {25.4, {}, 0.1, 20});
+  const Scene scene = read(header("ascii", k_vertices + k_faces) + k_corners + "4 0 1 2 3\n", {25.4, {}, 0.1, 20, 0, {}});
   ASSERT_EQ(scene.parts.size(), 1U);
   EXPECT_EQ(scene.parts[0].name, "a");
   EXPECT_EQ(scene.parts[0].mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
