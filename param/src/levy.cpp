@@ -205,7 +205,9 @@ class LevyMap {
       : chart_(chart),
         options_(options),
         held_(std::move(held)),
-        smoothness_(smoothness_rows(chart, options.weights)),
+        smoothness_(options.smoothness > 0 || options.border == LevyBorder::convex
+                        ? smoothness_rows(chart, options.weights)
+                        : LinearRows{}),
         length_(options.length > 0 ? length_rows(chart) : LinearRows{}),
         uv_(chart.positions.size()),
         fixed_(chart.positions.size(), 0) {}

@@ -48,7 +48,7 @@ StartMap start_map(const ChartSurface& unit, MaillotStart start) {
     }
   }
   MultilevelOptions coarse;
-  coarse.max_iterations = 0;
+  coarse.only_when_rough = true;  // the energy has no wall: from a bad map it leads to another bad one
   MultilevelMap map = map_multilevel(unit, coarse);
   return {std::move(map.uv), std::move(map.failure)};
 }

@@ -68,7 +68,7 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
   return level;
 }
 
-double relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
+int relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
   const CornersOfVertices corners(level);
   std::optional<BorderGuard> guard;
   if (guarded) guard.emplace(level.border, level.uv);
@@ -76,7 +76,8 @@ double relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
   const DescentProblem problem{level.triangles, &energy, nullptr};
   double value = total_energy(problem, level.uv);
   std::vector<CornerView> ring;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  int sweep = 0;
+  while (sweep++ < sweeps) {
     for (Index v = 0; v < level.uv.size(); ++v) {
       ring.clear();
       const Vec2 at = level.uv[v];
@@ -96,7 +97,7 @@ double relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
     value = total_energy(problem, level.uv);
     if (!(before - value > tolerance * value)) break;
   }
-  return value;
+  return std::min(sweep, sweeps);
 }
 
 }  // namespace papilla::param_detail

@@ -28,7 +28,7 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
 /// Moves one vertex after the other to lower the symmetric Dirichlet energy, every one at most once per sweep, until a
 /// sweep gains less than `tolerance` of the energy. No triangle turns over.
 /// @param guarded the border does not run into itself either.
-/// @return the energy.
-double relax(MapLevel& level, int sweeps, double tolerance, bool guarded);
+/// @return how many sweeps were made: one when the map was smooth already.
+int relax(MapLevel& level, int sweeps, double tolerance, bool guarded);
 
 }  // namespace papilla::param_detail

@@ -104,9 +104,10 @@ class Multilevel {
     const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= k_most_factored;
     trace(level, last);
     const double relax_tolerance = last && !factored ? 0.1 * options_.tolerance : k_relax_tolerance;
-    relax(level, last && !factored ? k_fine_sweeps : k_relax_sweeps, relax_tolerance, guarded_);
+    const int sweeps = relax(level, last && !factored ? k_fine_sweeps : k_relax_sweeps, relax_tolerance, guarded_);
     trace(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
+    if (last && options_.only_when_rough && sweeps == 1) return;
     const SymmetricDirichlet dirichlet(level.rest);
     const BorderBarrier barrier = make_barrier(level);
     const double start = clock_.seconds();

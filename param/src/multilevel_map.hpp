@@ -13,6 +13,7 @@ struct MultilevelOptions {
   int max_iterations = 50;
   double tolerance = 1e-3;
   double time_limit_s = 0;
+  bool only_when_rough = false;  ///< No iterations on a map that is smooth already.
 };
 
 struct MultilevelMap {

@@ -67,7 +67,7 @@ struct LevyOptions {
 
 struct LevyResult {
   Flattening flattening;  ///< Trace: error = the sum F in mm², over all charts, after each round or sweep.
-  /// The parts of F at the end, without their weights, in mm².
+  /// The parts of F at the end, without their weights, in mm²; 0 where the weight is 0 (smoothness: and the border free).
   double smoothness = 0, orthogonality = 0, length = 0;
 };
 

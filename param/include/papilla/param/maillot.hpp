@@ -14,7 +14,8 @@ enum class MaillotSolver {
 
 /// The map that is started from.
 enum class MaillotStart {
-  coarse_to_fine,  ///< As flatten_best() has it before its last iterations: valid on every disk.
+  coarse_to_fine,  ///< As flatten_best() has it, before its last iterations where these change little: valid on every
+                   ///< disk.
   conformal,       ///< Least squares conformal; coarse_to_fine where that flips a triangle.
 };
 
