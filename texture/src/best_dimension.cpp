@@ -15,6 +15,8 @@ namespace {
 constexpr int k_least_side = 32;
 constexpr int k_blocks_a_side = 4, k_blocks = k_blocks_a_side * k_blocks_a_side;
 constexpr int k_longest_lag = 32;
+/// Second differences below this share of the rounding noise are no longer independent of it.
+constexpr double k_least_signal = 0.5;
 
 struct Direction {
   int dx, dy;
@@ -103,7 +105,7 @@ double direction_hurst(const LagTable& table, std::size_t direction, double nois
   std::vector<double> x, y, weights;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double raw = table[i][direction].mean(skipped_block), corrected = raw - noise;
-    if (!(corrected > 0)) continue;
+    if (!(corrected > k_least_signal * noise)) continue;
     const double lag = static_cast<double>(i + 1), kept = corrected / raw;
     x.push_back(std::log(lag));
     y.push_back(std::log(corrected));
@@ -132,6 +134,18 @@ double jackknife_half_width(const LagTable& table, double noise) {
   return texture_detail::student_quantile(k_blocks - 1) * std::sqrt(squares * (k_blocks - 1) / k_blocks);
 }
 
+/// Every direction has two lags that rise above the rounding noise, whichever block is left out: without them H is
+/// taken as 1 and seems steady.
+bool is_usable(const LagTable& table, double noise) {
+  for (std::size_t d = 0; d < k_directions.size(); ++d)
+    for (int skipped = -1; skipped < k_blocks; ++skipped) {
+      int lags = 0;
+      for (const auto& lag : table) lags += lag[d].mean(skipped) > (1 + k_least_signal) * noise;
+      if (lags < 2) return false;
+    }
+  return true;
+}
+
 /// The range of lags, doubled from 1 and 2 on, whose estimate varies least from block to block.
 LagTable steadiest(const GreyImage& image, double noise) {
   const LagTable all = lag_table(image, std::min(k_longest_lag, std::min(image.width, image.height) / 8));
@@ -140,7 +154,7 @@ LagTable steadiest(const GreyImage& image, double noise) {
   for (std::size_t lags = 2; lags <= all.size(); lags *= 2) {
     LagTable part(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(lags));
     const double half_width = jackknife_half_width(part, noise);
-    if (best.empty() || half_width < least) {
+    if (best.empty() || (is_usable(part, noise) && (half_width < least || !is_usable(best, noise)))) {
       best = std::move(part);
       least = half_width;
     }
