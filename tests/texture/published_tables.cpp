@@ -2,6 +2,7 @@
 #include "texture/published_tables.hpp"
 
 #include "papilla/texture/box_dimension.hpp"
+#include "papilla/texture/crop.hpp"
 #include "papilla/texture/fshot_dimension.hpp"
 #include "papilla/texture/midpoint_surface.hpp"
 #include "papilla/texture/probability_dimension.hpp"
@@ -34,12 +35,7 @@ void remove_best_plane(Surface& surface) {
 GreyImage dimension_picture(const DimensionCell& cell, unsigned seed) {
   Surface surface = brownian_surface_exact({513, 3 - cell.dimension, seed});
   remove_best_plane(surface);
-  const GreyImage whole = to_grey_image(surface, 8);
-  GreyImage part{cell.side_px, cell.side_px, {}, 0, 8};
-  const int first = (whole.width - cell.side_px) / 2;
-  for (int y = 0; y < cell.side_px; ++y)
-    for (int x = 0; x < cell.side_px; ++x) part.pixels.push_back(whole.at(first + x, first + y));
-  return part;
+  return middle_part(to_grey_image(surface, 8), cell.side_px);
 }
 
 FourDimensions measured_dimensions(const DimensionCell& cell) {

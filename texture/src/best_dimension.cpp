@@ -15,6 +15,8 @@ namespace {
 constexpr int k_least_side = 32;
 constexpr int k_blocks_a_side = 4, k_blocks = k_blocks_a_side * k_blocks_a_side;
 constexpr int k_longest_lag = 32;
+/// Second differences below this share of the rounding noise are no longer independent of it.
+constexpr double k_least_signal = 0.5;
 
 struct Direction {
   int dx, dy;
@@ -39,6 +41,23 @@ struct BlockSums {
   }
 };
 
+/// Σ (z[x + step] − 2 z[x] + z[x − step])²; several sums side by side, so that vector units can add them.
+double squared_differences(const float* z, std::ptrdiff_t step, int count) {
+  constexpr int k_lanes = 8;
+  std::array<double, k_lanes> sums{};
+  const auto square = [&](int x) {
+    const double d = static_cast<double>((z[x + step] - z[x]) + (z[x - step] - z[x]));
+    return d * d;
+  };
+  int x = 0;
+  for (; x + k_lanes <= count; x += k_lanes)
+    for (int lane = 0; lane < k_lanes; ++lane) sums[static_cast<std::size_t>(lane)] += square(x + lane);
+  double sum = 0;
+  for (; x < count; ++x) sum += square(x);
+  for (const double lane : sums) sum += lane;
+  return sum;
+}
+
 BlockSums second_differences(const GreyImage& image, const Direction& direction, int lag) {
   BlockSums sums;
   const int reach_x = lag * direction.dx, reach_y = lag * std::abs(direction.dy);
@@ -50,12 +69,7 @@ BlockSums second_differences(const GreyImage& image, const Direction& direction,
     for (int column = 0; column < k_blocks_a_side; ++column) {
       const int begin = std::max(reach_x, column * image.width / k_blocks_a_side);
       const int end = std::min(image.width - reach_x, (column + 1) * image.width / k_blocks_a_side);
-      double squares = 0;
-      for (int x = begin; x < end; ++x) {
-        const double d =
-            static_cast<double>(row[x + step]) - 2 * static_cast<double>(row[x]) + static_cast<double>(row[x - step]);
-        squares += d * d;
-      }
+      const double squares = begin < end ? squared_differences(row + begin, step, end - begin) : 0;
       const auto block = static_cast<std::size_t>(block_row + column);
       sums.squares[block] += squares;
       sums.counts[block] += std::max(0, end - begin);
@@ -91,7 +105,7 @@ double direction_hurst(const LagTable& table, std::size_t direction, double nois
   std::vector<double> x, y, weights;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double raw = table[i][direction].mean(skipped_block), corrected = raw - noise;
-    if (!(corrected > 0)) continue;
+    if (!(corrected > k_least_signal * noise)) continue;
     const double lag = static_cast<double>(i + 1), kept = corrected / raw;
     x.push_back(std::log(lag));
     y.push_back(std::log(corrected));
@@ -120,6 +134,18 @@ double jackknife_half_width(const LagTable& table, double noise) {
   return texture_detail::student_quantile(k_blocks - 1) * std::sqrt(squares * (k_blocks - 1) / k_blocks);
 }
 
+/// Every direction has two lags that rise above the rounding noise, whichever block is left out: without them H is
+/// taken as 1 and seems steady.
+bool is_usable(const LagTable& table, double noise) {
+  for (std::size_t d = 0; d < k_directions.size(); ++d)
+    for (int skipped = -1; skipped < k_blocks; ++skipped) {
+      int lags = 0;
+      for (const auto& lag : table) lags += lag[d].mean(skipped) > (1 + k_least_signal) * noise;
+      if (lags < 2) return false;
+    }
+  return true;
+}
+
 /// The range of lags, doubled from 1 and 2 on, whose estimate varies least from block to block.
 LagTable steadiest(const GreyImage& image, double noise) {
   const LagTable all = lag_table(image, std::min(k_longest_lag, std::min(image.width, image.height) / 8));
@@ -128,7 +154,7 @@ LagTable steadiest(const GreyImage& image, double noise) {
   for (std::size_t lags = 2; lags <= all.size(); lags *= 2) {
     LagTable part(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(lags));
     const double half_width = jackknife_half_width(part, noise);
-    if (best.empty() || half_width < least) {
+    if (best.empty() || (is_usable(part, noise) && (half_width < least || !is_usable(best, noise)))) {
       best = std::move(part);
       least = half_width;
     }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "best_plane.hpp"
 #include "border_cut.hpp"
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
@@ -17,6 +18,7 @@
 namespace papilla {
 namespace {
 
+using texture_detail::best_plane;
 using Field = std::vector<double>;
 
 constexpr std::array<std::pair<BorderMatching, std::string_view>, 4> k_names = {{{BorderMatching::automatic, "auto"},
@@ -31,27 +33,6 @@ Field blurred(Field field, int width, int height, double deviation_px) {
     return std::exp(-wave * wave * (x * x + y * y) / 2);
   });
   return field;
-}
-
-/// The best plane of a field, by least squares.
-Field best_plane(const Field& field, int width, int height) {
-  const double middle_x = (width - 1) / 2.0, middle_y = (height - 1) / 2.0;
-  double mean = 0, along_x = 0, along_y = 0, square_x = 0, square_y = 0;
-  std::size_t i = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x, ++i) {
-      mean += field[i];
-      along_x += field[i] * (x - middle_x);
-      along_y += field[i] * (y - middle_y);
-      square_x += (x - middle_x) * (x - middle_x);
-      square_y += (y - middle_y) * (y - middle_y);
-    }
-  mean /= static_cast<double>(field.size());
-  const double slope_x = square_x > 0 ? along_x / square_x : 0, slope_y = square_y > 0 ? along_y / square_y : 0;
-  Field plane;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) plane.push_back(mean + slope_x * (x - middle_x) + slope_y * (y - middle_y));
-  return plane;
 }
 
 struct Moments {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "best_plane.hpp"
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
 
@@ -14,22 +15,8 @@ namespace {
 using Field = std::vector<double>;
 
 void remove_plane(Field& field, int width, int height) {
-  const double middle_x = (width - 1) / 2.0, middle_y = (height - 1) / 2.0;
-  double mean = 0, along_x = 0, along_y = 0, square_x = 0, square_y = 0;
-  std::size_t i = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x, ++i) {
-      mean += field[i];
-      along_x += field[i] * (x - middle_x);
-      along_y += field[i] * (y - middle_y);
-      square_x += (x - middle_x) * (x - middle_x);
-      square_y += (y - middle_y) * (y - middle_y);
-    }
-  mean /= static_cast<double>(field.size());
-  const double slope_x = square_x > 0 ? along_x / square_x : 0, slope_y = square_y > 0 ? along_y / square_y : 0;
-  i = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x, ++i) field[i] -= mean + slope_x * (x - middle_x) + slope_y * (y - middle_y);
+  const Field plane = texture_detail::best_plane(field, width, height);
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] -= plane[i];
 }
 
 double mean_difference(const Field& a, const Field& b, double scale) {

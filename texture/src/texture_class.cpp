@@ -9,6 +9,7 @@
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/vec.hpp"
+#include "papilla/texture/crop.hpp"
 #include "structure_tensor.hpp"
 
 namespace papilla {
@@ -94,11 +95,7 @@ OrientationField orientation_field(const GreyImage& image) {
     for (int column = 0; column < field.columns; ++column) {
       const int left = column * image.width / field.columns, right = (column + 1) * image.width / field.columns;
       const int top = row * image.height / field.rows, bottom = (row + 1) * image.height / field.rows;
-      GreyImage block{right - left, bottom - top, {}, 0, image.bits};
-      for (int y = top; y < bottom; ++y)
-        block.pixels.insert(block.pixels.end(),
-                            image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(left, y)),
-                            image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(left, y)) + block.width);
+      const GreyImage block = crop(image, left, top, right - left, bottom - top);
       const texture_detail::StructureTensor tensor = texture_detail::structure_tensor(block);
       double along = tensor.angle() * 180 / std::numbers::pi + 90;
       if (along >= 180) along -= 180;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "papilla/core/trace.hpp"
-#include "papilla/texture/image.hpp"
 #include "scene_options.hpp"
 #include "verb.hpp"
 
@@ -55,8 +54,6 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input);
 /// picture, .exr or .tif, lit from three sides), the residual of each step for any other picture.
 std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input);
 
-/// The middle of a picture, at most `side` pixels a side.
-GreyImage middle_part(const GreyImage& image, int side);
 /// 64, 128, … and the side itself, at most 4096.
 std::vector<int> rising_sides(int shorter_side);
 

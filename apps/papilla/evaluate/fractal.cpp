@@ -8,6 +8,7 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/best_dimension.hpp"
 #include "papilla/texture/box_dimension.hpp"
+#include "papilla/texture/crop.hpp"
 #include "papilla/texture/fshot_dimension.hpp"
 #include "papilla/texture/probability_dimension.hpp"
 
@@ -28,15 +29,6 @@ constexpr std::array<Method, 6> k_methods = {
      {"best", 32, [](const GreyImage& image) { return best_dimension(image).estimate; }}}};
 
 }  // namespace
-
-GreyImage middle_part(const GreyImage& image, int side) {
-  const int width = std::min(side, image.width), height = std::min(side, image.height);
-  GreyImage part{width, height, {}, image.pitch_mm, image.bits};
-  const int left = (image.width - width) / 2, top = (image.height - height) / 2;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) part.pixels.push_back(image.at(left + x, top + y));
-  return part;
-}
 
 std::vector<int> rising_sides(int shorter_side) {
   constexpr int k_first = 64, k_last = 4096;

@@ -7,6 +7,7 @@
 
 #include "evaluate/evaluation.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/texture/crop.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
 
 namespace papilla::app {

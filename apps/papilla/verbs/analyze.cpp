@@ -12,6 +12,7 @@
 #include "papilla/texture/analysis_pictures.hpp"
 #include "papilla/texture/best_dimension.hpp"
 #include "papilla/texture/box_dimension.hpp"
+#include "papilla/texture/crop.hpp"
 #include "papilla/texture/frieze_group.hpp"
 #include "papilla/texture/fshot_dimension.hpp"
 #include "papilla/texture/probability_dimension.hpp"
@@ -34,16 +35,6 @@ struct Arguments {
 
 /// Methods whose time grows with the square of the side see this much of the middle of a picture.
 constexpr int k_most_side = 4096;
-
-GreyImage middle_of(const GreyImage& image) {
-  const int width = std::min(image.width, k_most_side), height = std::min(image.height, k_most_side);
-  if (width == image.width && height == image.height) return image;
-  GreyImage part{width, height, {}, image.pitch_mm, image.bits};
-  const int left = (image.width - width) / 2, top = (image.height - height) / 2;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) part.pixels.push_back(image.at(left + x, top + y));
-  return part;
-}
 
 /// The estimate by one method, or nothing when the picture is too small for it.
 using Estimator = FractalEstimate (*)(const GreyImage&);
@@ -248,7 +239,7 @@ void write_pictures(const Arguments& arguments, const SymmetryAnalysis& analysis
 
 Json run(const Arguments& arguments, VerbContext& context) {
   const std::set<std::string> wanted(arguments.only.begin(), arguments.only.end());
-  const GreyImage whole = read_grey_image(arguments.image), image = middle_of(whole);
+  const GreyImage whole = read_grey_image(arguments.image), image = middle_part(whole, k_most_side);
   const double pitch = arguments.pitch_mm > 0 ? arguments.pitch_mm : image.pitch_mm;
   const Console& console = context.console;
   console.print(
