@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   add_height(program);
   add_plan(program);
   add_bake(program);
+  add_view(program);
   add_evaluate(program);
 
   try {
