@@ -44,6 +44,7 @@ class Page {
     $('parts').addEventListener('keydown', (e) => this.stepParts(e));
     document.addEventListener('keydown', (e) => this.keys(e));
     this.switchTo(this.view);
+    this.selectLargest();
     return fillCards($('cards'), scene, data.report);
   }
 
@@ -73,7 +74,7 @@ class Page {
     const back = getComputedStyle(document.body).backgroundColor;
     this.three?.setBackground(back);
     this.uv?.setBackground(back);
-    this.touch.plot?.redraw();
+    this.touch.repaint();
   }
 
   listViews() {
@@ -135,6 +136,14 @@ class Page {
     const now = items.findIndex((item) => item.id === `use-${this.selected}`);
     const next = items[Math.min(Math.max(now + step, 0), items.length - 1)];
     if (next) this.select(Number(next.id.slice(4)), true);
+  }
+
+  /** Of those with uv, so that the layout is not empty at first. */
+  selectLargest() {
+    const { parts, instances } = this.scene;
+    const size = ({ part }) => parts[part].meshes.some((m) => m.uv) ? parts[part].triangles : 0;
+    const best = instances.reduce((most, use, i) => size(use) > size(instances[most]) ? i : most, 0);
+    if (this.scene.triangles) this.select(best, false);
   }
 
   selectByName(name) {

@@ -154,7 +154,7 @@ export class SceneView {
 
   frameAll() {
     this.camera.position.copy(new THREE.Vector3(0.7, 0.55, 0.9));
-    this.frame(this.box, 1.15);
+    this.frame(this.box, 0.72);
   }
 
   frame(box, margin) {

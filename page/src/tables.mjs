@@ -76,7 +76,7 @@ function fillDownloads(data, touch) {
   const facts = { file: scene.file, triangles: scene.triangles, triangles_shown: scene.triangles_shown, parts: scene.parts.map(({ name, triangles, distortion }) => ({ name, triangles, distortion })),
     materials: scene.materials.map(({ name, haptic, warnings }) => ({ name, haptic, warnings })), losses: scene.losses, warnings: scene.warnings };
   const offer = (name, type, text) => {
-    const button = element('button', { type: 'button', 'data-file': name }, `⭳ ${name}`);
+    const button = element('button', { type: 'button', 'data-file': name }, `↓ ${name}`);
     button.addEventListener('click', () => download(name, text(), type));
     $('downloads').append(button);
   };

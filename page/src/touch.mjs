@@ -63,6 +63,9 @@ export class Touch {
     this.show();
   }
 
+  /** After a change of colours. */
+  repaint() { if (this.samples?.length) this.plot.redraw(); }
+
   press() {
     this.depth = Number($('press').value);
     $('press-text').value = `${number(this.depth)} mm`;

@@ -147,10 +147,11 @@ Json images_json(const Scene& scene, const Json& materials) {
 
 Json page_scene_json(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
                      const Progress& progress) {
-  std::size_t total = 0, triangles = 0, triangles_shown = 0;
+  const std::vector<Instance> drawn = instances(scene);
+  std::size_t triangles = 0, triangles_shown = 0;
   double error_mm = 0;
-  for (const Part& part : scene.parts) total += part.mesh.triangles.size();
-  const double keep = std::min(1.0, static_cast<double>(options.triangles) / static_cast<double>(std::max<std::size_t>(total, 1)));
+  for (const Instance& use : drawn) triangles += scene.parts[use.part].mesh.triangles.size();
+  const double keep = std::min(1.0, static_cast<double>(options.triangles) / static_cast<double>(std::max<std::size_t>(triangles, 1)));
   const std::vector<ShownPart> shown = show_parts(scene, keep, progress);
 
   Json parts = Json::array(), uses = Json::array();
@@ -163,9 +164,8 @@ Json page_scene_json(const Scene& scene, const std::filesystem::path& file, cons
     parts.push_back({{"name", scene.parts[i].name}, {"triangles", scene.parts[i].mesh.triangles.size()}, {"meshes", std::move(meshes)},
                      {"distortion", shown_uv(scene.parts[i].mesh) ? distortion_json(shown[i].distortion) : Json(nullptr)}});
   }
-  for (const Instance& use : instances(scene)) {
+  for (const Instance& use : drawn) {
     uses.push_back({{"part", use.part}, {"name", scene.nodes[use.node].name}, {"world", use.world}});
-    triangles += scene.parts[use.part].mesh.triangles.size();
     for (const PageMesh& mesh : shown[use.part].meshes) triangles_shown += mesh.shown;
   }
   Materials materials(scene, file);
