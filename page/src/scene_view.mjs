@@ -56,7 +56,7 @@ export class SceneView {
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.1, 1e6);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.invalidate());
-    const environment = new THREE.PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04).texture;
+    const environment = new THREE.PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
     this.world.environment = environment;
     this.addLights();
     this.addMeshes();

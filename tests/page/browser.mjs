@@ -35,4 +35,4 @@ export function folder(path) {
   return path;
 }
 
-export const text = (page, selector) => page.locator(selector).evaluate((node) => node.value ?? node.textContent);
+export const text = (page, selector) => page.locator(selector).evaluate((node) => node.tagName === 'OUTPUT' ? node.value : node.textContent);

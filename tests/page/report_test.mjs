@@ -11,7 +11,7 @@ folder(pictures);
 
 async function views(page) {
   const seen = new Set();
-  for (const view of ['textured', 'checker', 'stretch', 'angle', 'density', 'stiffness', 'friction', 'height']) {
+  for (const view of ['checker', 'stretch', 'angle', 'density', 'stiffness', 'friction', 'height', 'textured']) {
     const frames = Number(await page.locator('#canvas3d').getAttribute('data-frames'));
     await page.locator(`#view-${view}`).check();
     await page.waitForFunction((n) => Number(document.getElementById('canvas3d').dataset.frames) > n, frames);

@@ -31,8 +31,10 @@ std::size_t write_page(const PageContent& content, const std::filesystem::path& 
   } else {
     const std::size_t marker = page.find(k_page_marker);
     html = page.substr(0, marker);
-    html += embedded({{"program", std::string("papilla ") + version()}, {"title", content.title},
-                      {"scene", content.scene}, {"report", content.report}});
+    html += embedded({{"program", std::string("papilla ") + version()},
+                      {"title", content.title},
+                      {"scene", content.scene},
+                      {"report", content.report}});
     html += page.substr(marker + k_page_marker.size());
   }
   write_atomically(file, html);

@@ -40,9 +40,13 @@ constexpr double k_too_many = 1.5;
 /// No fewer triangles than this are asked of a mesh: a knob stays a knob.
 constexpr std::size_t k_least_triangles = 64;
 
-std::array<float, 3> floats(Vec3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+std::array<float, 3> floats(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
-std::uint16_t unit16(double value) { return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0, 1.0))); }
+std::uint16_t unit16(double value) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0, 1.0)));
+}
 
 std::uint16_t log_code(double value) {
   return static_cast<std::uint16_t>(std::clamp(std::lround(2048 * (std::log2(value) + 16)), 0L, 65534L));
@@ -87,8 +91,8 @@ class Builder {
       out.has_uv = out.has_uv || uv_.has_value(t);
     }
     std::vector<unsigned int> remap(corners.size());
-    const std::size_t count =
-        meshopt_generateVertexRemap(remap.data(), nullptr, corners.size(), corners.data(), corners.size(), sizeof(Corner));
+    const std::size_t count = meshopt_generateVertexRemap(remap.data(), nullptr, corners.size(), corners.data(),
+                                                          corners.size(), sizeof(Corner));
     vertices_.assign(count, {});
     around_.assign(count, {});
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -149,16 +153,22 @@ class Builder {
     }
   }
 
-  static std::uint16_t within(double value, double low, double high) { return high > low ? unit16((value - low) / (high - low)) : 0; }
+  static std::uint16_t within(double value, double low, double high) {
+    return high > low ? unit16((value - low) / (high - low)) : 0;
+  }
 
   Packed pack(const Corner& corner, const Around& around, const PageMesh& mesh) const {
     Packed packed;
     const auto& [x, y, z] = corner.position;
-    packed.position = {within(x, mesh.low.x, mesh.high.x), within(y, mesh.low.y, mesh.high.y), within(z, mesh.low.z, mesh.high.z), 0};
-    packed.uv = {within(corner.uv[0], mesh.uv_low.x, mesh.uv_high.x), within(corner.uv[1], mesh.uv_low.y, mesh.uv_high.y)};
+    packed.position = {within(x, mesh.low.x, mesh.high.x), within(y, mesh.low.y, mesh.high.y),
+                       within(z, mesh.low.z, mesh.high.z), 0};
+    packed.uv = {within(corner.uv[0], mesh.uv_low.x, mesh.uv_high.x),
+                 within(corner.uv[1], mesh.uv_low.y, mesh.uv_high.y)};
     const Vec3 given{corner.normal[0], corner.normal[1], corner.normal[2]};
     const Vec3 normal = normalized(norm(given) > 0 ? given : around.normal);
-    const auto unit8 = [](double value) { return static_cast<std::int8_t>(std::lround(127 * std::clamp(value, -1.0, 1.0))); };
+    const auto unit8 = [](double value) {
+      return static_cast<std::int8_t>(std::lround(127 * std::clamp(value, -1.0, 1.0)));
+    };
     packed.normal = {unit8(normal.x), unit8(normal.y), unit8(normal.z), 0};
     packed.measured = {k_page_no_value, k_page_no_value, k_page_no_value, 0};
     if (around.weight > 0)
@@ -173,8 +183,8 @@ class Builder {
       if (order_[i] != ~0U) packed[order_[i]] = pack(vertices_[i], around_[i], out);
     const auto bytes = [](std::vector<std::byte>& stream) { return reinterpret_cast<unsigned char*>(stream.data()); };
     out.vertex_stream.resize(meshopt_encodeVertexBufferBound(packed.size(), sizeof(Packed)));
-    out.vertex_stream.resize(meshopt_encodeVertexBuffer(bytes(out.vertex_stream), out.vertex_stream.size(), packed.data(),
-                                                        packed.size(), sizeof(Packed)));
+    out.vertex_stream.resize(meshopt_encodeVertexBuffer(bytes(out.vertex_stream), out.vertex_stream.size(),
+                                                        packed.data(), packed.size(), sizeof(Packed)));
     out.index_stream.resize(meshopt_encodeIndexBufferBound(indices_.size(), packed.size()));
     out.index_stream.resize(
         meshopt_encodeIndexBuffer(bytes(out.index_stream), out.index_stream.size(), indices_.data(), indices_.size()));
@@ -193,9 +203,11 @@ class Builder {
 std::vector<PageMesh> page_meshes(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
                                   const DistortionReport& report, double keep) {
   std::map<std::uint32_t, std::vector<std::size_t>> by_slot;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) by_slot[mesh.material.empty() ? 0 : mesh.material[t]].push_back(t);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    by_slot[mesh.material.empty() ? 0 : mesh.material[t]].push_back(t);
   std::vector<PageMesh> meshes;
-  for (const auto& [slot, triangles] : by_slot) meshes.push_back(Builder(mesh, uv, report).build(slot, triangles, keep));
+  for (const auto& [slot, triangles] : by_slot)
+    meshes.push_back(Builder(mesh, uv, report).build(slot, triangles, keep));
   return meshes;
 }
 

@@ -29,7 +29,8 @@ ColorImage shrink(const ColorImage& image, int side) {
         int sum = 0, count = 0;
         for (int j = y * factor; j < std::min((y + 1) * factor, image.height); ++j)
           for (int i = x * factor; i < std::min((x + 1) * factor, image.width); ++i, ++count)
-            sum += image.pixels[3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(i)) +
+            sum += image.pixels[3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) +
+                                     static_cast<std::size_t>(i)) +
                                 static_cast<std::size_t>(c)];
         small.pixels.push_back(static_cast<unsigned char>(sum / std::max(count, 1)));
       }
@@ -40,7 +41,8 @@ void add_photos(Json& report) {
   for (Json& material : report["materials"]) {
     if (!material.contains("picture")) continue;
     try {
-      material["photo"] = base64(encode_png(shrink(read_color_image(material["picture"]["file"].get<std::string>()), k_photo_px)));
+      material["photo"] =
+          base64(encode_png(shrink(read_color_image(material["picture"]["file"].get<std::string>()), k_photo_px)));
     } catch (const Error&) {
       continue;
     }
@@ -49,7 +51,8 @@ void add_photos(Json& report) {
 
 }  // namespace
 
-void write_report_page(const std::filesystem::path& glb, Json report, const std::filesystem::path& page, const Progress& progress) {
+void write_report_page(const std::filesystem::path& glb, Json report, const std::filesystem::path& page,
+                       const Progress& progress) {
   add_photos(report);
   const Scene scene = read_gltf(glb);
   write_page({glb.filename().string(), page_scene_json(scene, glb, {}, progress), std::move(report)}, page);

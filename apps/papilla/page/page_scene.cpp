@@ -25,9 +25,16 @@ Json triple(Vec3 v) { return {v.x, v.y, v.z}; }
 
 Json mesh_json(const PageMesh& mesh, const Part& part) {
   return {{"material", mesh.slot < part.materials.size() ? Json(part.materials[mesh.slot]) : Json(nullptr)},
-          {"triangles", mesh.triangles}, {"shown", mesh.shown}, {"vertices", mesh.vertices}, {"error_mm", mesh.error_mm},
-          {"uv", mesh.has_uv}, {"low", triple(mesh.low)}, {"high", triple(mesh.high)}, {"uv_low", pair(mesh.uv_low)},
-          {"uv_high", pair(mesh.uv_high)}, {"vertex_stream", base64(mesh.vertex_stream)},
+          {"triangles", mesh.triangles},
+          {"shown", mesh.shown},
+          {"vertices", mesh.vertices},
+          {"error_mm", mesh.error_mm},
+          {"uv", mesh.has_uv},
+          {"low", triple(mesh.low)},
+          {"high", triple(mesh.high)},
+          {"uv_low", pair(mesh.uv_low)},
+          {"uv_high", pair(mesh.uv_high)},
+          {"vertex_stream", base64(mesh.vertex_stream)},
           {"index_stream", base64(mesh.index_stream)}};
 }
 
@@ -72,9 +79,10 @@ Json texture_json(const Scene& scene, const std::optional<TextureReference>& ref
   const Texture& texture = scene.textures[reference->texture];
   if (!texture.image || *texture.image >= scene.images.size()) return nullptr;
   const TextureTransform transform = reference->transform.value_or(TextureTransform{});
-  return {{"image", *texture.image}, {"tex_coord", reference->tex_coord}, {"factor", reference->factor},
-          {"wrap", {texture.wrap_s, texture.wrap_t}}, {"offset", pair(transform.offset)},
-          {"rotation", transform.rotation}, {"scale", pair(transform.scale)}};
+  return {{"image", *texture.image},          {"tex_coord", reference->tex_coord},
+          {"factor", reference->factor},      {"wrap", {texture.wrap_s, texture.wrap_t}},
+          {"offset", pair(transform.offset)}, {"rotation", transform.rotation},
+          {"scale", pair(transform.scale)}};
 }
 
 /// Materials, and the height maps that their tags name.
@@ -88,12 +96,18 @@ class Materials {
 
  private:
   void add(const Material& material) {
-    Json json = {{"name", material.name}, {"color", material.base_color}, {"metallic", material.metallic},
-                 {"roughness", material.roughness}, {"emissive", material.emissive},
-                 {"double_sided", material.double_sided}, {"alpha_mode", material.alpha_mode},
+    Json json = {{"name", material.name},
+                 {"color", material.base_color},
+                 {"metallic", material.metallic},
+                 {"roughness", material.roughness},
+                 {"emissive", material.emissive},
+                 {"double_sided", material.double_sided},
+                 {"alpha_mode", material.alpha_mode},
                  {"alpha_cutoff", material.alpha_cutoff},
                  {"base_map", texture_json(scene_, material.base_color_texture)},
-                 {"normal_map", texture_json(scene_, material.normal_texture)}, {"haptic", nullptr}, {"height", nullptr}};
+                 {"normal_map", texture_json(scene_, material.normal_texture)},
+                 {"haptic", nullptr},
+                 {"height", nullptr}};
     std::vector<HapticWarning> warnings;
     if (const auto tag = material_tag_of_extras(material.extras_json, warnings)) {
       json["haptic"] = Json::parse(to_json(*tag));
@@ -115,7 +129,8 @@ class Materials {
     const auto span = std::as_bytes(std::span(bytes->data(), bytes->size()));
     try {
       const Grey16 picture = decode_grey16(span, "height map");
-      heights.push_back({{"png", base64(span)}, {"width", picture.width}, {"height", picture.height}, {"bits", picture.bits}});
+      heights.push_back(
+          {{"png", base64(span)}, {"width", picture.width}, {"height", picture.height}, {"bits", picture.bits}});
       return place->second;
     } catch (const Error& error) {
       warnings.push_back({"height_image", error.what()});
@@ -151,7 +166,8 @@ Json page_scene_json(const Scene& scene, const std::filesystem::path& file, cons
   std::size_t triangles = 0, triangles_shown = 0;
   double error_mm = 0;
   for (const Instance& use : drawn) triangles += scene.parts[use.part].mesh.triangles.size();
-  const double keep = std::min(1.0, static_cast<double>(options.triangles) / static_cast<double>(std::max<std::size_t>(triangles, 1)));
+  const double keep =
+      std::min(1.0, static_cast<double>(options.triangles) / static_cast<double>(std::max<std::size_t>(triangles, 1)));
   const std::vector<ShownPart> shown = show_parts(scene, keep, progress);
 
   Json parts = Json::array(), uses = Json::array();
@@ -161,8 +177,11 @@ Json page_scene_json(const Scene& scene, const std::filesystem::path& file, cons
       meshes.push_back(mesh_json(mesh, scene.parts[i]));
       error_mm = std::max(error_mm, mesh.error_mm);
     }
-    parts.push_back({{"name", scene.parts[i].name}, {"triangles", scene.parts[i].mesh.triangles.size()}, {"meshes", std::move(meshes)},
-                     {"distortion", shown_uv(scene.parts[i].mesh) ? distortion_json(shown[i].distortion) : Json(nullptr)}});
+    parts.push_back(
+        {{"name", scene.parts[i].name},
+         {"triangles", scene.parts[i].mesh.triangles.size()},
+         {"meshes", std::move(meshes)},
+         {"distortion", shown_uv(scene.parts[i].mesh) ? distortion_json(shown[i].distortion) : Json(nullptr)}});
   }
   for (const Instance& use : drawn) {
     uses.push_back({{"part", use.part}, {"name", scene.nodes[use.node].name}, {"world", use.world}});
@@ -170,10 +189,18 @@ Json page_scene_json(const Scene& scene, const std::filesystem::path& file, cons
   }
   Materials materials(scene, file);
   Json images = images_json(scene, materials.materials);
-  return {{"file", file.filename().string()}, {"triangles", triangles}, {"triangles_shown", triangles_shown}, {"error_mm", error_mm},
-          {"z_up", scene.up == UpAxis::z}, {"parts", std::move(parts)}, {"instances", std::move(uses)},
-          {"materials", std::move(materials.materials)}, {"heights", std::move(materials.heights)},
-          {"images", std::move(images)}, {"losses", scene.losses}, {"warnings", scene.warnings}};
+  return {{"file", file.filename().string()},
+          {"triangles", triangles},
+          {"triangles_shown", triangles_shown},
+          {"error_mm", error_mm},
+          {"z_up", scene.up == UpAxis::z},
+          {"parts", std::move(parts)},
+          {"instances", std::move(uses)},
+          {"materials", std::move(materials.materials)},
+          {"heights", std::move(materials.heights)},
+          {"images", std::move(images)},
+          {"losses", scene.losses},
+          {"warnings", scene.warnings}};
 }
 
 }  // namespace papilla::app

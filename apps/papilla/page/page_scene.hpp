@@ -14,8 +14,8 @@ struct PageSceneOptions {
 };
 
 /// A scene as the report page shows it: parts in compressed streams (PageMesh), instances, materials with their haptic
-/// tags, pictures and height maps (byte for byte, each once, checked against the tag's SHA-256) in base64. Distortion is
-/// measured for every part with uv.
+/// tags, pictures and height maps (byte for byte, each once, checked against the tag's SHA-256) in base64. Distortion
+/// is measured for every part with uv.
 /// @param file the scene's own: height maps beside it are found from here.
 /// @return also `triangles`, `triangles_shown` and `error_mm`.
 /// @throws InvalidInput as instances() and measure_distortion().

@@ -41,7 +41,8 @@ std::string rows(const Json& list) {
   out += "</tr>";
   for (const Json& row : list) {
     out += "<tr>";
-    for (const std::string& column : columns) out += "<td>" + (row.contains(column) ? value(row[column]) : "") + "</td>";
+    for (const std::string& column : columns)
+      out += "<td>" + (row.contains(column) ? value(row[column]) : "") + "</td>";
     out += "</tr>";
   }
   return out + "</table>";
@@ -65,10 +66,14 @@ std::string value(const Json& json) {
 
 std::string plain_page(const PageContent& content) {
   std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"color-scheme\" content=\"light dark\">"
-      "<title>" + escaped(content.title) + "</title><style>body{font-family:sans-serif;margin:2em}"
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"color-scheme\" content=\"light "
+      "dark\">"
+      "<title>" +
+      escaped(content.title) +
+      "</title><style>body{font-family:sans-serif;margin:2em}"
       "table{border-collapse:collapse}td,th{padding:2px 8px;text-align:left;vertical-align:top;border:1px solid #8886}"
-      "</style></head><body>\n<h1>" + escaped(content.title) + "</h1>\n";
+      "</style></head><body>\n<h1>" +
+      escaped(content.title) + "</h1>\n";
   if (!content.report.is_null()) html += "<h2>Report</h2>\n" + value(content.report) + "\n";
   return html + "<h2>Scene</h2>\n" + value(content.scene) + "\n</body></html>\n";
 }

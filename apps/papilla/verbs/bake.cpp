@@ -125,7 +125,8 @@ void add_bake(CLI::App& program) {
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--report", options->report, "Folder for report.json, a page to look at (index.html) and pictures")->type_name("DIR");
+  verb->add_option("--report", options->report, "Folder for report.json, a page to look at (index.html) and pictures")
+      ->type_name("DIR");
   options->leave_out.add_to(*verb);
   options->scene.add_to(*verb);
 }

@@ -40,30 +40,34 @@ bool open_in_browser(const fs::path& page) {
 }
 
 Json run(const Options& options, VerbContext& context) {
-  const fs::path page = options.output.empty() ? fs::path(options.input).replace_extension(".html") : fs::path(options.output);
+  const fs::path page =
+      options.output.empty() ? fs::path(options.input).replace_extension(".html") : fs::path(options.output);
   const Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   PageContent content{fs::path(options.input).filename().string(),
                       page_scene_json(scene, options.input, options.page, context.progress), nullptr};
   const std::size_t bytes = write_page(content, page);
   const Json& triangles = content.scene["triangles"];
   const Json& shown = content.scene["triangles_shown"];
-  context.console.print(fmt::format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(), shown.get<std::size_t>(),
-                                    triangles.get<std::size_t>(), static_cast<double>(bytes) / 1e6));
+  context.console.print(fmt::format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(),
+                                    shown.get<std::size_t>(), triangles.get<std::size_t>(),
+                                    static_cast<double>(bytes) / 1e6));
   const bool opened = !options.no_open && !context.console.silent() && open_in_browser(page);
   if (!options.no_open && !opened && !context.console.silent())
     context.console.print("no browser could be started; open the page by hand\n");
-  return {{"page", page.string()}, {"triangles", triangles}, {"triangles_shown", shown},
-          {"simplification_error_mm", content.scene["error_mm"]}, {"bytes", bytes}, {"opened", opened}};
+  return {{"page", page.string()},    {"triangles", triangles},
+          {"triangles_shown", shown}, {"simplification_error_mm", content.scene["error_mm"]},
+          {"bytes", bytes},           {"opened", opened}};
 }
 
 }  // namespace
 
 void add_view(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"view", "Write a page that shows a scene, its uv and how it feels, and open it in the browser.",
-                             "papilla view cockpit.glb -o cockpit.html --no-open"},
-                            [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb =
+      add_verb(program,
+               {"view", "Write a page that shows a scene, its uv and how it feels, and open it in the browser.",
+                "papilla view cockpit.glb -o cockpit.html --no-open"},
+               [options](VerbContext& context) { return run(*options, context); });
   verb->add_option("FILE", options->input, "GLB of any producer, or another file that is read")->required();
   verb->add_option("-o,--output", options->output, "Page to write; beside FILE when not given")->type_name("HTML");
   verb->add_flag("--no-open", options->no_open, "Write the page only");
