@@ -23,7 +23,7 @@ async function views(page) {
 }
 
 async function pick(page) {
-  await page.locator('#parts [role=option]').filter({ hasText: 'seat_cushion' }).click();
+  await page.locator('#parts [role=option]').filter({ hasText: 'seat_cushion' }).first().click();
   assert.match(await text(page, '#picked'), /^seat_cushion: [\d,]+ triangles/);
   assert.equal(await page.locator('#canvasuv').getAttribute('data-part'), 'seat_cushion');
   const box = await page.locator('#canvas3d').boundingBox();
@@ -52,6 +52,8 @@ async function touch(page) {
   assert.ok(forces.size > 10, `the force changes along the way: ${[...forces]}`);
   assert.ok([...forces].some((f) => parseFloat(f) > 0));
   assert.match(await text(page, '#touch-note'), /of 16 bits/);
+  const leather = await page.locator('#touch-material option').filter({ hasText: 'leather' }).first().getAttribute('value');
+  await page.locator('#touch-material').selectOption(leather);
   const levels = Number(/\((\d+) different/.exec(await text(page, '#touch-note'))[1]);
   assert.ok(levels > 256, `more than 8 bits of height survive: ${levels}`);
   await page.locator('#relief').focus();
