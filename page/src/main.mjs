@@ -107,7 +107,7 @@ class Page {
     const context = $('legend').getContext('2d');
     for (let x = 0; x < 256; ++x) {
       const [r, g, b] = viridis(x / 255);
-      context.fillStyle = x % 25.6 < 1 && x > 2 ? '#000' : `rgb(${r} ${g} ${b})`;
+      context.fillStyle = (x + 12.8) % 25.6 < 1 ? '#000' : `rgb(${r} ${g} ${b})`;
       context.fillRect(x, 0, 1, 14);
     }
   }

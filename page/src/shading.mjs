@@ -65,8 +65,8 @@ void main() {
     float t = isLog ? log(max(value, 1e-9) / range.x) / log(range.y / range.x) : (value - range.x) / max(range.y - range.x, 1e-9);
     colour = texture2D(ramp, vec2(clamp(t, 0.002, 0.998), 0.5)).rgb;
     if (kind >= 2 && kind <= 4) {
-      float lines = abs(fract(t * 10.0 + 0.5) - 0.5) / max(fwidth(t * 10.0), 1e-6);
-      if (lines < 0.7 && t > 0.02 && t < 0.98 && fwidth(t * 10.0) < 0.5) colour *= 0.35;
+      float lines = abs(fract(t * 10.0) - 0.5) / max(fwidth(t * 10.0), 1e-6);
+      if (lines < 0.7 && t > 0.0 && t < 1.0 && fwidth(t * 10.0) < 0.5) colour *= 0.35;
     }
     if (!has) colour = hatch();
   }
