@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   add_height(program);
   add_plan(program);
   add_bake(program);
+  add_view(program);
   add_evaluate(program);
 
   try {

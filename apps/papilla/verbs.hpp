@@ -18,6 +18,7 @@ void add_synthesize(CLI::App& program);
 void add_height(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
+void add_view(CLI::App& program);
 void add_evaluate(CLI::App& program);
 
 }  // namespace papilla::app

@@ -58,7 +58,7 @@ check_licence_lines() {
       '') breach "$file" "has no SPDX-License-Identifier in its first three lines" ;;
       *) breach "$file" "unknown licence: $licence" ;;
     esac
-  done < <(sources run .ci CMakeLists.txt cmake core haptic io meshing param texture apps tests data | licences)
+  done < <(sources run .ci CMakeLists.txt cmake core haptic io meshing param texture apps page tests data | licences)
 }
 
 check_gpl_users() {

@@ -10,6 +10,7 @@
 
 #include "bake/report.hpp"
 #include "exit_code.hpp"
+#include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -95,9 +96,15 @@ Json run_bake(const Options& options, VerbContext& context) {
   result.seconds["total"] = total.seconds();
   json["seconds"] = result.seconds;
   if (!options.report.empty()) {
-    const fs::path file = fs::path(options.report) / "report.json";
-    write_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    context.console.print(file.string() + ": plan, distortion, times; pictures beside it\n");
+    const fs::path folder = options.report;
+    const Stopwatch page_clock;
+    write_report_page(options.output, json, folder / "index.html", context.progress);
+    json["page"] = "index.html";
+    json["seconds"]["page"] = page_clock.seconds();
+    json["seconds"]["total"] = total.seconds();
+    write_atomically(folder / "report.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    context.console.print((folder / "report.json").string() + ": plan, distortion, times; pictures beside it\n" +
+                          (folder / "index.html").string() + ": the same to look at and to touch\n");
   }
   return json;
 }
@@ -118,7 +125,8 @@ void add_bake(CLI::App& program) {
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--report", options->report, "Folder for report.json and pictures")->type_name("DIR");
+  verb->add_option("--report", options->report, "Folder for report.json, a page to look at (index.html) and pictures")
+      ->type_name("DIR");
   options->leave_out.add_to(*verb);
   options->scene.add_to(*verb);
 }

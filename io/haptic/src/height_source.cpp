@@ -118,12 +118,20 @@ class Finder {
 
 }  // namespace
 
+std::optional<std::string> find_height_bytes(const HeightTag& tag, const Scene& scene,
+                                             const std::filesystem::path& folder, std::vector<HapticWarning>& warnings) {
+  const Finder finder(tag, warnings);
+  if (auto bytes = finder.from_uri(folder)) return bytes;
+  const EncodedImage* image = finder.from_image(scene);
+  if (!image) return std::nullopt;
+  return std::string(reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size());
+}
+
 std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene,
                                            const std::filesystem::path& folder, std::vector<HapticWarning>& warnings) {
-  const Finder finder(tag, warnings);
   try {
-    if (const auto bytes = finder.from_uri(folder)) return finder.decode(bytes_of(*bytes));
-    if (const EncodedImage* image = finder.from_image(scene)) return finder.decode(image->bytes);
+    if (const auto bytes = find_height_bytes(tag, scene, folder, warnings))
+      return Finder(tag, warnings).decode(bytes_of(*bytes));
   } catch (const Error& error) {
     warnings.push_back({"height_image", error.what()});
   }

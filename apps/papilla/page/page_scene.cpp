@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "page/page_scene.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+
+#include "base64.hpp"
+#include "distortion_report.hpp"
+#include "page/page_mesh.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/decode_grey16.hpp"
+#include "player/height_source.hpp"
+
+namespace papilla::app {
+namespace {
+
+constexpr CornerAttribute<Vec2> const* k_no_uv = nullptr;
+
+Json pair(Vec2 v) { return {v.x, v.y}; }
+Json triple(Vec3 v) { return {v.x, v.y, v.z}; }
+
+Json mesh_json(const PageMesh& mesh, const Part& part) {
+  return {{"material", mesh.slot < part.materials.size() ? Json(part.materials[mesh.slot]) : Json(nullptr)},
+          {"triangles", mesh.triangles},
+          {"shown", mesh.shown},
+          {"vertices", mesh.vertices},
+          {"error_mm", mesh.error_mm},
+          {"uv", mesh.has_uv},
+          {"low", triple(mesh.low)},
+          {"high", triple(mesh.high)},
+          {"uv_low", pair(mesh.uv_low)},
+          {"uv_high", pair(mesh.uv_high)},
+          {"vertex_stream", base64(mesh.vertex_stream)},
+          {"index_stream", base64(mesh.index_stream)}};
+}
+
+/// Where nothing is tagged or pictured, channel 0 is what people made.
+const CornerAttribute<Vec2>* shown_uv(const TriangleMesh& mesh) {
+  if (!mesh.uv.empty()) return &mesh.uv;
+  return mesh.uv1.empty() ? k_no_uv : &mesh.uv1;
+}
+
+struct ShownPart {
+  std::vector<PageMesh> meshes;
+  DistortionReport distortion;
+};
+
+ShownPart show_part(const Part& part, double keep) {
+  static const CornerAttribute<Vec2> none;
+  const CornerAttribute<Vec2>* uv = shown_uv(part.mesh);
+  ShownPart shown;
+  if (uv) shown.distortion = measure_distortion(part.mesh, *uv, {.texture_px = {1, 1}});
+  shown.meshes = page_meshes(part.mesh, uv ? *uv : none, shown.distortion, keep);
+  shown.distortion.per_triangle = {};
+  return shown;
+}
+
+std::vector<ShownPart> show_parts(const Scene& scene, double keep, const Progress& progress) {
+  std::vector<ShownPart> shown(scene.parts.size());
+  std::atomic<std::size_t> done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, scene.parts.size(), [&](std::size_t i) {
+    try {
+      shown[i] = show_part(scene.parts[i], keep);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
+    }
+    ++done;
+  });
+  if (progress) progress("page", 1);
+  return shown;
+}
+
+Json texture_json(const Scene& scene, const std::optional<TextureReference>& reference) {
+  if (!reference || reference->texture >= scene.textures.size()) return nullptr;
+  const Texture& texture = scene.textures[reference->texture];
+  if (!texture.image || *texture.image >= scene.images.size()) return nullptr;
+  const TextureTransform transform = reference->transform.value_or(TextureTransform{});
+  return {{"image", *texture.image},          {"tex_coord", reference->tex_coord},
+          {"factor", reference->factor},      {"wrap", {texture.wrap_s, texture.wrap_t}},
+          {"offset", pair(transform.offset)}, {"rotation", transform.rotation},
+          {"scale", pair(transform.scale)}};
+}
+
+/// Materials, and the height maps that their tags name.
+class Materials {
+ public:
+  Materials(const Scene& scene, const std::filesystem::path& file) : scene_(scene), folder_(file.parent_path()) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) add(scene.materials[i]);
+  }
+
+  Json materials = Json::array(), heights = Json::array();
+
+ private:
+  void add(const Material& material) {
+    Json json = {{"name", material.name},
+                 {"color", material.base_color},
+                 {"metallic", material.metallic},
+                 {"roughness", material.roughness},
+                 {"emissive", material.emissive},
+                 {"double_sided", material.double_sided},
+                 {"alpha_mode", material.alpha_mode},
+                 {"alpha_cutoff", material.alpha_cutoff},
+                 {"base_map", texture_json(scene_, material.base_color_texture)},
+                 {"normal_map", texture_json(scene_, material.normal_texture)},
+                 {"haptic", nullptr},
+                 {"height", nullptr}};
+    std::vector<HapticWarning> warnings;
+    if (const auto tag = material_tag_of_extras(material.extras_json, warnings)) {
+      json["haptic"] = Json::parse(to_json(*tag));
+      if (tag->height) {
+        json["haptic"]["height"].erase("uri");
+        json["height"] = height(*tag->height, warnings);
+      }
+    }
+    json["warnings"] = Json::array();
+    for (const HapticWarning& warning : warnings) json["warnings"].push_back(warning.code + ": " + warning.message);
+    materials.push_back(std::move(json));
+  }
+
+  Json height(const HeightTag& tag, std::vector<HapticWarning>& warnings) {
+    const auto bytes = player::find_height_bytes(tag, scene_, folder_, warnings);
+    if (!bytes) return nullptr;
+    const auto [place, added] = number_.try_emplace(*bytes, heights.size());
+    if (!added) return place->second;
+    const auto span = std::as_bytes(std::span(bytes->data(), bytes->size()));
+    try {
+      const Grey16 picture = decode_grey16(span, "height map");
+      heights.push_back(
+          {{"png", base64(span)}, {"width", picture.width}, {"height", picture.height}, {"bits", picture.bits}});
+      return place->second;
+    } catch (const Error& error) {
+      warnings.push_back({"height_image", error.what()});
+      number_.erase(place);
+      return nullptr;
+    }
+  }
+
+  const Scene& scene_;
+  std::filesystem::path folder_;
+  std::map<std::string, std::size_t> number_;
+};
+
+/// The pictures that materials show; null for the others, so that numbers stay.
+Json images_json(const Scene& scene, const Json& materials) {
+  Json images = Json::array();
+  for (std::size_t i = 0; i < scene.images.size(); ++i) images.push_back(nullptr);
+  for (const Json& material : materials)
+    for (const char* map : {"base_map", "normal_map"}) {
+      if (material[map].is_null()) continue;
+      Json& slot = images[material[map]["image"].get<std::size_t>()];
+      const EncodedImage& image = scene.images[material[map]["image"].get<std::size_t>()];
+      if (slot.is_null()) slot = {{"name", image.name}, {"type", image.mime_type}, {"bytes", base64(image.bytes)}};
+    }
+  return images;
+}
+
+}  // namespace
+
+Json page_scene_json(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
+                     const Progress& progress) {
+  const std::vector<Instance> drawn = instances(scene);
+  std::size_t triangles = 0, triangles_shown = 0;
+  double error_mm = 0;
+  for (const Instance& use : drawn) triangles += scene.parts[use.part].mesh.triangles.size();
+  const double keep =
+      std::min(1.0, static_cast<double>(options.triangles) / static_cast<double>(std::max<std::size_t>(triangles, 1)));
+  const std::vector<ShownPart> shown = show_parts(scene, keep, progress);
+
+  Json parts = Json::array(), uses = Json::array();
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    Json meshes = Json::array();
+    for (const PageMesh& mesh : shown[i].meshes) {
+      meshes.push_back(mesh_json(mesh, scene.parts[i]));
+      error_mm = std::max(error_mm, mesh.error_mm);
+    }
+    parts.push_back(
+        {{"name", scene.parts[i].name},
+         {"triangles", scene.parts[i].mesh.triangles.size()},
+         {"meshes", std::move(meshes)},
+         {"distortion", shown_uv(scene.parts[i].mesh) ? distortion_json(shown[i].distortion) : Json(nullptr)}});
+  }
+  for (const Instance& use : drawn) {
+    uses.push_back({{"part", use.part}, {"name", scene.nodes[use.node].name}, {"world", use.world}});
+    for (const PageMesh& mesh : shown[use.part].meshes) triangles_shown += mesh.shown;
+  }
+  Materials materials(scene, file);
+  Json images = images_json(scene, materials.materials);
+  return {{"file", file.filename().string()},
+          {"triangles", triangles},
+          {"triangles_shown", triangles_shown},
+          {"error_mm", error_mm},
+          {"z_up", scene.up == UpAxis::z},
+          {"parts", std::move(parts)},
+          {"instances", std::move(uses)},
+          {"materials", std::move(materials.materials)},
+          {"heights", std::move(materials.heights)},
+          {"images", std::move(images)},
+          {"losses", scene.losses},
+          {"warnings", scene.warnings}};
+}
+
+}  // namespace papilla::app

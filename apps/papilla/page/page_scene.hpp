@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "papilla/core/progress.hpp"
+#include "papilla/io/scene.hpp"
+#include "verb.hpp"
+
+namespace papilla::app {
+
+struct PageSceneOptions {
+  std::size_t triangles = 250000;  ///< That the page shows, about; more are simplified. At least 1.
+};
+
+/// A scene as the report page shows it: parts in compressed streams (PageMesh), instances, materials with their haptic
+/// tags, pictures and height maps (byte for byte, each once, checked against the tag's SHA-256) in base64. Distortion
+/// is measured for every part with uv.
+/// @param file the scene's own: height maps beside it are found from here.
+/// @return also `triangles`, `triangles_shown` and `error_mm`.
+/// @throws InvalidInput as instances() and measure_distortion().
+Json page_scene_json(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
+                     const Progress& progress);
+
+}  // namespace papilla::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Bundles src/ and its libraries into one HTML file and writes that as C++: node build.mjs NODE_MODULES OUT.cpp
+import { createRequire } from 'node:module';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const [modules, output] = process.argv.slice(2).map((path) => resolve(path));
+const folder = join(dirname(fileURLToPath(import.meta.url)), 'src');
+const { build } = createRequire(join(modules, 'x'))('esbuild');
+
+async function bundle(entry, loader) {
+  const result = await build({
+    entryPoints: [join(folder, entry)], bundle: true, minify: true, write: false, nodePaths: [modules],
+    format: 'iife', target: ['chrome110', 'firefox115'], loader, legalComments: 'none', charset: 'utf8',
+  });
+  return result.outputFiles[0].text;
+}
+
+const licences = ['three', 'uplot', 'meshoptimizer', 'fast-png', 'fflate', 'iobuffer'].map((name) => {
+  const about = JSON.parse(readFileSync(join(modules, name, 'package.json'), 'utf8'));
+  return `${name} ${about.version} (${about.license})`;
+});
+
+/** One line of C++: a string literal of the UTF-8 bytes. */
+function literal(line) {
+  let text = '';
+  for (const byte of Buffer.from(line, 'utf8')) {
+    const plain = byte >= 32 && byte < 127 && byte !== 34 && byte !== 92 && byte !== 63;
+    text += plain ? String.fromCharCode(byte) : `\\${byte.toString(8).padStart(3, '0')}`;
+  }
+  return `    "${text}"`;
+}
+
+const script = await bundle('main.mjs', {});
+const style = await bundle('style.css', {});
+const parts = { STYLE: style, SCRIPT: script, LICENCES: licences.join(', ') };
+const html = readFileSync(join(folder, 'index.html'), 'utf8').replace(/@(STYLE|SCRIPT|LICENCES)@/g, (_, name) => parts[name]);
+if (html.split('@PAPILLA_DATA@').length !== 2) throw new Error('the bundle must hold the data marker once');
+const chunks = html.match(/[^]{1,4000}/gu);
+writeFileSync(output, `// SPDX-License-Identifier: GPL-3.0-or-later
+// Made by page/build.mjs.
+#include "page/page_file.hpp"
+
+std::string_view papilla::app::page_template() noexcept {
+  static constexpr char text[] =
+${chunks.map(literal).join('\n')};
+  return {text, sizeof(text) - 1};
+}
+`);
+writeFileSync(output.replace(/\.cpp$/, '.html'), html);

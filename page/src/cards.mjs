@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// A card per material: photo with its lattice, the primitive, the relief, how rough it is over lengths, constants.
+import uPlot from 'uplot';
+import { number } from './colour.mjs';
+import { element } from './dom.mjs';
+import { surfaceOf } from './force.mjs';
+import { drawRelief } from './relief_picture.mjs';
+
+/** Root mean square difference of heights over lags of 2^k samples, along x and y: straight in log-log when fractal. */
+export function structureFunction({ width, height, mm }, pitch) {
+  const lags = [], rms = [];
+  for (let lag = 1; lag <= Math.min(width, height) / 4; lag *= 2) {
+    let sum = 0, count = 0;
+    const step = Math.max(1, Math.floor(Math.max(width, height) / 256));
+    for (let y = 0; y + lag < height; y += step)
+      for (let x = 0; x + lag < width; x += step) {
+        const h = mm[y * width + x];
+        sum += (mm[y * width + x + lag] - h) ** 2 + (mm[(y + lag) * width + x] - h) ** 2;
+        count += 2;
+      }
+    lags.push(lag * pitch);
+    rms.push(Math.sqrt(sum / count));
+  }
+  return [lags, rms];
+}
+
+function tile(draw, caption) {
+  const canvas = element('canvas', { class: 'tile', width: 184, height: 184, role: 'img', 'aria-label': caption });
+  draw(canvas);
+  return element('figure', {}, canvas, element('figcaption', {}, caption));
+}
+
+function drawLattice(canvas, image, vectors, size) {
+  const context = canvas.getContext('2d');
+  context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  if (!vectors) return;
+  const px = vectors.map(([x, y]) => [x / size[0] * canvas.width, y / size[1] * canvas.height]);
+  for (const [width, colour] of [[3, '#000'], [1.2, '#ffb000']]) {
+    context.lineWidth = width;
+    context.strokeStyle = colour;
+    context.beginPath();
+    for (let k = -60; k <= 60; ++k)
+      for (const [a, b] of [[px[0], px[1]], [px[1], px[0]]]) {
+        context.moveTo(k * a[0] - 60 * b[0], k * a[1] - 60 * b[1]);
+        context.lineTo(k * a[0] + 60 * b[0], k * a[1] + 60 * b[1]);
+      }
+    context.stroke();
+  }
+}
+
+/** The unit cell of the lattice, as large as fits. */
+function drawPrimitive(canvas, image, vectors, size) {
+  const context = canvas.getContext('2d');
+  const px = vectors.map(([x, y]) => [x / size[0] * image.width, y / size[1] * image.height]);
+  const corners = [[0, 0], px[0], [px[0][0] + px[1][0], px[0][1] + px[1][1]], px[1]];
+  const low = [0, 1].map((k) => Math.min(...corners.map((c) => c[k]))), high = [0, 1].map((k) => Math.max(...corners.map((c) => c[k])));
+  const scale = 0.96 * canvas.width / Math.max(high[0] - low[0], high[1] - low[1]);
+  context.translate(4, 4);
+  context.scale(scale, scale);
+  context.translate(-low[0], -low[1]);
+  context.beginPath();
+  corners.forEach((c) => context.lineTo(...c));
+  context.closePath();
+  context.clip();
+  for (const x of [-1, 0, 1]) for (const y of [-1, 0, 1]) context.drawImage(image, x * image.width, y * image.height);
+}
+
+function fractalPlot(host, relief, size) {
+  const ink = () => getComputedStyle(document.body).color, line = () => getComputedStyle(document.body).getPropertyValue('--line');
+  const axis = (label) => ({ label, stroke: ink, grid: { stroke: line }, ticks: { stroke: line }, size: 52, values: (_, ticks) => ticks.map((t) => t === null ? '' : number(t)) });
+  return new uPlot({
+    width: 300, height: 180, legend: { show: false }, cursor: { show: false },
+    scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
+    series: [{}, { stroke: '#1b7fd6', width: 2, points: { show: true, size: 6 } }], axes: [axis('lag [mm]'), axis('rms [mm]')],
+  }, structureFunction(relief, size[0] / relief.width), host);
+}
+
+async function imageOf(bytes) {
+  const image = new Image();
+  image.src = `data:image/png;base64,${bytes}`;
+  await image.decode();
+  return image;
+}
+
+function constants(material, about) {
+  const tag = material?.haptic, rows = [];
+  const add = (name, value) => { if (value !== undefined && value !== null && value !== '') rows.push([name, value]); };
+  add('stiffness', tag && `${number(tag.stiffness ?? 500)} N/m`);
+  add('damping', tag && `${number(tag.damping ?? 0)} N·s/m`);
+  add('friction', tag && `${number(tag.staticFriction ?? tag.dynamicFriction ?? 0)} static, ${number(tag.dynamicFriction ?? tag.staticFriction ?? 0)} dynamic`);
+  add('relief', tag?.height && `rms ${number(1000 * tag.height.rms)} mm, range ${number(1000 * tag.height.scale)} mm`);
+  add('fractal dimension', about?.roughness?.fractal_dimension === undefined ? tag?.roughness && number(tag.roughness.fractalDimension) : about.roughness.fractal_dimension === null ? 'none: no power law' : number(about.roughness.fractal_dimension));
+  add('class', about?.class?.name?.replaceAll('_', ' '));
+  add('lattice', about && (about.lattice ? about.period_mm.map((v) => `(${v.map(number).join(', ')}) mm`).join(' and ') : 'none found'));
+  add('height from', about?.height && `${about.height.method}: ${about.height.reason}`);
+  add('picture', about?.picture && `${about.picture.file.split(/[\\/]/).pop()}, ${about.picture.size_mm.map(number).join(' x ')} mm${about.picture.tiles ? ', tiles' : ', does not tile'}`);
+  add('made by', tag?.provenance?.tool);
+  return element('dl', {}, ...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+}
+
+/** Materials that feel the same, with what the report says of their grain. */
+function groups(scene, report) {
+  const bySame = new Map();
+  for (const material of scene.materials) {
+    const key = material.haptic ? JSON.stringify([material.haptic, material.height]) : 'none';
+    if (!bySame.has(key)) bySame.set(key, []);
+    bySame.get(key).push(material);
+  }
+  return [...bySame.entries()].map(([key, materials]) => ({
+    felt: key !== 'none', materials,
+    about: report?.materials?.find((entry) => entry.height && materials[0].relief && materials.some((m) => m.name.startsWith(entry.name))),
+  }));
+}
+
+async function card({ felt, materials, about }) {
+  const [material] = materials;
+  const title = about?.name ?? (felt ? material.name.replace(/ #[0-9A-Fa-f]{6,8}$/, '') || `material ${material.index}` : 'without touch');
+  const node = element('article', { class: 'card' }, element('h3', {}, title));
+  const pictures = element('div', { class: 'pictures' });
+  const size = material.relief ? surfaceOf(material).size : null;
+  if (about?.photo) {
+    const image = await imageOf(about.photo);
+    const vectors = about.lattice ? about.period_mm : null;
+    pictures.append(tile((c) => drawLattice(c, image, null, size), 'photo'));
+    if (vectors) pictures.append(tile((c) => drawLattice(c, image, vectors, size), 'lattice'), tile((c) => drawPrimitive(c, image, vectors, size), 'primitive'));
+  }
+  if (material.relief) pictures.append(tile((c) => drawRelief(c, material.relief, size), 'relief'));
+  node.append(pictures);
+  if (felt) node.append(constants(material, about));
+  if (material.relief) {
+    const host = element('div', { role: 'img', 'aria-label': 'Root mean square difference of heights over distance, logarithmic' });
+    node.append(host);
+    fractalPlot(host, material.relief, size);
+  }
+  for (const warning of new Set(materials.flatMap((m) => m.warnings))) node.append(element('p', { class: 'note' }, `⚠ ${warning}`));
+  node.append(element('p', { class: 'note' }, `${materials.length} of the file's materials: ${materials.slice(0, 12).map((m) => m.name || `#${m.index}`).join(', ')}${materials.length > 12 ? ', …' : ''}`));
+  return node;
+}
+
+export async function fillCards(host, scene, report) {
+  if (!scene.materials.length) host.append('The file has no materials.');
+  for (const group of groups(scene, report).sort((a, b) => Boolean(b.about) - Boolean(a.about) || b.felt - a.felt)) host.append(await card(group));
+}

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// The scene in 3D: drawn only when something changed.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+import { bytesOf } from './data.mjs';
+import { applyView, shadingOf, uvMatrix } from './shading.mjs';
+
+const GL_WRAP = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
+
+export function geometryOf(mesh) {
+  const { positions, normals, uv, measured, indices } = mesh.data;
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
+  geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
+  geometry.setAttribute('measured', new THREE.BufferAttribute(measured, 3));
+  geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+  return geometry;
+}
+
+async function textureOf(scene, reference, isColour) {
+  const image = reference && scene.images[reference.image];
+  if (!image) return null;
+  const bitmap = await createImageBitmap(new Blob([bytesOf(image.bytes)], { type: image.type }), { colorSpaceConversion: 'none' });
+  const texture = new THREE.Texture(bitmap);
+  texture.flipY = false;
+  texture.colorSpace = isColour ? THREE.SRGBColorSpace : THREE.NoColorSpace;
+  [texture.wrapS, texture.wrapT] = reference.wrap.map((w) => GL_WRAP[w] ?? THREE.RepeatWrapping);
+  texture.anisotropy = 4;
+  texture.matrixAutoUpdate = false;
+  texture.matrix.copy(uvMatrix(reference));
+  texture.needsUpdate = true;
+  return texture;
+}
+
+function standardMaterial(material) {
+  if (!material) return new THREE.MeshStandardMaterial({ color: 0x9aa3ad, roughness: 0.8, side: THREE.DoubleSide });
+  const [r, g, b, a] = material.color;
+  const blend = material.alpha_mode === 'BLEND';
+  return new THREE.MeshStandardMaterial({
+    color: new THREE.Color(r, g, b), roughness: material.roughness, metalness: material.metallic,
+    emissive: new THREE.Color(...material.emissive), side: THREE.DoubleSide, transparent: blend, opacity: blend ? a : 1,
+    depthWrite: !blend, alphaTest: material.alpha_mode === 'MASK' ? material.alpha_cutoff : 0,
+  });
+}
+
+export class SceneView {
+  /** @param onPick called with {use, mesh, face, point, bary} */
+  constructor(canvas, scene, onPick, onHover) {
+    Object.assign(this, { canvas, data: scene, onPick, onHover });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
+    this.world = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(40, 1, 0.1, 1e6);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.invalidate());
+    const environment = new THREE.PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
+    this.world.environment = environment;
+    this.addLights();
+    this.addMeshes();
+    this.addMarker();
+    this.frameAll();
+    this.listen();
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+    this.loadTextures().catch((error) => { this.textureError = error.message; });
+  }
+
+  addLights() {
+    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
+    sun.position.set(0.4, 0.5, 1);
+    this.camera.add(sun);
+    this.world.add(this.camera);
+  }
+
+  addMeshes() {
+    const { parts, instances, materials } = this.data;
+    this.root = new THREE.Group();
+    if (this.data.z_up) this.root.rotation.x = -Math.PI / 2;
+    this.standard = materials.map(standardMaterial);
+    this.plain = standardMaterial(null);
+    this.meshes = [];
+    for (const part of parts) for (const mesh of part.meshes) mesh.geometry = geometryOf(mesh);
+    instances.forEach((use, index) => {
+      for (const mesh of parts[use.part].meshes) {
+        const object = new THREE.Mesh(mesh.geometry, this.plain);
+        object.matrixAutoUpdate = false;
+        object.matrix.set(...use.world);
+        mesh.shader ??= shadingOf(materials[mesh.material], mesh, false);
+        object.userData = { use: index, mesh };
+        this.meshes.push(object);
+        this.root.add(object);
+      }
+    });
+    this.world.add(this.root);
+    this.root.updateMatrixWorld(true);
+    this.box = new THREE.Box3().setFromObject(this.root);
+    if (this.box.isEmpty()) this.box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
+    this.size = this.box.getSize(new THREE.Vector3()).length();
+  }
+
+  addMarker() {
+    this.marker = new THREE.Mesh(new THREE.SphereGeometry(this.size / 250, 16, 12), new THREE.MeshBasicMaterial({ color: 0xff3030, depthTest: false }));
+    this.marker.renderOrder = 10;
+    this.marker.visible = false;
+    this.outline = new THREE.Box3Helper(new THREE.Box3(), 0xff8c00);
+    this.outline.visible = false;
+    this.world.add(this.marker, this.outline);
+  }
+
+  async loadTextures() {
+    const { materials } = this.data;
+    for (const [i, material] of materials.entries()) {
+      const standard = this.standard[i];
+      [standard.map, standard.normalMap] = await Promise.all([textureOf(this.data, material.base_map, true), textureOf(this.data, material.normal_map, false)]);
+      if (material.normal_map) standard.normalScale.setScalar(material.normal_map.factor);
+      standard.needsUpdate = true;
+    }
+    this.canvas.dataset.textures = 'loaded';
+    this.invalidate();
+  }
+
+  setView(view, range) {
+    for (const object of this.meshes) {
+      const { mesh } = object.userData, material = this.data.materials[mesh.material];
+      object.material = view.kind === 0 ? (this.standard[mesh.material] ?? this.plain) : mesh.shader;
+      applyView(mesh.shader, view, range, material);
+    }
+    this.canvas.dataset.view = view.id;
+    this.invalidate();
+  }
+
+  setBackground(colour) { this.world.background = new THREE.Color(colour); this.invalidate(); }
+
+  select(use, frame) {
+    const box = new THREE.Box3();
+    for (const object of this.meshes) if (object.userData.use === use) box.expandByObject(object);
+    this.outline.visible = !box.isEmpty();
+    if (box.isEmpty()) return;
+    this.outline.box.copy(box);
+    this.selected = box;
+    if (frame) this.frame(box, 1.6);
+    this.invalidate();
+  }
+
+  mark(use, mesh, local) {
+    const object = this.meshes.find((o) => o.userData.use === use && o.userData.mesh === mesh);
+    this.marker.position.copy(local).applyMatrix4(object.matrixWorld);
+    this.marker.visible = true;
+    this.invalidate();
+  }
+
+  frameAll() {
+    this.camera.position.copy(new THREE.Vector3(0.7, 0.55, 0.9));
+    this.frame(this.box, 0.72);
+  }
+
+  frame(box, margin) {
+    const centre = box.getCenter(new THREE.Vector3()), radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, this.size * 1e-4);
+    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    this.controls.target.copy(centre);
+    this.camera.position.copy(centre).addScaledVector(direction, margin * radius / Math.sin(this.camera.fov * Math.PI / 360));
+    this.camera.near = this.size / 2000;
+    this.camera.far = this.size * 20;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.invalidate();
+  }
+
+  hitAt(event) {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2((event.clientX - left) / width * 2 - 1, 1 - (event.clientY - top) / height * 2), this.camera);
+    const [hit] = ray.intersectObjects(this.meshes, false);
+    if (!hit) return null;
+    const { use, mesh } = hit.object.userData;
+    return { use, mesh, face: hit.faceIndex, local: hit.object.worldToLocal(hit.point.clone()), uv: hit.uv, bary: hit.barycoord };
+  }
+
+  listen() {
+    let down = null, waiting = false;
+    this.canvas.addEventListener('pointerdown', (e) => { down = e; });
+    this.canvas.addEventListener('pointerup', (e) => {
+      if (down && Math.hypot(e.clientX - down.clientX, e.clientY - down.clientY) < 4) this.onPick(this.hitAt(e));
+      down = null;
+    });
+    this.canvas.addEventListener('pointermove', (e) => {
+      if (e.buttons || waiting) return;
+      waiting = true;
+      requestAnimationFrame(() => { waiting = false; this.onHover(this.hitAt(e)); });
+    });
+    this.canvas.addEventListener('keydown', (e) => this.onKey(e));
+  }
+
+  onKey(event) {
+    const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const sphere = new THREE.Spherical().setFromVector3(offset);
+    if (turn) {
+      sphere.theta += turn[0] * 0.1;
+      sphere.phi = Math.min(Math.max(sphere.phi + turn[1] * 0.1, 0.05), Math.PI - 0.05);
+    } else if (event.key === '+' || event.key === '-') sphere.radius *= event.key === '+' ? 0.85 : 1.18;
+    else if (event.key === 'f' || event.key === 'F') return this.frame(this.selected ?? this.box, 1.6);
+    else if (event.key === 'Home') return this.frameAll();
+    else return;
+    event.preventDefault();
+    this.camera.position.copy(this.controls.target).add(new THREE.Vector3().setFromSpherical(sphere));
+    this.controls.update();
+    this.invalidate();
+  }
+
+  resize() {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (!clientWidth || !clientHeight) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+
+  invalidate() {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame(() => { this.pending = false; this.draw(); });
+  }
+
+  draw() {
+    const start = performance.now();
+    this.renderer.render(this.world, this.camera);
+    this.frames = (this.frames ?? 0) + 1;
+    this.canvas.dataset.frames = this.frames;
+    this.canvas.dataset.frameMs = (performance.now() - start).toFixed(1);
+  }
+}

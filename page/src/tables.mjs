@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Plan, distortion, times and downloads.
+import { number } from './colour.mjs';
+import { csvOf, download, element, table } from './dom.mjs';
+
+const $ = (id) => document.getElementById(id);
+
+const DISTORTION = [
+  { title: 'part', of: (r) => r.part },
+  { title: 'material', of: (r) => r.material ?? '' },
+  { title: 'unwrap', of: (r) => r.unwrap ?? '', text: (r) => r.unwrap ?? '' },
+  ...[['charts', (d) => d.charts], ['triangles', (d) => d.triangles], ['flipped', (d) => d.flipped], ['overlapping', (d) => d.overlapping_triangles],
+    ['stretch L2', (d) => d.stretch_l2], ['L∞', (d) => d.stretch_linf], ['sym. Dirichlet', (d) => d.symmetric_dirichlet.mean], ['p99', (d) => d.percentiles.symmetric_dirichlet.p99],
+    ['angle °', (d) => d.angle_error_deg.mean], ['p99 °', (d) => d.percentiles.angle_error_deg.p99], ['area min', (d) => d.area_ratio.min], ['area max', (d) => d.area_ratio.max]]
+    .map(([title, of]) => ({ title, numeric: true, of: (r) => number(of(r.distortion)), text: (r) => of(r.distortion) })),
+];
+
+function distortionRows({ scene, report }) {
+  if (report) return report.parts;
+  return scene.parts.filter((p) => p.distortion).map((p) => ({ part: p.name, distortion: p.distortion }));
+}
+
+function fillDistortion(data, onPart) {
+  const rows = distortionRows(data), host = $('distortion-table');
+  if (!rows.length) return host.append(data.report ? 'No surface has grain.' : 'No part has texture coordinates, so there is no distortion to measure.');
+  host.append(element('p', { class: 'note' }, 'Of the full mesh, uv scaled to the surface\'s area. 4 is the least symmetric Dirichlet energy, 1 no stretch. A click on a row selects the part.'), table(DISTORTION, rows, (row) => onPart(row.part)));
+}
+
+function planRows(plan) {
+  const rows = new Map();
+  for (const { part, material, stage, run, reason } of plan) {
+    const key = JSON.stringify([part, material]);
+    if (!rows.has(key)) rows.set(key, { part, material, stages: {} });
+    rows.get(key).stages[stage] = { run, reason };
+  }
+  return [...rows.values()];
+}
+
+function leftOut(rows) {
+  const reasons = new Map();
+  for (const row of rows)
+    for (const [stage, { run, reason }] of Object.entries(row.stages)) {
+      if (run) continue;
+      if (!reasons.has(reason)) reasons.set(reason, { reason, parts: new Set(), stages: new Set() });
+      reasons.get(reason).parts.add(row.part);
+      reasons.get(reason).stages.add(stage);
+    }
+  return [...reasons.values()];
+}
+
+function fillPlan({ scene, report }) {
+  const host = $('plan-table');
+  const lost = [...(report?.losses ?? scene.losses), ...(report?.warnings ?? scene.warnings)];
+  if (lost.length) host.append(element('ul', {}, ...lost.map((line) => element('li', {}, line))));
+  if (!report?.plan) return host.append(element('p', {}, 'The file alone does not tell how it was made; bake --report writes a page with the plan.'));
+  const rows = planRows(report.plan), stages = [...new Set(report.plan.map((step) => step.stage))];
+  host.append(element('h3', {}, 'Left out, and why'), table([
+    { title: 'reason', of: (r) => r.reason }, { title: 'stages', of: (r) => [...r.stages].join(', ') },
+    { title: 'parts', numeric: true, of: (r) => r.parts.size }, { title: 'which', of: (r) => [...r.parts].slice(0, 12).join(', ') + (r.parts.size > 12 ? ', …' : '') }], leftOut(rows)));
+  const mark = ({ run, reason }) => element('span', { title: reason }, run ? '✓ done' : '– left out');
+  host.append(element('h3', {}, 'Part by part'), table([{ title: 'part', of: (r) => r.part }, { title: 'material', of: (r) => r.material ?? '' },
+    ...stages.map((stage) => ({ title: stage.replaceAll('_', ' '), of: (r) => r.stages[stage] ? mark(r.stages[stage]) : '' }))], rows));
+}
+
+function fillTimings({ report }) {
+  const host = $('timings-table');
+  if (!report?.seconds) return host.append('Nothing was computed for this page but the page.');
+  const rows = Object.entries(report.seconds).sort((a, b) => b[1] - a[1]), longest = Math.max(...rows.map(([, s]) => s), 1e-9);
+  host.append(table([{ title: 'stage', of: ([name]) => name.replaceAll('_', ' ') }, { title: 'seconds', numeric: true, of: ([, s]) => number(s) },
+    { title: 'share of the longest', of: ([, s]) => element('span', { class: 'bar', style: `width:${Math.max(1, 300 * s / longest)}px` }) }], rows));
+  host.append(element('p', { class: 'note' }, 'Stages that run in parallel count the time of all their threads, so they can add up to more than the total.'));
+}
+
+function fillDownloads(data, touch) {
+  const { scene, report } = data, rows = distortionRows(data);
+  const facts = { file: scene.file, triangles: scene.triangles, triangles_shown: scene.triangles_shown, parts: scene.parts.map(({ name, triangles, distortion }) => ({ name, triangles, distortion })),
+    materials: scene.materials.map(({ name, haptic, warnings }) => ({ name, haptic, warnings })), losses: scene.losses, warnings: scene.warnings };
+  const offer = (name, type, text) => {
+    const button = element('button', { type: 'button', 'data-file': name }, `↓ ${name}`);
+    button.addEventListener('click', () => download(name, text(), type));
+    $('downloads').append(button);
+  };
+  offer('scene.json', 'application/json', () => JSON.stringify(facts, null, 2));
+  if (report) offer('report.json', 'application/json', () => JSON.stringify({ ...report, materials: report.materials.map((entry) => ({ ...entry, photo: undefined })) }, null, 2));
+  if (rows.length) offer('distortion.csv', 'text/csv', () => csvOf(DISTORTION, rows));
+  if (report?.plan) offer('plan.csv', 'text/csv', () => csvOf(['part', 'material', 'stage', 'run', 'reason'].map((key) => ({ title: key, of: (r) => r[key] ?? '' })), report.plan));
+  if (touch.samples) offer('force.csv', 'text/csv', () => touch.csv());
+}
+
+export function fillTables(data, touch, onPart) {
+  fillDistortion(data, onPart);
+  fillPlan(data);
+  fillTimings(data);
+  fillDownloads(data, touch);
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base64.hpp"
+#include "page/page_file.hpp"
+#include "page/page_mesh.hpp"
+#include "page/page_scene.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/io/read_file.hpp"
+
+namespace papilla::app {
+namespace {
+
+/// n x n squares of 1 mm in the plane, uv of 1 per mm stretched by `stretch` along u.
+TriangleMesh grid(Index n, double stretch) {
+  TriangleMesh mesh;
+  for (Index y = 0; y <= n; ++y)
+    for (Index x = 0; x <= n; ++x) {
+      mesh.positions.push_back({double(x), double(y), 0});
+      mesh.uv.values.push_back({stretch * x, double(y)});
+    }
+  for (Index y = 0; y < n; ++y)
+    for (Index x = 0; x < n; ++x) {
+      const Index a = y * (n + 1) + x, b = a + n + 1;
+      mesh.triangles.push_back({a, a + 1, b + 1});
+      mesh.triangles.push_back({a, b + 1, b});
+    }
+  mesh.uv.indices = mesh.triangles;
+  return mesh;
+}
+
+TEST(Base64, KnownAnswers) {
+  const auto of = [](std::string_view text) { return base64(std::as_bytes(std::span(text.data(), text.size()))); };
+  EXPECT_EQ(of(""), "");
+  EXPECT_EQ(of("f"), "Zg==");
+  EXPECT_EQ(of("fo"), "Zm8=");
+  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+}
+
+TEST(PageMesh, KeepsEverythingWhenAsked) {
+  const TriangleMesh mesh = grid(20, 2);
+  const auto meshes = page_meshes(mesh, mesh.uv, measure_distortion(mesh, mesh.uv), 1);
+  ASSERT_EQ(meshes.size(), 1U);
+  EXPECT_EQ(meshes[0].shown, 800U);
+  EXPECT_EQ(meshes[0].vertices, 441U);
+  EXPECT_EQ(meshes[0].error_mm, 0);
+  EXPECT_EQ(meshes[0].high, (Vec3{20, 20, 0}));
+  EXPECT_EQ(meshes[0].uv_low, (Vec2{0, -19}));  // v runs down
+  EXPECT_EQ(meshes[0].uv_high, (Vec2{40, 1}));
+}
+
+TEST(PageMesh, SimplifiesAPlaneWithoutMovingIt) {
+  const TriangleMesh mesh = grid(60, 1);
+  const auto meshes = page_meshes(mesh, mesh.uv, {}, 0.1);
+  EXPECT_LE(meshes[0].shown, 1080U);
+  EXPECT_LT(meshes[0].error_mm, 1e-3);
+  EXPECT_EQ(meshes[0].high, (Vec3{60, 60, 0}));
+}
+
+TEST(PageMesh, SplitsByMaterial) {
+  TriangleMesh mesh = grid(4, 1);
+  mesh.material.assign(mesh.triangles.size(), 1);
+  mesh.material[0] = 0;
+  const auto meshes = page_meshes(mesh, mesh.uv, {}, 1);
+  ASSERT_EQ(meshes.size(), 2U);
+  EXPECT_EQ(meshes[0].shown, 1U);
+  EXPECT_EQ(meshes[1].shown, 31U);
+}
+
+TEST(PageScene, CountsInstances) {
+  Part part;
+  part.name = "plate";
+  part.mesh = grid(10, 1);
+  Scene scene = single_part_scene(std::move(part), "test");
+  scene.nodes.push_back(scene.nodes[0]);
+  scene.roots.push_back(1);
+  const Json json = page_scene_json(scene, "plate.glb", {}, {});
+  EXPECT_EQ(json["triangles"], 400);
+  EXPECT_EQ(json["triangles_shown"], 400);
+  EXPECT_EQ(json["instances"].size(), 2U);
+  EXPECT_NEAR(json["parts"][0]["distortion"]["stretch_l2"].get<double>(), 1, 1e-9);
+}
+
+TEST(PageFile, MarkupInNamesStaysText) {
+  const std::string evil = "</script><img src=x onerror=alert(1)>";
+  const PageContent content{evil, {{"parts", {{{"name", evil}, {"bytes", "AAAA"}}}}}, nullptr};
+  const std::string plain = plain_page(content);
+  EXPECT_EQ(plain.find("<img"), std::string::npos);
+  EXPECT_NE(plain.find("&lt;img"), std::string::npos);
+  EXPECT_EQ(plain.find("AAAA"), std::string::npos);
+
+  const auto file = std::filesystem::path(testing::TempDir()) / "papilla_page_test.html";
+  EXPECT_EQ(write_page(content, file), std::filesystem::file_size(file));
+  EXPECT_EQ(read_file(file).find("<img src=x"), std::string::npos);
+  std::filesystem::remove(file);
+  EXPECT_THROW(write_page(content, "/nowhere/page.html"), IoError);
+}
+
+}  // namespace
+}  // namespace papilla::app
