@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   add_analyze(program);
   add_synthesize(program);
   add_height(program);
+  add_texture(program);
   add_plan(program);
   add_bake(program);
   add_evaluate(program);

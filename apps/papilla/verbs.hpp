@@ -15,6 +15,7 @@ void add_measure(CLI::App& program);
 void add_analyze(CLI::App& program);
 void add_synthesize(CLI::App& program);
 void add_height(CLI::App& program);
+void add_texture(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
 void add_evaluate(CLI::App& program);
