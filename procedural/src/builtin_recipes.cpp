@@ -41,7 +41,7 @@ dirt           fbm|ismodifier=true|idtype=ageing|scale=.7|octaves=6|h=.4|cols=<.
                |bumpblend=add|bumpfunction=.12*main|frictionfunction=.55
 smears         smear|ismodifier=true|idtype=ageing|scale=.8|density=.35|turbulence=.1|cols=<.30,.27,.22>,<.42,.39,.33>
                |alphafunction=main*time*.7|bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.8
-scratch_set    base|mainfunction=smoothstep(.93,1,1-abs(noise2d(x*3,y*60))*9)*step(noise2d(x*2+7,y*11),.02)
+scratch_set    base|mainfunction=smoothstep(.42,.6,noise2d(x*1.5,y*70))*step(noise2d(x*2+7,y*5),.12)
 scratches      base|ismodifier=true|idtype=ageing
                |mainfunction=max(max([scratch_set|rot=.4],[scratch_set|rot=1.1|seed=3|du=.3]),max([scratch_set|rot=2.2|dv=.7],[scratch_set|rot=2.9|du=.6]))
                |colorfunction=colscale(currentcolor,1.5)|alphafunction=clampunit(main*time*1.5)
@@ -60,7 +60,7 @@ erosion        fbm|ismodifier=true|idtype=ageing|scale=.6|octaves=7|h=.4|type=hy
                |alphafunction=time*clampunit(.3+main)|colorfunction=colscale(currentcolor,.85+.2*main)
                |bumpblend=sub|bumpfunction=.45*(1-main)|frictionfunction=lowerfriction*1.3|stiffnessfunction=lowerstiffness*.9
 moss           fbm|ismodifier=true|idtype=ageing|scale=.3|octaves=7|h=.5|cols=mossy
-               |alphafunction=smoothstep(1.1-time,1.35-time,main+.6*(1-lowerbump))*min(time*10,1)
+               |alphafunction=smoothstep(1.35-time*.9,1.55-time*.9,main+.6*(1-lowerbump))*min(time*10,1)
                |bumpblend=add|bumpfunction=.3+.4*main|frictionfunction=.6|stiffnessfunction=.3
 wetness        fbm|ismodifier=true|idtype=ageing|scale=.9|octaves=4|h=.8
                |afunction=smoothstep(1-time,1.25-time,this+.35*(1-lowerbump))*min(time*10,1)

@@ -443,7 +443,6 @@ void Compiler::place_and_limits(Node& node, Arguments& arguments) const {
   const double sy = (scale[1] == 0 && scale[2] == 0 ? scale[0] : scale[1]) * arguments.number("sy") * arguments.number("privatescaley");
   if (!(std::abs(sx) >= 1e-9 && std::abs(sy) >= 1e-9 && std::abs(sx) <= 1e9 && std::abs(sy) <= 1e9)) arguments.refuse("scale", "the scale must be between 1e-9 and 1e9");
   node.inverse_scale_x = 1 / sx, node.inverse_scale_y = 1 / sy;
-  node.scale = std::min(std::abs(sx), std::abs(sy));
   node.du = arguments.number("du") + shift[0], node.dv = arguments.number("dv") + shift[1];
   const double turn = arguments.number("rot");
   node.cos_rot = std::cos(turn), node.sin_rot = turn == 0 ? 0 : std::sin(turn);

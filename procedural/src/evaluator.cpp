@@ -327,9 +327,6 @@ void Evaluator::layers(int index, Frame& frame, const Block& block, ChannelRows&
   for (std::size_t k = 0; k < node.textures.size(); ++k) {
     const Node& top = *graph_.nodes[static_cast<std::size_t>(node.textures[k])];
     channels(node.textures[k], inner, all, k == 0 ? out : *layer);
-    double* bump = (k == 0 ? out : *layer).row[at(Channel::bump)];
-    if (top.scale != 1)
-      for (int i = 0; i < n; ++i) bump[i] *= top.scale;
     if (k > 0) {
       const double* alpha = layer->row[at(Channel::alpha)];
       double cover[k_row];

@@ -43,7 +43,7 @@ enum class Blend : std::uint8_t { off, interpolate, add, subtract };
 struct Node {
   const TypeInfo* type = nullptr;
   std::unique_ptr<Pattern> pattern;  ///< Null: this = 0.
-  double inverse_scale_x = 1, inverse_scale_y = 1, scale = 1;
+  double inverse_scale_x = 1, inverse_scale_y = 1;
   double du = 0, dv = 0, cos_rot = 1, sin_rot = 0;
   bool stretch = false, seamless = false, absolute = false, invert = false;
   double limit_low = -1e30, limit_high = 1e30, intensity = 1, add = 0;

@@ -88,7 +88,7 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
     CompileOptions options = recipe_options(".");
     options.time = a.steps > 1 ? static_cast<double>(step) / (a.steps - 1) : a.time;
     options.seamless = a.seamless;
-    options.seed = context.seed - 1;
+    options.seed = static_cast<std::uint32_t>(context.seed - 1);
     const Stopwatch clock;
     const ProceduralTexture texture = compile_texture(recipe, library, options);
     const RenderedTexture rendered = render_texture(texture, render);
