@@ -9,7 +9,7 @@
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/read_file.hpp"
 
-namespace papilla::player {
+namespace papilla {
 namespace {
 
 int base64_value(char c) {
@@ -130,4 +130,4 @@ std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& sc
   return std::nullopt;
 }
 
-}  // namespace papilla::player
+}  // namespace papilla
