@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   add_synthesize(program);
   add_height(program);
   add_texture(program);
+  add_weather(program);
   add_plan(program);
   add_bake(program);
   add_evaluate(program);

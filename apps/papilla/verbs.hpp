@@ -17,6 +17,7 @@ void add_prepare(CLI::App& program);
 void add_synthesize(CLI::App& program);
 void add_height(CLI::App& program);
 void add_texture(CLI::App& program);
+void add_weather(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
 void add_evaluate(CLI::App& program);

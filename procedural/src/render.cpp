@@ -30,6 +30,7 @@ struct Workspace {
   ChannelRows out;
   double x[k_row], y[k_row];
   double known[10][k_row];  ///< Rows of BlockRow::column to BlockRow::sky.
+  double color[3][k_row];
 };
 
 struct Raster {
@@ -60,6 +61,11 @@ void fill_known(Workspace& w, Block& block, const Raster& raster, std::int64_t f
     row(BlockRow::sky)[i] = points && !points->sky.empty() ? static_cast<double>(points->sky[k]) : 1;
   }
   block.solid = solid;
+  if (points && !points->color.empty())
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (int i = 0; i < n; ++i) w.color[c][i] = static_cast<double>(points->color[3 * static_cast<std::size_t>(first + i) + c]);
+      block.rows[static_cast<std::size_t>(BlockRow::lower_red) + c] = w.color[c];
+    }
   if (points && !points->normals.empty()) block.normals = points->normals.data() + 3 * first;
 }
 
@@ -142,7 +148,7 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
 TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePoints& points, unsigned channels, double texel) {
   const std::size_t count = points.x.size();
   const auto fits = [&](std::size_t size, std::size_t parts) { return size == 0 || size == count * parts; };
-  if (points.y.size() != count || !fits(points.normals.size(), 3) || !fits(points.positions.size(), 3) || !fits(points.sky.size(), 1))
+  if (points.y.size() != count || !fits(points.normals.size(), 3) || !fits(points.positions.size(), 3) || !fits(points.sky.size(), 1) || !fits(points.color.size(), 3))
     throw InvalidInput("evaluate_texture: the spans have unlike lengths for " + std::to_string(count) + " points");
   const Graph& graph = texture.graph();
   TextureValues values;

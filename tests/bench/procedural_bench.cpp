@@ -108,7 +108,7 @@ void seam_target(bench::BenchReport& report) {
     if (type.name == "image") recipe += "|basetexture=star";
     const auto texture = compile_texture(recipe, RecipeLibrary::builtin());
     ++all;
-    if (evaluate_texture(texture, {x0, y0, {}, {}, {}}, k_main, 0).channels[0] == evaluate_texture(texture, {x1, y1, {}, {}, {}}, k_main, 0).channels[0]) ++equal;
+    if (evaluate_texture(texture, {x0, y0, {}, {}, {}, {}}, k_main, 0).channels[0] == evaluate_texture(texture, {x1, y1, {}, {}, {}, {}}, k_main, 0).channels[0]) ++equal;
     else unlike += " " + std::string(type.name);
   }
   report.target({"every type with seamless=true is bit-equal across borders", std::to_string(equal) + " of " + std::to_string(all) + " types" + unlike, equal == all});

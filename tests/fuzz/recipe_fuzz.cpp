@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::expect_result_or_refusal([&] {
     const ProceduralTexture texture = compile_texture(text, builtin);
     const std::vector<double> x = {-1e300, 0, 0.3, 1, 7}, y = {0.2, 0, 0.9, 1, -4};
-    const TextureValues values = evaluate_texture(texture, {x, y, {}, {}, {}}, k_all, 0.01);
+    const TextureValues values = evaluate_texture(texture, {x, y, {}, {}, {}, {}}, k_all, 0.01);
     for (const auto& channel : values.channels)
       for (const float v : channel) fuzz::require(std::isfinite(v), "a value is finite");
   });

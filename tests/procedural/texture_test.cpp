@@ -18,7 +18,7 @@ constexpr unsigned k_main = 1U << static_cast<unsigned>(Channel::main);
 constexpr unsigned k_all = (1U << k_channels) - 1;
 
 std::vector<float> main_at(const std::string& recipe, const std::vector<double>& x, const std::vector<double>& y, const CompileOptions& options = {}) {
-  return evaluate_texture(compile_texture(recipe, RecipeLibrary::builtin(), options), {x, y, {}, {}, {}}, k_main, 0).channels[0];
+  return evaluate_texture(compile_texture(recipe, RecipeLibrary::builtin(), options), {x, y, {}, {}, {}, {}}, k_main, 0).channels[0];
 }
 float value(const std::string& formula, double x = 0.3, double y = 0.7) { return main_at("base|mainfunction=" + formula, {x}, {y})[0]; }
 
@@ -62,7 +62,7 @@ TEST(Texture, InlineAndNamedTexturesAreTheSame) {
   RecipeLibrary library;
   library.add("stars", "star|jags=7");
   const std::vector<double> x = {0.3}, y = {0.6};
-  const auto at = [&](const char* recipe) { return evaluate_texture(compile_texture(recipe, library), {x, y, {}, {}, {}}, k_main, 0).channels[0][0]; };
+  const auto at = [&](const char* recipe) { return evaluate_texture(compile_texture(recipe, library), {x, y, {}, {}, {}, {}}, k_main, 0).channels[0][0]; };
   EXPECT_EQ(at("base|mainfunction=stars*2"), at("base|mainfunction=[star|jags=7]*2"));
   EXPECT_EQ(at("stars|jags=3"), at("star|jags=3"));
 }
@@ -73,7 +73,7 @@ TEST(Texture, IsTheSameForAnyCutOfTheWork) {
   const auto texture = compile_texture("worn_leather", RecipeLibrary::builtin(), test::at_time(0.5));
   std::vector<double> x, y;
   for (int i = 0; i < 300; ++i) x.push_back((i + 0.5) * (1 / 300.0)), y.push_back(150.5 * (1 / 300.0));
-  const TextureValues row = evaluate_texture(texture, {x, y, {}, {}, {}}, k_all, 1 / 300.0);
+  const TextureValues row = evaluate_texture(texture, {x, y, {}, {}, {}, {}}, k_all, 1 / 300.0);
   for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(row[Channel::bump][i], whole.values[Channel::bump][150 * 300 + i]);
 }
 
@@ -130,7 +130,7 @@ TEST(Multi, BlendsAsTheRulesSay) {
   const auto bump = [](const std::string& rule) {
     const auto texture = compile_texture("multi|textures=[base|bumpfunction=.5],[base|bumpfunction=.2|alphafunction=.25|bumpblend=" + rule + "]", {});
     const std::vector<double> at = {0.5};
-    return evaluate_texture(texture, {at, at, {}, {}, {}}, k_all, 0)[Channel::bump][0];
+    return evaluate_texture(texture, {at, at, {}, {}, {}, {}}, k_all, 0)[Channel::bump][0];
   };
   EXPECT_FLOAT_EQ(bump("off"), 0.5F);
   EXPECT_FLOAT_EQ(bump("add"), 0.55F);
@@ -142,7 +142,7 @@ TEST(Multi, LayersReadWhatLiesBelow) {
   const auto texture = compile_texture("multi|textures=[base|bumpfunction=.4|colorfunction=<.2,.4,.6>|frictionfunction=.3],"
                                        "[base|bumpblend=interpolate|bumpfunction=lowerbump*2|colorfunction=colscale(currentcolor,.5)|frictionfunction=lowerfriction+.1]", {});
   const std::vector<double> at = {0.5};
-  const TextureValues v = evaluate_texture(texture, {at, at, {}, {}, {}}, k_all, 0);
+  const TextureValues v = evaluate_texture(texture, {at, at, {}, {}, {}, {}}, k_all, 0);
   EXPECT_FLOAT_EQ(v[Channel::bump][0], 0.8F);
   EXPECT_FLOAT_EQ(v[Channel::friction][0], 0.4F);
   EXPECT_FLOAT_EQ(v[Channel::color][2], 0.3F);
@@ -162,7 +162,7 @@ TEST(Direction, NormaldotIsOneWhereDirtLands) {
   EXPECT_TRUE(texture.depends_on_normal());
   const std::vector<double> at = {0, 0, 0};
   const std::vector<float> normals = {0, 1, 0, 0, -1, 0, 1, 0, 0};
-  const auto v = evaluate_texture(texture, {at, at, normals, {}, {}}, k_main, 0).channels[0];
+  const auto v = evaluate_texture(texture, {at, at, normals, {}, {}, {}}, k_main, 0).channels[0];
   EXPECT_FLOAT_EQ(v[0], 1);
   EXPECT_FLOAT_EQ(v[1], -1);
   EXPECT_FLOAT_EQ(v[2], 0);

@@ -72,6 +72,7 @@ struct TexturePoints {
   std::span<const float> normals;         ///< 3 a point, unit length; empty: the recipe's own.
   std::span<const float> positions;       ///< 3 a point, metres, y up; empty: (x, y, 0).
   std::span<const float> sky;             ///< Share of the sky seen; empty: 1.
+  std::span<const float> color;           ///< 3 a point: what `currentcolor` is below all layers; empty: black.
 };
 
 /// channels[c] has one number a point (color three); empty when not asked for.
