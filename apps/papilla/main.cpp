@@ -44,6 +44,8 @@ int main(int argc, char** argv) {
   add_prepare(program);
   add_synthesize(program);
   add_height(program);
+  add_texture(program);
+  add_weather(program);
   add_plan(program);
   add_bake(program);
   add_view(program);

@@ -16,6 +16,8 @@ void add_analyze(CLI::App& program);
 void add_prepare(CLI::App& program);
 void add_synthesize(CLI::App& program);
 void add_height(CLI::App& program);
+void add_texture(CLI::App& program);
+void add_weather(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
 void add_view(CLI::App& program);

@@ -58,12 +58,12 @@ check_licence_lines() {
       '') breach "$file" "has no SPDX-License-Identifier in its first three lines" ;;
       *) breach "$file" "unknown licence: $licence" ;;
     esac
-  done < <(sources run .ci CMakeLists.txt cmake core haptic io meshing param texture apps page tests data | licences)
+  done < <(sources run .ci CMakeLists.txt cmake core haptic io meshing param texture procedural apps page tests data | licences)
 }
 
 check_gpl_users() {
   local all
-  all=$(cpp_sources core haptic io meshing param texture apps tests data)
+  all=$(cpp_sources core haptic io meshing param texture procedural apps tests data)
   breach_each "includes %s, which is GPL, but says MIT" < <(licences <<<"$all" | awk '$2 == "MIT" {print $1}' | includes |
     grep -E "$gpl_headers")
 }
@@ -76,7 +76,7 @@ check_light_folders() {
 
 # Public headers: the standard library and papilla only, so that no user needs our libraries to compile.
 check_public_headers() {
-  breach_each "a public header must not include %s" < <(cpp_sources core haptic io meshing param texture |
+  breach_each "a public header must not include %s" < <(cpp_sources core haptic io meshing param texture procedural |
     grep /include/ | includes | grep -vE ' (<[a-z0-9_]+>|<std(def|int|bool)\.h>|"papilla/.*")$')
 }
 
@@ -87,6 +87,7 @@ allowed_modules() {
     meshing) echo 'core|meshing' ;;
     param) echo 'core|meshing|param' ;;
     texture) echo 'core|texture' ;;
+    procedural) echo 'core|texture|procedural' ;;
     haptic) echo 'core|haptic|texture' ;;
     io) echo 'core|haptic|texture|meshing|io' ;;
   esac
@@ -94,7 +95,7 @@ allowed_modules() {
 
 check_directions() {
   local folder
-  for folder in core meshing param texture haptic io; do
+  for folder in core meshing param texture procedural haptic io; do
     breach_each "$folder must not include %s" < <(cpp_sources "$folder" | includes | grep ' "papilla/' |
       grep -vE " \"papilla/($(allowed_modules "$folder"))/")
   done

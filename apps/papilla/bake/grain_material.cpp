@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <numeric>
 #include <string>
 
 #include "base64.hpp"
@@ -11,6 +13,7 @@
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/procedural/texture.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/resample.hpp"
@@ -19,6 +22,7 @@
 #include "papilla/texture/texture_class.hpp"
 #include "papilla/texture/tiling.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
+#include "recipe_source.hpp"
 
 namespace papilla::app {
 namespace {
@@ -27,6 +31,8 @@ using nlohmann::ordered_json;
 
 /// More samples than this a side show and feel like nothing: at 40 mm a repeat they are finer than 0.04 mm.
 constexpr int k_most_samples = 1024;
+/// Samples a side of a repeat that is computed.
+constexpr int k_recipe_samples = 512;
 /// Peak to valley of a relief of which nothing is said, as a share of the shorter side of the grain.
 constexpr double k_default_depth = 0.01;
 
@@ -84,6 +90,49 @@ HeightTag height_tag(const Grain& grain, const EncodedHeight& encoded) {
   return tag;
 }
 
+/// The picture of a material, from a file or computed.
+struct Source {
+  GreyImage grey;            ///< Of a recipe: the height channel.
+  ColorImage color;
+  bool recipe = false;
+  double friction = 0;       ///< Of a recipe: mean of the friction channel.
+};
+
+Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
+  CompileOptions options = recipe_options(rule.texture.parent_path());
+  options.source = "material '" + rule.name + "', texture";
+  options.seamless = true;
+  RenderOptions render;
+  render.width = render.height = k_recipe_samples;
+  for (const Channel c : {Channel::bump, Channel::color, Channel::friction}) render.channels |= 1U << static_cast<unsigned>(c);
+  RenderedTexture texture = render_texture(compile_texture(rule.recipe, library, options), render);
+  const auto& friction = texture.values[Channel::friction];
+  Source source;
+  source.recipe = true;
+  source.friction = std::accumulate(friction.begin(), friction.end(), 0.0) / static_cast<double>(friction.size());
+  source.color = to_color_image(texture.values[Channel::color], texture.width, texture.height);
+  source.grey = {texture.width, texture.height, texture.values[Channel::bump], 0, 32};
+  return source;
+}
+
+/// A file of that name wins over a recipe of that name.
+Source read_source(const MaterialRule& rule) {
+  std::error_code error;
+  const RecipeLibrary library = RecipeLibrary::builtin();
+  if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library)) return computed_source(rule, library);
+  return {read_grey_image(rule.texture), read_color_image(rule.texture), false, 0};
+}
+
+/// A recipe's height is a share of the depth: nothing has to be guessed from shading.
+HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain& grain) {
+  const double depth = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+  HeightMap relief{source.grey.width, source.grey.height, source.grey.pixels, grain.size_mm[0] / source.grey.width, grain.size_mm[1] / source.grey.height, true};
+  for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
+  grain.report["height"] = {{"method", "recipe"}, {"reason", "the height channel of the recipe"}, {"depth_mm", depth * rule.height.scale},
+                            {"rms_mm", rms_height_mm(relief)}, {"periodic", true}};
+  return relief;
+}
+
 void describe_relief(Grain& grain) {
   const Roughness roughness = measure_roughness(grain.relief);
   RoughnessTag tag;
@@ -127,13 +176,17 @@ void analyze(const MaterialRule& rule, const GreyImage& image, const ColorImage&
 Grain make_grain(const MaterialRule& rule) {
   Grain grain;
   const Stopwatch analyze_clock;
-  const GreyImage image = read_grey_image(rule.texture);
-  find_size(rule, image, grain.size_mm);
-  analyze(rule, image, read_color_image(rule.texture), grain);
+  const Source source = read_source(rule);
+  find_size(rule, source.grey, grain.size_mm);
+  analyze(rule, source.grey, source.color, grain);
+  if (source.recipe) {
+    grain.tag.static_friction = grain.tag.dynamic_friction = source.friction;
+    grain.report["picture"]["file"] = rule.recipe;
+  }
   grain.seconds.analyze = analyze_clock.seconds();
 
   const Stopwatch height_clock;
-  grain.relief = make_relief(rule, image, grain);
+  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, grain);
   describe_relief(grain);
   const EncodedHeight encoded = encode_height_png16(grain.relief);
   grain.tag.height = height_tag(grain, encoded);

@@ -116,6 +116,7 @@ MaterialRule read_material(const Value& value, const std::string& name, const st
     const std::string texture = v->text();
     if (texture.empty()) v->fail("must not be empty");
     rule.texture = folder / texture;
+    rule.recipe = texture;
   }
   if (const auto v = value.get("size_mm")) {
     if (!v->json().is_array() || v->json().size() != 2) v->fail("must be [width, height]");

@@ -21,6 +21,7 @@ struct HeightRule {
 struct MaterialRule {
   std::string name;
   std::filesystem::path texture;       ///< Picture of the grain; empty: no grain. Absolute or relative to the working folder.
+  std::string recipe;                  ///< What the file has as texture, in case it is a recipe.
   double size_mm[2] = {0, 0};          ///< Width and height that the picture shows; 0: from the picture's own resolution.
   std::optional<double> stiffness;     ///< N/m
   std::optional<double> damping;       ///< N·s/m

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace papilla {
+
+/// Recipes by name, and lists of colours by name.
+///
+/// A library file is text, one entry a line; a line that begins with a blank continues the one above:
+///
+///     # a comment
+///     include more.recipes
+///     colour fire = black, <1,0,0>, yellow, white
+///     worn_brick   brick|scale=.5|mortarthickness=.08
+///                  |mainfunction=this*[fbm|scale=.2]
+///
+/// Names hold letters, digits and _. and begin with a letter; names of base types and functions are taken.
+/// A later entry replaces an earlier one of the same name.
+class RecipeLibrary {
+ public:
+  /// The recipes that come with the program: materials and ageing.
+  static RecipeLibrary builtin();
+
+  /// @throws InvalidInput when the name is none or taken.
+  void add(const std::string& name, const std::string& recipe);
+  /// @param colours  as a recipe's `cols` would have them.
+  /// @throws InvalidInput when the name is none.
+  void add_colours(const std::string& name, const std::string& colours);
+
+  /// Reads a library file and what it includes, relative to its own folder.
+  /// @throws IoError; InvalidInput naming file and line for a line that is no entry, a file over 16 MiB, and files that
+  ///         include each other.
+  void read_file(const std::filesystem::path& path);
+
+  /// The same for text; `source` names it in messages, `folder` is where includes are looked for.
+  void read_text(std::string_view text, const std::string& source, const std::filesystem::path& folder);
+
+  const std::string* find(std::string_view name) const;
+  const std::string* find_colours(std::string_view name) const;
+  const std::map<std::string, std::string, std::less<>>& recipes() const noexcept { return recipes_; }
+
+ private:
+  std::map<std::string, std::string, std::less<>> recipes_, colours_;
+  std::vector<std::filesystem::path> open_files_;
+};
+
+/// Names of recipes that suit a material of that name ("Leather black", "wood2"), best first; looks at the recipes'
+/// names, idmaterial and idtype. Empty when none has anything in common.
+std::vector<std::string> suggest_recipes(std::string_view material, const RecipeLibrary& library);
+
+/// The recipe with its numbers changed by up to `strength` of themselves, within the ranges of the table.
+/// Same seed, same recipe. @throws InvalidInput when the text is no recipe.
+std::string mutate_recipe(std::string_view recipe, unsigned seed, double strength);
+
+}  // namespace papilla

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cellular.hpp"
+#include "evaluator.hpp"
+#include "noise.hpp"
+#include "patterns.hpp"
+
+namespace papilla::procedural_detail {
+namespace {
+
+constexpr int k_most_distances = 4;
+constexpr double k_infinite = 1e30;
+/// Information numbers that each of the nearest points gets.
+constexpr int k_infos_of_point = 6;
+
+/// Poisson's distribution with mean 4, as Worley's table of 256 entries has it, in shuffled order.
+double worley_count(int index) {
+  const double share = (((index * 167 + 13) & 255) + 0.5) / 256;
+  double term = std::exp(-4.0), sum = term;
+  int count = 0;
+  while (sum < share) sum += term *= 4.0 / ++count;
+  return std::max(1, count);
+}
+
+int distances_wanted(const TypeArguments& arguments) {
+  int wanted = 1;
+  if (arguments.mentions("f2")) wanted = 2;
+  if (arguments.mentions("f3")) wanted = 3;
+  if (arguments.mentions("f4") || arguments.mentions("get") || arguments.flag("random")) wanted = 4;
+  return wanted;
+}
+
+/// What becomes of distances behind the metric: root, inverse, func or a random combination.
+class Combination {
+ public:
+  Combination(TypeArguments& arguments, bool random)
+      : rooted_(arguments.flag("rooted")), inverse_(arguments.flag("inversedistance")), func_(arguments.formula("func")), random_(random) {
+    for (std::uint32_t k = 0; k < k_most_distances; ++k) share_[k] = 2 * unit_number(mix_bits(k, arguments.seed(), 77)) - 1;
+    const std::string text = arguments.text("func");
+    if (text == "f1") plain_ = true;
+  }
+
+  void apply(const PatternRow& row, double (*distance)[k_row], int wanted) const {
+    for (int k = 0; k < wanted; ++k)
+      for (int i = 0; i < row.n; ++i) {
+        double d = std::min(distance[k][i], k_infinite);
+        if (rooted_) d = std::sqrt(std::max(0.0, d));
+        if (inverse_) d = 1 / (1 + std::max(0.0, d));
+        distance[k][i] = d;
+      }
+    if (random_) {
+      for (int i = 0; i < row.n; ++i) {
+        row.out[i] = 0;
+        for (int k = 0; k < wanted; ++k) row.out[i] += share_[static_cast<std::size_t>(k)] * distance[k][i];
+      }
+    } else if (plain_) {
+      std::copy_n(distance[0], row.n, row.out);
+    } else {
+      std::array<const double*, k_most_distances> f{};
+      for (int k = 0; k < wanted; ++k) f[static_cast<std::size_t>(k)] = distance[k];
+      row.evaluator->run_on_distances(func_, f.data(), wanted, row.n, row.out);
+    }
+  }
+
+ private:
+  bool rooted_, inverse_;
+  Program func_;
+  bool random_, plain_ = false;
+  std::array<double, k_most_distances> share_{};
+};
+
+CellDistance metric_of(const TypeArguments& arguments) {
+  constexpr CellDistance metrics[] = {CellDistance::squared, CellDistance::manhattan, CellDistance::minkowski};
+  return metrics[arguments.integer("distmode")];
+}
+
+void keep_point(const PatternRow& row, int rank, int i, double x, double y, double dx, double dy, double distance, double id) {
+  if (rank == 0) row.id[i] = id;
+  if ((rank + 1) * k_infos_of_point > k_infos) return;
+  const double infos[k_infos_of_point] = {x, y, dx, dy, distance, id};
+  for (int k = 0; k < k_infos_of_point; ++k) row.info[(rank * k_infos_of_point + k) * k_row + i] = infos[k];
+}
+
+class Voronoi final : public Pattern {
+ public:
+  explicit Voronoi(TypeArguments& arguments)
+      : combination_(arguments, arguments.flag("random")), octaves_(arguments.integer("octaves")), lacunarity_(arguments.number("lacunarity")),
+        sponge_(arguments.integer("cell_initmode")), sponge_power_(arguments.number("initpower")), seed_(arguments.seed()),
+        needs_points_(arguments.mentions("get") || arguments.mentions("get0") || arguments.mentions("get1") || arguments.mentions("id")) {
+    cells_.distance = metric_of(arguments);
+    cells_.power_a = arguments.number("distmodea"), cells_.power_b = arguments.number("distmodeb");
+    cells_.wanted = distances_wanted(arguments);
+    cells_.smooth = arguments.number("smooth");
+    cells_.displace_mode = arguments.integer("displacemode"), cells_.displace = std::clamp(arguments.number("displace"), -1.0, 1.0);
+    weights_ = numbers_of(arguments, "weights");
+    for (int k = static_cast<int>(weights_.size()); k < octaves_; ++k) weights_.push_back(std::pow(lacunarity_, -k));
+    fill_counts(arguments);
+  }
+
+  void evaluate(const PatternRow& row) const override {
+    double sum[k_most_distances][k_row] = {}, distance[k_most_distances][k_row], x[k_row], y[k_row];
+    double* rows[k_most_distances] = {distance[0], distance[1], distance[2], distance[3]};
+    std::vector<CellHit> hits(needs_points_ ? static_cast<std::size_t>(cells_.wanted * row.n) : 0);
+    CellOptions cells = cells_;
+    for (int octave = 0; octave < octaves_; ++octave) {
+      const double wanted = k_cells * std::pow(lacunarity_, octave);
+      const double fx = fitted(wanted, row.period_x), fy = fitted(wanted, row.period_y);
+      cells.period_x = std::round(fx * row.period_x), cells.period_y = std::round(fy * row.period_y);
+      cells.seed = mix_bits(seed_, static_cast<std::uint32_t>(octave), 53);
+      for (int i = 0; i < row.n; ++i) x[i] = row.x[i] * fx, y[i] = row.y[i] * fy;
+      for (int k = 0; k < cells.wanted; ++k)
+        for (int i = 0; i < row.n; ++i) distance[k][i] = octave == 0 ? k_infinite : first_distance(distance[k][i]);
+      cell_row(x, y, row.n, cells, rows, needs_points_ && octave == 0 ? hits.data() : nullptr);
+      for (int k = 0; k < cells.wanted; ++k)
+        for (int i = 0; i < row.n; ++i) sum[k][i] += weights_[static_cast<std::size_t>(octave)] * std::min(distance[k][i], k_infinite);
+    }
+    if (needs_points_)
+      for (int k = 0; k < cells.wanted; ++k)
+        for (int i = 0; i < row.n; ++i) {
+          const CellHit& hit = hits[static_cast<std::size_t>(k * row.n + i)];
+          keep_point(row, k, i, hit.x / k_cells, hit.y / k_cells, hit.dx / k_cells, hit.dy / k_cells, sum[k][i], hit.id);
+        }
+    combination_.apply(row, sum, cells.wanted);
+  }
+
+ private:
+  double first_distance(double last) const {
+    switch (sponge_) {
+      case 1: return std::pow(std::max(0.0, last), sponge_power_);
+      case 2: return last * sponge_power_;
+      case 3: return last + sponge_power_;
+      case 4: return sponge_power_;
+      default: return k_infinite;
+    }
+  }
+
+  void fill_counts(TypeArguments& arguments) {
+    const Program density = arguments.formula("densityfunc");
+    double orig[k_row], index[k_row], out[k_row];
+    for (int i = 0; i < k_row; ++i) orig[i] = worley_count(i), index[i] = i;
+    const double* f[2] = {orig, index};
+    Evaluator(arguments.graph()).run_on_distances(density, f, 2, k_row, out);
+    for (std::size_t i = 0; i < k_row; ++i)
+      cells_.counts[i] = static_cast<std::uint8_t>(std::clamp(std::round(out[i]), 0.0, static_cast<double>(k_most_cell_points)));
+  }
+
+  Combination combination_;
+  int octaves_;
+  double lacunarity_;
+  int sponge_;
+  double sponge_power_;
+  std::uint32_t seed_;
+  bool needs_points_;
+  CellOptions cells_;
+  std::vector<double> weights_;
+};
+
+struct Site {
+  double x, y, id;
+};
+
+double wrapped_difference(double d) { return d - std::round(d); }
+
+/// Points in the unit square that repel each other like equal charges on the torus.
+std::vector<Site> repelled_points(int count, int iterations, std::uint32_t seed) {
+  std::vector<Site> sites(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    const auto n = static_cast<std::uint32_t>(k);
+    sites[k] = {unit_number(mix_bits(n, 1, seed)), unit_number(mix_bits(n, 2, seed)), unit_number(mix_bits(n, 3, seed))};
+  }
+  const double stride = 0.1 / count;
+  for (int step = 0; step < iterations; ++step) {
+    std::vector<Site> moved = sites;
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      double fx = 0, fy = 0;
+      for (std::size_t j = 0; j < sites.size(); ++j) {
+        if (i == j) continue;
+        const double dx = wrapped_difference(sites[i].x - sites[j].x), dy = wrapped_difference(sites[i].y - sites[j].y);
+        const double r2 = dx * dx + dy * dy + 1e-6, force = 1 / (r2 * std::sqrt(r2));
+        fx += dx * force, fy += dy * force;
+      }
+      const double length = std::hypot(fx, fy);
+      if (length <= 0) continue;
+      const double reach = std::min(stride, length * stride * stride);
+      moved[i].x += fx / length * reach, moved[i].y += fy / length * reach;
+      moved[i].x -= std::floor(moved[i].x), moved[i].y -= std::floor(moved[i].y);
+    }
+    sites = std::move(moved);
+  }
+  return sites;
+}
+
+class SeamlessVoronoi final : public Pattern {
+ public:
+  explicit SeamlessVoronoi(TypeArguments& arguments)
+      : combination_(arguments, false), metric_(metric_of(arguments)), a_(arguments.number("distmodea")), b_(arguments.number("distmodeb")),
+        wanted_(arguments.mentions("f4") || arguments.mentions("get") ? 4 : arguments.mentions("f3") ? 3 : arguments.mentions("f2") ? 2 : 1),
+        sites_(repelled_points(arguments.integer("points"), arguments.integer("smoothiterations"), arguments.seed())) {}
+
+  void evaluate(const PatternRow& row) const override {
+    double distance[k_most_distances][k_row];
+    // Distances in mean spacings, so that the number of points does not change the range.
+    const double spacing = std::sqrt(static_cast<double>(sites_.size()));
+    const double fx = fitted(1, row.period_x), fy = fitted(1, row.period_y);
+    for (int i = 0; i < row.n; ++i) {
+      const double x = row.x[i] * fx - std::floor(row.x[i] * fx), y = row.y[i] * fy - std::floor(row.y[i] * fy);
+      for (int k = 0; k < wanted_; ++k) distance[k][i] = k_infinite;
+      for (const Site& site : sites_) {
+        const double dx = wrapped_difference(site.x - x), dy = wrapped_difference(site.y - y);
+        const double d = measure(dx * spacing, dy * spacing);
+        int place = wanted_;
+        while (place > 0 && d < distance[place - 1][i]) --place;
+        if (place == wanted_) continue;
+        for (int j = wanted_ - 1; j > place; --j) {
+          distance[j][i] = distance[j - 1][i];
+          for (int m = 0; m < k_infos_of_point; ++m) row.info[(j * 6 + m) * k_row + i] = row.info[((j - 1) * 6 + m) * k_row + i];
+        }
+        distance[place][i] = d;
+        keep_point(row, place, i, site.x, site.y, dx, dy, d, site.id);
+      }
+    }
+    combination_.apply(row, distance, wanted_);
+  }
+
+ private:
+  double measure(double dx, double dy) const {
+    switch (metric_) {
+      case CellDistance::squared: return dx * dx + dy * dy;
+      case CellDistance::manhattan: return std::abs(dx) + std::abs(dy);
+      case CellDistance::minkowski: break;
+    }
+    return std::pow(std::abs(dx), a_) + std::pow(std::abs(dy), b_);
+  }
+
+  Combination combination_;
+  CellDistance metric_;
+  double a_, b_;
+  int wanted_;
+  std::vector<Site> sites_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pattern> make_cell_pattern(std::string_view type, TypeArguments& arguments) {
+  if (type == "voronoi") return std::make_unique<Voronoi>(arguments);
+  if (type == "voronoiseamless") return std::make_unique<SeamlessVoronoi>(arguments);
+  return nullptr;
+}
+
+}  // namespace papilla::procedural_detail

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace papilla::procedural_detail {
+
+using Rgb = std::array<double, 3>;
+
+/// The colour of that name, in lower case, or nothing.
+std::optional<Rgb> named_colour(std::string_view name) noexcept;
+
+}  // namespace papilla::procedural_detail

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "evaluator.hpp"
+#include "noise.hpp"
+#include "patterns.hpp"
+
+namespace papilla::procedural_detail {
+namespace {
+
+constexpr double k_pi = std::numbers::pi;
+
+std::uint32_t whole(double v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(v, -1e9, 1e9))); }
+double share_of(double v) { return v - std::floor(v); }
+double wrap(double cell, double count) { return count > 0 ? cell - count * std::floor(cell / count) : cell; }
+
+std::unique_ptr<Pattern> make_block(TypeArguments& arguments) {
+  const double nx = arguments.number("subx"), ny = arguments.number("suby"), mx = arguments.number("subx2"), my = arguments.number("suby2");
+  const std::uint32_t seed = arguments.seed();
+  return point_pattern([=](const PatternRow& row, int i) {
+    const double x = row.x[i] * fitted(1, row.period_x) * nx, y = row.y[i] * fitted(1, row.period_y) * ny;
+    double cx = wrap(std::floor(x), nx), cy = wrap(std::floor(y), ny), sx = 0, sy = 0;
+    const bool divided = (whole(cx) + whole(cy)) % 2 == 1;
+    if (divided) sx = std::floor(share_of(x) * mx), sy = std::floor(share_of(y) * my);
+    row.info[10 * k_row + i] = (cy * nx + cx) * mx * my + sy * mx + sx;
+    row.id[i] = unit_number(mix_bits(whole(cx) * 256 + whole(sx), whole(cy) * 256 + whole(sy), seed + 61));
+    return row.id[i];
+  });
+}
+
+class Brick final : public Pattern {
+ public:
+  explicit Brick(TypeArguments& arguments)
+      : joint_(arguments.number("mortarthickness") / 2), rounding_(arguments.number("round")), joint_variation_(arguments.number("mortarthicknessrand")),
+        joint_scale_(arguments.number("mortarthicknessrandscale")), id_only_(arguments.flag("returnid")), offset_(arguments.flag("offsetrand")),
+        switching_(arguments.flag("switching")), circle_(arguments.flag("circle")), seed_(arguments.seed()) {
+    const bool tiling = arguments.flag("tiling");
+    columns_ = tiling ? arguments.number("columns") : 1 / arguments.number("brickwidth");
+    rows_ = tiling ? arguments.number("rows") : 1 / arguments.number("brickheight");
+  }
+
+  void evaluate(const PatternRow& row) const override {
+    const double columns = fitted(columns_, row.period_x), rows = fitted(rows_, row.period_y, switching_ ? 2 : 1);
+    const double count_x = std::round(columns * row.period_x), count_y = std::round(rows * row.period_y);
+    const double width = 1 / columns, height = 1 / rows;
+    double variation[k_row] = {};
+    if (joint_variation_ > 0) turbulence_row(row.x, row.y, row.n, k_cells * joint_scale_, 3, false, seed_, variation);
+    for (int i = 0; i < row.n; ++i) {
+      const double j = std::floor(row.y[i] * rows), row_number = wrap(j, count_y);
+      double x = row.x[i] * columns;
+      if (switching_ && whole(j) % 2 == 1) x += 0.5;
+      if (offset_) x += unit_number(mix_bits(whole(row_number), 3, seed_ + 67));
+      const double column_number = wrap(std::floor(x), count_x);
+      row.info[i] = column_number, row.info[k_row + i] = row_number;
+      row.id[i] = unit_number(mix_bits(whole(column_number), whole(row_number), seed_ + 71));
+      if (id_only_) {
+        row.out[i] = row.id[i];
+        continue;
+      }
+      const double from_side = (0.5 - std::abs(share_of(x) - 0.5)) * width, from_end = (0.5 - std::abs(row.y[i] * rows - j - 0.5)) * height;
+      const double joint = joint_ / 2 * std::max(0.0, 1 + joint_variation_ * variation[i]);
+      row.out[i] = profile(from_side - joint, from_end - joint, std::min(width, height) / 2 - joint_ / 2, row.texel);
+      if (circle_) {
+        const double r = std::hypot((share_of(x) - 0.5) * width, (row.y[i] * rows - j - 0.5) * height) / (0.3 * std::min(width, height));
+        row.out[i] -= 0.5 * smooth01(1 - r) * (row.out[i] > 0 ? 1 : 0);
+      }
+    }
+  }
+
+ private:
+  double profile(double side, double end, double half, double texel) const {
+    const double ramp = rounding_ * half;
+    if (ramp <= texel) return edge(std::min(side, end), texel);
+    // A rounded box: both slopes together near the corner.
+    const double x = std::max(0.0, 1 - side / ramp), y = std::max(0.0, 1 - end / ramp);
+    return side <= 0 || end <= 0 ? 0 : smooth01(1 - std::hypot(x, y));
+  }
+
+  double columns_ = 4, rows_ = 10, joint_, rounding_, joint_variation_, joint_scale_;
+  bool id_only_, offset_, switching_, circle_;
+  std::uint32_t seed_;
+};
+
+/// Cells of a grid or of jittered points, each showing one of several recipes.
+std::unique_ptr<Pattern> make_funky(TypeArguments& arguments, bool cells) {
+  constexpr std::size_t k_most_shown = 16;
+  const std::vector<int> shown = arguments.matching_textures(k_most_shown);
+  const std::uint32_t seed = arguments.seed();
+  return row_pattern([=](const PatternRow& row) {
+    const double count = k_cells;
+    const double fx = fitted(count, row.period_x), fy = fitted(count, row.period_y);
+    std::uint32_t choice[k_row];
+    for (int i = 0; i < row.n; ++i) {
+      double cx = std::floor(row.x[i] * fx), cy = std::floor(row.y[i] * fy);
+      if (cells) {  // The nearest of the jittered points of the 3 x 3 cells around.
+        const double bx = cx, by = cy;
+        double least = 1e30;
+        for (int q = -1; q <= 1; ++q)
+          for (int p = -1; p <= 1; ++p) {
+            const std::uint32_t h = mix_bits(whole(wrap(bx + p, std::round(fx * row.period_x))), whole(wrap(by + q, std::round(fy * row.period_y))), seed + 73);
+            const double dx = bx + p + 0.2 + 0.6 * (h & 1023U) / 1024.0 - row.x[i] * fx, dy = by + q + 0.2 + 0.6 * (h >> 10 & 1023U) / 1024.0 - row.y[i] * fy;
+            if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, cx = bx + p, cy = by + q;
+          }
+      }
+      choice[i] = mix_bits(whole(wrap(cx, std::round(fx * row.period_x))), whole(wrap(cy, std::round(fy * row.period_y))), seed + 79);
+      row.id[i] = unit_number(choice[i]);
+      row.out[i] = row.id[i];
+    }
+    Block inner = *row.block;
+    inner.x = row.x, inner.y = row.y, inner.texel = row.texel;
+    double value[k_row];
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      row.evaluator->main_value(shown[k], inner, value);
+      for (int i = 0; i < row.n; ++i)
+        if (choice[i] % shown.size() == k) row.out[i] = value[i];
+    }
+  });
+}
+
+std::unique_ptr<Pattern> make_checker() {
+  return point_pattern([](const PatternRow& row, int i) {
+    const double x = std::floor(row.x[i] * fitted(2, row.period_x, 2)), y = std::floor(row.y[i] * fitted(2, row.period_y, 2));
+    return static_cast<double>((whole(x) + whole(y)) % 2);
+  });
+}
+
+std::unique_ptr<Pattern> make_checker3d() {
+  return point_pattern([](const PatternRow& row, int i) {
+    const auto at = [&](BlockRow r) { return row.block->rows[static_cast<std::size_t>(r)][i]; };
+    double x = row.x[i] * fitted(k_cells, row.period_x, 2), y = row.y[i] * fitted(k_cells, row.period_y, 2), z = 0;
+    if (row.block->solid) x = at(BlockRow::posx) * k_cells, y = at(BlockRow::posy) * k_cells, z = at(BlockRow::posz) * k_cells;
+    return static_cast<double>((whole(std::floor(x)) + whole(std::floor(y)) + whole(std::floor(z))) % 2);
+  });
+}
+
+std::unique_ptr<Pattern> make_circle(TypeArguments& arguments) {
+  const double r = arguments.number("r");
+  return point_pattern([r](const PatternRow& row, int i) {
+    double x = row.x[i], y = row.y[i];
+    if (row.period_x > 0) x = share_of(x * fitted(1, row.period_x)), y = share_of(y * fitted(1, row.period_y));
+    return edge(r - std::hypot(x - 0.5, y - 0.5), row.texel);
+  });
+}
+
+std::unique_ptr<Pattern> make_star(TypeArguments& arguments) {
+  const double noise = arguments.number("noise"), turb = arguments.number("turb"), ninja = arguments.number("ninja");
+  const double exponent = arguments.flag("round") ? 2 : arguments.number("roundjag");
+  const double jags = arguments.number("jags"), inner = arguments.number("rmin"), outer = arguments.number("rmax"), size = arguments.number("starscale");
+  const bool repeat = arguments.flag("repeat");
+  const std::uint32_t seed = arguments.seed();
+  return row_pattern([=](const PatternRow& row) {
+    double shift[k_row] = {}, more[k_row] = {};
+    if (noise != 0) turbulence_row(row.x, row.y, row.n, 2 * k_cells, 1, false, seed, shift);
+    if (turb != 0) turbulence_row(row.x, row.y, row.n, 2 * k_cells, 5, false, seed + 1, more);
+    for (int i = 0; i < row.n; ++i) {
+      double x = row.x[i], y = row.y[i];
+      if (repeat || row.period_x > 0) x = share_of(x * fitted(1, row.period_x)), y = share_of(y * fitted(1, row.period_y));
+      x -= 0.5, y -= 0.5;
+      const double r = std::hypot(x, y) + 0.1 * (noise * shift[i] + turb * more[i]);
+      const double turn = share_of(std::atan2(y, x) / (2 * k_pi) * jags + ninja * r * jags / 10);
+      double t = 1 - std::abs(2 * turn - 1);  // 0 in the notch, 1 at the point.
+      if (exponent > 0) t = std::pow(t, exponent);
+      const double border = 0.5 * size * (inner + (outer - inner) * t);
+      row.out[i] = border > 0 ? std::clamp(1 - r / border, 0.0, 1.0) : 0;
+    }
+  });
+}
+
+std::unique_ptr<Pattern> make_weave(TypeArguments& arguments) {
+  const double width_x = arguments.number("xwidth"), width_y = arguments.number("ywidth");
+  const double pitch_x = width_x + arguments.number("xgap"), pitch_y = width_y + arguments.number("ygap");
+  const double rows = arguments.number("rows"), columns = arguments.number("columns");
+  const bool round = arguments.flag("roundthreads"), dive = arguments.flag("shadecrossings");
+  const std::string matrix = arguments.text("matrix");
+  if (matrix.empty() || matrix.find_first_not_of("01") != std::string::npos || static_cast<double>(matrix.size()) < rows * columns)
+    arguments.refuse("matrix", "expected at least rows x columns digits 0 or 1");
+  return point_pattern([=](const PatternRow& row, int i) {
+    const double x = row.x[i] * fitted(1, row.period_x) * columns, y = row.y[i] * fitted(1, row.period_y) * rows;
+    const double cx = wrap(std::floor(x), columns), cy = wrap(std::floor(y), rows);
+    const double tx = share_of(x) - 0.5, ty = share_of(y) - 0.5;  // Within the crossing.
+    const auto profile = [round](double t, double half) {
+      if (std::abs(t) >= half) return 0.0;
+      return round ? std::sqrt(1 - t * t / (half * half)) : 1.0;
+    };
+    const bool across_on_top = matrix[static_cast<std::size_t>(cy * columns + cx)] == '1';
+    const double down = profile(tx, width_x / pitch_x / 2), across = profile(ty, width_y / pitch_y / 2);
+    const double swing_across = dive ? std::cos(k_pi * tx) : 1, swing_down = dive ? std::cos(k_pi * ty) : 1;
+    const double side = across_on_top ? 1 : -1;
+    const double height_across = across > 0 ? across * (0.6 + 0.4 * side * swing_across) : 0, height_down = down > 0 ? down * (0.6 - 0.4 * side * swing_down) : 0;
+    row.id[i] = height_across > height_down ? 1 : 0;
+    return std::max(height_across, height_down);
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<Pattern> make_regular_pattern(std::string_view type, TypeArguments& arguments) {
+  if (type == "block") return make_block(arguments);
+  if (type == "brick") return std::make_unique<Brick>(arguments);
+  if (type == "brickfunky") return make_funky(arguments, false);
+  if (type == "voronoifunky") return make_funky(arguments, true);
+  if (type == "checker") return make_checker();
+  if (type == "checker3d") return make_checker3d();
+  if (type == "circle") return make_circle(arguments);
+  if (type == "col") return point_pattern([](const PatternRow&, int) { return 1.0; });
+  if (type == "star") return make_star(arguments);
+  if (type == "weave") return make_weave(arguments);
+  return nullptr;
+}
+
+std::unique_ptr<Pattern> make_pattern(std::string_view type, TypeArguments& arguments) {
+  for (auto* const make : {make_noise_pattern, make_cell_pattern, make_regular_pattern, make_effect_pattern, make_picture_pattern})
+    if (auto pattern = make(type, arguments)) return pattern;
+  return nullptr;
+}
+
+}  // namespace papilla::procedural_detail

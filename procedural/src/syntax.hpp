@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace papilla::procedural_detail {
+
+/// A recipe longer than this is refused.
+inline constexpr std::size_t k_most_text = std::size_t{1} << 20;
+
+/// A piece of a recipe that knows where it stands.
+struct Piece {
+  std::string_view text;
+  std::size_t position = 0;  ///< Of its first character in the whole text.
+};
+
+/// The text that positions count in, and how messages call it.
+struct Origin {
+  std::string name;
+  std::string_view whole;
+};
+
+struct Assignment {
+  Piece name, value;
+};
+
+/// type|name=value|…
+struct RecipeSyntax {
+  Piece head;
+  std::vector<Assignment> parameters;
+};
+
+/// @throws InvalidInput "recipe 'x': line 1, column 7: …".
+[[noreturn]] void fail_at(const Origin& origin, std::size_t position, const std::string& reason);
+
+/// Splits at the bars outside of brackets. @throws InvalidInput with position.
+RecipeSyntax split_recipe(Piece recipe, const Origin& origin);
+
+/// Splits at a separator outside of (), [] and <>. Pieces are trimmed; empty pieces are kept.
+std::vector<Piece> split_outside(Piece text, char separator, const Origin& origin);
+
+Piece trimmed(Piece piece);
+
+/// The text in quotes for a message: one line, at most 40 characters.
+std::string in_quotes(std::string_view text);
+
+bool is_name(std::string_view text);
+
+/// The choices closest in spelling come first: "; did you mean 'scale'?", or nothing.
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known);
+
+}  // namespace papilla::procedural_detail

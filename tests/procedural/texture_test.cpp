@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/procedural/texture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "papilla/core/error.hpp"
+#include "papilla/procedural/reference.hpp"
+#include "procedural/examples.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr unsigned k_main = 1U << static_cast<unsigned>(Channel::main);
+constexpr unsigned k_all = (1U << k_channels) - 1;
+
+std::vector<float> main_at(const std::string& recipe, const std::vector<double>& x, const std::vector<double>& y, const CompileOptions& options = {}) {
+  return evaluate_texture(compile_texture(recipe, RecipeLibrary::builtin(), options), {x, y, {}, {}, {}, {}}, k_main, 0).channels[0];
+}
+float value(const std::string& formula, double x = 0.3, double y = 0.7) { return main_at("base|mainfunction=" + formula, {x}, {y})[0]; }
+
+TEST(Formula, FollowsTheRulesOfArithmetic) {
+  EXPECT_FLOAT_EQ(value("2+3*4^2/8-1"), 7);
+  EXPECT_FLOAT_EQ(value("-2^2"), -4);
+  EXPECT_FLOAT_EQ(value("2^3^2"), 512);
+  EXPECT_FLOAT_EQ(value("-.5%2"), 1.5F);
+  EXPECT_FLOAT_EQ(value("x*10+y"), 3.7F);
+  EXPECT_FLOAT_EQ(value("smoothstep(0,1,x)"), 0.216F);
+  EXPECT_FLOAT_EQ(value("dist(.3,.3)"), 0.4F);
+  EXPECT_FLOAT_EQ(value("linedist(0,0,1,0)"), 0.7F);
+  EXPECT_FLOAT_EQ(value("getgreen(hsv(1/3,1,.5))"), 0.5F);
+  EXPECT_FLOAT_EQ(value("gethsvhue(<0,1,0>)"), 1 / 3.0F);
+  EXPECT_FLOAT_EQ(value("bias(.5,x)"), 0.3F);
+  EXPECT_FLOAT_EQ(value("gain(.5,x)"), 0.3F);
+  EXPECT_FLOAT_EQ(value("pulse(.2,.4,x)"), 1);
+  EXPECT_FLOAT_EQ(value("huedist(.9)*0+interpolate(2,4,.25)"), 2.5F);
+}
+
+TEST(Formula, HasAValueWhereMathematicsHasNone) {
+  EXPECT_EQ(value("1/(x-x)"), 0);
+  EXPECT_EQ(value("log(x-x)"), 0);
+  EXPECT_EQ(value("sqrt(-x)"), 0);
+  EXPECT_EQ(value("(0-x)^.3"), 0);
+  EXPECT_EQ(value("x^-99999"), 0);
+  EXPECT_EQ(value("mod(x,0)"), 0);
+  EXPECT_EQ(value("x*1e300*1e300-x*1e300*1e300"), 0);
+}
+
+TEST(Texture, ScaleRotationShiftAndPerturbationMoveThePlace) {
+  const std::vector<double> x = {0.1, 0.4}, y = {0.2, 0.9};
+  EXPECT_EQ(main_at("base|scale=.5|mainfunction=noise2d(x,y)", x, y), main_at("base|mainfunction=noise2d(x*2,y*2)", x, y));
+  EXPECT_EQ(main_at("base|perturbx=y|perturby=x|mainfunction=x-3*y", x, y), main_at("base|mainfunction=y-3*x", x, y));
+  EXPECT_EQ(main_at("base|du=.25|mainfunction=x", x, y), main_at("base|mainfunction=x+.25", x, y));
+  EXPECT_NEAR(main_at("base|rot=pi/2|mainfunction=x", x, y)[0], 0.5 - (0.2 - 0.5), 1e-6);
+  EXPECT_NEAR(main_at("base|afunction=zoom(.5,.5,2)|mainfunction=x", x, y)[0], 0.5 + 2 * (0.1 - 0.5), 1e-6);
+}
+
+TEST(Texture, InlineAndNamedTexturesAreTheSame) {
+  RecipeLibrary library;
+  library.add("stars", "star|jags=7");
+  const std::vector<double> x = {0.3}, y = {0.6};
+  const auto at = [&](const char* recipe) { return evaluate_texture(compile_texture(recipe, library), {x, y, {}, {}, {}, {}}, k_main, 0).channels[0][0]; };
+  EXPECT_EQ(at("base|mainfunction=stars*2"), at("base|mainfunction=[star|jags=7]*2"));
+  EXPECT_EQ(at("stars|jags=3"), at("star|jags=3"));
+}
+
+TEST(Texture, IsTheSameForAnyCutOfTheWork) {
+  // 300 columns are more than a row of the evaluator; the same points one by one must agree.
+  const RenderedTexture whole = test::rendered("worn_leather", 300, RecipeLibrary::builtin(), test::at_time(0.5), k_all);
+  const auto texture = compile_texture("worn_leather", RecipeLibrary::builtin(), test::at_time(0.5));
+  std::vector<double> x, y;
+  for (int i = 0; i < 300; ++i) x.push_back((i + 0.5) * (1 / 300.0)), y.push_back(150.5 * (1 / 300.0));
+  const TextureValues row = evaluate_texture(texture, {x, y, {}, {}, {}, {}}, k_all, 1 / 300.0);
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(row[Channel::bump][i], whole.values[Channel::bump][150 * 300 + i]);
+}
+
+/// Slope of the structure function between two lags, as D = 3 - slope / 2.
+double dimension_of(const std::vector<float>& height, int size, int first, int last) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  int count = 0;
+  for (int lag = first; lag <= last; lag *= 2, ++count) {
+    double sum = 0;
+    std::size_t pairs = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x + lag < size; ++x, ++pairs) {
+        const auto at = static_cast<std::size_t>(y * size + x);
+        const double d = static_cast<double>(height[at + static_cast<std::size_t>(lag)]) - static_cast<double>(height[at]);
+        sum += d * d;
+      }
+    const double lx = std::log(lag), ly = std::log(sum / static_cast<double>(pairs));
+    sx += lx, sy += ly, sxx += lx * lx, sxy += lx * ly;
+  }
+  return 3 - (count * sxy - sx * sy) / (count * sxx - sx * sx) / 2;
+}
+
+TEST(Fbm, KeepsItsDimension) {
+  // Finest cells have 4 texels, the coarsest 1024/32: lags of 2 to 16 texels, averaged over seeds.
+  for (const double h : {0.2, 0.5, 0.8}) {
+    double mean = 0;
+    for (int seed = 0; seed < 3; ++seed)
+      mean += dimension_of(test::rendered("fbm|scale=.125|octaves=4|seed=" + std::to_string(seed) + "|h=" + std::to_string(h), 1024, {}).values[Channel::main], 1024, 2, 16) / 3;
+    EXPECT_NEAR(mean, 3 - h, 0.05) << "H = " << h;
+  }
+}
+
+TEST(Seamless, EveryTypeIsBitEqualAcrossBordersAndHasNoStepThere) {
+  std::vector<double> inner_x, inner_y, outer_x, outer_y;
+  for (int i = 0; i < 64; ++i) {
+    const double t = (i + 0.5) / 64;
+    inner_x.insert(inner_x.end(), {0, t, 0.25}), inner_y.insert(inner_y.end(), {t, 0, t});
+    outer_x.insert(outer_x.end(), {1, t, 1.25}), outer_y.insert(outer_y.end(), {t, 1, t - 1});
+  }
+  for (const TypeInfo& type : texture_types()) {
+    const std::string recipe = test::example_of(type.name) + "|seamless=true";
+    EXPECT_EQ(main_at(recipe, inner_x, inner_y), main_at(recipe, outer_x, outer_y)) << recipe;
+  }
+  // Continuous types: what lies a hair before the border equals the border.
+  for (const char* type : {"noise", "fbm", "turbulence", "voronoi", "voronoi|func=f2-f1", "marble", "wood", "voronoiseamless"}) {
+    std::vector<double> at(64, 0), before(64, 1 - 1e-9), y;
+    for (int i = 0; i < 64; ++i) y.push_back((i + 0.5) / 64);
+    const auto a = main_at(std::string(type) + "|seamless=true", at, y), b = main_at(std::string(type) + "|seamless=true", before, y);
+    for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(a[i], b[i], 1e-4) << type;
+  }
+}
+
+TEST(Multi, BlendsAsTheRulesSay) {
+  const auto bump = [](const std::string& rule) {
+    const auto texture = compile_texture("multi|textures=[base|bumpfunction=.5],[base|bumpfunction=.2|alphafunction=.25|bumpblend=" + rule + "]", {});
+    const std::vector<double> at = {0.5};
+    return evaluate_texture(texture, {at, at, {}, {}, {}, {}}, k_all, 0)[Channel::bump][0];
+  };
+  EXPECT_FLOAT_EQ(bump("off"), 0.5F);
+  EXPECT_FLOAT_EQ(bump("add"), 0.55F);
+  EXPECT_FLOAT_EQ(bump("sub"), 0.45F);
+  EXPECT_FLOAT_EQ(bump("interpolate"), 0.425F);
+}
+
+TEST(Multi, LayersReadWhatLiesBelow) {
+  const auto texture = compile_texture("multi|textures=[base|bumpfunction=.4|colorfunction=<.2,.4,.6>|frictionfunction=.3],"
+                                       "[base|bumpblend=interpolate|bumpfunction=lowerbump*2|colorfunction=colscale(currentcolor,.5)|frictionfunction=lowerfriction+.1]", {});
+  const std::vector<double> at = {0.5};
+  const TextureValues v = evaluate_texture(texture, {at, at, {}, {}, {}, {}}, k_all, 0);
+  EXPECT_FLOAT_EQ(v[Channel::bump][0], 0.8F);
+  EXPECT_FLOAT_EQ(v[Channel::friction][0], 0.4F);
+  EXPECT_FLOAT_EQ(v[Channel::color][2], 0.3F);
+}
+
+TEST(Time, ModifiersFixedTimeAndPeriodicTime) {
+  const auto at = [](const std::string& recipe, double time) { return main_at(recipe, {0.3}, {0.4}, test::at_time(time))[0]; };
+  EXPECT_FLOAT_EQ(at("base|mainfunction=time", 0.25), 0.25F);
+  EXPECT_FLOAT_EQ(at("base|fixtime=true|time=.75|mainfunction=time", 0.25), 0.75F);
+  EXPECT_FLOAT_EQ(at("base|mainfunction=1|timemodifiers=intensity:1+2*time", 0.5), 2);
+  const std::string periodic = "base|mainfunction=1|periodicmod=true|timemodifiers=intensity:s(time*5)";
+  EXPECT_NEAR(at(periodic, 0), at(periodic, 1), 1e-6);
+}
+
+TEST(Direction, NormaldotIsOneWhereDirtLands) {
+  const auto texture = compile_texture("base|mainfunction=normaldot", {});
+  EXPECT_TRUE(texture.depends_on_normal());
+  const std::vector<double> at = {0, 0, 0};
+  const std::vector<float> normals = {0, 1, 0, 0, -1, 0, 1, 0, 0};
+  const auto v = evaluate_texture(texture, {at, at, normals, {}, {}, {}}, k_main, 0).channels[0];
+  EXPECT_FLOAT_EQ(v[0], 1);
+  EXPECT_FLOAT_EQ(v[1], -1);
+  EXPECT_FLOAT_EQ(v[2], 0);
+}
+
+TEST(Ageing, NothingAtTimeZeroAndHeightAndFrictionLater) {
+  const RecipeLibrary library = RecipeLibrary::builtin();
+  const RenderedTexture fresh = test::rendered("leather", 64, library, {}, k_all);
+  for (const char* name : {"greying", "dirt", "smears", "scratches", "chipped_paint", "rust_in", "rust_on", "erosion", "moss", "wetness", "snow", "dust", "polish"}) {
+    const std::string recipe = std::string("multi|textures=leather,") + name;
+    const RenderedTexture young = test::rendered(recipe, 64, library, test::at_time(0), k_all), old = test::rendered(recipe, 64, library, test::at_time(1), k_all);
+    const auto change = [](const std::vector<float>& a, const std::vector<float>& b) {
+      double sum = 0;
+      for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(std::abs(a[i] - b[i]));
+      return sum / static_cast<double>(a.size());
+    };
+    EXPECT_NEAR(young.values[Channel::friction][77], fresh.values[Channel::friction][77], 1e-6) << name;
+    EXPECT_NEAR(young.values[Channel::bump][77], fresh.values[Channel::bump][77], 1e-6) << name;
+    EXPECT_GT(change(young.values[Channel::friction], old.values[Channel::friction]), 1e-3) << name;
+    EXPECT_GT(change(young.values[Channel::color], old.values[Channel::color]), 1e-3) << name;
+    if (std::string(name) != "greying") EXPECT_GT(change(young.values[Channel::bump], old.values[Channel::bump]), 1e-4) << name;
+  }
+}
+
+TEST(Render, RefusesImpossibleSizes) {
+  const auto texture = compile_texture("noise", {});
+  RenderOptions options;
+  options.width = options.height = 65536;
+  EXPECT_THROW(render_texture(texture, options), InvalidInput);
+  options.width = 0;
+  EXPECT_THROW(render_texture(texture, options), InvalidInput);
+}
+
+}  // namespace
+}  // namespace papilla
