@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "height_source.hpp"
+#include "papilla/io/height_source.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/roughness_field.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "height_source.hpp"
+#include "papilla/io/height_source.hpp"
 
 #include <span>
 #include <string>
