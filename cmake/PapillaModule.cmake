@@ -76,3 +76,9 @@ function(papilla_test name)
   gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT 300)
 endfunction()
+
+# papilla_small(FILE...)
+# Sources that run once and should stay small: the player has a limit.
+function(papilla_small)
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-Os>)
+endfunction()

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   add_unwrap(program);
   add_measure(program);
   add_analyze(program);
+  add_prepare(program);
   add_synthesize(program);
   add_height(program);
   add_plan(program);

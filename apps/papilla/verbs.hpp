@@ -13,6 +13,7 @@ void add_simplify(CLI::App& program);
 void add_unwrap(CLI::App& program);
 void add_measure(CLI::App& program);
 void add_analyze(CLI::App& program);
+void add_prepare(CLI::App& program);
 void add_synthesize(CLI::App& program);
 void add_height(CLI::App& program);
 void add_plan(CLI::App& program);

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <string>
 
+#include "device_choice.hpp"
 #include "exit_code.hpp"
+#include "live_view.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/haptic/sim_device.hpp"
@@ -21,63 +25,103 @@ using namespace papilla;
 using namespace papilla::player;
 
 std::atomic<bool> g_stop{false};
+std::atomic<int> g_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 struct Options {
   std::string file, device = "sim", trajectory, record, json;
-  double rate_hz = 1000, seconds = 0, probe_radius_mm = 0;
-  bool quiet = false;
+  double rate_hz = 1000, seconds = 0, probe_radius_mm = 0, watchdog_ms = 10;
+  double reach_mm = 0, speed = 0.1;
+  std::string motion = "stroke";
+  std::uint64_t seed = 1;
+  std::vector<double> origin;
+  bool quiet = false, list = false;
 };
 
 constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
+constexpr double k_default_reach_m = 0.15;  // A little more than any workspace's radius.
+constexpr double k_clearance_m = 0.01;      // Of a real device's middle from the surface.
 
-/// "sim" or "sim:PRESET".
-const DevicePreset& chosen_preset(const std::string& device) {
-  if (device == "sim") return device_presets().front();
-  if (device.starts_with("sim:")) return device_preset(device.substr(4));
-  throw app::UsageError("--device " + device + ": is not sim or sim:PRESET");
+const std::map<std::string, Motion> k_motions = {
+    {"stroke", Motion::stroke}, {"circle", Motion::circle}, {"slide", Motion::slide}, {"tap", Motion::tap}};
+
+/// What can be reached and carried of the scene.
+HapticSceneOptions scene_options(const Options& options, const DeviceChoice& choice) {
+  HapticSceneOptions scene;
+  scene.probe_radius_m = 1e-3 * options.probe_radius_mm;
+  scene.shortest_wave_m = 2 * options.speed / options.rate_hz;
+  if (!options.origin.empty() && choice.preset == nullptr) {
+    scene.reach_around = {{options.origin[0], options.origin[1], options.origin[2]}};
+    scene.reach_m = options.reach_mm > 0 ? 1e-3 * options.reach_mm : k_default_reach_m;
+  } else if (options.reach_mm > 0 && !options.trajectory.empty()) {
+    scene.reach_m = 1e-3 * options.reach_mm;
+    const Trajectory hand = parse_trajectory(read_file(options.trajectory), options.trajectory);
+    for (const auto& sample : hand.samples())
+      if (scene.reach_around.empty() || norm(sample.position - scene.reach_around.back()) > 0.25 * scene.reach_m)
+        scene.reach_around.push_back(sample.position);
+    scene.reach_m *= 1.25;
+  }
+  return scene;
 }
 
-Trajectory hand_of(const Options& options, const TaggedScene& scene, const ContactSurface& surface) {
+Trajectory hand_of(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
   if (!options.trajectory.empty()) return parse_trajectory(read_file(options.trajectory), options.trajectory);
   const LargestMaterial largest = largest_material(scene);
   StrokeOptions stroke;
+  stroke.motion = k_motions.at(options.motion);
+  stroke.seed = options.seed;
+  stroke.speed_m_per_s = options.speed;
   stroke.seconds = options.seconds > 0 ? options.seconds : k_default_seconds;
   return press_and_stroke(surface, largest.material, largest.centre, stroke);
 }
 
-std::uint64_t ticks_of(const Options& options, const Trajectory& hand) {
+/// Where the middle of a real device's workspace lies: given, or a little in front of the largest tagged surface.
+Vec3 origin_of(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
+  if (!options.origin.empty()) return {options.origin[0], options.origin[1], options.origin[2]};
+  const LargestMaterial largest = largest_material(scene);
+  const double everywhere = norm(largest.centre - surface.low()) + norm(surface.high() - surface.low());
+  const auto nearest = surface.closest_point(largest.centre, everywhere, largest.material);
+  if (!nearest) throw InvalidInput(options.file + ": no triangle of its largest material");
+  return nearest->point + (k_clearance_m + nearest->height_m + surface.probe_radius_m()) * nearest->face_normal;
+}
+
+std::uint64_t ticks_of(const Options& options, const std::optional<Trajectory>& hand) {
   double seconds = options.seconds;
-  if (!(seconds > 0)) seconds = options.trajectory.empty() ? k_default_seconds : hand.end_s() - hand.start_s();
+  const bool of_file = !options.trajectory.empty() && hand;
+  if (!(seconds > 0))
+    seconds = of_file ? hand->end_s() - hand->start_s() : hand ? k_default_seconds : k_longest_seconds;
   if (!(seconds <= k_longest_seconds)) throw InvalidInput("the run would last longer than a million seconds");
   // The recording of n ticks ends at tick n − 1: the same number when it is played again.
-  const double periods = seconds * options.rate_hz;
-  return static_cast<std::uint64_t>(std::llround(periods)) +
-         (options.seconds > 0 || options.trajectory.empty() ? 0 : 1);
+  return static_cast<std::uint64_t>(std::llround(seconds * options.rate_hz)) +
+         (options.seconds > 0 || !of_file ? 0 : 1);
 }
 
 int run(const Options& options) {
-  const DevicePreset& preset = chosen_preset(options.device);
+  const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
   RunReport report;
   report.file = options.file;
   report.rate_hz = options.rate_hz;
 
   const Stopwatch clock;
-  TaggedScene scene;
+  HapticScene scene;
   {
     const Scene read = read_gltf(options.file);
-    scene = tagged_scene(read, options.file, 1e-3 * options.probe_radius_mm);
+    scene = haptic_scene(read, options.file, scene_options(options, choice));
   }
   ContactSurface surface(scene.mesh, scene.materials, std::move(scene.heights), 1e-3 * options.probe_radius_mm);
-  const Trajectory hand = hand_of(options, scene, surface);
+  std::optional<Trajectory> hand;
+  if (choice.preset != nullptr) hand = hand_of(options, scene, surface);
+  const Vec3 origin = choice.preset != nullptr ? Vec3{} : origin_of(options, scene, surface);
   scene.mesh = {};
   report.load_seconds = clock.seconds();
   report.triangles = surface.triangles();
   report.contact_bytes = surface.bytes();
   report.maps_loaded = scene.maps_loaded;
   report.maps_missing = scene.maps_missing;
+  report.maps_coarsened = scene.maps_coarsened;
+  report.triangles_out_of_reach = scene.triangles_out_of_reach;
   report.warnings = std::move(scene.warnings);
   report.material_names = std::move(scene.names);
   if (surface.skipped_triangles() > 0)
@@ -85,7 +129,15 @@ int run(const Options& options) {
                                {"triangle_degenerate", std::to_string(surface.skipped_triangles()) +
                                                            " triangles without area were left out"}});
 
-  SimDevice device(preset.caps(), hand, period);
+  std::optional<SimDevice> simulated;
+  std::optional<OpenedDevice> opened;
+  if (hand)
+    simulated.emplace(choice.preset->caps(), *hand, period);
+  else
+    opened.emplace(choice.filter, origin);
+  HapticDevice& device = simulated ? *simulated : opened->device();
+  if (opened && !opened->watched())
+    report.warnings.push_back({"", {"device_unwatched", "no second process watches over the device"}});
   report.device = device.caps().name;
   report.stiffness_limit = stiffness_limit(device.caps().dynamics, period, 0);
   report.clamps = clamp_to_stable(surface, device.caps().dynamics, period);
@@ -94,10 +146,16 @@ int run(const Options& options) {
   LoopOptions loop;
   loop.rate_hz = options.rate_hz;
   loop.ticks = ticks_of(options, hand);
-  loop.hand = &hand;
+  loop.hand = hand ? &*hand : nullptr;
   loop.record = options.record.empty() ? nullptr : &rows;
   loop.stop = &g_stop;
-  report.loop = run_haptic_loop(device, surface, loop);
+  loop.watchdog_s = 1e-3 * options.watchdog_ms;
+  LoopStatus status;
+  loop.status = &status;
+  {
+    const std::optional<LiveView> view = options.quiet ? std::nullopt : std::optional<LiveView>(std::in_place, status);
+    report.loop = run_haptic_loop(device, surface, loop);
+  }
 
   if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
   if (!options.quiet && options.json != "-") std::cout << summary(report);
@@ -115,6 +173,20 @@ int run(const Options& options) {
     throw DeviceError(report.device + ": no fresh position, forces are off");
   if (report.loop.fault == ForceGuard::Fault::not_finite)
     throw DeviceError(report.device + ": a position or force was not finite, forces are off");
+  if (g_signal != 0)
+    throw DeviceError(report.device + ": stopped by signal " + std::to_string(g_signal) + ", forces are off");
+  return app::k_exit_done;
+}
+
+int list_devices(const Options& options) {
+  const auto list = device_list();
+  if (options.json != "-" && !options.quiet) std::cout << device_list_text(list);
+  const std::string text = list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (options.json == "-")
+    std::cout << text;
+  else if (!options.json.empty())
+    write_atomically(options.json, text);
+  if (!std::cout.flush()) throw IoError("standard output: cannot be written");
   return app::k_exit_done;
 }
 
@@ -127,14 +199,30 @@ std::string preset_names() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { g_stop = true; });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, [](int number) {
+      g_signal = number;
+      g_stop = true;
+    });
 
   Options options;
   CLI::App program("papilla-player: feel the materials of a glTF file with a force device", "papilla-player");
   program.set_version_flag("--version", std::string("papilla-player ") + version());
-  program.add_option("file", options.file, "The .glb or .gltf file")->required()->type_name("FILE");
-  program.add_option("--device", options.device, "sim or sim:PRESET; presets: " + preset_names())
+  auto* const file = program.add_option("file", options.file, "The .glb or .gltf file")->type_name("FILE");
+  program.add_flag("--list-devices", options.list, "List force devices, connected and simulated, and end");
+  program
+      .add_option(
+          "--device", options.device,
+          "sim[:PRESET] or hid[:VID:PID[:SERIAL]]; hid takes the first force device; presets: " + preset_names())
       ->capture_default_str();
+  program
+      .add_option(
+          "--origin", options.origin,
+          "Where the middle of a hid device's workspace lies in the scene; default: 10 mm in front of the largest "
+          "tagged surface")
+      ->type_name("X,Y,Z [m]")
+      ->delimiter(',')
+      ->expected(3);
   program.add_option("--rate", options.rate_hz, "Ticks per second")
       ->type_name("HZ")
       ->check(CLI::Range(100.0, 20000.0))
@@ -145,8 +233,23 @@ int main(int argc, char** argv) {
   program
       .add_option("--trajectory", options.trajectory,
                   "The hand as CSV: t,x,y,z in seconds and metres; default: press 1 mm "
-                  "into the largest tagged surface and stroke it at 0.1 m/s")
+                  "into the largest tagged surface and move there")
       ->type_name("T.csv");
+  program.add_option("--motion", options.motion, "How the hand moves without a trajectory")
+      ->check(CLI::IsMember({"stroke", "circle", "slide", "tap"}))
+      ->capture_default_str();
+  program.add_option("--seed", options.seed, "Of the random slide")->capture_default_str();
+  program
+      .add_option("--speed", options.speed,
+                  "Of the hand; finer relief than the rate can carry at this speed is left out")
+      ->type_name("M/S")
+      ->check(CLI::Range(1e-3, 2.0))
+      ->capture_default_str();
+  program
+      .add_option("--reach", options.reach_mm,
+                  "Load only what is this near to the trajectory or to --origin; default: all, or 150 around --origin")
+      ->type_name("MM")
+      ->check(CLI::Range(1.0, 1e5));
   program
       .add_option("--record", options.record,
                   "Write hand, probe, proxy and force of every tick; can be played again as T.csv")
@@ -154,6 +257,10 @@ int main(int argc, char** argv) {
   program.add_option("--probe-radius", options.probe_radius_mm, "Radius of the probe; 0 is a point")
       ->type_name("MM")
       ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  program.add_option("--watchdog", options.watchdog_ms, "Age of a position from which on there is no force")
+      ->type_name("MS")
+      ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
   program.add_option("--json", options.json, "Write the machine-readable result to FILE, or to stdout with -")
       ->type_name("FILE|-");
@@ -163,6 +270,8 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 2 usage, 3 input, 5 device.");
   try {
     program.parse(argc, argv);
+    if (options.list) return list_devices(options);
+    if (file->empty()) throw app::UsageError("a FILE is required");
     return run(options);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? app::k_exit_done : app::k_exit_usage;

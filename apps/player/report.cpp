@@ -64,6 +64,7 @@ Json to_json(const RunReport& r) {
           {"clamped_materials", clamped},
           {"clamps", clamps},
           {"height_maps", {{"loaded", r.maps_loaded}, {"missing", r.maps_missing}}},
+          {"left_out", {{"triangles", r.triangles_out_of_reach}, {"maps_made_coarser", r.maps_coarsened}}},
           {"fixed_priority", loop.fixed_priority},
           {"memory_locked", loop.memory_locked},
           {"warnings", warnings},

@@ -7,7 +7,7 @@
 
 #include "papilla/haptic/haptic_loop.hpp"
 #include "papilla/haptic/stability.hpp"
-#include "tagged_scene.hpp"
+#include "papilla/io/haptic_scene.hpp"
 
 namespace papilla::player {
 
@@ -16,7 +16,8 @@ struct RunReport {
   std::string file, device;
   double rate_hz = 0, stiffness_limit = 0, load_seconds = 0;
   std::size_t triangles = 0, contact_bytes = 0;
-  int maps_loaded = 0, maps_missing = 0;
+  int maps_loaded = 0, maps_missing = 0, maps_coarsened = 0;
+  std::size_t triangles_out_of_reach = 0;
   std::vector<StabilityClamp> clamps;
   std::vector<std::string> material_names;
   std::vector<MaterialWarning> warnings;

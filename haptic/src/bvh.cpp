@@ -94,9 +94,9 @@ Bvh::Bvh(std::span<const Box3f> boxes) : order_(boxes.size()) {
     std::uint32_t node, first, count;
     int depth;
   };
-  nodes_.reserve(boxes.size());
-  nodes_.emplace_back();
-  std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(boxes.size()), 0}};
+  nodes_.reserve(boxes.size() + 2);
+  nodes_.resize(k_root + 1);
+  std::vector<Task> tasks{{k_root, 0, static_cast<std::uint32_t>(boxes.size()), 0}};
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();

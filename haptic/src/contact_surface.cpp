@@ -2,6 +2,7 @@
 #include "papilla/haptic/contact_surface.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -23,6 +24,8 @@ constexpr double k_above = 1 - 1e-6;  // Cosine of less than 1.5 mrad off a tria
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
+constexpr std::size_t k_most_materials = 32767;
+constexpr double k_first_piece = 0.12, k_piece_growth = 8;  // Of what is known around the start.
 
 void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
            const std::vector<HeightField>& heights, double radius) {
@@ -30,6 +33,7 @@ void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& material
   const std::size_t n = mesh.triangles.size();
   if (!(radius >= 0) || !std::isfinite(radius)) fail("the probe radius " + std::to_string(radius) + " is not >= 0");
   if (materials.empty()) fail("no material");
+  if (materials.size() > k_most_materials) fail("more than 32767 materials");
   if (!mesh.material.empty() && mesh.material.size() != n) fail("material needs one entry per triangle");
   if (!mesh.corner_uv.empty() && mesh.corner_uv.size() != 3 * n) fail("corner_uv needs three entries per triangle");
   if (!mesh.corner_normals.empty() && mesh.corner_normals.size() != 3 * n)
@@ -39,6 +43,11 @@ void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& material
     for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.stribeck_velocity})
       if (!(value >= 0) || !std::isfinite(value))
         fail("material " + std::to_string(i) + " has a number that is not >= 0");
+    if (!std::isfinite(m.amplitude)) fail("material " + std::to_string(i) + " has an amplitude that is not finite");
+    if (m.stimulus && *m.stimulus >= heights.size())
+      fail("material " + std::to_string(i) + " names a missing height field");
+    if (m.stimulus && mesh.corner_uv.empty())
+      fail("material " + std::to_string(i) + " has a stimulus but the mesh has no uv");
     if (m.height && *m.height >= heights.size())
       fail("material " + std::to_string(i) + " names a missing height field");
     if (m.height && mesh.corner_uv.empty())
@@ -52,12 +61,12 @@ void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& material
   }
 }
 
-Vec3 point_of(const float* v) noexcept {
+Vec3 point_of(const std::array<float, 3>& v) noexcept {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
 /// A box of the float just below low − grow and just above high + grow.
-Box3f box_of(const float (&v)[3][3], double grow) noexcept {
+Box3f box_of(const std::array<std::array<float, 3>, 3>& v, double grow) noexcept {
   Box3f box;
   for (std::size_t i = 0; i < 3; ++i) {
     const float low = std::min({v[0][i], v[1][i], v[2][i]}), high = std::max({v[0][i], v[1][i], v[2][i]});
@@ -70,12 +79,65 @@ Box3f box_of(const float (&v)[3][3], double grow) noexcept {
 
 }  // namespace
 
+/// Gives corners that are the same in place and relief one vertex, by a hash table of open addressing.
+struct ContactSurface::Weld {
+  LargeArray<Corner>& vertices;
+  LargeArray<Relief>& reliefs;
+  bool any_relief;
+  std::vector<std::uint32_t> slots;
+
+  Weld(std::size_t count, bool relief, LargeArray<Corner>& to, LargeArray<Relief>& to_reliefs)
+      : vertices(to), reliefs(to_reliefs), any_relief(relief), slots(std::bit_ceil(2 * count + 16), k_nothing) {}
+
+  std::uint32_t add(const Corner& corner, const Relief& relief) {
+    std::array<float, 6> key = {corner[0], corner[1], corner[2], relief.u, relief.v, relief.shift};
+    std::uint64_t hash = 0;
+    for (float& value : key) {
+      value += 0.0F;  // One zero.
+      hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15U;
+      hash ^= hash >> 29;
+    }
+    if (2 * vertices.size() >= slots.size()) grow();
+    for (std::size_t at = hash & (slots.size() - 1);; at = (at + 1) & (slots.size() - 1)) {
+      const std::uint32_t known = slots[at];
+      if (known == k_nothing) {
+        slots[at] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back({key[0], key[1], key[2]});
+        if (any_relief) reliefs.push_back({key[3], key[4], key[5]});
+        hashes.push_back(hash);
+        return slots[at];
+      }
+      if (hashes[known] == hash && vertices[known] == Corner{key[0], key[1], key[2]} &&
+          (!any_relief || (reliefs[known].u == key[3] && reliefs[known].v == key[4] && reliefs[known].shift == key[5])))
+        return known;
+    }
+  }
+
+ private:
+  std::vector<std::uint64_t> hashes;
+
+  void grow() {
+    slots.assign(2 * slots.size(), k_nothing);
+    for (std::uint32_t v = 0; v < hashes.size(); ++v) {
+      std::size_t at = hashes[v] & (slots.size() - 1);
+      while (slots[at] != k_nothing) at = (at + 1) & (slots.size() - 1);
+      slots[at] = v;
+    }
+  }
+};
+
 /// Nearest point of a triangle: barycentric weights of b and c, and what part of the triangle it lies on.
 struct ContactSurface::Foot {
   Vec3 point;
   double v = 0, w = 0;
   enum class On { face, edge, corner } on = On::face;
   Vec3 edge;  ///< Direction, when on an edge; not normalised.
+};
+
+/// A moving probe at t, and where it stands to a triangle.
+struct ContactSurface::Approach {
+  double t = 0, distance = 0;
+  Vec3 d;  ///< From the nearest point.
 };
 
 /// f_T and its gradient (not normalised).
@@ -115,68 +177,73 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   if (!(extent < 1e6)) throw InvalidInput("ContactSurface: the scene is larger than 1000 km");
   skin_ = std::max(std::min(k_skin_m, k_skin_share * extent), k_least_skin_share * extent);
 
-  const auto pack = [&](std::uint32_t t) {
-    Packed packed{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 p = base.corners[3 * t + k] - origin_;
-      packed.v[k][0] = static_cast<float>(p.x);
-      packed.v[k][1] = static_cast<float>(p.y);
-      packed.v[k][2] = static_cast<float>(p.z);
-    }
-    packed.material = mesh.material.empty() ? 0 : mesh.material[t];
-    packed.relief = k_no_relief;
-    return packed;
-  };
+  const auto material_of = [&](std::uint32_t t) { return mesh.material.empty() ? 0U : mesh.material[t]; };
   const auto has_relief = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
-    return s[0] < 0 || s[1] < 0 || s[2] < 0 ||
-           materials_[mesh.material.empty() ? 0 : mesh.material[t]].height.has_value();
+    return s[0] < 0 || s[1] < 0 || s[2] < 0 || materials_[material_of(t)].height.has_value();
   };
+  const auto has_uv = [&](std::uint32_t t) { return has_relief(t) || materials_[material_of(t)].stimulus.has_value(); };
   const auto highest = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
-    const auto& height = materials_[mesh.material.empty() ? 0 : mesh.material[t]].height;
+    const auto& height = materials_[material_of(t)].height;
     return std::max(0.0, (height ? heights_[*height].max_m() : 0.0) - std::min({s[0], s[1], s[2]}));
   };
+  const auto rounded = [&](std::uint32_t t, std::size_t k) {
+    const Vec3 p = base.corners[3 * t + k] - origin_;
+    return Corner{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  };
   std::vector<Box3f> boxes(kept.size());
+  bool any_relief = false;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const double tall = highest(kept[i]);
     tallest_ = std::max(tallest_, tall);
-    boxes[i] = box_of(pack(kept[i]).v, tall);
+    any_relief = any_relief || has_uv(kept[i]);
+    boxes[i] = box_of({rounded(kept[i], 0), rounded(kept[i], 1), rounded(kept[i], 2)}, tall);
   }
   bvh_ = Bvh(boxes);
+  boxes = {};
 
   triangles_.reserve(kept.size());
+  material_.reserve(kept.size());
   source_.reserve(kept.size());
-  for (const std::uint32_t item : bvh_.leaf_order()) {
+  Weld weld(kept.size(), any_relief, vertices_, reliefs_);
+  for (const std::uint32_t item : bvh_.take_leaf_order()) {
     const std::uint32_t t = kept[item];
-    Packed packed = pack(t);
-    if (has_relief(t)) {
-      packed.relief = static_cast<std::uint32_t>(reliefs_.size());
-      Relief relief{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec2 uv = mesh.corner_uv.empty() ? Vec2{} : mesh.corner_uv[3 * t + k];
-        relief.uv[k][0] = static_cast<float>(is_finite(uv) ? uv.x : 0);
-        relief.uv[k][1] = static_cast<float>(is_finite(uv) ? uv.y : 0);
-        relief.shift[k] = static_cast<float>(base.shifts[3 * t + k]);
-      }
-      reliefs_.push_back(relief);
+    std::array<std::uint32_t, 3> named{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 uv = has_uv(t) && !mesh.corner_uv.empty() ? mesh.corner_uv[3 * t + k] : Vec2{};
+      named[k] = weld.add(rounded(t, k),
+                          {static_cast<float>(is_finite(uv) ? uv.x : 0), static_cast<float>(is_finite(uv) ? uv.y : 0),
+                           static_cast<float>(base.shifts[3 * t + k])});
     }
-    triangles_.push_back(packed);
+    triangles_.push_back(named);
+    material_.push_back(static_cast<std::uint16_t>(material_of(t) | (has_relief(t) ? k_relief_bit : 0U)));
     source_.push_back(t);
   }
+  vertices_.shrink_to_fit();
+  reliefs_.shrink_to_fit();
 }
 
 std::size_t ContactSurface::bytes() const noexcept {
-  return triangles_.size() * (sizeof(Packed) + sizeof(std::uint32_t)) + reliefs_.size() * sizeof(Relief) + bvh_.bytes();
+  return triangles_.size() * (sizeof(triangles_[0]) + sizeof(material_[0]) + sizeof(source_[0])) +
+         vertices_.size() * sizeof(Corner) + reliefs_.size() * sizeof(Relief) + bvh_.bytes();
 }
 
 ContactSurface::Corners ContactSurface::corners(std::uint32_t place) const noexcept {
-  const Packed& p = triangles_[place];
-  return {point_of(p.v[0]), point_of(p.v[1]), point_of(p.v[2])};
+  const auto& t = triangles_[place];
+  return {point_of(vertices_[t[0]]), point_of(vertices_[t[1]]), point_of(vertices_[t[2]])};
+}
+
+/// The highest that the relief of a triangle can be above its base.
+double ContactSurface::top_of(std::uint32_t place) const noexcept {
+  if (!has_relief(place)) return 0;
+  const auto& height = materials_[material_of(place)].height;
+  const float lowest = std::min({relief(place, 0).shift, relief(place, 1).shift, relief(place, 2).shift});
+  return std::max(0.0, (height ? heights_[*height].max_m() : 0.0) - static_cast<double>(lowest));
 }
 
 /// Ericson, Real-Time Collision Detection (2005), 5.1.5: by the Voronoi region that x lies in.
-ContactSurface::Foot ContactSurface::foot(const Corners& t, Vec3 x) const noexcept {
+[[gnu::always_inline]] inline ContactSurface::Foot ContactSurface::foot(const Corners& t, Vec3 x) noexcept {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = x - t.a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return {t.a, 0, 0, Foot::On::corner, {}};
@@ -205,31 +272,31 @@ ContactSurface::Foot ContactSurface::foot(const Corners& t, Vec3 x) const noexce
   return {t.a + v * ab + w * ac, v, w, Foot::On::face, {}};
 }
 
+/// ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane; zero on a needle.
+Vec3 ContactSurface::in_plane(const Corners& t, double by_v, double by_w) noexcept {
+  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
+  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
+  if (!(det > 0)) return {};
+  return (1 / det) * ((by_v * bb - by_w * c) * ab + (by_w * aa - by_v * c) * ac);
+}
+
 /// Height of the relief above the base at a foot, and its gradient within the triangle's plane.
 double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Foot& foot,
                                  Vec3* gradient) const noexcept {
-  const Packed& packed = triangles_[place];
-  const Relief& relief = reliefs_[packed.relief];
-  const auto corner = [&](int k) {
-    return Vec2{static_cast<double>(relief.uv[k][0]), static_cast<double>(relief.uv[k][1])};
+  const auto corner = [&](std::size_t k) {
+    return Vec2{static_cast<double>(relief(place, k).u), static_cast<double>(relief(place, k).v)};
   };
-  const double s0 = static_cast<double>(relief.shift[0]);
-  const double sv = static_cast<double>(relief.shift[1]) - s0, sw = static_cast<double>(relief.shift[2]) - s0;
+  const auto shift = [&](std::size_t k) { return static_cast<double>(relief(place, k).shift); };
+  const double s0 = shift(0), sv = shift(1) - s0, sw = shift(2) - s0;
   const Vec2 by_v = corner(1) - corner(0), by_w = corner(2) - corner(0);
   HeightSample sample;
-  if (const auto& height = materials_[packed.material].height)
+  if (const auto& height = materials_[material_of(place)].height)
     sample = heights_[*height].sample(corner(0) + foot.v * by_v + foot.w * by_w);
   const double height = sample.height_m - (s0 + foot.v * sv + foot.w * sw);
   if (gradient == nullptr) return std::max(0.0, height);
   *gradient = {};
   if (height <= 0) return 0;
-  // ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane.
-  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
-  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
-  if (det > 0) {
-    const double hv = dot(sample.gradient_m, by_v) - sv, hw = dot(sample.gradient_m, by_w) - sw;
-    *gradient = (1 / det) * ((hv * bb - hw * c) * ab + (hw * aa - hv * c) * ac);
-  }
+  *gradient = in_plane(t, dot(sample.gradient_m, by_v) - sv, dot(sample.gradient_m, by_w) - sw);
   return height;
 }
 
@@ -247,7 +314,7 @@ ContactSurface::Clearance ContactSurface::clearance_of(std::uint32_t place, cons
   const Vec3 out = (1 / result.distance) * d;
   result.gradient = out;
   result.value = result.distance - contact;
-  if (triangles_[place].relief == k_no_relief) return result;
+  if (!has_relief(place)) return result;
 
   const Vec3 area = cross(t.b - t.a, t.c - t.a);
   double cosine = dot(area, out);
@@ -265,20 +332,19 @@ ContactSurface::Clearance ContactSurface::clearance_of(std::uint32_t place, cons
 
 /// How many texels of the relief a way over the triangle crosses.
 double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept {
-  const Packed& packed = triangles_[place];
-  const auto& height = materials_[packed.material].height;
+  const auto& height = materials_[material_of(place)].height;
   if (!height) return 0;
-  const Relief& relief = reliefs_[packed.relief];
   const Vec3 ab = t.b - t.a, ac = t.c - t.a;
   const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
   if (!(det > 0)) return 0;
   const double p = dot(way, ab), q = dot(way, ac), v = (p * bb - q * c) / det, w = (q * aa - p * c) / det;
-  const auto along = [&](int axis) {
-    const double u0 = static_cast<double>(relief.uv[0][axis]);
-    return v * (static_cast<double>(relief.uv[1][axis]) - u0) + w * (static_cast<double>(relief.uv[2][axis]) - u0);
+  const auto along = [&](float Relief::*axis) {
+    const double u0 = static_cast<double>(relief(place, 0).*axis);
+    return v * (static_cast<double>(relief(place, 1).*axis) - u0) +
+           w * (static_cast<double>(relief(place, 2).*axis) - u0);
   };
   const std::array<Vec2, 2> per_uv = heights_[*height].texels_per_uv();
-  return norm(along(0) * per_uv[0] + along(1) * per_uv[1]);
+  return norm(along(&Relief::u) * per_uv[0] + along(&Relief::v) * per_uv[1]);
 }
 
 /// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat,
@@ -287,58 +353,71 @@ bool ContactSurface::comes_before(const SweepHit& a, const SweepHit& b) noexcept
   return a.t != b.t ? a.t < b.t : a.penetration_m > b.penetration_m;
 }
 
-/// The first t in [at, t_max] where from + t·way is within `radius` of the triangle, or nothing. The distance to a
-/// convex set is convex on a line, so Newton's steps from outside end at or before the contact: nothing is passed over.
-std::optional<double> ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double at, double radius,
-                                               double t_max) const noexcept {
-  const double close = k_close * tolerance_m();
-  for (int step = 0; step < k_newton_steps; ++step) {
-    const Vec3 x = from + at * way, d = x - foot(t, x).point;
-    const double distance = norm(d);
-    if (distance <= radius + close) return at;
-    const double descent = dot(d, way) / distance;
-    if (descent >= 0) return std::nullopt;
-    at -= (distance - radius) / descent;
-    if (at > t_max) return std::nullopt;
-  }
-  return at;
+[[gnu::always_inline]] inline void ContactSurface::look(const Corners& t, Vec3 from, Vec3 way, double at,
+                                                        Approach& state) noexcept {
+  const Vec3 x = from + at * way;
+  state.t = at;
+  state.d = x - foot(t, x).point;
+  state.distance = norm(state.d);
 }
 
-void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way,
+/// Goes on from `state` to the first t up to t_max where from + t·way is within `radius` of the triangle. The distance
+/// to a convex set is convex on a line, so Newton's steps from outside end at or before the contact: nothing is passed
+/// over. @returns false when there is none.
+bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radius, double t_max,
+                              Approach& state) const noexcept {
+  const double close = k_close * tolerance_m();
+  for (int step = 0; step < k_newton_steps; ++step) {
+    if (state.distance <= radius + close) return true;
+    const double descent = -dot(state.d, way);
+    if (descent <= 0) return false;
+    const double way_there = (state.distance - radius) * state.distance;
+    if (way_there > (t_max - state.t) * descent) return false;
+    look(t, from, way, state.t + way_there / descent, state);
+  }
+  return true;
+}
+
+void ContactSurface::sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
+                               std::optional<SweepHit>& best) const noexcept {
+  if (best) t_max = best->t;
+  if (has_relief(place))
+    sweep_relief(place, from, way, t_max, best);
+  else
+    sweep_plain(place, from, way, t_max, best);
+}
+
+void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                                  std::optional<SweepHit>& best) const noexcept {
   const Corners t = corners(place);
-  const double t_max = best ? best->t : 1, contact = contact_radius_m();
-  const auto touch = approach(t, from, way, 0, contact, t_max);
-  if (!touch) return;
-  const Vec3 x = from + *touch * way, d = x - foot(t, x).point;
-  const double distance = norm(d);
-  Vec3 normal = (1 / distance) * d;
-  if (!(distance > 0)) {
+  const double contact = contact_radius_m();
+  Approach touch;
+  look(t, from, way, 0, touch);
+  if (!approach(t, from, way, contact, t_max, touch)) return;
+  Vec3 normal = (1 / touch.distance) * touch.d;
+  if (!(touch.distance > 0)) {
     normal = normalized(cross(t.b - t.a, t.c - t.a));
     if (dot(normal, way) > 0) normal = -normal;
   }
   if (dot(normal, way) >= 0) return;
-  const SweepHit hit{*touch, normal, contact - distance, source_[place], triangles_[place].material};
+  const SweepHit hit{touch.t, normal, contact - touch.distance, skin_, source_[place], material_of(place)};
   if (best && !comes_before(hit, *best)) return;
-  if (approach(t, from, way, *touch, contact - tolerance_m(), 1)) best = hit;
+  if (approach(t, from, way, contact - tolerance_m(), 1, touch)) best = hit;
 }
 
 /// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
-void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
+void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                                   std::optional<SweepHit>& best) const noexcept {
   const Corners t = corners(place);
-  const double t_max = best ? best->t : 1, length = norm(way), contact = contact_radius_m();
-  const auto& height = materials_[triangles_[place].material].height;
-  const Relief& relief = reliefs_[triangles_[place].relief];
-  const double top = (height ? heights_[*height].max_m() : 0.0) -
-                     static_cast<double>(std::min({relief.shift[0], relief.shift[1], relief.shift[2]}));
-  const auto entry = approach(t, from, way, 0, contact + std::max(0.0, top), t_max);
-  if (!entry) return;
+  const double length = norm(way), contact = contact_radius_m(), top = top_of(place);
+  Approach entry;
+  look(t, from, way, 0, entry);
+  if (!approach(t, from, way, contact + top, t_max, entry)) return;
   const double finest = std::max(0.5 / std::max(texels_on(place, t, way), 0.5), 1.0 / k_march_steps);
 
   // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
   const double level = -0.5 * tolerance_m();
-  double outside = *entry, at = *entry, allowed = -tolerance_m();
+  double outside = entry.t, at = entry.t, allowed = -tolerance_m();
   for (bool first = true;; first = false) {
     const Vec3 x = from + at * way;
     const Clearance now = clearance_of(place, t, x);
@@ -358,35 +437,109 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way,
     (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
   }
   const Clearance there = clearance_of(place, t, from + outside * way);
-  const SweepHit hit{outside, normalized(there.gradient), -there.value, source_[place], triangles_[place].material};
+  // The relief carries the skin on top of its height; along the normal that is less by the slope's cosine.
+  const double slope = norm(there.gradient);
+  const SweepHit hit{outside,        normalized(there.gradient), -there.value, slope > 1 ? skin_ / slope : skin_,
+                     source_[place], material_of(place)};
   if (!best || comes_before(hit, *best)) best = hit;
+}
+
+/// The box that a probe sweeps, rounded outwards.
+Box3f ContactSurface::way_box_of(Vec3 a, Vec3 b) const noexcept {
+  const double size =
+      std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
+  const double grow = contact_radius_m() + 2 * static_cast<double>(std::numeric_limits<float>::epsilon()) * size;
+  const auto low = [grow](double x, double y) { return static_cast<float>(std::min(x, y) - grow); };
+  const auto high = [grow](double x, double y) { return static_cast<float>(std::max(x, y) + grow); };
+  Box3f box;
+  box.low = {low(a.x, b.x), low(a.y, b.y), low(a.z, b.z)};
+  box.high = {high(a.x, b.x), high(a.y, b.y), high(a.z, b.z)};
+  return box;
+}
+
+bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcept {
+  const auto& t = triangles_[place];
+  const Corner &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
+  bool apart = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    apart |= std::max(a[i], std::max(b[i], c[i])) < box.low[i];
+    apart |= std::min(a[i], std::min(b[i], c[i])) > box.high[i];
+  }
+  return apart;
 }
 
 std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to) const noexcept {
   const Vec3 start = from - origin_, way = to - from;
   std::optional<SweepHit> best;
   double t_max = 1;
+  Box3f way_box = way_box_of(start, start + way);
   bvh_.along(start, way, contact_radius_m(), t_max, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    for (std::uint32_t place = begin; place < end; ++place)
-      if (triangles_[place].relief == k_no_relief)
-        sweep_plain(place, start, way, best);
-      else
-        sweep_relief(place, start, way, best);
-    if (best) t_max = best->t;
+    for (std::uint32_t place = begin; place < end; ++place) {
+      if (!has_relief(place) && beside(place, way_box)) continue;
+      sweep_one(place, start, way, 1, best);
+    }
+    if (best && best->t < t_max) {
+      t_max = best->t;
+      way_box = way_box_of(start, start + t_max * way);
+    }
   });
   return best;
+}
+
+bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) const noexcept {
+  near.begin(centre - origin_, radius_m);
+  bool fits = true;
+  double radius = radius_m + contact_radius_m();
+  bvh_.within(centre - origin_, radius, [&](std::uint32_t begin, std::uint32_t end) noexcept {
+    fits = fits && !near.full(end - begin);
+    if (!fits) radius = 0;  // Ends the walk.
+    for (std::uint32_t place = begin; place < end && fits; ++place) {
+      const auto& t = triangles_[place];
+      near.add(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], static_cast<float>(top_of(place)), place);
+    }
+  });
+  if (fits)
+    near.finish();
+  else
+    near.clear();
+  return fits;
+}
+
+/// The first hit before t_max among what was gathered; the whole way up to there must lie within its reach.
+std::optional<SweepHit> ContactSurface::sweep_near(const Neighbourhood& near, Vec3 start, Vec3 way,
+                                                   double t_max) const noexcept {
+  Neighbourhood::Mask mask;
+  near.near_way(start, t_max * way, contact_radius_m(), mask);
+  std::optional<SweepHit> best;
+  for (std::uint32_t i = 0; i < near.count(); ++i)
+    if (mask[i] != 0) sweep_one(near.place(i), start, way, t_max, best);
+  return best;
+}
+
+std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept {
+  const Vec3 way = to - from;
+  const Vec3 start = from - origin_;
+  const double length = norm(way), margin = near.margin(start);
+  if (!(margin > 0)) return sweep(from, to);
+  const double known = length > margin ? margin / length : 1;
+  // Most ways end soon: in pieces that grow, what lies far ahead is seldom looked at.
+  for (double t = std::min(known, k_first_piece * margin / length);; t = std::min(known, k_piece_growth * t)) {
+    if (const auto hit = sweep_near(near, start, way, t)) return hit;
+    if (t >= 1) return std::nullopt;
+    if (t >= known) return sweep(from, to);
+  }
 }
 
 template <class Accept>
 std::optional<SurfacePoint> ContactSurface::nearest(Vec3 p, double radius, Accept&& accept) const noexcept {
   const Vec3 x = p - origin_;
-  std::uint32_t found = k_no_relief;
+  std::uint32_t found = k_nothing;
   Foot at;
   // The tree's boxes are grown by the relief, which only makes them visited earlier.
   double reach = radius;
   bvh_.within(x, reach, [&](std::uint32_t begin, std::uint32_t end) noexcept {
     for (std::uint32_t place = begin; place < end; ++place) {
-      if (!accept(triangles_[place])) continue;
+      if (!accept(material_of(place))) continue;
       const Foot f = foot(corners(place), x);
       const double distance = norm(x - f.point);
       if (distance > reach) continue;
@@ -395,26 +548,66 @@ std::optional<SurfacePoint> ContactSurface::nearest(Vec3 p, double radius, Accep
       at = f;
     }
   });
-  if (found == k_no_relief) return std::nullopt;
+  if (found == k_nothing) return std::nullopt;
   const Corners t = corners(found);
   SurfacePoint point;
   point.point = at.point + origin_;
   point.face_normal = normalized(cross(t.b - t.a, t.c - t.a));
   point.distance_m = reach;
-  point.height_m = triangles_[found].relief == k_no_relief ? 0 : relief_at(found, t, at, nullptr);
+  point.height_m = has_relief(found) ? relief_at(found, t, at, nullptr) : 0;
   point.on_border = at.on != Foot::On::face;
   point.triangle = source_[found];
-  point.material = triangles_[found].material;
+  point.material = material_of(found);
   return point;
 }
 
 std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m) const noexcept {
-  return nearest(p, radius_m, [](const Packed&) noexcept { return true; });
+  return nearest(p, radius_m, [](std::uint32_t) noexcept { return true; });
 }
 
 std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m,
                                                           std::uint32_t material) const noexcept {
-  return nearest(p, radius_m, [material](const Packed& t) noexcept { return t.material == material; });
+  return nearest(p, radius_m, [material](std::uint32_t other) noexcept { return other == material; });
+}
+
+std::optional<StimulusSample> ContactSurface::stimulus(Vec3 p, double radius_m) const noexcept {
+  std::uint32_t found = k_nothing;
+  Foot at;
+  double reach = radius_m;
+  const Vec3 x = p - origin_;
+  bvh_.within(x, reach, [&](std::uint32_t begin, std::uint32_t end) noexcept {
+    for (std::uint32_t place = begin; place < end; ++place) {
+      if (!materials_[material_of(place)].stimulus) continue;
+      const Foot f = foot(corners(place), x);
+      const double distance = norm(x - f.point);
+      if (distance > reach) continue;
+      reach = distance;
+      found = place;
+      at = f;
+    }
+  });
+  if (found == k_nothing) return std::nullopt;
+  const Corners t = corners(found);
+  const HeightField& field = heights_[*materials_[material_of(found)].stimulus];
+  const auto uv = [&](std::size_t k) {
+    return Vec2{static_cast<double>(relief(found, k).u), static_cast<double>(relief(found, k).v)};
+  };
+  const Vec2 by_v = uv(1) - uv(0), by_w = uv(2) - uv(0);
+  const HeightSample height = field.sample(uv(0) + at.v * by_v + at.w * by_w);
+  const Vec3 area = cross(t.b - t.a, t.c - t.a);
+  const auto texels = field.texels_per_uv();
+  const double texel_area =
+      std::abs(cross(by_v.x * texels[0] + by_v.y * texels[1], by_w.x * texels[0] + by_w.y * texels[1]));
+  StimulusSample sample;
+  sample.point = at.point + origin_;
+  sample.normal = normalized(area);
+  sample.height_m = height.height_m;
+  sample.grey = field.greys_per_m() * height.height_m;
+  sample.slope = field.greys_per_m() * in_plane(t, dot(height.gradient_m, by_v), dot(height.gradient_m, by_w));
+  sample.along_u = normalized(in_plane(t, by_v.x, by_w.x));
+  sample.pixel_m = texel_area > 0 ? std::sqrt(norm(area) / texel_area) : 0;
+  sample.material = material_of(found);
+  return sample;
 }
 
 int ContactSurface::crossings(Vec3 from, Vec3 to) const noexcept {

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int k_priority = 80;  // Below the kernel's own threads at 99, above interrupt threads at 50.
 constexpr std::uint64_t k_longest_recording = 20'000'000;
+constexpr double k_longest_frame_s = 0.05;    // A device that is silent for longer is seen by the guard.
 constexpr double k_largest_lag_periods = 10;  // After a longer stall the clock starts anew instead of catching up.
 
 double seconds_of(clockid_t clock) noexcept {
@@ -108,6 +109,17 @@ class StopAtEnd {
   HapticDevice& device_;
 };
 
+void show(LoopStatus& status, const LoopResult& result, double force_n, double tick_us, double late_us) noexcept {
+  constexpr auto relaxed = std::memory_order_relaxed;
+  status.ticks.store(result.ticks, relaxed);
+  status.contact_ticks.store(result.contact_ticks, relaxed);
+  status.lost_contact_ticks.store(result.lost_contact_ticks, relaxed);
+  status.missed_deadlines.store(result.missed_deadlines, relaxed);
+  status.force_n.store(force_n, relaxed);
+  status.tick_us.store(tick_us, relaxed);
+  status.wakeup_us.store(late_us, relaxed);
+}
+
 void append(std::string& text, double value) {
   char buffer[32];
   const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
@@ -129,7 +141,9 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
     options.record->clear();
     options.record->resize(options.ticks);  // Touches every page, so that none is missing in the loop.
   }
-  HapticTick tick(surface, safety_limits(device.caps().max_force_n), period);
+  SafetyLimits limits = safety_limits(device.caps().max_force_n);
+  limits.watchdog_s = options.watchdog_s;
+  HapticTick tick(surface, limits, period);
   const StopAtEnd stop_at_end(device);
   {
     const Realtime realtime(result);
@@ -137,17 +151,24 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
     Pacer pacer(period);
     while (result.ticks < options.ticks && !(options.stop && options.stop->load(std::memory_order_relaxed))) {
       const std::uint64_t i = result.ticks;
-      if (options.paced) result.wakeup_us.add(pacer.wait(i));
-      const double before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+      double late_us = 0;
+      if (device.is_clock())
+        late_us = 1e6 * device.wait(k_longest_frame_s);
+      else if (options.paced)
+        late_us = pacer.wait(i);
+      if (device.is_clock() || options.paced) result.wakeup_us.add(late_us);
+      const double awake = seconds_of(CLOCK_MONOTONIC), before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
       DeviceState state;
       result.device_lost = !device.read(state);
       if (result.device_lost) break;
       const Vec3 force = tick(state);
       result.device_lost = !device.write(force);
-      result.tick_us.add((seconds_of(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6);
+      const double tick_us = (seconds_of(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6;
+      result.tick_us.add(tick_us);
 
       ++result.ticks;
-      if (options.paced && pacer.missed(i)) ++result.missed_deadlines;
+      if (device.is_clock() ? seconds_of(CLOCK_MONOTONIC) - awake > period : options.paced && pacer.missed(i))
+        ++result.missed_deadlines;
       if (tick.proxy().in_contact) ++result.contact_ticks;
       if (tick.lost()) ++result.lost_contact_ticks;
       result.max_force_n = std::max(result.max_force_n, norm(force));
@@ -160,6 +181,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
                                 force,
                                 tick.proxy().in_contact};
       }
+      if (options.status) show(*options.status, result, norm(force), tick_us, late_us);
       result.fault = tick.guard().fault();
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
     }

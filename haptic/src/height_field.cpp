@@ -141,6 +141,19 @@ std::array<Vec2, 2> HeightField::texels_per_uv() const noexcept {
   return {Vec2{a_[0][0], a_[1][0]}, Vec2{a_[0][1], a_[1][1]}};
 }
 
+HeightField HeightField::halved() const {
+  if (width_ % 2 != 0 || height_ % 2 != 0)
+    throw InvalidInput("HeightField::halved: " + std::to_string(width_) + " x " + std::to_string(height_) + " is odd");
+  std::vector<std::uint16_t> result;
+  result.reserve(samples_.size() / 4);
+  for (long y = 0; y < height_; y += 2)
+    for (long x = 0; x < width_; x += 2) {
+      const unsigned sum = unsigned{texel(x, y)} + texel(x + 1, y) + texel(x, y + 1) + texel(x + 1, y + 1);
+      result.push_back(static_cast<std::uint16_t>((sum + 2) / 4));
+    }
+  return HeightField(width_ / 2, height_ / 2, std::move(result), options_);
+}
+
 HeightField HeightField::dilated(double radius_m, Vec2 metres_per_uv) const {
   if (!(radius_m >= 0) || !(metres_per_uv.x > 0) || !(metres_per_uv.y > 0))
     throw InvalidInput("HeightField::dilated: needs radius >= 0 and metres per uv > 0");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/haptic/stimulus.hpp"
 
 namespace papilla {
 namespace {
@@ -179,6 +180,24 @@ std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& 
   return roughness;
 }
 
+std::optional<ForceModelTag> read_force_model(const Json& json, const std::string& place,
+                                              std::vector<HapticWarning>& warnings) {
+  constexpr const char* k_code = "tag_force_model";
+  const Members in(json, place, warnings);
+  ForceModelTag model;
+  in.text("name", k_code, model.name);
+  if (!force_model(model.name)) {
+    warnings.push_back({k_code, place + ".name: is no force model, the relief is felt as what it is"});
+    return std::nullopt;
+  }
+  in.number("amplitude", k_code, 0, 100, model.amplitude);
+  std::string sign = "downhill";
+  in.text("sign", k_code, sign);
+  if (sign != "downhill" && sign != "literal") in.warn(k_code, "sign", "is neither downhill nor literal");
+  model.literal = sign == "literal";
+  return model;
+}
+
 std::optional<SymmetryTag> read_symmetry(const Json& json, const std::string& place,
                                          std::vector<HapticWarning>& warnings) {
   const Members in(json, place, warnings);
@@ -236,6 +255,8 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
     tag.height = read_height(*height, place + ".height", warnings);
   if (const Json* roughness = in.object("roughness", "tag_roughness"))
     tag.roughness = read_roughness(*roughness, place + ".roughness", warnings);
+  if (const Json* model = in.object("forceModel", "tag_force_model"))
+    tag.force_model = read_force_model(*model, place + ".forceModel", warnings);
   if (const Json* symmetry = in.object("symmetry", "tag_symmetry"))
     tag.symmetry = read_symmetry(*symmetry, place + ".symmetry", warnings);
   if (const Json* provenance = in.object("provenance", "tag_provenance"))
@@ -278,6 +299,10 @@ Json tag_json(const MaterialTag& tag) {
     json["roughness"] = {{"fractalDimension", tag.roughness->fractal_dimension},
                          {"rmsHeight", tag.roughness->rms_height_m},
                          {"wavelengthRange", pair_json(tag.roughness->wavelength_range_m)}};
+  if (tag.force_model)
+    json["forceModel"] = {{"name", tag.force_model->name},
+                          {"amplitude", tag.force_model->amplitude},
+                          {"sign", tag.force_model->literal ? "literal" : "downhill"}};
   if (tag.symmetry)
     json["symmetry"] = {
         {"group", tag.symmetry->group},

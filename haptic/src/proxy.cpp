@@ -12,6 +12,9 @@ namespace {
 
 /// Of the shortest step. Near the end a step of s brings only s²/2·depth.
 constexpr double k_least_gain = 0.02;
+// Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
+constexpr double k_needed_travels = 0.6, k_wanted_travels = 1.2;
+constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 
 }  // namespace
 
@@ -31,6 +34,8 @@ struct Proxy::Planes {
 void Proxy::reset(Vec3 position) noexcept {
   state_ = ProxyState{};
   state_.proxy = position;
+  probe_ = position;
+  near_.clear();
   slide_speed_ = 0;
   started_ = true;
 }
@@ -51,14 +56,32 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
   next.in_contact = true;
   next.constraints = aim.count;
   next.normal = depth > 0 ? (1 / depth) * behind : planes.plane[loaded].normal;
-  next.load_m = std::max(0.0, depth - surface_->skin_m());
+  next.load_m = std::max(0.0, depth - planes.plane[loaded].skin_m);
   next.material = planes.plane[loaded].material;
+}
+
+/// Sees to it that what the proxy can meet around `from` is gathered, unless that is too much.
+void Proxy::look_around(Vec3 from, double travel) noexcept {
+  if (surface_->probe_radius_m() == 0) return;  // A point meets so few triangles that the tree is as fast.
+  const double needed = k_needed_travels * travel + surface_->skin_m();
+  if (surface_->margin(from, near_) >= needed) return;
+  const double radius = std::min(k_wanted_travels * travel + 4 * surface_->skin_m(), widest_m_);
+  if (radius < needed) {
+    near_.clear();
+    widest_m_ *= k_regrowth;
+  } else if (!surface_->gather(from, radius, near_)) {
+    widest_m_ = 0.5 * radius;
+  } else if (near_.count() < Neighbourhood::k_capacity / 8) {
+    widest_m_ = std::max(widest_m_, 2 * radius);
+  }
 }
 
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   if (!is_finite(probe)) return state_;
   if (!started_) reset(probe);
   const double shortest = surface_->tolerance_m() / 4;
+  const double travel = norm(probe - probe_);
+  probe_ = probe;
   const Vec3 start = state_.proxy;  // Everything below is relative to it: small numbers, full precision.
   const Vec3 goal = probe - start;
 
@@ -85,7 +108,8 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     }
     if (next.sweeps == k_steps) break;
     ++next.sweeps;
-    const auto hit = surface_->sweep(start + x, start + x + step);
+    look_around(start + x, std::min(travel, norm(step)));
+    const auto hit = surface_->sweep(start + x, start + x + step, near_);
     step = (hit ? hit->t : 1) * step;
     x = x + step;
     if (aim.count > 0) slid = slid + step;
@@ -99,7 +123,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     if (planes.count == k_planes) break;
     // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
     x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
-    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material};
+    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material, hit->skin_m};
     next.in_contact = true;
   }
   if (free) next = ProxyState{};

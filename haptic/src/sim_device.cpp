@@ -105,8 +105,13 @@ void SimDevice::advance() noexcept {
     const Vec3 free_way = (d.mass_kg * phi) * velocity_ + psi * g;
     const double speed = norm(free_velocity), lost = d.friction_n * phi;
     const double kept = speed > lost ? 1 - lost / speed : 0;
-    position_ = position_ + kept * free_way;
+    const Vec3 before = velocity_, moved = kept * free_way;
+    position_ = position_ + moved;
     velocity_ = kept * free_velocity;
+    // ∫ F_h·v with the spring as it was held; ∫ v² of a velocity that is close to linear within a step.
+    const double square = h / 3 * (dot(before, before) + dot(before, velocity_) + dot(velocity_, velocity_));
+    hand_work_ += dot(coupling_.stiffness * (hand - position_ + moved) + coupling_.damping * hand_velocity, moved) -
+                  coupling_.damping * square;
   }
   ++tick_;
   force_[tick_ % k_history] = force_[(tick_ - 1) % k_history];

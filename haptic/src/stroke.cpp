@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "papilla/core/error.hpp"
 
@@ -10,6 +11,8 @@ namespace papilla {
 namespace {
 
 constexpr double k_step_m = 1e-3;
+constexpr double k_random_turn = 0.3;  // Radians a step, either way.
+constexpr double k_sideways = 2;
 constexpr double k_least_progress = 0.25;  // Of a step; less means that the material ends.
 
 Vec3 any_tangent(Vec3 n) {
@@ -21,12 +24,21 @@ Vec3 any_tangent(Vec3 n) {
 
 Vec3 tangential(Vec3 direction, Vec3 n) { return normalized(direction - dot(direction, n) * n); }
 
+/// A unit tangent turned about the normal.
+Vec3 turned(Vec3 direction, Vec3 n, double angle) {
+  return tangential(std::cos(angle) * direction + std::sin(angle) * cross(n, direction), n);
+}
+
+/// In [0, 1); the same on every platform, which std::uniform_real_distribution is not.
+double unit_random(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
 }  // namespace
 
 Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t material, Vec3 near,
                             const StrokeOptions& options) {
-  if (!(options.speed_m_per_s > 0) || !(options.seconds > 0) || !(options.press_s > 0) ||
-      !std::isfinite(options.depth_m) || !std::isfinite(options.approach_m) || !(options.seconds <= 1e6))
+  if (!(options.speed_m_per_s > 0) || !(options.seconds > 0) || !(options.press_s > 0) || !(options.taps_per_s > 0) ||
+      !(options.circle_m > 0) || !std::isfinite(options.depth_m) || !std::isfinite(options.approach_m) ||
+      !(options.seconds <= 1e6))
     throw InvalidInput("press_and_stroke: speed and times must be > 0, and seconds at most a million");
   const double extent = norm(surface.high() - surface.low());
   const auto start = surface.closest_point(near, norm(near - surface.low()) + extent, material);
@@ -38,18 +50,29 @@ Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t materia
   const auto pressed = [&](const SurfacePoint& p) { return p.point - options.depth_m * p.face_normal; };
   std::vector<Trajectory::Sample> samples{{0, here.point + options.approach_m * here.face_normal},
                                           {options.press_s, pressed(here)}};
+  if (options.motion == Motion::tap) {
+    const double half = 0.5 / options.taps_per_s;
+    for (int i = 0; samples.back().t < options.seconds; ++i)
+      samples.push_back({samples.back().t + half, samples[static_cast<std::size_t>(i % 2)].position});
+    return Trajectory(std::move(samples));
+  }
+  std::mt19937_64 random(options.seed);
   int turns = 0;
-  while (samples.back().t < options.seconds && turns < 2) {
+  while (samples.back().t < options.seconds && turns < 8) {
     const auto next = surface.closest_point(here.point + step * direction, step, material);
     const Vec3 way = next ? next->point - here.point : Vec3{};
     if (dot(way, direction) < k_least_progress * step) {
-      direction = -direction;
+      // Back; a second time in the same place to the side.
+      direction = turns % 2 == 0 ? -direction : turned(direction, here.face_normal, k_sideways);
       ++turns;
       continue;
     }
     turns = 0;
     here = *next;
     direction = tangential(direction, here.face_normal);
+    if (options.motion == Motion::circle) direction = turned(direction, here.face_normal, step / options.circle_m);
+    if (options.motion == Motion::slide)
+      direction = turned(direction, here.face_normal, k_random_turn * (2 * unit_random(random) - 1));
     const double time = norm(pressed(here) - samples.back().position) / options.speed_m_per_s;
     samples.push_back({samples.back().t + std::max(time, 1e-6), pressed(here)});
   }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
 #include <cmath>
 #include <memory>
 #include <string>
 
 #include "bench/bench_json.hpp"
+#include "contact_targets.hpp"
 #include "haptic/contact_shapes.hpp"
 #include "papilla/haptic/contact_audit.hpp"
 #include "papilla/haptic/histogram.hpp"
@@ -75,7 +78,8 @@ void measure_ticks(Probe probe, int ticks, Recorder& recorder, Tick&& tick, Afte
 
 template <class Probe>
 void run_proxy(const ContactSurface& surface, std::uint64_t seed, int ticks, Recorder& recorder) {
-  Proxy proxy(surface);
+  auto owned = std::make_unique<Proxy>(surface);
+  Proxy& proxy = *owned;
   ContactAudit audit(surface);
   const Vec3 start = Probe(seed).next();
   const Vec3 outside = start + 0.02 * (surface.low().z < -0.05 ? normalized(start) : Vec3{0, 0, 1});
@@ -126,6 +130,65 @@ void add_shape(bench::BenchReport& report, Inputs& inputs, Shape shape, int tick
 #endif
 }
 
+/// A tick among twenty million triangles.
+void add_twenty_million(bench::BenchReport& report) {
+  constexpr int n = 3163, ticks = 20000;
+  const ContactSurface surface(
+      [&] {
+        ContactMesh mesh = testing::height_grid(n, n, k_size, k_size, testing::rough_relief);
+        mesh.corner_uv = {};
+        return mesh;
+      }(),
+      {ContactMaterial{}}, {}, 0);
+  auto proxy = std::make_unique<Proxy>(surface);
+  ReliefProbe probe(1);
+  Histogram times;
+  for (int i = 0; i < ticks; ++i) {
+    const Vec3 at = probe.next();
+    if (i == 0) proxy->reset(at + Vec3{0, 0, 0.02});
+    const double before = bench::thread_cpu_seconds();
+    proxy->update(at, k_period);
+    times.add(1e6 * (bench::thread_cpu_seconds() - before));
+  }
+  report.target({"20 million triangles within 2 % of a 1 ms tick (median of a point)",
+                 fmt::format("median {:.1f} µs, 99.9 % {:.1f} µs, {:.1f} bytes a triangle", times.quantile(0.5),
+                             times.quantile(0.999),
+                             static_cast<double>(surface.bytes()) / static_cast<double>(surface.triangles())),
+                 times.quantile(0.5) <= 20});
+}
+
+void add_speed_targets(bench::BenchReport& report, bool quick, const Inputs& inputs) {
+  if (quick) return;
+  const auto of = [&](const char* subject, const char* input, const char* quantity) {
+    return report.median_of(subject, input, quantity);
+  };
+  const auto limit = [&](const char* promise, double value, double most, const char* unit) {
+    report.target({promise, fmt::format("{:.2f} {}", value, unit), value <= most});
+  };
+  const char *point = "proxy/point", *ball = "proxy/ball 1 mm", *small = "relief 20k", *middle = "relief 199k",
+             *large = "relief 2000k";
+  limit("ball of 1 mm, 200 k triangles: p99.9 at most 25 µs", of(ball, middle, "tick_us_p999"), 25, "µs");
+  limit("ball of 1 mm, 2 M triangles: p99.9 at most 50 µs", of(ball, large, "tick_us_p999"), 50, "µs");
+  limit("ball of 1 mm, 2 M triangles: worst at most 200 µs", of(ball, large, "tick_us_max"), 200, "µs");
+  limit("point, 2 M triangles: median at most 3.4 µs", of(point, large, "tick_us_p50"), 3.4, "µs");
+  limit("point, 2 M triangles: p99.9 at most 20 µs", of(point, large, "tick_us_p999"), 20, "µs");
+  limit("point: time at 2 M over time at 20 k triangles at most 2.5",
+        of(point, large, "tick_us_p50") / of(point, small, "tick_us_p50"), 2.5, "times");
+#ifdef PAPILLA_HAVE_EMBREE
+  limit("point: within 3 times of Embree's closest point, 2 M triangles",
+        of(point, large, "tick_us_p50") / of("closest-point/embree", large, "tick_us_p50"), 3, "times");
+#else
+  report.target({"point: within 3 times of Embree's closest point", "built without Embree", std::nullopt});
+#endif
+  for (const auto& surface : inputs.surfaces)
+    if (surface->triangles() == 2000000 && surface->probe_radius_m() == 0) {
+      const double bytes = static_cast<double>(surface->bytes()) / static_cast<double>(surface->triangles());
+      limit("at most 64 bytes a triangle", bytes, 64, "bytes");
+      break;
+    }
+  add_twenty_million(report);
+}
+
 void body(bench::BenchReport& report) {
   const bool quick = report.options().quick;
   const int ticks = quick ? 500 : 20000;
@@ -140,6 +203,8 @@ void body(bench::BenchReport& report) {
   report.compare("proxy/point", "closest-point/embree", "tick_us_p50");
 #endif
   report.measure();
+  add_speed_targets(report, quick, inputs);
+  bench::add_contact_targets(report);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,9 +10,18 @@
 #include <vector>
 
 #include "bench/bench_json.hpp"
+#include "papilla/texture/best_dimension.hpp"
 #include "papilla/texture/feature_matrix.hpp"
+#include "papilla/texture/grain.hpp"
+#include "papilla/texture/lattice.hpp"
 #include "papilla/texture/probability_dimension.hpp"
+#include "papilla/texture/shape_from_shading.hpp"
 #include "papilla/texture/stein_surface.hpp"
+#include "texture/wallpaper_patterns.hpp"
+#include "texture_accuracy.hpp"
+#if defined(PAPILLA_HAVE_GWYDDION)
+#include "gwyddion_dimension.hpp"
+#endif
 
 // The peers are the definitions, coded for the vector units of the machine the benchmark runs on.
 #if defined(__x86_64__)
@@ -97,7 +108,7 @@ void add_feature_matrix(bench::BenchReport& report, const GreyImage& image, cons
         require(std::llround(matrix.at(dx, dy) * 255 * 255 * overlap) == sums[i], "feature matrix");
       }
   });
-  report.compare("feature_matrix/fft", "feature_matrix/direct");
+  report.compare("feature_matrix/fft", "feature_matrix/direct", "cpu_seconds");
 }
 
 void add_probability(bench::BenchReport& report, const GreyImage& image, const std::vector<std::uint8_t>& bytes) {
@@ -116,18 +127,83 @@ void add_probability(bench::BenchReport& report, const GreyImage& image, const s
   report.compare("probability/running-counts", "probability/direct");
 }
 
+/// The whole way to a lattice of a picture that has one.
+void add_lattice(bench::BenchReport& report, const GreyImage& image) {
+  report.add({.method = "lattice", .input = "wallpaper pattern " + std::to_string(image.width)},
+             [&](bench::Recorder&) { bench::keep(find_lattice(feature_matrix(image)).vectors_px.data()); });
+}
+
+void add_dimension(bench::BenchReport& report, const GreyImage& image) {
+  const std::string input = "brownian surface " + std::to_string(image.width);
+  report.add({.method = "best", .input = input},
+             [&](bench::Recorder&) { bench::keep(best_dimension(image).estimate.dimension); });
+#if defined(PAPILLA_HAVE_GWYDDION)
+  report.add({.method = "best", .solver = "gwyddion", .input = input},
+             [&](bench::Recorder&) { bench::keep(bench::gwyddion_partitioning_dimension(image)); });
+#endif
+}
+
+void add_shading(bench::BenchReport& report, const GreyImage& image) {
+  const std::string input = "lit grain " + std::to_string(image.width);
+  const auto add = [&](const char* method, ShadingResult (*solve)(const GreyImage&, const ShadingOptions&)) {
+    report.add({.method = method, .input = input, .error_name = "rms of brightness - R"},
+               [&image, solve](bench::Recorder& recorder) {
+                 ShadingResult result = solve(image, {.light = GrainOptions{}.light, .periodic = true});
+                 recorder.trace(std::move(result.trace));
+                 recorder.stop(result.stop);
+               });
+  };
+  add("variational", shape_from_shading_variational);
+  add("pentland", shape_from_shading_pentland);
+}
+
+void report_speed(bench::BenchReport& report, int size, int small) {
+  const std::string input = "brownian surface " + std::to_string(size);
+  const auto holds = [&](bool value) { return report.options().quick ? std::nullopt : std::optional(value); };
+  const double fft = report.median_of("feature_matrix/fft", input, "cpu_seconds");
+  const double ratio = report.median_of("feature_matrix/direct", input, "cpu_seconds") / fft;
+  report.target({"feature matrix of 1024²: at least 200 times faster than the direct sum in vector units",
+                 fmt::format("{:.0f} times at {}², {:.1f} ms", ratio, size, 1e3 * fft), holds(ratio >= 200)});
+  report.target(
+      {"feature matrix: equal to the direct sum to 1e-9", "every entry the same whole number of grey steps", true});
+  const double lattice = report.median_of("lattice", "wallpaper pattern " + std::to_string(small), "cpu_seconds");
+  report.target({"feature matrix and lattice of 256² within 5 ms on one core",
+                 fmt::format("{:.1f} ms at {}²", 1e3 * lattice, small), holds(lattice <= 0.005)});
+#if defined(PAPILLA_HAVE_GWYDDION)
+  const double own = report.median_of("best", input, "cpu_seconds");
+  const double other = report.median_of("best/gwyddion", input, "cpu_seconds");
+  report.target({"best: at most 0.2 of the time of Gwyddion's best dimension method",
+                 fmt::format("{:.2f} at {}²", own / other, size), holds(own <= 0.2 * other)});
+#endif
+}
+
+void body(bench::BenchReport& report) {
+  const bool quick = report.options().quick;
+  const int size = quick ? 96 : 1024, small = quick ? 96 : 256;
+  const GreyImage bytes_image = to_grey_image(brownian_surface_exact({size, 0.5, 1}), 8);
+  const GreyImage float_image = to_grey_image(brownian_surface_exact({size, 0.5, 1}));
+  const std::vector<std::uint8_t> bytes = bytes_of(bytes_image);
+  const GreyImage probed = quick ? bytes_image : to_grey_image(brownian_surface_exact({512, 0.5, 1}), 8);
+  const std::vector<std::uint8_t> probed_bytes = bytes_of(probed);
+  const GreyImage pattern = test::wallpaper_pattern(WallpaperGroup::p4m, 1, 0.25, small).image;
+  const GreyImage grain = synthesize_grain(GrainKind::spheres8, {.size_px = size}).picture;
+  add_feature_matrix(report, bytes_image, bytes);
+  add_probability(report, probed, probed_bytes);
+  add_lattice(report, pattern);
+  add_dimension(report, float_image);
+  add_shading(report, grain);
+  report.measure();
+  bench::report_published_tables(report);
+  bench::report_dimension_error(report);
+  report_speed(report, size, small);
+  bench::report_symmetry(report);
+  bench::report_height(report);
+  bench::report_photographs(report);
+}
+
 }  // namespace
 }  // namespace papilla
 
 int main(int argc, char** argv) {
-  using namespace papilla;
-  return bench::run_benchmark("texture", "Feature matrix and probability dimension against their definitions", argc,
-                              argv, [](bench::BenchReport& report) {
-                                const int size = report.options().quick ? 96 : 512;
-                                const GreyImage image = to_grey_image(brownian_surface_exact({size, 0.5, 1}), 8);
-                                const std::vector<std::uint8_t> bytes = bytes_of(image);
-                                add_feature_matrix(report, image, bytes);
-                                add_probability(report, image, bytes);
-                                report.measure();
-                              });
+  return papilla::bench::run_benchmark("texture-analysis", "Texture analysis", argc, argv, papilla::body);
 }

@@ -13,6 +13,7 @@
 
 #include "haptic/tagged_glb.hpp"
 #include "papilla/haptic/sha256.hpp"
+#include "player/sentinel.hpp"
 
 namespace papilla {
 namespace {
@@ -109,15 +110,7 @@ TEST_F(Player, FindsTheMapAsDataUriAndAsSidecar) {
   EXPECT_EQ(play_glb({{"haptic", data}}, "").json()["height_maps"]["loaded"], 1);
 
   const std::string png = testing::grey16_png(1, 1, {1234});
-  std::string base64;
-  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) base64 += i + k > png.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
-  }
-  data["height"]["uri"] = "data:image/png;base64," + base64;
+  data["height"]["uri"] = "data:image/png;base64," + testing::base64(png);
   data["height"]["sha256"] = sum(png);
   const Outcome outcome = play_glb({{"haptic", data}}, "");
   EXPECT_EQ(outcome.json()["height_maps"]["loaded"], 1) << outcome.out;
@@ -194,10 +187,56 @@ TEST_F(Player, SignalEndsItWithAReport) {
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(WEXITSTATUS(status), 5);
   const Json report = Json::parse(slurp(json));
   EXPECT_GT(report["ticks"], 10);
   EXPECT_LT(report["ticks"], 50000);
+}
+
+TEST_F(Player, ListsDevices) {
+  const Outcome text = play("--list-devices");
+  EXPECT_EQ(text.code, 0);
+  EXPECT_NE(text.out.find("sim:lambda7"), std::string::npos);
+  const Outcome json = play("--list-devices --json -");
+  EXPECT_EQ(json.json()["simulated"].size(), 7U);
+  EXPECT_TRUE(json.json()["connected"].is_array());
+}
+
+TEST_F(Player, NoSuchDeviceIsExitCode5) {
+  const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  expect_refusal(play("'" + glb + "' --device hid:ffff:fffe"), 5);
+  expect_refusal(play("'" + glb + "' --device hid:nonsense"), 3);
+}
+
+/// A process with a sentinel that writes a file when it has to act.
+void with_sentinel(const fs::path& trace, int ready, bool wait) {
+  const player::Sentinel sentinel([&] { std::ofstream(trace) << "off"; });
+  const char byte = sentinel.watched() ? 1 : 0;
+  if (::write(ready, &byte, 1) == 1 && wait) ::pause();
+}
+
+TEST_F(Player, KilledPlayerIsSwitchedOffByItsSentinel) {
+  for (const bool killed : {true, false}) {
+    const fs::path trace = folder_ / "trace";
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      with_sentinel(trace, ends[1], killed);
+      ::_exit(0);
+    }
+    ::close(ends[1]);
+    char byte = 0;
+    ASSERT_EQ(::read(ends[0], &byte, 1), 1);
+    EXPECT_EQ(byte, 1);
+    if (killed) ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    // The sentinel holds the other end of the pipe until it is done.
+    EXPECT_EQ(::read(ends[0], &byte, 1), 0);
+    ::close(ends[0]);
+    EXPECT_EQ(fs::exists(trace), killed);
+    fs::remove(trace);
+  }
 }
 
 }  // namespace

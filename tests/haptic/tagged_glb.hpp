@@ -69,7 +69,8 @@ inline std::string sine_png() {
 
 /// A GLB of a plate of 0.1 × 0.1 m in the plane y = 0, front up, uv 2.5 repeats, with one material "grain".
 /// @param extras of the material. @param image bytes of an image named haptic.height.grain; empty for none.
-inline std::string plate_glb(const nlohmann::json& extras, const std::string& image) {
+/// @param textured the image is the material's normalTexture as well, so that tools keep the coordinates.
+inline std::string plate_glb(const nlohmann::json& extras, const std::string& image, bool textured = false) {
   const int n = 10;
   std::string positions, uvs, indices;
   const auto add = [](std::string& to, float value) { to += little_endian(std::bit_cast<std::uint32_t>(value), 4); };
@@ -113,11 +114,27 @@ inline std::string plate_glb(const nlohmann::json& extras, const std::string& im
         {{"bufferView", 2}, {"componentType", 5125}, {"count", 6 * n * n}, {"type", "SCALAR"}}}}};
   if (!image.empty())
     gltf["images"] = {{{"name", "haptic.height.grain"}, {"mimeType", "image/png"}, {"bufferView", 3}}};
+  if (textured) {
+    gltf["textures"] = {{{"source", 0}}};
+    gltf["materials"][0]["normalTexture"] = {{"index", 0}};
+  }
   std::string json = gltf.dump();
   json += std::string((4 - json.size() % 4) % 4, ' ');
   const auto size = [](std::size_t s) { return little_endian(static_cast<std::uint32_t>(s), 4); };
   return "glTF" + size(2) + size(12 + 8 + json.size() + 8 + data.size()) + size(json.size()) + "JSON" + json +
          size(data.size()) + std::string("BIN\0", 4) + data;
+}
+
+inline std::string base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
+  }
+  return text;
 }
 
 }  // namespace papilla::testing

@@ -62,6 +62,25 @@ TEST(FeatureMatrix, IsZeroAtThePeriodsOnly) {
       EXPECT_EQ(matrix.at(dx, dy) == 0, (dx * 7 + dy * 3) % 8 == 0) << dx << ", " << dy;
 }
 
+TEST(FeatureMatrix, AbsoluteDistortionIsTheDirectSum) {
+  for (const int bits : {8, 32}) {
+    const GreyImage image = test::noise_image(23, 18, 4, bits);
+    const FeatureMatrix matrix = absolute_feature_matrix(image);
+    ASSERT_EQ(matrix.width(), 23);
+    ASSERT_EQ(matrix.height(), 19);
+    for (int dy = -matrix.reach_y; dy <= matrix.reach_y; ++dy)
+      for (int dx = -matrix.reach_x; dx <= matrix.reach_x; ++dx) {
+        double sum = 0;
+        int count = 0;
+        for (int y = std::max(0, -dy); y < std::min(18, 18 - dy); ++y)
+          for (int x = std::max(0, -dx); x < std::min(23, 23 - dx); ++x, ++count)
+            sum += std::abs(static_cast<double>(image.at(x, y)) - static_cast<double>(image.at(x + dx, y + dy)));
+        EXPECT_NEAR(matrix.at(dx, dy), sum / count, 1e-7);
+      }
+  }
+  EXPECT_THROW(absolute_feature_matrix(GreyImage{}), InvalidInput);
+}
+
 TEST(FeatureMatrix, TakesAnySize) {
   EXPECT_EQ(feature_matrix(test::noise_image(1, 1, 1)).distortion.size(), 1U);
   const FeatureMatrix line = feature_matrix(test::noise_image(1, 9, 1));

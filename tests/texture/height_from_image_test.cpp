@@ -66,6 +66,58 @@ TEST(HeightFromImage, DisorderedPicturesAreReadAsHeights) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i) ASSERT_NEAR(result.map.mm[i], 2 * image.pixels[i], 1e-6);
 }
 
+TEST(HeightFromImage, RoughnessIsKeptApartFromTheRelief) {
+  GrainResult grain = synthesize_grain(GrainKind::quads6, {.size_px = 192});
+  const GreyImage noise = test::noise_image(192, 192, 4);
+  for (std::size_t i = 0; i < noise.pixels.size(); ++i) grain.picture.pixels[i] += 0.1F * (noise.pixels[i] - 0.5F);
+  HeightOptions options;
+  options.light = GrainOptions{}.light;
+  options.periodic = true;
+  options.method = HeightMethod::variational;
+  options.roughness = HeightRoughness::none;
+  const HeightResult relief = height_from_image(grain.picture, options);
+  options.roughness = HeightRoughness::residual;
+  const HeightResult residual = height_from_image(grain.picture, options);
+  options.roughness = HeightRoughness::synthesized;
+  const HeightResult synthesized = height_from_image(grain.picture, options);
+  EXPECT_EQ(relief.roughness_rms_mm, 0);
+  EXPECT_GT(residual.roughness_rms_mm, 0.002);
+  EXPECT_NEAR(synthesized.roughness_rms_mm, residual.roughness_rms_mm, 0.2 * residual.roughness_rms_mm);
+  for (const HeightResult* result : {&relief, &residual, &synthesized}) {
+    EXPECT_TRUE(result->map.periodic);
+    EXPECT_NEAR(result->depth_mm, 0.3, 1e-12);
+    EXPECT_FALSE(result->assumed.empty());
+  }
+  EXPECT_EQ(residual.roughness, HeightRoughness::residual);
+}
+
+TEST(HeightFromImage, CutLeavesNoShorterWave) {
+  // Waves of 24 and of 4 pixels; the cut at 6 pixels leaves the first alone.
+  const double k = 2 * 3.141592653589793;
+  const GreyImage image = test::make_image(
+      96, 96, [&](int x, int y) { return 0.5 + 0.2 * std::sin(k * x / 24) + 0.2 * std::sin(k * y / 4); });
+  const HeightResult result = height_from_image(image, {.method = HeightMethod::intensity,
+                                                        .pitch_mm = 0.1,
+                                                        .depth_mm = 0.4,
+                                                        .periodic = true,
+                                                        .shortest_wavelength_mm = 0.6});
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) ASSERT_NEAR(result.map.at(x, y), 0.2 + 0.2 * std::sin(k * x / 24), 1e-5);
+  EXPECT_EQ(result.shortest_wavelength_mm, 0.6);
+  EXPECT_THROW(height_from_image(image, {.method = HeightMethod::intensity, .shortest_wavelength_mm = 0.6}),
+               InvalidInput);
+  EXPECT_DOUBLE_EQ(shortest_playable_wavelength_mm(100, 1000), 0.2);
+}
+
+TEST(HeightFromImage, WhatRunsAcrossTheLightIsGuessed) {
+  const double k = 2 * 3.141592653589793 / 24;
+  const GreyImage image = test::make_image(96, 96, [&](int x, int) { return 0.7 + 0.1 * std::cos(k * x); });
+  HeightOptions options{.method = HeightMethod::pentland, .light = Vec3{1, 0, 1}, .periodic = true};
+  EXPECT_LT(height_from_image(image, options).guessed_share, 0.01);
+  options.light = Vec3{0.05, 1, 1};
+  EXPECT_GT(height_from_image(image, options).guessed_share, 0.9);
+}
+
 TEST(HeightFromImage, UnknownPitchStaysUnknown) {
   GreyImage image = test::noise_image(40, 40, 1);
   EXPECT_EQ(height_from_image(image).map.pitch_mm_x, 0);

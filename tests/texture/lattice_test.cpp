@@ -107,6 +107,16 @@ TEST(Lattice, VectorsAreReducedAndOriented) {
   EXPECT_GT(lattice.significance, 0.8);
 }
 
+TEST(Lattice, TheProjectionMethodFindsCleanLatticesToAPixel) {
+  const GreyImage image = test::make_image(160, 160, [](int x, int y) {
+    const double v = y / 15.0, u = (x - 6 * v) / 20;
+    return 0.5 + 0.2 * std::cos(2 * std::numbers::pi * u) + 0.2 * std::cos(2 * std::numbers::pi * v);
+  });
+  const Lattice lattice = find_lattice(feature_matrix(image), {.method = LatticeMethod::projection});
+  ASSERT_TRUE(lattice.found) << lattice.reason;
+  EXPECT_LT(lattice_error(lattice, {20, 0}, {6, 15}), 1);
+}
+
 TEST(Lattice, NoneInFractalSurfaces) {
   for (const double hurst : {0.1, 0.5, 0.9})
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
@@ -135,8 +145,8 @@ TEST(Lattice, NoneInFlatAndTinyPictures) {
 
 TEST(Lattice, RefusesBadArguments) {
   const FeatureMatrix matrix = feature_matrix(test::noise_image(16, 16, 1));
-  EXPECT_THROW(find_lattice(matrix, {0.0, 0.8, 24}), InvalidInput);
-  EXPECT_THROW(find_lattice(matrix, {0.3, 0.8, 1}), InvalidInput);
+  EXPECT_THROW(find_lattice(matrix, {.least_significance = 0}), InvalidInput);
+  EXPECT_THROW(find_lattice(matrix, {.most_candidates = 1}), InvalidInput);
   EXPECT_THROW(find_lattice(FeatureMatrix{}), InvalidInput);
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "papilla/core/error.hpp"
+#include "papilla/texture/shading.hpp"
 #include "texture/fixtures.hpp"
 
 namespace papilla {
@@ -106,6 +107,34 @@ TEST(ShapeFromShading, WeaveLitAlongOneAxisIsExact) {
   EXPECT_LT(depth_error(shape_from_shading_variational(lit(weave, options.light), options).height_px, weave), 0.03);
 }
 
+TEST(ShapeFromShading, PentlandIsExactForGentleWavesAlongTheLight) {
+  const Relief wave = [](double x, double) { return 0.2 * std::sin(2 * std::numbers::pi * x / 24); };
+  ShadingOptions options;
+  options.light = {1, 0, 1};
+  options.periodic = true;
+  const ShadingResult result = shape_from_shading_pentland(lit(wave, options.light), options);
+  EXPECT_LT(depth_error(result.height_px, wave), 0.02);
+  ASSERT_EQ(result.trace.size(), 1U);
+  EXPECT_LT(result.trace[0].error, 0.01);
+}
+
+/// Large pictures are solved from coarse to fine.
+TEST(ShapeFromShading, PyramidFindsWhatOneLevelFinds) {
+  const int side = 200;
+  const auto z = [](int x, int y) { return 9 * std::exp(-((x - 100) * (x - 100) + (y - 90) * (y - 90)) / 900.0); };
+  const HeightMap relief = test::make_relief(side, side, 1, z);
+  const Vec3 light = normalized(Vec3{1, 1, 1});
+  ShadingOptions options;
+  options.light = light;
+  const ShadingResult result = shape_from_shading_variational(render_lambert(relief, light), options);
+  double mean = 0, error = 0;
+  for (const float height : relief.mm) mean += static_cast<double>(height) / static_cast<double>(relief.mm.size());
+  for (std::size_t i = 0; i < relief.mm.size(); ++i)
+    error += std::abs(result.height_px[i] - static_cast<double>(relief.mm[i]) + mean) /
+             static_cast<double>(relief.mm.size());
+  EXPECT_LT(error / 9, 0.06);
+}
+
 TEST(ShapeFromShading, PeriodicResultsShiftWithThePicture) {
   const Relief weave = [](double x, double y) {
     return 2 * std::sin(2 * std::numbers::pi * x / 32) + std::cos(2 * std::numbers::pi * y / 48);
@@ -146,14 +175,15 @@ TEST(ShapeFromShading, AlwaysFinite) {
         options.light = light;
         options.periodic = periodic;
         options.iterations = 40;
-        for (const auto solve : {shape_from_shading_variational, shape_from_shading_tsai_shah})
+        for (const auto solve :
+             {shape_from_shading_variational, shape_from_shading_pentland, shape_from_shading_tsai_shah})
           for (const double height : solve(picture, options).height_px) ASSERT_TRUE(std::isfinite(height));
       }
 }
 
 TEST(ShapeFromShading, RefusesBadArguments) {
   const GreyImage image = test::noise_image(8, 8, 1);
-  for (const auto solve : {shape_from_shading_variational, shape_from_shading_tsai_shah}) {
+  for (const auto solve : {shape_from_shading_variational, shape_from_shading_pentland, shape_from_shading_tsai_shah}) {
     ShadingOptions options;
     options.light = {1, 0, 0};
     EXPECT_THROW(solve(image, options), InvalidInput);

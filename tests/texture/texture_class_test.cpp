@@ -64,6 +64,30 @@ TEST(TextureClass, BrushedPictureIsWeaklyOrdered) {
   EXPECT_TRUE(brushed.suitability.directional);
 }
 
+TEST(TextureClass, StripesAreOrderedWithoutSymmetry) {
+  const GreyImage image =
+      test::make_image(128, 128, [](int x, int y) { return 0.5 + 0.4 * std::sin(0.5 * x + 0.2 * y); });
+  const SymmetryAnalysis analysis = analyze_symmetry(image);
+  EXPECT_GT(analysis.lattice.stripes, 0.8);
+  const TextureClass found = classify(image, analysis.explained_variance(), analysis.lattice.stripes);
+  EXPECT_EQ(found.kind, TextureKind::strongly_ordered_nonsymmetric);
+}
+
+TEST(TextureClass, OrientationFieldFollowsTheStructure) {
+  // Circles about the middle of the left border: along them the angle is that of the radius plus 90°.
+  const GreyImage image =
+      test::make_image(256, 256, [](int x, int y) { return 0.5 + 0.4 * std::sin(0.9 * std::hypot(x, y - 128)); });
+  const OrientationField field = orientation_field(image);
+  ASSERT_EQ(field.columns, 8);
+  ASSERT_EQ(field.rows, 8);
+  for (int row = 0; row < 8; ++row) {
+    const double radius = std::atan2(row * 32 + 15.5 - 128, 7 * 32 + 15.5) * 180 / 3.141592653589793;
+    EXPECT_LT(std::abs(std::remainder(field.angle_deg[static_cast<std::size_t>(8 * row + 7)] - radius - 90, 180)), 3);
+  }
+  EXPECT_GT(field.mean_coherence, 0.8);
+  EXPECT_GT(field.spread, 0.2);
+}
+
 TEST(TextureClass, FlatPictureNeedsNothing) {
   const Classified flat = classified(test::make_image(40, 40, [](int, int) { return 0.5; }));
   EXPECT_TRUE(flat.suitability.flat);

@@ -120,6 +120,22 @@ double jackknife_half_width(const LagTable& table, double noise) {
   return texture_detail::student_quantile(k_blocks - 1) * std::sqrt(squares * (k_blocks - 1) / k_blocks);
 }
 
+/// The range of lags, doubled from 1 and 2 on, whose estimate varies least from block to block.
+LagTable steadiest(const GreyImage& image, double noise) {
+  const LagTable all = lag_table(image, std::min(k_longest_lag, std::min(image.width, image.height) / 8));
+  LagTable best;
+  double least = 0;
+  for (std::size_t lags = 2; lags <= all.size(); lags *= 2) {
+    LagTable part(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(lags));
+    const double half_width = jackknife_half_width(part, noise);
+    if (best.empty() || half_width < least) {
+      best = std::move(part);
+      least = half_width;
+    }
+  }
+  return best;
+}
+
 double mean_variance(const std::array<BlockSums, 4>& sums) {
   double total = 0;
   for (const BlockSums& direction : sums) total += direction.mean(-1);
@@ -140,8 +156,7 @@ BestDimension best_dimension(const GreyImage& image) {
   }
   // With less than this share of noise in the first lag the two shortest lags are the better estimate.
   constexpr double k_tolerable_noise = 0.1;
-  if (noise > k_tolerable_noise * mean_variance(table[0]))
-    table = lag_table(image, std::min(k_longest_lag, std::min(image.width, image.height) / 8));
+  if (noise > k_tolerable_noise * mean_variance(table[0])) table = steadiest(image, noise);
 
   result.directional_hurst = directional_hurst(table, noise, -1);
   FractalEstimate& estimate = result.estimate;

@@ -53,6 +53,20 @@ Vec3 require_light(Vec3 light, const char* function) {
   return unit;
 }
 
+std::vector<std::uint8_t> whole_bytes(const GreyImage& image) {
+  std::vector<std::uint8_t> bytes(image.pixels.size());
+  constexpr double k_rounding = 1e-4;
+  double worst = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const double value = 255 * static_cast<double>(image.pixels[i]);
+    if (!(value > -0.5 && value < 255.5)) return {};
+    bytes[i] = static_cast<std::uint8_t>(value + 0.5);
+    worst = std::max(worst, std::abs(value - bytes[i]));
+  }
+  if (worst > k_rounding) return {};
+  return bytes;
+}
+
 std::vector<std::uint8_t> stretched_bytes(const GreyImage& image) {
   std::vector<std::uint8_t> bytes(image.pixels.size(), 0);
   const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());

@@ -23,6 +23,9 @@ Vec3 require_light(Vec3 light, const char* function);
 /// The picture stretched to 0…255 and rounded; all 0 when it has a single value.
 std::vector<std::uint8_t> stretched_bytes(const GreyImage& image);
 
+/// The picture in whole steps of 1/255; empty when a value is none, or lies outside [0, 1].
+std::vector<std::uint8_t> whole_bytes(const GreyImage& image);
+
 /// Index of a sample in a row-by-row array.
 inline std::size_t pixel_index(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);

@@ -1,18 +1,20 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/texture/feature_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <cstdint>
 
+#include "autocorrelation.hpp"
 #include "checks.hpp"
-#include "fft.hpp"
 
 namespace papilla {
 namespace {
 
 using texture_detail::pixel_index;
-using texture_detail::RealFft2d;
+
+/// Nearest whole number of a value ≥ 0 below 2^62; std::round is a call for each.
+double rounded(double value) { return static_cast<double>(static_cast<std::int64_t>(value + 0.5)); }
 
 /// The picture's values minus about their mean; integers in grey steps for 8-bit pictures.
 struct Centred {
@@ -23,57 +25,38 @@ struct Centred {
 
 Centred centred(const GreyImage& image) {
   Centred result;
-  result.integers = image.bits == 8 && std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) {
-                      return std::abs(255 * static_cast<double>(v) - std::round(255 * static_cast<double>(v))) < 1e-4;
-                    });
-  result.unit = result.integers ? 1.0 / 255 : 1;
-  result.values.reserve(image.pixels.size());
-  double sum = 0;
-  for (const float grey : image.pixels) {
-    const double value = static_cast<double>(grey);
-    result.values.push_back(result.integers ? std::round(255 * value) : value);
-    sum += result.values.back();
+  const std::vector<std::uint8_t> steps =
+      image.bits == 8 ? texture_detail::whole_bytes(image) : std::vector<std::uint8_t>();
+  result.integers = !steps.empty();
+  if (result.integers) {
+    result.unit = 1.0 / 255;
+    result.values.assign(steps.begin(), steps.end());
+  } else {
+    result.values.assign(image.pixels.begin(), image.pixels.end());
   }
+  double sum = 0;
+  for (const double value : result.values) sum += value;
   double mean = sum / static_cast<double>(result.values.size());
-  if (result.integers) mean = std::round(mean);
+  if (result.integers) mean = rounded(mean);
   for (double& value : result.values) value -= mean;
   return result;
 }
 
-/// Sums of squares over rectangles [x0, x1) × [y0, y1).
-class SquareSums {
- public:
-  SquareSums(const std::vector<double>& values, int width, int height)
-      : stride_(width + 1), table_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 1), 0) {
-    for (int y = 0; y < height; ++y) {
-      double row = 0;
-      for (int x = 0; x < width; ++x) {
-        const double value = values[pixel_index(x, y, width)];
-        row += value * value;
-        table_[pixel_index(x + 1, y + 1, stride_)] = table_[pixel_index(x + 1, y, stride_)] + row;
-      }
+/// Prefix sums of the squares: entry (x, y) is the sum over [0, x) × [0, y).
+std::vector<double> square_sums(const std::vector<double>& values, int width, int height) {
+  const int stride = width + 1;
+  std::vector<double> table(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height + 1), 0);
+  for (int y = 0; y < height; ++y) {
+    double row = 0;
+    const double* value = values.data() + pixel_index(0, y, width);
+    const double* above = table.data() + pixel_index(1, y, stride);
+    double* here = table.data() + pixel_index(1, y + 1, stride);
+    for (int x = 0; x < width; ++x) {
+      row += value[x] * value[x];
+      here[x] = above[x] + row;
     }
   }
-  double operator()(int x0, int y0, int x1, int y1) const {
-    return table_[pixel_index(x1, y1, stride_)] - table_[pixel_index(x0, y1, stride_)] -
-           table_[pixel_index(x1, y0, stride_)] + table_[pixel_index(x0, y0, stride_)];
-  }
-
- private:
-  int stride_;
-  std::vector<double> table_;
-};
-
-/// Leaves Σ_x I(x) I(x + t), not yet divided by the FFT's size, in fft.real(t mod size).
-void autocorrelate(RealFft2d& fft, const Centred& picture, int width, int height, int fft_height) {
-  std::fill_n(fft.real(), fft.stride() * static_cast<std::size_t>(fft_height), 0.0);
-  for (int y = 0; y < height; ++y)
-    std::copy_n(picture.values.data() + pixel_index(0, y, width), width, &fft.real(0, y));
-  fft.forward();
-  std::complex<double>* spectrum = fft.spectrum();
-  const std::size_t count = fft.spectrum_width() * static_cast<std::size_t>(fft_height);
-  for (std::size_t i = 0; i < count; ++i) spectrum[i] = std::norm(spectrum[i]);
-  fft.backward();
+  return table;
 }
 
 }  // namespace
@@ -85,28 +68,30 @@ FeatureMatrix feature_matrix(const GreyImage& image) {
   matrix.distortion.resize(static_cast<std::size_t>(matrix.width()) * static_cast<std::size_t>(matrix.height()));
 
   const Centred picture = centred(image);
-  // Wrap-around of the cyclic correlation reaches only shifts beyond size − w.
-  const int fft_width = texture_detail::good_fft_size(w + matrix.reach_x);
-  const int fft_height = texture_detail::good_fft_size(h + matrix.reach_y);
-  RealFft2d fft(fft_width, fft_height);
-  autocorrelate(fft, picture, w, h, fft_height);
-  const SquareSums squares(picture.values, w, h);
-
-  const double unfft = 1 / (static_cast<double>(fft_width) * fft_height), unit = picture.unit * picture.unit;
-  for (int dy = 0; dy <= matrix.reach_y; ++dy)
+  const std::vector<double> products =
+      texture_detail::autocorrelation(picture.values, w, h, matrix.reach_x, matrix.reach_y);
+  const std::vector<double> squares = square_sums(picture.values, w, h);
+  const double unit = picture.unit * picture.unit;
+  const auto columns = static_cast<std::ptrdiff_t>(matrix.width());
+  double* centre = matrix.distortion.data() + pixel_index(matrix.reach_x, matrix.reach_y, matrix.width());
+  for (int dy = 0; dy <= matrix.reach_y; ++dy) {
+    const double* top = squares.data() + pixel_index(0, h - dy, w + 1);  // Rows [0, h − dy).
+    const double* cut = squares.data() + pixel_index(0, dy, w + 1);      // Rows [0, dy), left out below.
+    const double* all = squares.data() + pixel_index(0, h, w + 1);
+    const double* product = products.data() + pixel_index(matrix.reach_x, dy, matrix.width());
+    double *below = centre + dy * columns, *above = centre - dy * columns;
     for (int dx = -matrix.reach_x; dx <= matrix.reach_x; ++dx) {
       const int left = std::max(0, -dx), right = std::min(w, w - dx);
-      const double here = squares(left, 0, right, h - dy), there = squares(left + dx, dy, right + dx, h);
-      const double product = unfft * fft.real(texture_detail::wrapped(dx, fft_width), dy);
-      double numerator = std::max(0.0, here + there - 2 * product);
-      if (picture.integers) numerator = std::round(numerator);
-      const double overlap = static_cast<double>(right - left) * (h - dy);
-      const double value = dx == 0 && dy == 0 ? 0 : unit * numerator / overlap;
-      const auto centre = pixel_index(matrix.reach_x, matrix.reach_y, matrix.width());
-      const auto offset = static_cast<std::ptrdiff_t>(dy) * matrix.width() + dx;
-      matrix.distortion[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(centre) + offset)] = value;
-      matrix.distortion[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(centre) - offset)] = value;
+      const double here = top[right] - top[left];
+      const double there = all[right + dx] - cut[right + dx] - all[left + dx] + cut[left + dx];
+      double numerator = std::max(0.0, here + there - 2 * product[dx]);
+      if (picture.integers) numerator = rounded(numerator);
+      const double value = unit * numerator / (static_cast<double>(right - left) * (h - dy));
+      below[dx] = value;
+      above[-dx] = value;
     }
+  }
+  *centre = 0;
   return matrix;
 }
 

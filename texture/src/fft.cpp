@@ -3,6 +3,7 @@
 
 #include <fftw3.h>
 
+#include <algorithm>
 #include <mutex>
 #include <new>
 
@@ -59,6 +60,8 @@ void FftBuffer<T>::Free::operator()(T* data) const noexcept {
 template class FftBuffer<double>;
 
 struct RealFft2d::Plans : PlanPair {};
+struct RealFftRows::Plans : PlanPair {};
+struct ComplexFftBatch::Plans : PlanPair {};
 struct CosineTransform2d::Plans : PlanPair {};
 
 RealFft2d::RealFft2d(int width, int height)
@@ -76,6 +79,41 @@ RealFft2d::RealFft2d(int width, int height)
 RealFft2d::~RealFft2d() = default;
 void RealFft2d::forward() { fftw_execute(plans_->forward); }
 void RealFft2d::backward() { fftw_execute(plans_->backward); }
+
+RealFftRows::RealFftRows(int width, int forward_rows, int backward_rows)
+    : width_(static_cast<std::size_t>(width)),
+      buffer_(2 * spectrum_width() * static_cast<std::size_t>(std::max(forward_rows, backward_rows))),
+      plans_(std::make_unique<Plans>()) {
+  auto* complex = reinterpret_cast<fftw_complex*>(buffer_.data());
+  const int reals = static_cast<int>(2 * spectrum_width()), complexes = static_cast<int>(spectrum_width());
+  const std::scoped_lock lock(planner());
+  plans_->forward = fftw_plan_many_dft_r2c(1, &width, forward_rows, buffer_.data(), nullptr, 1, reals, complex, nullptr,
+                                           1, complexes, FFTW_ESTIMATE);
+  plans_->backward = fftw_plan_many_dft_c2r(1, &width, backward_rows, complex, nullptr, 1, complexes, buffer_.data(),
+                                            nullptr, 1, reals, FFTW_ESTIMATE);
+  plans_->require();
+}
+
+RealFftRows::~RealFftRows() = default;
+void RealFftRows::forward() { fftw_execute(plans_->forward); }
+void RealFftRows::backward() { fftw_execute(plans_->backward); }
+
+ComplexFftBatch::ComplexFftBatch(int length, int count)
+    : length_(static_cast<std::size_t>(length)),
+      buffer_(2 * length_ * static_cast<std::size_t>(count)),
+      plans_(std::make_unique<Plans>()) {
+  auto* values = reinterpret_cast<fftw_complex*>(buffer_.data());
+  const std::scoped_lock lock(planner());
+  plans_->forward = fftw_plan_many_dft(1, &length, count, values, nullptr, 1, length, values, nullptr, 1, length,
+                                       FFTW_FORWARD, FFTW_ESTIMATE);
+  plans_->backward = fftw_plan_many_dft(1, &length, count / 2, values, nullptr, 1, length, values, nullptr, 1, length,
+                                        FFTW_BACKWARD, FFTW_ESTIMATE);
+  plans_->require();
+}
+
+ComplexFftBatch::~ComplexFftBatch() = default;
+void ComplexFftBatch::forward() { fftw_execute(plans_->forward); }
+void ComplexFftBatch::backward_half() { fftw_execute(plans_->backward); }
 
 CosineTransform2d::CosineTransform2d(int width, int height)
     : buffer_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), plans_(std::make_unique<Plans>()) {

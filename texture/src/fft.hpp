@@ -57,6 +57,49 @@ class RealFft2d {
   std::unique_ptr<Plans> plans_;
 };
 
+/// Real transforms of single rows in place: the first `forward_rows` rows to spectra of width/2+1 complex values, and
+/// the first `backward_rows` spectra back.
+class RealFftRows {
+ public:
+  RealFftRows(int width, int forward_rows, int backward_rows);
+  ~RealFftRows();
+  RealFftRows(const RealFftRows&) = delete;
+  RealFftRows& operator=(const RealFftRows&) = delete;
+
+  std::size_t spectrum_width() const noexcept { return width_ / 2 + 1; }
+  double* real(int row) noexcept { return buffer_.data() + 2 * spectrum_width() * static_cast<std::size_t>(row); }
+  std::complex<double>* spectrum(int row) noexcept { return reinterpret_cast<std::complex<double>*>(real(row)); }
+  void forward();
+  void backward();  ///< Not normalised: forward and backward multiply by the width.
+
+ private:
+  struct Plans;
+  std::size_t width_;
+  FftBuffer<double> buffer_;
+  std::unique_ptr<Plans> plans_;
+};
+
+/// `count` complex transforms of `length` values in place, one behind the other.
+class ComplexFftBatch {
+ public:
+  ComplexFftBatch(int length, int count);
+  ~ComplexFftBatch();
+  ComplexFftBatch(const ComplexFftBatch&) = delete;
+  ComplexFftBatch& operator=(const ComplexFftBatch&) = delete;
+
+  std::complex<double>* data(int transform) noexcept {
+    return reinterpret_cast<std::complex<double>*>(buffer_.data()) + length_ * static_cast<std::size_t>(transform);
+  }
+  void forward();
+  void backward_half();  ///< Only the first count/2 ones; not normalised.
+
+ private:
+  struct Plans;
+  std::size_t length_;
+  FftBuffer<double> buffer_;
+  std::unique_ptr<Plans> plans_;
+};
+
 /// Cosine transform (DCT-II and its inverse) in place, rows of `width` values: diagonalises the
 /// Laplacian with reflecting borders.
 class CosineTransform2d {

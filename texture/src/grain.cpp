@@ -13,18 +13,21 @@
 #include "leather.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/texture/shading.hpp"
+#include "shaped_noise.hpp"
 
 namespace papilla {
 namespace {
 
-constexpr std::array<std::pair<GrainKind, std::string_view>, 8> k_names = {{{GrainKind::spheres6, "spheres6"},
-                                                                            {GrainKind::spheres8, "spheres8"},
-                                                                            {GrainKind::quads6, "quads6"},
-                                                                            {GrainKind::quads8, "quads8"},
-                                                                            {GrainKind::ovals6, "ovals6"},
-                                                                            {GrainKind::ovals8, "ovals8"},
-                                                                            {GrainKind::sine, "sine"},
-                                                                            {GrainKind::leather, "leather"}}};
+constexpr std::array<std::pair<GrainKind, std::string_view>, 10> k_names = {{{GrainKind::spheres6, "spheres6"},
+                                                                             {GrainKind::spheres8, "spheres8"},
+                                                                             {GrainKind::quads6, "quads6"},
+                                                                             {GrainKind::quads8, "quads8"},
+                                                                             {GrainKind::ovals6, "ovals6"},
+                                                                             {GrainKind::ovals8, "ovals8"},
+                                                                             {GrainKind::sine, "sine"},
+                                                                             {GrainKind::gaussian, "gaussian"},
+                                                                             {GrainKind::fourier, "fourier"},
+                                                                             {GrainKind::leather, "leather"}}};
 
 /// Elements on a torus: `columns` × `rows`, each row moved on by `shift` of the distance of two elements.
 struct Layout {
@@ -112,6 +115,21 @@ std::vector<double> grain_heights(GrainKind kind, const GrainOptions& options) {
     case GrainKind::sine: {
       const double wave = 2 * std::numbers::pi * 8 / options.size_mm;
       return sampled(options, [=](Vec2 p) { return std::sin(wave * p.x) * std::sin(wave * p.y); });
+    }
+    case GrainKind::gaussian: {
+      constexpr double k_correlation_mm = 0.5;  // Half of what separates roughness from relief.
+      const double length = k_correlation_mm * options.size_px / options.size_mm;
+      return texture_detail::shaped_noise(options.size_px, options.size_px, options.seed, [=](double x, double y) {
+        const double wave = std::numbers::pi * length * std::hypot(x, y);
+        return x == 0 && y == 0 ? 0 : std::exp(-wave * wave / 2);
+      });
+    }
+    case GrainKind::fourier: {
+      constexpr int k_most_waves = 12;
+      return texture_detail::shaped_noise(options.size_px, options.size_px, options.seed, [&](double x, double y) {
+        const double waves = options.size_px * std::hypot(x, y);
+        return waves > 0 && waves <= k_most_waves ? 1 / waves : 0;
+      });
     }
     case GrainKind::leather: return texture_detail::leather_relief(options.size_px, options.size_mm, options.seed);
   }

@@ -4,25 +4,39 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/texture/best_dimension.hpp"
 #include "papilla/texture/light_direction.hpp"
 #include "papilla/texture/roughness.hpp"
 #include "papilla/texture/shape_from_shading.hpp"
 #include "papilla/texture/symmetry.hpp"
 #include "papilla/texture/tiling.hpp"
+#include "shaped_noise.hpp"
+#include "slopes.hpp"
 
 namespace papilla {
 namespace {
 
-constexpr std::array<std::pair<HeightMethod, std::string_view>, 4> k_names = {
+constexpr std::array<std::pair<HeightMethod, std::string_view>, 5> k_names = {
     {{HeightMethod::automatic, "auto"},
      {HeightMethod::variational, "variational"},
+     {HeightMethod::pentland, "pentland"},
      {HeightMethod::tsai_shah, "tsai-shah"},
      {HeightMethod::intensity, "intensity"}}};
+
+constexpr std::array<std::pair<HeightRoughness, std::string_view>, 4> k_roughness_names = {
+    {{HeightRoughness::whole, "whole"},
+     {HeightRoughness::none, "none"},
+     {HeightRoughness::residual, "residual"},
+     {HeightRoughness::synthesized, "synthesized"}}};
+
+/// Finer than this is roughness, coarser is relief.
+constexpr double k_roughness_mm = 1;
 
 void require_options(const HeightOptions& options) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
@@ -34,15 +48,17 @@ void require_options(const HeightOptions& options) {
     throw InvalidInput("height_from_image: albedo " + std::to_string(options.albedo) + " is not positive");
   if (options.iterations < 0)
     throw InvalidInput("height_from_image: iterations " + std::to_string(options.iterations) + " is negative");
+  if (options.shortest_wavelength_mm != 0 && !positive(options.shortest_wavelength_mm))
+    throw InvalidInput("height_from_image: wavelength " + std::to_string(options.shortest_wavelength_mm) +
+                       " mm is not positive");
 }
 
-void choose_method(const GreyImage& image, const HeightOptions& options, HeightResult& result) {
+void choose_method(const HeightOptions& options, const Lattice& lattice, HeightResult& result) {
   if (options.method != HeightMethod::automatic) {
     result.method = options.method;
     result.reason = "asked for";
     return;
   }
-  const Lattice lattice = analyze_symmetry(image).lattice;
   result.method = lattice.found ? HeightMethod::variational : HeightMethod::intensity;
   result.reason = lattice.found ? "the picture repeats: lit elements" : "grey read as height: " + lattice.reason;
 }
@@ -73,8 +89,10 @@ std::vector<double> height_by_shading(const GreyImage& image, const HeightOption
   shading.periodic = result.map.periodic;
   if (options.iterations > 0) shading.iterations = options.iterations;
   shading.progress = options.progress;
-  ShadingResult solved = result.method == HeightMethod::variational ? shape_from_shading_variational(image, shading)
-                                                                    : shape_from_shading_tsai_shah(image, shading);
+  const auto solve = result.method == HeightMethod::variational ? shape_from_shading_variational
+                     : result.method == HeightMethod::pentland  ? shape_from_shading_pentland
+                                                                : shape_from_shading_tsai_shah;
+  ShadingResult solved = solve(image, shading);
   result.trace = std::move(solved.trace);
   result.stop = solved.stop;
   return std::move(solved.height_px);
@@ -91,6 +109,121 @@ void scale_to_depth(const std::vector<double>& heights, double depth_mm, HeightR
   result.depth_mm = range > 0 ? depth_mm : 0;
 }
 
+using Field = std::vector<double>;
+
+Field relief_of(const GreyImage& image, const HeightOptions& options, HeightResult& result) {
+  if (result.method == HeightMethod::intensity) return {image.pixels.begin(), image.pixels.end()};
+  return height_by_shading(image, options, result);
+}
+
+double range_of(const Field& field) {
+  const auto [low, high] = std::minmax_element(field.begin(), field.end());
+  return *high - *low;
+}
+
+double rms_of(const Field& field) {
+  double squares = 0;
+  for (const double value : field) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(field.size()));
+}
+
+/// The residual's waves of at most k_roughness_mm, in grey values.
+Field rough_part(const GreyImage& residual, const HeightResult& result) {
+  Field field(residual.pixels.begin(), residual.pixels.end());
+  const double pitch = result.map.pitch_mm_x;
+  const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
+  texture_detail::filter(field, residual.width, residual.height, result.map.periodic, [=](double x, double y) {
+    return (x != 0 || y != 0) && std::hypot(x, y) * longest_px >= 1 ? 1.0 : 0.0;
+  });
+  return field;
+}
+
+/// Periodic noise with the dimension and the rms of the residual's rough part.
+Field synthesized_like(const GreyImage& residual, const Field& rough, const HeightOptions& options,
+                       const HeightResult& result) {
+  constexpr int k_least_side = 32;
+  const bool measurable = std::min(residual.width, residual.height) >= k_least_side;
+  const double hurst = measurable ? std::clamp(best_dimension(residual).estimate.hurst, 0.05, 0.95) : 0.5;
+  const double pitch = result.map.pitch_mm_x;
+  const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
+  Field noise = texture_detail::shaped_noise(residual.width, residual.height, options.seed, [=](double x, double y) {
+    const double frequency = std::hypot(x, y);
+    return frequency > 0 && frequency * longest_px >= 1 ? std::pow(frequency, -hurst - 1) : 0;
+  });
+  const double rms = rms_of(rough);
+  for (double& value : noise) value *= rms;
+  return noise;
+}
+
+/// Relief of the symmetric part plus roughness, both in units of the relief's range.
+Field composed(const GreyImage& image, const Lattice& lattice, const HeightOptions& options, HeightResult& result) {
+  const SymmetricPart part = symmetric_part(image, lattice.vectors_px);
+  Field field = relief_of(part.synthesis, options, result);
+  const double range = range_of(field);
+  if (range > 0)
+    for (double& value : field) value /= range;
+  if (options.roughness == HeightRoughness::none) return field;
+  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+  const double greys = static_cast<double>(*high) - static_cast<double>(*low);
+  Field rough = rough_part(part.residual, result);
+  if (options.roughness == HeightRoughness::synthesized)
+    rough = synthesized_like(part.residual, rough, options, result);
+  for (std::size_t i = 0; i < field.size() && greys > 0; ++i) field[i] += rough[i] / greys;
+  result.roughness_rms_mm = greys > 0 ? rms_of(rough) / greys : 0;  // Of the range; scaled with it later.
+  return field;
+}
+
+/// Leaves no wave shorter than the cut, and fades those up to half as long again.
+void cut_short_waves(Field& field, const HeightOptions& options, HeightResult& result) {
+  const double pitch = result.map.pitch_mm_x;
+  if (pitch > 0) result.shortest_wavelength_mm = std::max(2 * pitch, options.shortest_wavelength_mm);
+  if (options.shortest_wavelength_mm <= 2 * pitch) return;
+  if (!(pitch > 0)) throw InvalidInput("height_from_image: a shortest wavelength in millimetres needs a pitch");
+  const double cut_px = options.shortest_wavelength_mm / pitch;
+  texture_detail::filter(field, result.map.width, result.map.height, result.map.periodic, [=](double x, double y) {
+    const double waves = std::hypot(x, y) * cut_px;  // 1 at the cut, 2/3 where the fading begins.
+    return waves <= 2.0 / 3 ? 1.0 : waves >= 1 ? 0.0 : 0.5 + 0.5 * std::cos(std::numbers::pi * (3 * waves - 2));
+  });
+}
+
+/// See HeightResult::guessed_share.
+double share_across(const HeightMap& map, Vec3 light) {
+  const Vec2 azimuth = {light.x, light.y};
+  const double length = norm(azimuth);
+  if (!(length > 0)) return 1;
+  HeightMap unit = map;
+  unit.pitch_mm_x = unit.pitch_mm_y = 1;
+  double across = 0, total = 0;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      const Vec2 slope = texture_detail::slope(unit, x, y);
+      const double sideways = cross(azimuth, slope) / length;
+      across += sideways * sideways;
+      total += dot(slope, slope);
+    }
+  return total > 0 ? across / total : 0;
+}
+
+void tell_what_is_known(const HeightOptions& options, HeightResult& result) {
+  const bool lit = result.method != HeightMethod::intensity;
+  result.assumed.emplace_back("depth: one picture tells shape, not scale");
+  if (!lit) result.assumed.emplace_back("grey value is height: nothing in the picture says so");
+  if (lit && options.albedo <= 0)
+    result.assumed.emplace_back("albedo: such that the mean grey is that of level ground");
+  if (lit && result.light_estimated) {
+    result.assumed.emplace_back("elevation of the light: 45 degrees");
+    result.assumed.emplace_back("side of the light: from above; the opposite one turns the relief inside out");
+    result.measured.emplace_back("azimuth of the light, as far as the relief has no direction of its own");
+  }
+  if (lit) result.measured.emplace_back("slopes along the light");
+  if (lit) result.assumed.emplace_back("slopes across the light: the smoothest that fit");
+  if (result.roughness == HeightRoughness::residual || result.roughness == HeightRoughness::synthesized)
+    result.assumed.emplace_back("height of the roughness: its grey range in proportion to the picture's");
+  if (result.roughness == HeightRoughness::synthesized)
+    result.measured.emplace_back("dimension and rms of the roughness");
+  if (!(result.map.pitch_mm_x > 0)) result.assumed.emplace_back("pitch: unknown");
+}
+
 }  // namespace
 
 std::string_view to_string(HeightMethod method) noexcept {
@@ -102,7 +235,28 @@ std::string_view to_string(HeightMethod method) noexcept {
 HeightMethod height_method(std::string_view name) {
   for (const auto& [value, known] : k_names)
     if (known == name) return value;
-  throw InvalidInput("height_method: '" + std::string(name) + "' is not auto, variational, tsai-shah or intensity");
+  throw InvalidInput("height_method: '" + std::string(name) +
+                     "' is not auto, variational, pentland, tsai-shah or intensity");
+}
+
+std::string_view to_string(HeightRoughness roughness) noexcept {
+  for (const auto& [value, name] : k_roughness_names)
+    if (value == roughness) return name;
+  return "unknown";
+}
+
+HeightRoughness height_roughness(std::string_view name) {
+  for (const auto& [value, known] : k_roughness_names)
+    if (known == name) return value;
+  throw InvalidInput("height_roughness: '" + std::string(name) + "' is not whole, none, residual or synthesized");
+}
+
+double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+  if (!positive(speed_mm_per_s) || !positive(rate_hz))
+    throw InvalidInput("shortest_playable_wavelength_mm: speed " + std::to_string(speed_mm_per_s) + " mm/s or rate " +
+                       std::to_string(rate_hz) + " Hz is not positive");
+  return 2 * speed_mm_per_s / rate_hz;
 }
 
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options) {
@@ -114,12 +268,23 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   result.map.height = image.height;
   result.map.pitch_mm_x = result.map.pitch_mm_y = pitch;
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
-  choose_method(image, options, result);
-  if (result.method == HeightMethod::intensity)
-    scale_to_depth({image.pixels.begin(), image.pixels.end()}, options.depth_mm, result);
-  else
-    scale_to_depth(height_by_shading(image, options, result), options.depth_mm, result);
+  const bool asks_lattice = options.method == HeightMethod::automatic || options.roughness != HeightRoughness::whole;
+  const Lattice lattice = asks_lattice ? analyze_symmetry(image).lattice : Lattice{};
+  choose_method(options, lattice, result);
+  Field field;
+  if (options.roughness != HeightRoughness::whole && lattice.found) {
+    result.roughness = options.roughness;
+    field = composed(image, lattice, options, result);
+  } else {
+    field = relief_of(image, options, result);
+  }
+  cut_short_waves(field, options, result);
+  const double range = range_of(field);
+  scale_to_depth(field, options.depth_mm, result);
+  result.roughness_rms_mm *= range > 0 ? options.depth_mm / range : 0;
   result.rms_mm = rms_height_mm(result.map);
+  if (result.method != HeightMethod::intensity) result.guessed_share = share_across(result.map, result.light);
+  tell_what_is_known(options, result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "correlation_map.hpp"
 #include "papilla/core/error.hpp"
+#include "projection_lattice.hpp"
 
 namespace papilla {
 namespace {
@@ -162,40 +163,85 @@ std::vector<Basis> coarser_lattices(const Basis& basis, int p) {
   return coarser;
 }
 
-/// Mean correlation at the nodes of `fine` that are no nodes of `coarse`, relative to those that are.
-double relative_correlation(const CorrelationMap& map, const Basis& fine, const Basis& coarse) {
+/// Sum, sum of squares and number of values.
+struct Sample {
+  double sum = 0, squares = 0;
+  int count = 0;
+  void add(double value) {
+    sum += value;
+    squares += value * value;
+    ++count;
+  }
+  double mean() const { return sum / count; }
+  /// Variance of the mean.
+  double variance() const { return std::max(0.0, squares / count - mean() * mean()) / std::max(1, count - 1); }
+};
+
+/// True when the nodes of `fine` that are no nodes of `coarse` repeat the picture as well as those that are: all but
+/// `index_tolerance`, or what their scatter explains.
+bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis& coarse, double index_tolerance) {
   const double area = cross(coarse.a, coarse.b);
   const auto whole = [](double x) { return std::abs(x - std::round(x)) < 0.01; };
-  double own = 0, other = 0;
-  int own_count = 0, other_count = 0;
+  Sample own, other;
   for (const Node& node : lattice_nodes(map, fine, whole_radius(map), 400)) {
     const bool shared = whole(cross(node.t, coarse.b) / area) && whole(cross(coarse.a, node.t) / area);
-    (shared ? own : other) += map.sample(node.t);
-    ++(shared ? own_count : other_count);
+    (shared ? own : other).add(map.sample(node.t));
   }
-  if (own_count < 2 || other_count == 0 || own <= 0) return 1;
-  return (other / other_count) / (own / own_count);
+  if (own.count < 2 || other.count == 0 || own.sum <= 0) return true;
+  constexpr double k_sure = 4;  // Standard errors.
+  const double scatter = k_sure * std::sqrt(own.variance() + other.variance());
+  return other.mean() >= own.mean() - std::max((1 - index_tolerance) * own.mean(), scatter);
 }
 
 /// Replaces the basis by a finer lattice as long as all its new nodes repeat as well, and by a
 /// coarser one where only that repeats fully.
 Basis with_right_index(const CorrelationMap& map, Basis basis, const LatticeOptions& options) {
-  for (int round = 0; round < 8; ++round) {
-    bool changed = false;
+  constexpr int k_most_rounds = 8;
+  const auto finer = [&]() -> std::optional<Basis> {
     for (const int p : {2, 3, 5})
-      for (const Basis& finer : finer_lattices(basis, p)) {
-        const Basis candidate = reduced(finer);
-        if (changed || !is_plausible(candidate)) continue;
-        if (relative_correlation(map, candidate, basis) < options.node_tolerance) continue;
-        basis = refined(map, candidate);
-        changed = true;
-      }
-    if (!changed) break;
+      for (const Basis& candidate : finer_lattices(basis, p))
+        if (is_plausible(reduced(candidate)) &&
+            repeats_on_finer(map, reduced(candidate), basis, options.index_tolerance))
+          return refined(map, reduced(candidate));
+    return std::nullopt;
+  };
+  const auto coarser = [&]() -> std::optional<Basis> {
+    for (const int p : {2, 3, 5})
+      for (const Basis& candidate : coarser_lattices(basis, p))
+        if (!repeats_on_finer(map, basis, candidate, options.index_tolerance)) return refined(map, reduced(candidate));
+    return std::nullopt;
+  };
+  for (int round = 0; round < k_most_rounds; ++round) {
+    const std::optional<Basis> next = finer();
+    if (!next) break;
+    basis = *next;
   }
-  for (const int p : {2, 3})
-    for (const Basis& coarser : coarser_lattices(basis, p))
-      if (relative_correlation(map, basis, coarser) < options.node_tolerance) return refined(map, reduced(coarser));
+  for (int round = 0; round < k_most_rounds; ++round) {
+    const std::optional<Basis> next = coarser();
+    if (!next) break;
+    basis = *next;
+  }
   return basis;
+}
+
+/// The source's method on the minima as deep as node_tolerance of the deepest, on both sides of the origin.
+std::optional<Basis> projected(const std::vector<Peak>& peaks, const LatticeOptions& options) {
+  std::vector<Vec2> points = {{0, 0}};
+  for (const Peak& peak : peaks) {
+    if (peak.correlation < options.node_tolerance * peaks.front().correlation) continue;
+    points.push_back(peak.t);
+    points.push_back(-1.0 * peak.t);
+  }
+  const auto vectors = texture_detail::projection_lattice(points);
+  if (!vectors) return std::nullopt;
+  const Basis basis = reduced({(*vectors)[0], (*vectors)[1]});
+  return is_plausible(basis) ? std::optional(basis) : std::nullopt;
+}
+
+std::optional<Basis> fitted(const CorrelationMap& map, const std::vector<Peak>& peaks, const LatticeOptions& options) {
+  const std::optional<Basis> pair = best_pair(map, peaks, options);
+  if (!pair) return std::nullopt;
+  return with_right_index(map, refined(map, *pair), options);
 }
 
 /// How far the correlation rises at a node above its mean over the cell around it.
@@ -237,7 +283,8 @@ bool is_striped(const CorrelationMap& map, const Basis& basis) {
 
 void require_input(const FeatureMatrix& matrix, const LatticeOptions& options) {
   const auto share = [](double value) { return value > 0 && value <= 1; };
-  if (!share(options.least_significance) || !share(options.node_tolerance) || options.most_candidates < 2)
+  if (!share(options.least_significance) || !share(options.node_tolerance) || !share(options.index_tolerance) ||
+      options.most_candidates < 2)
     throw InvalidInput("find_lattice: thresholds must be in (0, 1] and candidates at least 2");
   const std::size_t expected = matrix.reach_x < 0 || matrix.reach_y < 0 ? 0
                                                                         : static_cast<std::size_t>(matrix.width()) *
@@ -261,12 +308,14 @@ Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options)
   const std::vector<Peak> peaks = deepest_first(map);
   constexpr std::size_t k_reported_minima = 500;
   for (std::size_t i = 0; i < std::min(peaks.size(), k_reported_minima); ++i) lattice.minima.push_back(peaks[i].t);
-  const std::optional<Basis> pair = peaks.empty() ? std::nullopt : best_pair(map, peaks, options);
-  if (!pair) {
+  std::optional<Basis> found;
+  if (!peaks.empty())
+    found = options.method == LatticeMethod::projection ? projected(peaks, options) : fitted(map, peaks, options);
+  if (!found) {
     lattice.reason = "no two shifts repeat the picture";
     return lattice;
   }
-  const Basis basis = with_right_index(map, refined(map, *pair), options);
+  const Basis basis = *found;
   const std::vector<Node> nodes = lattice_nodes(map, basis, whole_radius(map), 2000);
   lattice.nodes = static_cast<int>(nodes.size());
   lattice.significance = significance(map, basis, nodes);
@@ -275,6 +324,7 @@ Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options)
     return lattice;
   }
   if (is_striped(map, basis)) {
+    lattice.stripes = std::clamp(std::max(map.sample(basis.a), map.sample(basis.b)), 0.0, 1.0);
     lattice.reason = "the picture repeats in one direction only";
     return lattice;
   }

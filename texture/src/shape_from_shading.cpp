@@ -5,57 +5,27 @@
 #include <cmath>
 #include <deque>
 #include <numeric>
-#include <string>
 
 #include "checks.hpp"
-#include "papilla/core/error.hpp"
+#include "pyramid.hpp"
+#include "reflectance.hpp"
 #include "relief_solver.hpp"
 
 namespace papilla {
 namespace {
 
+using texture_detail::brightness;
 using texture_detail::InverseBilaplacian;
 using texture_detail::pixel_index;
+using texture_detail::Reflectance;
+using texture_detail::reflectance;
+using texture_detail::remove_mean;
 using Field = std::vector<double>;
-
-void require_options(const GreyImage& image, const ShadingOptions& options, const char* function) {
-  texture_detail::require_image(image, function);
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-  if (!positive(options.albedo) || !positive(options.smoothness) || options.iterations < 1 ||
-      !positive(options.relative_tolerance))
-    throw InvalidInput(std::string(function) + ": albedo " + std::to_string(options.albedo) + ", smoothness " +
-                       std::to_string(options.smoothness) + ", tolerance " +
-                       std::to_string(options.relative_tolerance) + " and iterations " +
-                       std::to_string(options.iterations) + " must be positive");
-}
-
-Field brightness(const GreyImage& image, double albedo) {
-  Field values(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), values.begin(),
-                 [albedo](float grey) { return static_cast<double>(grey) / albedo; });
-  return values;
-}
-
-void remove_mean(Field& field) {
-  const double mean = std::accumulate(field.begin(), field.end(), 0.0) / static_cast<double>(field.size());
-  for (double& value : field) value -= mean;
-}
 
 double dot_product(const Field& a, const Field& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
 void add_scaled(Field& target, double factor, const Field& field) {
   for (std::size_t i = 0; i < target.size(); ++i) target[i] += factor * field[i];
-}
-
-struct Reflectance {
-  double value, dp, dq;  ///< max(0, R) and its derivatives.
-};
-
-Reflectance reflectance(Vec3 s, double p, double q) {
-  const double inverse = 1 / std::sqrt(1 + p * p + q * q);
-  const double r = (s.z - s.x * p - s.y * q) * inverse;
-  if (r <= 0) return {0, 0, 0};
-  return {r, -s.x * inverse - r * p * inverse * inverse, -s.y * inverse - r * q * inverse * inverse};
 }
 
 /// The two neighbours along one axis and the reciprocal of their distance (0 on a single pixel).
@@ -202,17 +172,22 @@ struct Descent {
   const ShadingOptions& options;
   const Stopwatch& clock;
   ShadingResult& result;
+  double begin, end;  ///< Of the progress, share of the whole.
   Field z, gradient;
+
+  void progress(int done, int of) const {
+    if (options.progress) options.progress("shape from shading", begin + (end - begin) * done / of);
+  }
 };
 
-/// Steps until converged, stalled, or `last_iteration` samples are in the trace.
-StopReason descend(Descent& state, double lambda, std::size_t last_iteration) {
+/// Steps until converged, stalled, or `steps` are done.
+StopReason descend(Descent& state, double lambda, int steps) {
   const Vec3 light = state.energy.light();
   const double alpha = (light.x * light.x + light.y * light.y) / 2 + 0.05;  // Mean of (s·k)²/|k|², kept above zero.
   CurvatureMemory memory;
   double value = state.energy.value_and_gradient(state.z, lambda, state.gradient);
   std::deque<double> history{value};
-  while (state.result.trace.size() < last_iteration) {
+  for (int done = 0; done < steps; ++done) {
     Field direction = memory.direction(state.gradient, state.inverse, alpha, lambda);
     double slope = dot_product(direction, state.gradient);
     if (!(slope < 0)) return StopReason::converged;  // The gradient is zero to rounding.
@@ -236,9 +211,7 @@ StopReason descend(Descent& state, double lambda, std::size_t last_iteration) {
     state.gradient = std::move(trial_gradient);
     value = trial_value;
     state.result.trace.push_back({state.clock.seconds(), state.energy.residual()});
-    if (state.options.progress)
-      state.options.progress("shape from shading",
-                             static_cast<double>(state.result.trace.size()) / state.options.iterations);
+    state.progress(done + 1, steps);
     history.push_back(value);
     constexpr std::size_t k_window = 5;
     if (history.size() > k_window) {
@@ -249,35 +222,148 @@ StopReason descend(Descent& state, double lambda, std::size_t last_iteration) {
   return StopReason::iteration_limit;
 }
 
-/// Light closer to the viewer than this leaves a flat start flat: the derivative of the brightness vanishes there.
-constexpr double k_least_obliqueness = 0.01;
+constexpr int k_coarsest_side = 96;  ///< Pictures from twice this on are solved at half their size first.
+constexpr int k_stages = 4;
+constexpr double k_stage_factor = 8;
+
+/// All four stages from a nearly flat start.
+Field solve_coarsest(const GreyImage& image, const ShadingOptions& options, double begin, double end,
+                     const Stopwatch& clock, ShadingResult& result) {
+  ShadingEnergy energy(image, options);
+  InverseBilaplacian inverse(image.width, image.height, options.periodic);
+  Descent state{energy,
+                inverse,
+                options,
+                clock,
+                result,
+                begin,
+                end,
+                start_height(energy.image(), inverse),
+                Field(image.pixels.size())};
+  int spent = 0;
+  for (int stage = 1; stage <= k_stages; ++stage) {
+    const double lambda = options.smoothness * std::pow(k_stage_factor, k_stages - stage);
+    const std::size_t before = result.trace.size();
+    state.begin = begin + (end - begin) * (stage - 1) / k_stages;
+    state.end = begin + (end - begin) * stage / k_stages;
+    // What a stage does not use is left to the next ones.
+    result.stop = descend(state, lambda, std::max(1, options.iterations * stage / k_stages - spent));
+    spent += static_cast<int>(result.trace.size() - before);
+  }
+  return std::move(state.z);
+}
+
+constexpr int k_share = 10;         ///< A finer level takes this part of the coarsest level's steps.
+constexpr int k_tile_side = 1024;   ///< Levels of more than twice this are refined tile by tile.
+constexpr int k_tile_overlap = 64;  ///< Mixed over between tiles: longer than what a few steps still change.
+
+StopReason refine(const GreyImage& image, const ShadingOptions& options, double begin, double end,
+                  const Stopwatch& clock, Field& z, ShadingResult& result) {
+  ShadingEnergy energy(image, options);
+  InverseBilaplacian inverse(image.width, image.height, options.periodic);
+  Descent state{energy, inverse, options, clock, result, begin, end, std::move(z), Field(image.pixels.size())};
+  const StopReason stop = descend(state, options.smoothness, std::max(1, options.iterations / k_share));
+  z = std::move(state.z);
+  return stop;
+}
+
+/// Where tiles begin along one side, and their common length.
+struct Tiles {
+  int count, length, stride;
+  explicit Tiles(int side) : count(std::max(1, side / k_tile_side)) {
+    stride = (side + count - 1) / count;
+    length = count == 1 ? side : std::min(side, stride + k_tile_overlap);
+  }
+};
+
+/// Weight of sample i of a tile: a ramp over the overlap at ends that another tile covers too.
+double ramp(int i, int length, bool open_before, bool open_after) {
+  double weight = 1;
+  if (open_before) weight = std::min(weight, (i + 1.0) / (k_tile_overlap + 1));
+  if (open_after) weight = std::min(weight, static_cast<double>(length - i) / (k_tile_overlap + 1));
+  return weight;
+}
+
+/// Refines a level too large for one piece: overlapping tiles with free borders from the common start, mixed by ramps.
+/// What is left to do at this level is local.
+StopReason refine_by_tiles(const GreyImage& image, const ShadingOptions& options, double begin, double end,
+                           const Stopwatch& clock, Field& z, ShadingResult& result) {
+  const Tiles across(image.width), down(image.height);
+  ShadingOptions local = options;
+  local.periodic = false;
+  std::vector<float> sum(z.size(), 0), weight(z.size(), 0);
+  double squares = 0;
+  StopReason stop = StopReason::converged;
+  for (int t = 0; t < across.count * down.count; ++t) {
+    const int left = t % across.count * across.stride, top = t / across.count * down.stride;
+    const auto column = [&](int x) { return texture_detail::wrapped(left + x, image.width); };
+    const auto row = [&](int y) { return texture_detail::wrapped(top + y, image.height); };
+    // Only a picture that tiles goes on beyond its last column.
+    const int width = options.periodic ? across.length : std::min(across.length, image.width - left);
+    const int height = options.periodic ? down.length : std::min(down.length, image.height - top);
+    GreyImage part{width, height, {}, 0, image.bits};
+    Field heights;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const std::size_t i = pixel_index(column(x), row(y), image.width);
+        part.pixels.push_back(image.pixels[i]);
+        heights.push_back(z[i]);
+      }
+    const double share = (end - begin) / (across.count * down.count);
+    ShadingResult steps;
+    if (refine(part, local, begin + share * t, begin + share * (t + 1), clock, heights, steps) != StopReason::converged)
+      stop = StopReason::iteration_limit;
+    if (!steps.trace.empty()) squares += steps.trace.back().error * steps.trace.back().error;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const bool before = options.periodic || left > 0, after = options.periodic || left + width < image.width;
+        const bool above = options.periodic || top > 0, below = options.periodic || top + height < image.height;
+        const double w = ramp(x, width, before && across.count > 1, after && across.count > 1) *
+                         ramp(y, height, above && down.count > 1, below && down.count > 1);
+        const std::size_t i = pixel_index(column(x), row(y), image.width);
+        sum[i] += static_cast<float>(w * (heights[pixel_index(x, y, width)] - z[i]));
+        weight[i] += static_cast<float>(w);
+      }
+  }
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] += static_cast<double>(sum[i] / weight[i]);
+  result.trace.push_back({clock.seconds(), std::sqrt(squares / (across.count * down.count))});
+  return stop;
+}
+
+/// From coarse to fine: large waves converge where they are cheap, the finest level adds the smallest ones.
+Field solve(const GreyImage& image, const ShadingOptions& options, double end, const Stopwatch& clock,
+            ShadingResult& result) {
+  if (std::min(image.width, image.height) < 2 * k_coarsest_side &&
+      std::max(image.width, image.height) <= 2 * k_tile_side)
+    return solve_coarsest(image, options, 0, end, clock, result);
+  ShadingOptions coarse = options;
+  coarse.smoothness /= 4;  // The heights halve with the pixels and the pixels are a quarter: keeps the energies' ratio.
+  Field z;
+  {
+    const GreyImage half = texture_detail::halved(image);
+    z = texture_detail::doubled(solve(half, coarse, end / 4, clock, result), half.width, half.height, image.width,
+                                image.height, options.periodic);
+  }
+  const bool large = std::max(image.width, image.height) > 2 * k_tile_side;
+  result.stop = large ? refine_by_tiles(image, options, end / 4, end, clock, z, result)
+                      : refine(image, options, end / 4, end, clock, z, result);
+  return z;
+}
 
 }  // namespace
 
 ShadingResult shape_from_shading_variational(const GreyImage& image, const ShadingOptions& options) {
-  require_options(image, options, "shape_from_shading_variational");
+  texture_detail::require_shading(image, options, "shape_from_shading_variational");
   const Stopwatch clock;
-  ShadingEnergy energy(image, options);
-  InverseBilaplacian inverse(image.width, image.height, options.periodic);
   ShadingResult result;
-  Descent state{
-      energy, inverse, options, clock, result, start_height(energy.image(), inverse), Field(image.pixels.size())};
-  constexpr int k_stages = 4;
-  constexpr double k_stage_factor = 8;
-  for (int stage = 1; stage <= k_stages; ++stage) {
-    const double lambda = options.smoothness * std::pow(k_stage_factor, k_stages - stage);
-    const auto limit = static_cast<std::size_t>(std::max(1, options.iterations * stage / k_stages));
-    result.stop = descend(state, lambda, limit);
-  }
-  remove_mean(state.z);
-  result.height_px = std::move(state.z);
+  result.height_px = solve(image, options, 1, clock, result);
+  remove_mean(result.height_px);
   return result;
 }
 
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options) {
-  require_options(image, options, "shape_from_shading_tsai_shah");
-  Vec3 s = texture_detail::require_light(options.light, "shape_from_shading_tsai_shah");
-  if (std::hypot(s.x, s.y) < k_least_obliqueness) s = normalized({k_least_obliqueness, k_least_obliqueness, 1});
+  texture_detail::require_shading(image, options, "shape_from_shading_tsai_shah");
+  const Vec3 s = texture_detail::oblique(texture_detail::require_light(options.light, "shape_from_shading_tsai_shah"));
   const Stopwatch clock;
   constexpr double k_noise = 1e-8, k_first_gain = 0.01;  // W and S of the paper.
   const Field target = brightness(image, options.albedo);

@@ -1,50 +1,50 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/texture/spectral_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "checks.hpp"
-#include "fft.hpp"
 #include "papilla/core/error.hpp"
-#include "random.hpp"
+#include "papilla/core/units.hpp"
+#include "shaped_noise.hpp"
 
 namespace papilla {
+namespace {
+
+/// H of waves along a direction: the radius of the ellipse with the half axes `hurst` along `angle` and `hurst_across`.
+double directional_hurst(const SpectralSurfaceOptions& options, double x, double y) {
+  if (!options.hurst_across) return options.hurst;
+  const double turned = std::atan2(y, x) - options.angle_deg * k_radians_per_degree;
+  const double along = options.hurst, across = *options.hurst_across;
+  return along * across / std::hypot(along * std::sin(turned), across * std::cos(turned));
+}
+
+void require(const SpectralSurfaceOptions& options) {
+  const auto fits = [](double hurst) { return hurst > 0 && hurst < 1; };
+  if (options.size < 2 || options.size > 8192)
+    throw InvalidInput("spectral_surface: size " + std::to_string(options.size) + " is not within 2 to 8192");
+  for (const double hurst : {options.hurst, options.hurst_across.value_or(options.hurst)})
+    if (!fits(hurst)) throw InvalidInput("spectral_surface: hurst " + std::to_string(hurst) + " is not within (0, 1)");
+  if (!std::isfinite(options.angle_deg)) throw InvalidInput("spectral_surface: the angle is not finite");
+}
+
+}  // namespace
 
 Surface spectral_surface(const SpectralSurfaceOptions& options) {
+  require(options);
   const int n = options.size;
-  if (n < 2 || n > 8192) throw InvalidInput("spectral_surface: size " + std::to_string(n) + " is not within 2 to 8192");
-  if (!(options.hurst > 0 && options.hurst < 1))
-    throw InvalidInput("spectral_surface: hurst " + std::to_string(options.hurst) + " is not within (0, 1)");
-
-  texture_detail::RealFft2d fft(n, n);
-  texture_detail::Random random(options.seed);
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) fft.real(x, y) = random.normal();
-  fft.forward();
-  for (int v = 0; v < n; ++v)
-    for (std::size_t u = 0; u < fft.spectrum_width(); ++u) {
-      const double waves = std::hypot(static_cast<double>(u), std::min(v, n - v));
-      const double wavelength = waves > 0 ? n / waves : 0;
-      const bool kept =
-          waves > 0 && wavelength >= options.shortest_wavelength_px && wavelength <= options.longest_wavelength_px;
-      fft.spectrum()[static_cast<std::size_t>(v) * fft.spectrum_width() + u] *=
-          kept ? std::pow(waves, -options.hurst - 1) : 0;
-    }
-  fft.backward();
-
-  Surface surface{n, std::vector<double>(static_cast<std::size_t>(n) * static_cast<std::size_t>(n)), true};
-  double squares = 0;
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) squares += fft.real(x, y) * fft.real(x, y);
-  if (!(squares > 0))
+  const auto gain = [&](double x, double y) {
+    const double waves = n * std::hypot(x, y), wavelength = waves > 0 ? n / waves : 0;
+    if (!(waves > 0) || wavelength < options.shortest_wavelength_px || wavelength > options.longest_wavelength_px)
+      return 0.0;
+    return std::pow(waves, -directional_hurst(options, x, y) - 1);
+  };
+  Surface surface{n, texture_detail::shaped_noise(n, n, options.seed, gain), true};
+  if (std::all_of(surface.heights.begin(), surface.heights.end(), [](double h) { return h == 0; }))
     throw InvalidInput("spectral_surface: no wave of a " + std::to_string(n) + " pixel surface is between " +
                        std::to_string(options.shortest_wavelength_px) + " and " +
                        std::to_string(options.longest_wavelength_px) + " pixels long");
-  const double scale = n / std::sqrt(squares);
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) surface.heights[texture_detail::pixel_index(x, y, n)] = scale * fft.real(x, y);
   return surface;
 }
 

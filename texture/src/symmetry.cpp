@@ -24,11 +24,12 @@ GreyImage centre_of(const GreyImage& image) {
 
 }  // namespace
 
-SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& options) {
+SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& options, FeatureKind feature) {
   texture_detail::require_image(image, "analyze_symmetry");
   SymmetryAnalysis analysis;
   analysis.picture = centre_of(image);
-  analysis.matrix = feature_matrix(analysis.picture);
+  analysis.matrix =
+      feature == FeatureKind::squared ? feature_matrix(analysis.picture) : absolute_feature_matrix(analysis.picture);
   analysis.lattice = find_lattice(analysis.matrix, options);
   if (analysis.lattice.found) analysis.part = symmetric_part(analysis.picture, analysis.lattice.vectors_px);
   return analysis;

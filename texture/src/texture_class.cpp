@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
@@ -55,26 +56,62 @@ std::string_view to_string(TextureKind kind) noexcept {
     case TextureKind::disordered: return "disordered";
     case TextureKind::weakly_ordered: return "weakly_ordered";
     case TextureKind::strongly_ordered_symmetric: return "strongly_ordered_symmetric";
+    case TextureKind::strongly_ordered_nonsymmetric: return "strongly_ordered_nonsymmetric";
     case TextureKind::composite: return "composite";
   }
   return "unknown";
 }
 
-TextureClass classify(const GreyImage& image, double explained_variance) {
+TextureClass classify(const GreyImage& image, double explained_variance, double stripes) {
   texture_detail::require_image(image, "classify");
   constexpr double k_strong = 0.5, k_composite = 0.15;
   const double coherence = texture_detail::structure_tensor(image).coherence();
   TextureClass result;
-  result.strongly_ordered = std::clamp(explained_variance, 0.0, 1.0);
+  result.strongly_ordered = std::clamp(std::max(explained_variance, stripes), 0.0, 1.0);
   result.weakly_ordered = (1 - result.strongly_ordered) * coherence;
   result.disordered = 1 - result.strongly_ordered - result.weakly_ordered;
-  if (result.strongly_ordered >= k_strong)
+  if (explained_variance < k_strong && stripes >= k_strong)
+    result.kind = TextureKind::strongly_ordered_nonsymmetric;
+  else if (result.strongly_ordered >= k_strong)
     result.kind = TextureKind::strongly_ordered_symmetric;
   else if (result.strongly_ordered >= k_composite)
     result.kind = TextureKind::composite;
   else if (coherence >= k_directional_coherence)
     result.kind = TextureKind::weakly_ordered;
   return result;
+}
+
+OrientationField orientation_field(const GreyImage& image) {
+  texture_detail::require_image(image, "orientation_field");
+  constexpr int k_least_block = 32, k_most_blocks = 8;
+  const auto blocks = [&](int side) { return std::clamp(side / k_least_block, 1, k_most_blocks); };
+  OrientationField field;
+  field.columns = blocks(image.width);
+  field.rows = blocks(image.height);
+  double energy = 0, coherent = 0;
+  Vec2 mean{};
+  for (int row = 0; row < field.rows; ++row)
+    for (int column = 0; column < field.columns; ++column) {
+      const int left = column * image.width / field.columns, right = (column + 1) * image.width / field.columns;
+      const int top = row * image.height / field.rows, bottom = (row + 1) * image.height / field.rows;
+      GreyImage block{right - left, bottom - top, {}, 0, image.bits};
+      for (int y = top; y < bottom; ++y)
+        block.pixels.insert(block.pixels.end(),
+                            image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(left, y)),
+                            image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(left, y)) + block.width);
+      const texture_detail::StructureTensor tensor = texture_detail::structure_tensor(block);
+      double along = tensor.angle() * 180 / std::numbers::pi + 90;
+      if (along >= 180) along -= 180;
+      field.angle_deg.push_back(along);
+      field.coherence.push_back(tensor.coherence());
+      const double weight = (tensor.xx + tensor.yy) * block.width * block.height;
+      energy += weight;
+      coherent += weight * tensor.coherence();
+      mean = mean + weight * tensor.coherence() * Vec2{std::cos(2 * tensor.angle()), std::sin(2 * tensor.angle())};
+    }
+  if (energy > 0) field.mean_coherence = coherent / energy;
+  if (coherent > 0) field.spread = 1 - norm(mean) / coherent;
+  return field;
 }
 
 Suitability measure_suitability(const GreyImage& image, const Lattice& lattice) {
@@ -91,21 +128,28 @@ Suitability measure_suitability(const GreyImage& image, const Lattice& lattice) 
 
 AnalysisPlan plan_analysis(const TextureClass& texture_class, const Suitability& suitability) {
   const bool flat = suitability.flat;
+  const bool striped = !flat && texture_class.kind == TextureKind::strongly_ordered_nonsymmetric;
   const bool ordered = !flat && texture_class.kind == TextureKind::strongly_ordered_symmetric;
   const bool mixed = !flat && texture_class.kind == TextureKind::composite;
-  const bool rough = !flat && texture_class.kind != TextureKind::strongly_ordered_symmetric;
-  const std::string lattice_reason = ordered ? "the mean cell of the lattice explains at least half of the variance"
-                                     : mixed ? "the mean cell of the lattice explains part of the variance"
-                                     : flat  ? "the picture is flat"
-                                             : "the picture has no significant lattice";
+  const bool rough = !flat && !ordered && !striped;
+  const std::string lattice_reason = ordered   ? "the mean cell of the lattice explains at least half of the variance"
+                                     : mixed   ? "the mean cell of the lattice explains part of the variance"
+                                     : flat    ? "the picture is flat"
+                                     : striped ? "the picture repeats in one direction only"
+                                               : "the picture has no significant lattice";
   AnalysisPlan plan;
   plan.push_back({"fractal_dimension", rough,
                   flat    ? "the picture is flat"
                   : rough ? "part of the texture is disordered; its roughness is a fractal dimension and an rms height"
-                          : "the texture is symmetric; a fractal dimension describes what is disordered"});
+                          : "the texture is ordered; a fractal dimension describes what is disordered"});
+  const bool weak = !flat && texture_class.kind == TextureKind::weakly_ordered;
+  plan.push_back({"orientation_field", weak,
+                  flat   ? "the picture is flat"
+                  : weak ? "the grey values follow a direction that may change from place to place"
+                         : "the texture has no direction of its own to follow"});
   plan.push_back({"primitive", ordered || mixed, lattice_reason});
-  plan.push_back({"shape_from_shading", ordered || mixed,
-                  ordered || mixed ? "the repeating elements are relief that is lit" : lattice_reason});
+  const bool lit = ordered || mixed || striped;
+  plan.push_back({"shape_from_shading", lit, lit ? "the repeating elements are relief that is lit" : lattice_reason});
   plan.push_back({"intensity_as_height", rough && !mixed,
                   flat              ? "the picture is flat"
                   : rough && !mixed ? "without repeating elements the grey value is the only reading of height"

@@ -18,6 +18,7 @@
 #include "papilla/texture/symmetry.hpp"
 #include "papilla/texture/texture_class.hpp"
 #include "papilla/texture/tiling.hpp"
+#include "papilla/texture/wallpaper_group.hpp"
 
 namespace papilla::app {
 namespace {
@@ -95,7 +96,7 @@ void describe_relief(Grain& grain) {
 
 void analyze(const MaterialRule& rule, const GreyImage& image, const ColorImage& color, Grain& grain) {
   const SymmetryAnalysis symmetry = analyze_symmetry(image);
-  const TextureClass kind = classify(image, symmetry.explained_variance());
+  const TextureClass kind = classify(image, symmetry.explained_variance(), symmetry.lattice.stripes);
   const Tiling tiling = measure_tiling(image);
   const bool monochrome = is_monochrome(color);
   const bool show = rule.show == "picture" || (rule.show == "auto" && !monochrome);
@@ -115,6 +116,8 @@ void analyze(const MaterialRule& rule, const GreyImage& image, const ColorImage&
     tag.period_m[k] = k_metres_per_mm * mm;
     vectors.push_back({mm.x, mm.y});
   }
+  tag.group = to_string(find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px).group);
+  grain.report["group"] = tag.group;
   grain.tag.symmetry = tag;
   grain.report["period_mm"] = vectors;
 }

@@ -101,7 +101,7 @@ class Value {
 HeightRule read_height(const Value& value) {
   value.expect_keys({"method", "depth_mm", "scale"});
   HeightRule rule;
-  if (const auto v = value.get("method")) rule.method = v->one_of({"auto", "variational", "tsai-shah", "intensity"});
+  if (const auto v = value.get("method")) rule.method = v->one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"});
   if (const auto v = value.get("depth_mm")) rule.depth_mm = v->number(1e-6, 100);
   if (const auto v = value.get("scale")) rule.scale = v->number(0, 100);
   return rule;

@@ -12,7 +12,7 @@ namespace papilla::app {
 
 /// How a material's picture becomes relief.
 struct HeightRule {
-  std::string method = "auto";       ///< auto, variational, tsai-shah, intensity.
+  std::string method = "auto";       ///< auto, variational, pentland, tsai-shah, intensity.
   std::optional<double> depth_mm;    ///< Peak to valley; without it 1 % of the grain's shorter side.
   double scale = 1;                  ///< Multiplies the heights; 1, 2 and 4 are the tested variants.
 };

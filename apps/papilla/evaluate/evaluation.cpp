@@ -13,11 +13,14 @@
 namespace papilla::app {
 namespace {
 
-constexpr std::array<EvaluationKind, 4> k_kinds = {{
+constexpr std::array<EvaluationKind, 7> k_kinds = {{
     {"param", "every method of unwrap on one chart: distortion against run time", evaluate_param},
     {"weld", "tolerance of the weld against boundary edges left and deviation", evaluate_weld},
     {"simplification", "tolerance of simplify against triangles left and deviation", evaluate_simplification},
     {"tessellation", "chord of CAD tessellation against deviation", evaluate_tessellation},
+    {"fractal", "size of the picture against the interval of every fractal dimension", evaluate_fractal},
+    {"symmetry", "size of the picture against what the lattice leaves unexplained", evaluate_symmetry},
+    {"height", "steps of shape from shading against depth error or residual", evaluate_height},
 }};
 
 std::string quoted(const std::string& field) {

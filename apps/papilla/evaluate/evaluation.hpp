@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "papilla/core/trace.hpp"
+#include "papilla/texture/image.hpp"
 #include "scene_options.hpp"
 #include "verb.hpp"
 
@@ -46,6 +47,18 @@ std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input);
 
 /// All ways to map one chart: error for a ladder of iterations, and the methods' own traces.
 std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input);
+/// All estimators of the fractal dimension on growing middle parts of a picture: the interval's half width.
+std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input);
+/// Both ways to a lattice and both feature matrices on growing middle parts of a picture: what stays unexplained.
+std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input);
+/// All shape-from-shading methods: the depth error over growing numbers of steps for a relief in millimetres (a float
+/// picture, .exr or .tif, lit from three sides), the residual of each step for any other picture.
+std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input);
+
+/// The middle of a picture, at most `side` pixels a side.
+GreyImage middle_part(const GreyImage& image, int side);
+/// 64, 128, … and the side itself, at most 4096.
+std::vector<int> rising_sides(int shorter_side);
 
 /// All kinds, in the order of the help.
 std::span<const EvaluationKind> evaluation_kinds();

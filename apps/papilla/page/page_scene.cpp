@@ -13,7 +13,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/decode_grey16.hpp"
-#include "player/height_source.hpp"
+#include "papilla/io/height_source.hpp"
 
 namespace papilla::app {
 namespace {
@@ -124,7 +124,7 @@ class Materials {
   }
 
   Json height(const HeightTag& tag, std::vector<HapticWarning>& warnings) {
-    const auto bytes = player::find_height_bytes(tag, scene_, folder_, warnings);
+    const auto bytes = find_height_bytes(tag, scene_, folder_, warnings);
     if (!bytes) return nullptr;
     const auto [place, added] = number_.try_emplace(*bytes, heights.size());
     if (!added) return place->second;

@@ -15,6 +15,13 @@
 namespace papilla::app {
 namespace {
 
+Index nearest_vertex(const TriangleMesh& mesh, Vec3 position) {
+  Index nearest = 0;
+  for (Index v = 1; v < mesh.positions.size(); ++v)
+    if (norm(mesh.positions[v] - position) < norm(mesh.positions[nearest] - position)) nearest = v;
+  return nearest;
+}
+
 /// Gives every method what they all share.
 MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, const PartContext& context) {
   MethodOptions o = given;
@@ -36,6 +43,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   if (o.tolerance)
     o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
   if (o.time_limit_s) o.maillot.time_limit_s = o.best.time_limit_s = o.levy.time_limit_s = *o.time_limit_s;
+  for (const PlacedPin& pin : o.pins) o.levy.pins.push_back({nearest_vertex(mesh, pin.position), pin.uv});
   o.automatic.up = up;
   o.automatic.best = o.best;
   o.reference.map = o.method == UnwrapMethod::tutte ? ReferenceMap::tutte
@@ -122,6 +130,7 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
     default: break;
   }
   const Stopwatch clock;
+  if (o.charts == ChartSource::keep) require_manifold(mesh);
   const ChartSet charts = o.charts == ChartSource::keep ? components_as_charts(mesh)
                                                         : segment_charts(mesh, segmentation_of(o, context)).charts;
   part.segment_seconds = clock.seconds();

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/param/automatic.hpp"
@@ -60,6 +61,12 @@ struct PartContext {
   double scene_extent_mm = 0;  ///< Bounding diagonal of all of them.
 };
 
+/// The vertex nearest to a place gets this uv [mm].
+struct PlacedPin {
+  Vec3 position;
+  Vec2 uv;
+};
+
 /// The chosen method and the options of each. Orientation, tile and fallback are set for all by flatten_part().
 struct MethodOptions {
   UnwrapMethod method = UnwrapMethod::automatic;
@@ -78,6 +85,7 @@ struct MethodOptions {
   ReferenceOptions reference;
   BestOptions best;
   AutomaticOptions automatic;
+  std::vector<PlacedPin> pins;  ///< Of levy.
   /// Of the methods that iterate; not given: the method's own.
   std::optional<int> iterations;
   std::optional<double> tolerance, time_limit_s;

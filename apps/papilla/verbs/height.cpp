@@ -3,11 +3,18 @@
 
 #include <fmt/core.h>
 
+#include <charconv>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 
+#include "exit_code.hpp"
 #include "height_file.hpp"
+#include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
+#include "pictures/relief.hpp"
+#include "pictures/texture_charts.hpp"
 #include "vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -16,8 +23,10 @@ namespace papilla::app {
 namespace {
 
 struct Arguments {
-  std::string image, output, normal;
-  std::string method = "auto", light = "auto", periodic = "auto";
+  std::string image, output, normal, pictures;
+  std::string method = "auto", light = "auto", periodic = "auto", roughness = "whole", cut = "none";
+  double rate_hz = 1000, speed_mm_per_s = 100;
+  bool variants = false;
   HeightOptions options;
 };
 
@@ -32,6 +41,12 @@ Json to_json(const HeightResult& result) {
   json["depth_mm"] = result.depth_mm;
   json["rms_mm"] = result.rms_mm;
   json["periodic"] = result.map.periodic;
+  json["roughness"] = {{"source", to_string(result.roughness)}, {"rms_mm", result.roughness_rms_mm}};
+  json["shortest_wavelength_mm"] =
+      result.shortest_wavelength_mm > 0 ? Json(result.shortest_wavelength_mm) : Json(nullptr);
+  json["guessed_share"] = result.guessed_share;
+  json["measured"] = result.measured;
+  json["assumed"] = result.assumed;
   json["stop"] = to_string(result.stop);
   json["trace"] = Json::array();
   for (const TraceSample& sample : result.trace)
@@ -55,7 +70,58 @@ void print(const Console& console, const Arguments& arguments, const HeightResul
   if (!result.trace.empty())
     console.print(fmt::format("shading    residual {:.4f} after {} steps, {:.2f} s, {}\n", result.trace.back().error,
                               result.trace.size(), result.trace.back().seconds, to_string(result.stop)));
+  if (result.roughness != HeightRoughness::whole)
+    console.print(fmt::format("roughness  {}, rms {:.4f} mm\n", to_string(result.roughness), result.roughness_rms_mm));
+  if (result.guessed_share > 0)
+    console.print(fmt::format("guessed    {:.0f} % of the slopes run across the light\n", 100 * result.guessed_share));
+  for (const std::string& what : result.measured) console.print(fmt::format("measured   {}\n", what));
+  for (const std::string& what : result.assumed) console.print(fmt::format("assumed    {}\n", what));
   console.print(fmt::format("written    {}\n", arguments.output));
+}
+
+/// The relief as the eye would see it, and its cross-section.
+Json write_pictures(const std::string& folder, HeightMap map, const Console& console) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw IoError(folder + ": " + failure.message());
+  const std::string relief = (fs::path(folder) / "relief.png").string();
+  const std::string section = (fs::path(folder) / "section.svg").string();
+  write_atomically(section, section_chart(map));
+  if (!(map.pitch_mm_x > 0)) map.pitch_mm_x = map.pitch_mm_y = 1;  // Slopes of a guess: the exaggeration sets them.
+  double exaggeration = 1;
+  write_color_image(relief, draw_relief(map, exaggeration));
+  console.print(fmt::format("written    {} and {}\n", relief, section));
+  return {{{"name", "relief"}, {"file", relief}, {"exaggeration", exaggeration}},
+          {{"name", "section"}, {"file", section}}};
+}
+
+/// The same relief twice and four times as deep, beside the output.
+Json write_variants(const std::string& output, const HeightMap& map, const Console& console) {
+  const std::filesystem::path path = output;
+  Json json = Json::array();
+  for (const int factor : {2, 4}) {
+    HeightMap deeper = map;
+    for (float& height : deeper.mm) height *= static_cast<float>(factor);
+    const std::string file =
+        (path.parent_path() / fmt::format("{}-x{}{}", path.stem().string(), factor, path.extension().string()))
+            .string();
+    write_height_file(file, deeper);
+    console.print(fmt::format("written    {}\n", file));
+    json.push_back({{"factor", factor}, {"file", file}});
+  }
+  return json;
+}
+
+double cut_of(const Arguments& arguments) {
+  if (arguments.cut == "none") return 0;
+  if (arguments.cut == "auto") return shortest_playable_wavelength_mm(arguments.speed_mm_per_s, arguments.rate_hz);
+  double value = 0;
+  const char* end = arguments.cut.data() + arguments.cut.size();
+  const auto parsed = std::from_chars(arguments.cut.data(), end, value);
+  if (parsed.ec != std::errc() || parsed.ptr != end || !(value > 0) || !std::isfinite(value))
+    throw UsageError("--cut " + arguments.cut + " is not auto, none or a positive number of millimetres");
+  return value;
 }
 
 Json run(Arguments& arguments, VerbContext& context) {
@@ -63,12 +129,18 @@ Json run(Arguments& arguments, VerbContext& context) {
   options.method = height_method(arguments.method);
   if (arguments.light != "auto") options.light = parse_vector("--light", arguments.light);
   if (arguments.periodic != "auto") options.periodic = arguments.periodic == "yes";
+  options.roughness = height_roughness(arguments.roughness);
+  options.shortest_wavelength_mm = cut_of(arguments);
+  options.seed = context.seed;
   options.progress = context.progress;
   const HeightResult result = height_from_image(read_grey_image(arguments.image), options);
   write_height_file(arguments.output, result.map);
   if (!arguments.normal.empty()) write_color_image(arguments.normal, normal_map(result.map));
   print(context.console, arguments, result);
-  return to_json(result);
+  Json json = to_json(result);
+  if (arguments.variants) json["variants"] = write_variants(arguments.output, result.map, context.console);
+  if (!arguments.pictures.empty()) json["pictures"] = write_pictures(arguments.pictures, result.map, context.console);
+  return json;
 }
 
 }  // namespace
@@ -93,7 +165,7 @@ void add_height(CLI::App& program) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb->add_option("--method", arguments->method, "How grey becomes height")
-      ->check(CLI::IsMember({"auto", "variational", "tsai-shah", "intensity"}))
+      ->check(CLI::IsMember({"auto", "variational", "pentland", "tsai-shah", "intensity"}))
       ->capture_default_str();
   verb->add_option("--light", arguments->light, "Direction to the light: x right, y down, z to the viewer")
       ->type_name("auto|X,Y,Z")
@@ -102,6 +174,25 @@ void add_height(CLI::App& program) {
                    "Whether the height shall tile; auto looks whether the picture does")
       ->check(CLI::IsMember({"auto", "yes", "no"}))
       ->capture_default_str();
+  verb->add_option("--roughness", arguments->roughness,
+                   "With a lattice: relief and roughness as one (whole), or the relief of the symmetric part with no "
+                   "roughness, the residual, or a synthesized surface like it")
+      ->check(CLI::IsMember({"whole", "none", "residual", "synthesized"}))
+      ->capture_default_str();
+  verb->add_option("--cut", arguments->cut, "Leave out shorter waves; auto: two ticks of the device at --speed")
+      ->type_name("auto|none|MM")
+      ->capture_default_str();
+  verb->add_option("--rate", arguments->rate_hz, "Of the device, for --cut auto")
+      ->type_name("HZ")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--speed", arguments->speed_mm_per_s, "Of the hand, for --cut auto")
+      ->type_name("MM/S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_flag("--variants", arguments->variants, "Write the relief twice and four times as deep too");
+  verb->add_option("--pictures", arguments->pictures, "Write the lit relief and its cross-section into DIR")
+      ->type_name("DIR");
 }
 
 }  // namespace papilla::app

@@ -9,8 +9,10 @@
 #include "height_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/grain.hpp"
+#include "papilla/texture/midpoint_surface.hpp"
 #include "papilla/texture/spectral_surface.hpp"
 #include "papilla/texture/stein_surface.hpp"
+#include "papilla/texture/surface_like.hpp"
 #include "vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -22,7 +24,9 @@ struct Arguments {
   std::string what, output, relief;
   std::string kind = "spheres8", light;
   std::string method = "exact";
+  std::string like;
   double hurst = 0.5;
+  std::optional<double> dimension;
   bool tile = false;
   std::optional<int> size;
   double size_mm = GrainOptions{}.size_mm, height_mm = GrainOptions{}.height_mm;
@@ -45,24 +49,85 @@ Synthesized grain(const Arguments& arguments, std::uint64_t seed) {
   return {arguments.kind, std::move(result.picture), std::move(result.relief)};
 }
 
-Synthesized fractal(const Arguments& arguments, std::uint64_t seed) {
-  const std::string method = arguments.tile ? "spectral" : arguments.method;
-  const int size = arguments.size.value_or(method == "exact" ? 257 : 256);
-  const Surface surface = method == "exact" ? brownian_surface_exact({size, arguments.hurst, seed})
-                                            : spectral_surface({.size = size, .hurst = arguments.hurst, .seed = seed});
-  Synthesized result{method, to_grey_image(surface), {}};
-  const double pitch = arguments.size_mm / size;
+/// Halvings of the side that give at least `size` samples, as midpoint displacement needs them.
+int levels_for(int size) {
+  int levels = 1;
+  while ((1 << levels) + 1 < size && levels < 13) ++levels;
+  return levels;
+}
+
+Surface fractal_surface(const Arguments& arguments, const std::string& method, int size, std::uint64_t seed) {
+  if (method == "exact") return brownian_surface_exact({size, arguments.hurst, seed});
+  if (method == "spectral") return spectral_surface({.size = size, .hurst = arguments.hurst, .seed = seed});
+  return midpoint_surface({.levels = levels_for(size),
+                           .hurst = arguments.hurst,
+                           .periodic = arguments.tile,
+                           .rule = method == "cho" ? MidpointRule::cho : MidpointRule::corrected,
+                           .seed = seed});
+}
+
+/// The surface as picture and as relief of the size and height asked for.
+Synthesized scaled(const Arguments& arguments, std::string method, const Surface& surface) {
+  Synthesized result{std::move(method), to_grey_image(surface), {}};
+  const double pitch = arguments.size_mm / surface.size;
   result.picture.pitch_mm = pitch;
-  result.relief = {size, size, result.picture.pixels, pitch, pitch, surface.periodic};
+  result.relief = {surface.size, surface.size, result.picture.pixels, pitch, pitch, surface.periodic};
   for (float& height : result.relief.mm) height *= static_cast<float>(arguments.height_mm);
   return result;
 }
 
-Json run(const Arguments& arguments, VerbContext& context) {
+Synthesized fractal(const Arguments& arguments, std::uint64_t seed) {
+  const std::string method = arguments.tile && arguments.method == "exact" ? "spectral" : arguments.method;
+  const int size = arguments.size.value_or(method == "spectral" ? 256 : 257);
+  return scaled(arguments, method, fractal_surface(arguments, method, size, seed));
+}
+
+/// The graph as a picture of one row and as a relief that is the same in every row.
+Synthesized graph(const Arguments& arguments, std::uint64_t seed) {
+  const std::vector<double> heights =
+      brownian_graph({.levels = levels_for(arguments.size.value_or(1025)), .hurst = arguments.hurst, .seed = seed});
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const int count = static_cast<int>(heights.size());
+  const double pitch = arguments.size_mm / count, range = *high - *low;
+  Synthesized result{"brownian-graph", {count, 1, {}, pitch, 32}, {count, 1, {}, pitch, pitch, false}};
+  for (const double height : heights) {
+    const double grey = range > 0 ? (height - *low) / range : 0;
+    result.picture.pixels.push_back(static_cast<float>(grey));
+    result.relief.mm.push_back(static_cast<float>(arguments.height_mm * grey));
+  }
+  return result;
+}
+
+Json signature_json(const FshotSignature& s) {
+  return {{"sta", s.sta}, {"str", s.str}, {"fs_h", s.fs_h}, {"fs_v", s.fs_v}, {"angle_deg", s.angle_deg}};
+}
+
+Synthesized like(const Arguments& arguments, const VerbContext& context, Json& json) {
+  const GreyImage image = read_grey_image(arguments.like);
+  const SurfaceLike result = surface_like(image, {.size = arguments.size.value_or(256), .seed = context.seed});
+  json["like"] = {{"image", arguments.like},
+                  {"target", signature_json(result.target)},
+                  {"achieved", signature_json(result.achieved)},
+                  {"hurst", result.hurst},
+                  {"hurst_across", result.hurst_across}};
+  context.console.print(fmt::format("like       {}: Sta {:.3f} (wanted {:.3f}), Str {:.3f} (wanted {:.3f})\n",
+                                    arguments.like, result.achieved.sta, result.target.sta, result.achieved.str,
+                                    result.target.str));
+  return scaled(arguments, "like", result.surface);
+}
+
+Synthesized made(const Arguments& arguments, const VerbContext& context, Json& json) {
+  if (!arguments.like.empty()) return like(arguments, context, json);
+  if (arguments.what == "grain") return grain(arguments, context.seed);
+  return arguments.method == "brownian-graph" ? graph(arguments, context.seed) : fractal(arguments, context.seed);
+}
+
+Json run(Arguments& arguments, VerbContext& context) {
+  if (arguments.dimension) arguments.hurst = (arguments.method == "brownian-graph" ? 2 : 3) - *arguments.dimension;
   if (arguments.tile && arguments.method == "exact" && arguments.what == "fractal")
     context.console.print("--tile takes the spectral method: exact surfaces do not tile\n");
-  const Synthesized result =
-      arguments.what == "grain" ? grain(arguments, context.seed) : fractal(arguments, context.seed);
+  Json extra = Json::object();
+  const Synthesized result = made(arguments, context, extra);
   write_grey_image(arguments.output, result.picture, 16);
   if (!arguments.relief.empty()) write_height_file(arguments.relief, result.relief);
   const auto [low, high] = std::minmax_element(result.relief.mm.begin(), result.relief.mm.end());
@@ -76,7 +141,8 @@ Json run(const Arguments& arguments, VerbContext& context) {
   json["range"] = {*low, *high};
   json["periodic"] = result.relief.periodic;
   json["seed"] = context.seed;
-  if (arguments.what == "fractal") json["hurst"] = arguments.hurst;
+  if (arguments.what == "fractal" && arguments.like.empty()) json["hurst"] = arguments.hurst;
+  json.update(extra);
   return json;
 }
 
@@ -96,7 +162,8 @@ void add_synthesize(CLI::App& program) {
       ->type_name("FILE");
   verb->add_option("--relief", arguments->relief, "True relief: 16-bit .png, or .exr or .tif in millimetres")
       ->type_name("FILE");
-  verb->add_option("--size", arguments->size, "Pixels a side; 512 for grain, 257 for exact, 256 for spectral")
+  verb->add_option("--size", arguments->size,
+                   "Pixels a side; 512 for grain, 256 for spectral and --like, 1025 for a graph, else 257")
       ->type_name("N");
   verb->add_option("--size-mm", arguments->size_mm, "Side of the tile")
       ->type_name("MM")
@@ -109,11 +176,19 @@ void add_synthesize(CLI::App& program) {
   verb->add_option("--kind", arguments->kind, "Grain")->check(CLI::IsMember(kinds))->capture_default_str();
   verb->add_option("--light", arguments->light, "Grain: direction to the light, x right, y down, z to the viewer")
       ->type_name("X,Y,Z");
-  verb->add_option("--method", arguments->method,
-                   "Fractal: exact (fractional Brownian surface), spectral (tiles, smoother)")
-      ->check(CLI::IsMember({"exact", "spectral"}))
+  verb->add_option(
+          "--method", arguments->method,
+          "Fractal: exact (fractional Brownian surface), spectral (tiles, smoother), brownian-surface (midpoint "
+          "displacement), cho (its three-step variant), brownian-graph (one row)")
+      ->check(CLI::IsMember({"exact", "spectral", "brownian-surface", "cho", "brownian-graph"}))
       ->capture_default_str();
-  verb->add_option("--hurst", arguments->hurst, "Fractal: H in (0, 1); the dimension is 3 - H")->capture_default_str();
+  CLI::Option* hurst = verb->add_option("--hurst", arguments->hurst, "Fractal: H in (0, 1); the dimension is 3 - H")
+                           ->capture_default_str();
+  verb->add_option("--dimension", arguments->dimension, "Fractal: dimension in place of H, of a graph 2 - H")
+      ->type_name("D")
+      ->excludes(hurst);
+  verb->add_option("--like", arguments->like, "Fractal: with the roughness and direction of this picture")
+      ->type_name("IMAGE");
   verb->add_flag("--tile", arguments->tile, "Fractal: the result shall tile");
 }
 

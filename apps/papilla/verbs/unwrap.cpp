@@ -26,7 +26,7 @@ struct Options {
   std::string grain = "up";
   int texture_px = 0;  // 0: no second set of uv
   double gutter_px = 4;
-  std::vector<std::string> density;
+  std::vector<std::string> density, pins;
   std::vector<double> tile{0, 0};
   SceneOptions scene;
   UnwrapOptions unwrap;
@@ -114,12 +114,32 @@ void choose_solver(const std::string& name, MethodOptions& method) {
   if (!known) throw UsageError("--solver " + name + ": " + unwrap_method_name(method.method) + " has no such solver");
 }
 
+/// X,Y,Z=U,V.
+PlacedPin parse_pin(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  PlacedPin pin;
+  double* const uv[] = {&pin.uv.x, &pin.uv.y};
+  if (equals != std::string::npos) {
+    pin.position = parse_vector("--pin", text.substr(0, equals));
+    const char *at = text.data() + equals + 1, *end = text.data() + text.size();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto [rest, error] = std::from_chars(at, end, *uv[k]);
+      if (error != std::errc() || (k == 0 ? rest == end || *rest != ',' : rest != end)) break;
+      if (k == 1) return pin;
+      at = rest + 1;
+    }
+  }
+  throw UsageError("--pin '" + text + "': expected X,Y,Z=U,V");
+}
+
 /// What is left to do when the command line is read.
 MethodOptions method_options(const Options& options) {
   MethodOptions method = options.unwrap.method;
   if (!takes_charts(method.method) && method.charts == ChartSource::keep)
     throw UsageError("--charts keep: " + unwrap_method_name(method.method) + " makes its own charts");
   choose_solver(options.solver, method);
+  if (!options.pins.empty() && method.method != UnwrapMethod::levy) throw UsageError("--pin needs --method levy");
+  for (const std::string& text : options.pins) method.pins.push_back(parse_pin(text));
   if (options.grain == "longest") {
     method.grain = GrainSource::longest;
   } else if (options.grain != "up") {
@@ -176,6 +196,8 @@ Json run(const Options& options, VerbContext& context) {
   check_usage(options);
   const UnwrapOptions unwrap = unwrap_options(options);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
+  if (!options.pins.empty() && scene.parts.size() != 1)
+    throw UsageError("--pin: " + options.input + " has " + std::to_string(scene.parts.size()) + " parts, expected one");
   const UnwrapReport report = unwrap_named(options.input, scene, unwrap, context.progress);
   const SceneDistortion distortion =
       measure_scene(scene, {}, [&](std::size_t p) { return report.parts[p].failure.empty(); });
@@ -243,6 +265,8 @@ void add_method_options(CLI::App& verb, Options& options) {
   weight("--smoothness", m.levy.smoothness, "Of levy: weight of smooth interpolation");
   weight("--orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
   weight("--length", m.levy.length, "Of levy: weight of even lengths");
+  verb.add_option("--pin", options.pins, "Of levy: the vertex nearest to a place gets these uv; two or more")
+      ->type_name("X,Y,Z=U,V");
   add_choice<IntermediateShape>(&verb, "--shape", m.intermediate.shape,
                                 {{"sphere", IntermediateShape::sphere},
                                  {"cylinder", IntermediateShape::cylinder},

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
+#include "papilla/haptic/large_array.hpp"
 
 namespace papilla {
 
@@ -43,6 +45,8 @@ class Bvh {
 
   /// leaf_order()[i]: the number of the input box that stands at place i.
   const std::vector<std::uint32_t>& leaf_order() const noexcept { return order_; }
+  /// Hands the order over, for owners that need it only while they sort their items.
+  std::vector<std::uint32_t> take_leaf_order() noexcept { return std::exchange(order_, {}); }
   bool empty() const noexcept { return nodes_.empty(); }
   std::size_t bytes() const noexcept { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
 
@@ -71,6 +75,7 @@ class Bvh {
     std::uint32_t count = 0;  ///< Leaf: number of boxes; else 0.
   };
   static constexpr int k_stack = 96;
+  static constexpr std::uint32_t k_root = 1;  // So that two children lie side by side in a line of the cache.
 
   struct Slabs {
     double origin[3], inverse[3], radius;
@@ -112,7 +117,7 @@ class Bvh {
     };
     Entry stack[k_stack];
     int size = 0;
-    Entry now{key(nodes_[0]), 0};
+    Entry now{key(nodes_[k_root]), k_root};
     for (;;) {
       if (wanted(now.key)) {
         const Node& node = nodes_[now.node];
@@ -130,7 +135,7 @@ class Bvh {
     }
   }
 
-  std::vector<Node> nodes_;
+  LargeArray<Node> nodes_;
   std::vector<std::uint32_t> order_;
 };
 

@@ -10,6 +10,18 @@
 
 namespace papilla {
 
+/// How a material's relief becomes a force. `heightfield` is a contact with the displaced surface; the others are
+/// stimuli on the smooth base, after Schulze 2005 and Cho 2017, and promise no passivity. See stimulus.hpp.
+enum class ForceModel {
+  heightfield,
+  orthogonal,
+  lateral,
+  lateral_isotropic,
+  graph_orthogonal,
+  graph_lateral,
+  textured_normal,
+};
+
 /// What a surface does to a probe; the numbers of the material tag that the tick needs.
 struct ContactMaterial {
   double stiffness = 500;               ///< N/m.
@@ -18,6 +30,10 @@ struct ContactMaterial {
   double dynamic_friction = 0;          ///< Coulomb, dimensionless, at most static_friction.
   double stribeck_velocity = 0.01;      ///< m/s, the speed over which static friction fades into dynamic.
   std::optional<std::uint32_t> height;  ///< Index of the relief in the surface's height fields.
+  ForceModel model = ForceModel::heightfield;
+  std::optional<std::uint32_t> stimulus;  ///< Index of the relief that a stimulus reads; it displaces nothing.
+  double amplitude = 0.01;                ///< A of a stimulus: N per grey level, or per grey level and pixel.
+  bool literal_sign = false;              ///< Lateral stimuli push uphill, as the source prints them.
 };
 
 /// Triangles to be felt: metres, in the frame of the scene, counter-clockwise seen from outside.

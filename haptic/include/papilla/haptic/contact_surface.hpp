@@ -9,6 +9,7 @@
 #include "papilla/haptic/bvh.hpp"
 #include "papilla/haptic/contact_mesh.hpp"
 #include "papilla/haptic/height_field.hpp"
+#include "papilla/haptic/neighbourhood.hpp"
 
 namespace papilla {
 
@@ -17,6 +18,7 @@ struct SweepHit {
   double t = 0;                ///< Place on the way in [0, 1] where the probe touches.
   Vec3 normal;                 ///< Unit, out of the obstacle: the gradient of the clearance there.
   double penetration_m = 0;    ///< Minus the clearance at t: positive when the probe was too deep at the start already.
+  double skin_m = 0;           ///< How thick the skin is along `normal`: less than skin_m() on a sloping relief.
   std::uint32_t triangle = 0;  ///< Number in the ContactMesh.
   std::uint32_t material = 0;
 };
@@ -29,6 +31,17 @@ struct SurfacePoint {
   double height_m = 0;     ///< Relief above `point` as the front side feels it (dilated by the probe), ≥ 0.
   bool on_border = false;  ///< On an edge or corner of its triangle, where the face normal alone tells no side.
   std::uint32_t triangle = 0;
+  std::uint32_t material = 0;
+};
+
+/// What a stimulus reads of a relief that displaces nothing.
+struct StimulusSample {
+  double grey = 0;  ///< Grey levels above that of height 0.
+  Vec3 slope;       ///< Its gradient along the surface, grey levels per metre.
+  Vec3 along_u;     ///< Unit tangent along which u grows.
+  Vec3 point, normal;
+  double height_m = 0;
+  double pixel_m = 0;  ///< Length of a pixel on the surface.
   std::uint32_t material = 0;
 };
 
@@ -47,15 +60,15 @@ struct SurfacePoint {
 /// the relief is deep) the move is shortened and the valleys of the relief end at the base. Heights at a uv seam meet
 /// in a fillet of the size of their difference: no hole.
 ///
-/// Build: O(n log n); about 1 µs a triangle. Memory: 44 bytes a triangle, 36 more with relief, and the tree.
-/// Vertices are rounded to single precision around the centre of the scene (0.5 µm at 10 m). Queries are noexcept and
-/// allocate nothing; the same input gives the same bits.
+/// Build: O(n log n); about 1 µs a triangle. Memory: 18 bytes a triangle, 12 a vertex (24 where there is relief), and
+/// the tree, about 18 bytes a triangle. Vertices are rounded to single precision around the centre of the scene (0.5 µm
+/// at 10 m). Queries are noexcept and allocate nothing; the same input gives the same bits.
 class ContactSurface {
  public:
   /// @param mesh triangles with zero area or non-finite vertices are left out (see skipped_triangles()).
   /// @param probe_radius_m r ≥ 0.
   /// @throws InvalidInput when indices are out of range, array sizes disagree, a material's numbers are not finite or
-  ///         negative, or nothing is left.
+  ///         negative, there are more than 32767 materials, or nothing is left.
   ContactSurface(const ContactMesh& mesh, std::vector<ContactMaterial> materials, std::vector<HeightField> heights,
                  double probe_radius_m);
 
@@ -63,11 +76,24 @@ class ContactSurface {
   /// tolerance_m() deep) at `from` is stopped only by what it would go deeper into.
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to) const noexcept;
 
+  /// Collects what a probe can touch within `radius_m` of `centre`.
+  /// @returns false, with an empty neighbourhood, when that is more than fits.
+  bool gather(Vec3 centre, double radius_m, Neighbourhood& near) const noexcept;
+
+  /// How far a probe at `from` may go in any direction before it leaves what was gathered; negative: it is outside.
+  double margin(Vec3 from, const Neighbourhood& near) const noexcept { return near.margin(from - origin_); }
+
+  /// The same hit, from what was gathered; from the tree as soon as the way leaves that.
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept;
+
   /// Nearest point of the base within `radius_m`, by brute nearest-first search.
   std::optional<SurfacePoint> closest_point(Vec3 p, double radius_m) const noexcept;
 
   /// The same, among the triangles of one material.
   std::optional<SurfacePoint> closest_point(Vec3 p, double radius_m, std::uint32_t material) const noexcept;
+
+  /// The stimulus of the nearest triangle within `radius_m` that has one.
+  std::optional<StimulusSample> stimulus(Vec3 p, double radius_m) const noexcept;
 
   /// How often the straight way from `from` up to, but without, `to` goes through the base triangles (Möller and
   /// Trumbore 1997). Triangles met at the same place, as duplicates and at edges, count once; at most 16.
@@ -91,40 +117,55 @@ class ContactSurface {
   std::size_t bytes() const noexcept;
 
  private:
-  static constexpr std::uint32_t k_no_relief = 0xffffffffU;
+  static constexpr std::uint32_t k_nothing = 0xffffffffU;
   struct Corners {
     Vec3 a, b, c;
   };
-  struct Packed {
-    float v[3][3];
-    std::uint32_t material;
-    std::uint32_t relief;  ///< Index into reliefs_, or k_no_relief.
-  };
+  using Corner = std::array<float, 3>;
   struct Relief {
-    float uv[3][2];
-    float shift[3];  ///< How far the base was moved at each corner, ≤ 0.
+    float u, v;
+    float shift;  ///< How far the base was moved, ≤ 0.
   };
+  static constexpr std::uint16_t k_relief_bit = 0x8000;
+  struct Weld;
   struct Foot;
+  struct Approach;
   struct Clearance;
 
+  bool has_relief(std::uint32_t place) const noexcept { return (material_[place] & k_relief_bit) != 0; }
+  std::uint32_t material_of(std::uint32_t place) const noexcept { return material_[place] & ~unsigned{k_relief_bit}; }
+  const Relief& relief(std::uint32_t place, std::size_t corner) const noexcept {
+    return reliefs_[triangles_[place][corner]];
+  }
+  double top_of(std::uint32_t place) const noexcept;
   Corners corners(std::uint32_t place) const noexcept;
-  Foot foot(const Corners& t, Vec3 x) const noexcept;
+  static Foot foot(const Corners& t, Vec3 x) noexcept;
   Clearance clearance_of(std::uint32_t place, const Corners& t, Vec3 x) const noexcept;
   double relief_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* gradient) const noexcept;
+  static Vec3 in_plane(const Corners& t, double by_v, double by_w) noexcept;
   double texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept;
-  std::optional<double> approach(const Corners& t, Vec3 from, Vec3 way, double at, double radius,
-                                 double t_max) const noexcept;
+  static void look(const Corners& t, Vec3 from, Vec3 way, double at, Approach& state) noexcept;
+  bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double t_max, Approach& state) const noexcept;
+  Box3f way_box_of(Vec3 a, Vec3 b) const noexcept;
+  bool beside(std::uint32_t place, const Box3f& box) const noexcept;
   static bool comes_before(const SweepHit& a, const SweepHit& b) noexcept;
-  void sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, std::optional<SweepHit>& best) const noexcept;
-  void sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, std::optional<SweepHit>& best) const noexcept;
+  void sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max, std::optional<SweepHit>& best) const noexcept;
+  void sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
+                   std::optional<SweepHit>& best) const noexcept;
+  void sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
+                    std::optional<SweepHit>& best) const noexcept;
+  std::optional<SweepHit> sweep_near(const Neighbourhood& near, Vec3 start, Vec3 way, double t_max) const noexcept;
   template <class Accept>
   std::optional<SurfacePoint> nearest(Vec3 p, double radius, Accept&& accept) const noexcept;
 
   std::vector<ContactMaterial> materials_;
   std::vector<HeightField> heights_;
-  std::vector<Packed> triangles_;  // In the order of the tree's leaves, around origin_.
-  std::vector<Relief> reliefs_;
-  std::vector<std::uint32_t> source_;  // Number in the ContactMesh.
+  // Triangles in the order of the tree's leaves; vertices around origin_, in the order in which triangles name them.
+  LargeArray<std::array<std::uint32_t, 3>> triangles_;
+  LargeArray<std::uint16_t> material_;  // With k_relief_bit where there is relief.
+  LargeArray<std::uint32_t> source_;    // Number in the ContactMesh.
+  LargeArray<Corner> vertices_;
+  LargeArray<Relief> reliefs_;  // Per vertex; empty when nothing has relief.
   Bvh bvh_;
   Vec3 origin_, low_, high_;
   double radius_ = 0, skin_ = 0, tallest_ = 0;

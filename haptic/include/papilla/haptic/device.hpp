@@ -40,6 +40,10 @@ class HapticDevice {
   virtual ~HapticDevice() = default;
 
   virtual const DeviceCaps& caps() const noexcept = 0;
+  /// Whether the device's own frames set the pace: then the loop calls wait() before each read() instead of sleeping.
+  virtual bool is_clock() const noexcept { return false; }
+  /// Waits for the next fresh position, at most `longest_s`. @returns how late the caller is for it, in seconds.
+  virtual double wait(double longest_s) noexcept { return 0 * longest_s; }
   /// The newest position. @returns false when the device is lost.
   virtual bool read(DeviceState& state) noexcept = 0;
   /// Sets the force on the hand in newtons. @returns false when the device is lost.

@@ -22,12 +22,20 @@ struct RecordRow {
   bool in_contact = false;
 };
 
+/// What the loop is doing now, for other threads to look at. The numbers are from about the same tick.
+struct LoopStatus {
+  std::atomic<std::uint64_t> ticks{0}, contact_ticks{0}, lost_contact_ticks{0}, missed_deadlines{0};
+  std::atomic<double> force_n{0}, tick_us{0}, wakeup_us{0};
+};
+
 struct LoopOptions {
   double rate_hz = 1000;
   std::uint64_t ticks = 2000;
+  double watchdog_s = 0.01;          ///< Age of the newest position from which on there is no force.
   bool paced = true;                 ///< False: ticks follow each other at once (tests, replays faster than time).
   const Trajectory* hand = nullptr;  ///< For the recording's hand columns; without it they repeat the probe.
   std::vector<RecordRow>* record = nullptr;  ///< Filled with one row a tick; its memory is taken before the loop.
+  LoopStatus* status = nullptr;              ///< Kept up to date, lock-free.
   const std::atomic<bool>* stop = nullptr;   ///< The loop ends at the next tick when it is true.
 };
 
@@ -46,6 +54,7 @@ struct LoopResult {
 /// Reads the device, computes, writes, `rate_hz` times a second, until the ticks are done, `stop` is set, the device is
 /// lost or the guard reports a fault; then writes zero force and stops the device, on every way out.
 ///
+/// A device that is a clock paces the loop by its own frames instead; `rate_hz` then only says how long a tick is.
 /// Asks for SCHED_FIFO and locked memory and goes on without them. Wakes at absolute times, so that delays don't add
 /// up; a tick that ends after the next one should have begun is a missed deadline. With a simulated device the
 /// recording is the same bit for bit on every run, whatever the timing.

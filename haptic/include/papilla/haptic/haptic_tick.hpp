@@ -7,6 +7,7 @@
 #include "papilla/haptic/force_model.hpp"
 #include "papilla/haptic/proxy.hpp"
 #include "papilla/haptic/safety.hpp"
+#include "papilla/haptic/stimulus.hpp"
 
 namespace papilla {
 
@@ -15,7 +16,7 @@ class HapticTick {
  public:
   /// @param surface must outlive the object; its materials should be stable for the device (see clamp_to_stable()).
   HapticTick(const ContactSurface& surface, const SafetyLimits& limits, double period_s) noexcept
-      : surface_(&surface), period_(period_s), proxy_(surface), audit_(surface), guard_(limits) {}
+      : surface_(&surface), period_(period_s), proxy_(surface), audit_(surface), stimulus_(surface), guard_(limits) {}
 
   /// @returns the force on the hand in newtons.
   Vec3 operator()(const DeviceState& device) noexcept {
@@ -28,8 +29,20 @@ class HapticTick {
     const ProxyState& state = proxy_.update(probe, period_);
     lost_ = audit_.lost(probe, state.in_contact);
     // A probe that is no number gives no force, not the one of the tick before.
-    const Vec3 force = is_finite(probe) ? heightfield_force(*surface_, state, probe, velocity_) : probe;
+    Vec3 force = is_finite(probe) ? heightfield_force(*surface_, state, probe, velocity_) : probe;
+    if (is_finite(probe) && stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
     return guard_.apply(force, period_, device.age_s);
+  }
+
+  /// Puts the probe somewhere without touching what lies between; clears a fault, and forces fade in again.
+  void reset(Vec3 position) noexcept {
+    proxy_.reset(position);
+    audit_ = ContactAudit(*surface_);
+    guard_.resume();
+    velocity_ = {};
+    last_ = position;
+    started_ = true;
+    lost_ = false;
   }
 
   const ProxyState& proxy() const noexcept { return proxy_.state(); }
@@ -42,6 +55,7 @@ class HapticTick {
   double period_;
   Proxy proxy_;
   ContactAudit audit_;
+  Stimulus stimulus_;
   ForceGuard guard_;
   Vec3 last_, velocity_;
   bool started_ = false, lost_ = false;

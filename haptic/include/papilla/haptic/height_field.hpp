@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -64,10 +65,17 @@ class HeightField {
   /// @param metres_per_uv length of one unit of the untransformed u and v on the surface, > 0.
   HeightField dilated(double radius_m, Vec2 metres_per_uv) const;
 
+  /// The same relief with half the samples in each direction, each the mean of four. Waves shorter than four of the old
+  /// texels are lost.
+  /// @throws InvalidInput when a size is odd.
+  HeightField halved() const;
+
   double min_m() const noexcept { return min_m_; }
   double max_m() const noexcept { return max_m_; }
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
+  /// Grey levels, of which there are 256, per metre of height.
+  double greys_per_m() const noexcept { return options_.scale_m != 0 ? 256 / std::abs(options_.scale_m) : 0; }
   /// Samples met per unit of untransformed u and v: the columns of the map from uv to texels.
   std::array<Vec2, 2> texels_per_uv() const noexcept;
 

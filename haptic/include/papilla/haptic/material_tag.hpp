@@ -46,6 +46,14 @@ struct RoughnessTag {
   friend bool operator==(const RoughnessTag&, const RoughnessTag&) = default;
 };
 
+/// How the relief becomes a force, when it is not felt as what it is.
+struct ForceModelTag {
+  std::string name = "heightfield";  ///< A name of force_model().
+  double amplitude = 0.01;           ///< A: N per grey level, or per grey level and pixel.
+  bool literal = false;              ///< "sign": "literal": lateral forces push uphill.
+  friend bool operator==(const ForceModelTag&, const ForceModelTag&) = default;
+};
+
 struct SymmetryTag {
   std::string group;               ///< Wallpaper group, for example "pmm".
   std::array<Vec2, 2> period_m{};  ///< The two lattice vectors.
@@ -68,6 +76,7 @@ struct MaterialTag {
   double stribeck_velocity = 0.01;  ///< m/s, > 0.
   std::optional<HeightTag> height;
   std::optional<RoughnessTag> roughness;
+  std::optional<ForceModelTag> force_model;
   std::optional<SymmetryTag> symmetry;
   std::optional<ProvenanceTag> provenance;
   friend bool operator==(const MaterialTag&, const MaterialTag&) = default;
@@ -75,8 +84,8 @@ struct MaterialTag {
 
 /// Reads one tag. Unknown members are ignored. A value of the wrong type or range is replaced by its default and
 /// reported: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (the relief is dropped when its
-/// scale or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_symmetry,
-/// tag_provenance.
+/// scale or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness,
+/// tag_force_model, tag_symmetry, tag_provenance.
 /// @param json the object itself, not the extras around it.
 /// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);

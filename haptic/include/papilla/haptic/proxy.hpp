@@ -60,11 +60,15 @@ class Proxy {
   struct Planes;
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   double friction(const ContactMaterial& material) const noexcept;
+  void look_around(Vec3 from, double travel) noexcept;
 
   const ContactSurface* surface_;
   ProxyState state_;
   double slide_speed_ = 0;  // m/s, of the tick before.
   bool started_ = false;
+  Vec3 probe_;  // Of the tick before.
+  Neighbourhood near_;
+  double widest_m_ = 1;  // Radius that is likely to fit into near_.
 };
 
 }  // namespace papilla

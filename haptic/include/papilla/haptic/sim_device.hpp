@@ -57,6 +57,10 @@ class SimDevice final : public HapticDevice {
   Vec3 hand() const noexcept { return hand_->position(time_s()); }  ///< Where the trajectory is.
   Vec3 true_position() const noexcept { return position_; }
   Vec3 velocity() const noexcept { return velocity_; }
+  /// Work that the hand has done on the handle, in joules: with the energy that handle and wall hold, the observer of
+  /// passivity at the port between hand and device. A device and wall that are passive never give more than they got,
+  /// so it never falls below zero from rest; an unstable contact feeds the hand.
+  double hand_work_j() const noexcept { return hand_work_; }
 
  private:
   static constexpr std::size_t k_history = 64;
@@ -68,6 +72,7 @@ class SimDevice final : public HapticDevice {
   double period_;
   HandCoupling coupling_;
   Vec3 position_, velocity_;
+  double hand_work_ = 0;
   std::uint64_t tick_ = 0;
   bool started_ = false;
   std::array<Vec3, k_history> force_{};  // force_[i % k_history] is held during tick i.

@@ -8,7 +8,19 @@
 
 namespace papilla {
 
+/// What a synthetic hand does once it presses.
+enum class Motion {
+  stroke,  ///< Straight along the surface, back where it ends.
+  circle,  ///< Around a circle of circle_m, on the surface.
+  slide,   ///< A smooth random way.
+  tap,     ///< Up and down at taps_per_s, on one place.
+};
+
 struct StrokeOptions {
+  Motion motion = Motion::stroke;
+  std::uint64_t seed = 1;  ///< Of the random slide.
+  double circle_m = 0.01;  ///< Radius.
+  double taps_per_s = 4;
   double depth_m = 1e-3;  ///< How far the hand goes below the surface.
   double speed_m_per_s = 0.1;
   double seconds = 2;        ///< Length of the whole trajectory.
@@ -17,7 +29,7 @@ struct StrokeOptions {
 };
 
 /// The hand of a run without a trajectory: comes down on the base point of `material` that is nearest to `near`,
-/// presses, and strokes over that material, straight along the surface, back where the material ends. The path is the
+/// presses, and moves over that material as `motion` says, back where the material ends. The path is the
 /// base surface moved inwards by the depth, in steps of 1 mm or a hundredth of the scene, whichever is shorter.
 /// Deterministic. Cost: one closest-point query a step.
 /// @throws InvalidInput when the surface has no triangle of the material or a number is not > 0.

@@ -28,9 +28,16 @@ struct FeatureMatrix {
 /// Grey values as in the picture (in [0, 1] for pictures). Pictures with 8 bits give the exact value
 /// of the direct sum, because its numerator in grey steps is an integer and the FFT's error is below ½;
 /// others agree with it to 1e-9 of the picture's variance.
-/// Cost: two FFTs of (3w/2) × (3h/2), about 35 ms for 1024². Deterministic.
+/// Cost: two FFTs of (3w/2) × (3h/2), about 25 ms for 1024². Deterministic.
 /// @throws InvalidInput when the picture is empty or not finite.
 /// Wu and Chen, Statistical feature matrix for texture analysis, 1992; Schulze 2005, definitions 7.3 to 7.7.
 FeatureMatrix feature_matrix(const GreyImage& image);
+
+/// The same with the absolute distortion that the source's displayed definition has,
+///   d(t) = (1/n(t)) Σ_x |I(x) − I(x + t)|,  in grey values,
+/// a direct sum: no transform gives it. Exact for 8-bit pictures (sums of whole steps).
+/// Cost: O(pixels²): about 0.1 s at 256², 20 s at 1024², shared by the threads. Independent of their number.
+/// @throws InvalidInput as feature_matrix(), and for pictures over 2048 pixels a side.
+FeatureMatrix absolute_feature_matrix(const GreyImage& image);
 
 }  // namespace papilla

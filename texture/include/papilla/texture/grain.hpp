@@ -17,9 +17,11 @@ namespace papilla {
 ///   ovals6, ovals8      55 or 85 ellipsoid segments, five a row, each row moved on by nearly half an element (5/11 or
 ///                       8/17 of the distance, so that an odd number of rows tiles exactly)
 ///   sine                product of two sines, 8 × 8 periods
+///   gaussian            normally distributed heights whose correlation falls like a Gaussian over 0.5 mm
+///   fourier             Fourier series of up to 12 waves a side with random phases, amplitudes falling as 1/waves
 ///   leather             statistical: irregular domed pebbles of about 1.7 mm with creases of varying depth, fine
 ///                       wrinkles, and fractal roughness below 1 mm wavelength
-enum class GrainKind { spheres6, spheres8, quads6, quads8, ovals6, ovals8, sine, leather };
+enum class GrainKind { spheres6, spheres8, quads6, quads8, ovals6, ovals8, sine, gaussian, fourier, leather };
 
 /// The kind's name as above.
 std::string_view to_string(GrainKind kind) noexcept;
@@ -34,7 +36,7 @@ struct GrainOptions {
   double size_mm = 40;                         ///< Side of the tile.
   double height_mm = 0.3;                      ///< Peak to valley.
   Vec3 light{-0.5, -0.5, 0.7071067811865476};  ///< For the picture: x right, y down, z to the viewer.
-  std::uint64_t seed = 1;                      ///< Of leather.
+  std::uint64_t seed = 1;                      ///< Of gaussian, fourier and leather.
 };
 
 /// What synthesize_grain() returns.
@@ -46,7 +48,8 @@ struct GrainResult {
 /// A grain as relief and as lit picture. Deterministic for given options.
 /// Cost: O(samples); leather about 0.2 s at 512².
 /// @throws InvalidInput when an option is out of range.
-/// Schulze 2005, sections 8.2 and 8.3 (spheres, quads, ovals); Worley, A cellular texture basis function, 1996
+/// Schulze 2005, sections 8.2 and 8.3 (spheres, quads, ovals) and 5.4 (sine, gaussian, fourier: the reliefs of
+/// Massie, of Siira and Pai, of Basdogan); Worley, A cellular texture basis function, 1996
 /// (leather).
 GrainResult synthesize_grain(GrainKind kind, const GrainOptions& options = {});
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/core/trace.hpp"
@@ -15,12 +17,28 @@ namespace papilla {
 
 /// How grey becomes height. `automatic` takes `variational` when the picture has a lattice (lit elements) and
 /// `intensity` (grey = height, bright = high) otherwise.
-enum class HeightMethod { automatic, variational, tsai_shah, intensity };
+enum class HeightMethod { automatic, variational, pentland, tsai_shah, intensity };
 
-/// The method's name on the command line: auto, variational, tsai-shah, intensity.
+/// The method's name on the command line: auto, variational, pentland, tsai-shah, intensity.
 std::string_view to_string(HeightMethod method) noexcept;
 /// The method of that name. @throws InvalidInput for any other name.
 HeightMethod height_method(std::string_view name);
+
+/// What becomes of the part of a picture that does not repeat. `whole`: relief and roughness come out of the picture as
+/// one. The others take the relief from the symmetric part alone and add nothing, or the residual, or a synthesized
+/// fractal surface with the dimension and the rms of the residual; roughness carries no wavelength above 1 mm. Without
+/// a lattice all of them mean `whole`.
+enum class HeightRoughness { whole, none, residual, synthesized };
+
+/// The name on the command line: whole, none, residual, synthesized.
+std::string_view to_string(HeightRoughness roughness) noexcept;
+/// The roughness of that name. @throws InvalidInput for any other name.
+HeightRoughness height_roughness(std::string_view name);
+
+/// The shortest wavelength that a device can play and a hand can feel in its stroke: two ticks of the loop, v · 2 /
+/// rate.
+/// @throws InvalidInput when a value is not positive.
+double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz);
 
 /// Options of height_from_image().
 struct HeightOptions {
@@ -32,6 +50,10 @@ struct HeightOptions {
   std::optional<bool> periodic = {};  ///< Whether the height shall tile; measured from the picture when absent.
   double albedo = 0;   ///< Grey of a surface facing the light; 0: such that the mean grey is that of a level surface.
   int iterations = 0;  ///< Steps of shape from shading; 0: the method's default.
+  HeightRoughness roughness = HeightRoughness::whole;
+  double shortest_wavelength_mm =
+      0;                   ///< Waves shorter than this are left out of the result; 0 keeps all. Needs a pitch.
+  std::uint64_t seed = 1;  ///< Of synthesized roughness.
   Progress progress = {};
 };
 
@@ -45,7 +67,14 @@ struct HeightResult {
   double light_coherence = 0;  ///< LightEstimate::coherence when estimated.
   double depth_mm = 0;         ///< Peak to valley; 0 for a picture without relief, else what was asked.
   double rms_mm = 0;
-  Trace trace;  ///< See ShadingResult; empty for intensity.
+  HeightRoughness roughness = HeightRoughness::whole;
+  double roughness_rms_mm = 0;        ///< Of the roughness added; 0 for whole and none.
+  double shortest_wavelength_mm = 0;  ///< Left in the result: the cut, or two pixels; 0 when the pitch is unknown.
+  /// Share of the slopes' power that runs across the light: shading shows it to second order only, so that much of the
+  /// relief is guessed. 0 for intensity.
+  double guessed_share = 0;
+  std::vector<std::string> measured, assumed;  ///< What rests on the picture, and what on nothing.
+  Trace trace;                                 ///< See ShadingResult; empty for intensity.
   StopReason stop = StopReason::direct;
 };
 

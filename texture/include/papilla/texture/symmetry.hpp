@@ -20,9 +20,13 @@ struct SymmetryAnalysis {
   double explained_variance() const { return part ? part->explained_variance : 0; }
 };
 
+/// Which distortion the feature matrix holds: feature_matrix() or absolute_feature_matrix().
+enum class FeatureKind { squared, absolute };
+
 /// Feature matrix, lattice and mean cell of a picture in one go. Pictures over 2048 pixels a side are analysed in
 /// their centred 2048 × 2048 pixels, which bounds time and memory.
 /// Cost: about 10 ms at 256². Deterministic. @throws InvalidInput when the picture is empty or not finite.
-SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& options = {});
+SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& options = {},
+                                  FeatureKind feature = FeatureKind::squared);
 
 }  // namespace papilla

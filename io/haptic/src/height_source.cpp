@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "height_source.hpp"
+#include "papilla/io/height_source.hpp"
 
 #include <span>
 #include <string>
@@ -9,7 +9,7 @@
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/read_file.hpp"
 
-namespace papilla::player {
+namespace papilla {
 namespace {
 
 int base64_value(char c) {
@@ -138,4 +138,4 @@ std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& sc
   return std::nullopt;
 }
 
-}  // namespace papilla::player
+}  // namespace papilla

@@ -10,7 +10,7 @@
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/scene.hpp"
 
-namespace papilla::player {
+namespace papilla {
 
 /// The bytes of the height map that a tag names: its data: URI or sidecar file next to the glTF, then the image of its
 /// name. Only bytes with the tag's SHA-256 are taken. What goes wrong becomes a warning (height_data_uri, height_file,
@@ -22,4 +22,4 @@ std::optional<std::string> find_height_bytes(const HeightTag& tag, const Scene& 
 std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene,
                                            const std::filesystem::path& folder, std::vector<HapticWarning>& warnings);
 
-}  // namespace papilla::player
+}  // namespace papilla

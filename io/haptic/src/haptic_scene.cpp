@@ -1,35 +1,51 @@
 // SPDX-License-Identifier: MIT
-#include "tagged_scene.hpp"
+#include "papilla/io/haptic_scene.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
 
-#include "height_source.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/roughness_field.hpp"
+#include "papilla/haptic/stimulus.hpp"
+#include "papilla/io/gltf_reader.hpp"
+#include "papilla/io/height_source.hpp"
 
-namespace papilla::player {
+namespace papilla {
 namespace {
 
 class Builder {
  public:
-  Builder(const Scene& scene, const std::filesystem::path& path, double radius)
-      : scene_(scene), folder_(path.parent_path()), radius_(radius) {}
+  Builder(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options)
+      : scene_(scene), folder_(path.parent_path()), options_(options) {}
+
+  /// Materials that a triangle of a part names.
+  std::vector<bool> used_materials() const {
+    std::vector<bool> used(scene_.materials.size(), false);
+    for (const Part& part : scene_.parts)
+      for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
+        const std::uint32_t slot = part.mesh.material.empty() ? 0 : part.mesh.material[t];
+        if (slot < part.materials.size()) used[part.materials[slot]] = true;
+      }
+    return used;
+  }
 
   void read_materials() {
+    const std::vector<bool> used = used_materials();
     felt_.resize(scene_.materials.size());
     tex_coord_.resize(scene_.materials.size(), 0);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
       std::vector<HapticWarning> warnings;
-      if (const auto tag = material_tag_of_extras(scene_.materials[i].extras_json, warnings)) {
+      if (auto tag = material_tag_of_extras(scene_.materials[i].extras_json, warnings); tag && used[i]) {
+        follow_transform(scene_.materials[i], *tag, warnings);
         felt_[i] = static_cast<std::uint32_t>(result.materials.size());
         tex_coord_[i] = tag->height ? tag->height->tex_coord : 0;
         result.names.push_back(scene_.materials[i].name.empty() ? "material " + std::to_string(i)
                                                                 : scene_.materials[i].name);
-        result.materials.push_back({tag->stiffness, tag->damping, tag->static_friction, tag->dynamic_friction,
-                                    tag->stribeck_velocity, relief_of(*tag, i, warnings)});
+        result.materials.push_back(contact_material(*tag, i, warnings));
       }
       for (HapticWarning& warning : warnings) result.warnings.push_back({scene_.materials[i].name, std::move(warning)});
     }
@@ -43,6 +59,13 @@ class Builder {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const std::uint32_t slot = mesh.material.empty() ? 0 : mesh.material[t];
       if (slot >= part.materials.size() || !felt_[part.materials[slot]]) continue;
+      const auto place = [&](std::size_t k) {
+        return k_metres_per_mm * transform_point(instance.world, mesh.positions[mesh.triangles[t][k]]);
+      };
+      if (!options_.reach_around.empty() && !in_reach(place(0), place(1), place(2))) {
+        ++result.triangles_out_of_reach;
+        continue;
+      }
       used = true;
       const std::uint32_t source = part.materials[slot];
       const Triangle& corner = mesh.triangles[t];
@@ -52,7 +75,8 @@ class Builder {
       const bool has_uv = uv.has_value(t);
       for (std::size_t k = 0; k < 3; ++k)
         result.mesh.corner_uv.push_back(has_uv ? gltf_uv(uv.values[uv.indices[t][k]]) : Vec2{});
-      if (result.materials[*felt_[source]].height) check_uv(source, !has_uv);
+      if (result.materials[*felt_[source]].height || result.materials[*felt_[source]].stimulus)
+        check_uv(source, !has_uv);
     }
     if (!used) return;
     for (const Vec3& p : mesh.positions)
@@ -82,9 +106,25 @@ class Builder {
                                  " triangles with a relief have no area in texture space and are flat across it"}});
   }
 
-  TaggedScene result;
+  HapticScene result;
 
  private:
+  ContactMaterial contact_material(const MaterialTag& tag, std::size_t material, std::vector<HapticWarning>& warnings) {
+    ContactMaterial made;
+    made.stiffness = tag.stiffness;
+    made.damping = tag.damping;
+    made.static_friction = tag.static_friction;
+    made.dynamic_friction = tag.dynamic_friction;
+    made.stribeck_velocity = tag.stribeck_velocity;
+    made.height = relief_of(tag, material, warnings);
+    if (!tag.force_model) return made;
+    made.model = force_model(tag.force_model->name).value_or(ForceModel::heightfield);
+    made.amplitude = tag.force_model->amplitude;
+    made.literal_sign = tag.force_model->literal;
+    if (made.model != ForceModel::heightfield) std::swap(made.height, made.stimulus);
+    return made;
+  }
+
   std::optional<std::uint32_t> relief_of(const MaterialTag& tag, std::size_t material,
                                          std::vector<HapticWarning>& warnings) {
     if (!tag.height) return std::nullopt;
@@ -97,13 +137,53 @@ class Builder {
       warnings.push_back({"height_lost", "the height map is lost and there is no roughness, the surface is smooth"});
       return std::nullopt;
     }
-    if (radius_ > 0) try {
-        field = field->dilated(radius_, tag.height->metres_per_uv);
+    *field = without_short_waves(std::move(*field), tag.height->metres_per_uv);
+    if (options_.probe_radius_m > 0) try {
+        field = field->dilated(options_.probe_radius_m, tag.height->metres_per_uv);
       } catch (const InvalidInput& error) {
         warnings.push_back({"probe_dilation", std::string(error.what()) + ", the relief is felt as by a point"});
       }
     result.heights.push_back(std::move(*field));
     return static_cast<std::uint32_t>(result.heights.size() - 1);
+  }
+
+  /// Tools that change coordinates say so where the pictures are used, not in the tag.
+  static void follow_transform(const Material& material, MaterialTag& tag, std::vector<HapticWarning>& warnings) {
+    const auto& reference = material.normal_texture ? material.normal_texture : material.base_color_texture;
+    if (!tag.height || !reference || !reference->transform || reference->tex_coord != tag.height->tex_coord) return;
+    const UvTransform found{reference->transform->offset, reference->transform->rotation, reference->transform->scale};
+    UvTransform& known = tag.height->uv_transform;
+    if (found == known || found.scale.x == 0 || found.scale.y == 0 || known.scale.x == 0 || known.scale.y == 0) return;
+    // A metre stays a metre: one unit of the new coordinates is another length.
+    Vec2& metres = tag.height->metres_per_uv;
+    metres = {metres.x * std::abs(found.scale.x / known.scale.x), metres.y * std::abs(found.scale.y / known.scale.y)};
+    known = found;
+    warnings.push_back({"uv_transform", "the height map follows the texture's KHR_texture_transform, not the tag's"});
+  }
+
+  HeightField without_short_waves(HeightField field, Vec2 metres_per_uv) {
+    const auto pitch = [&] {
+      const auto texels = field.texels_per_uv();
+      return std::min(metres_per_uv.x / norm(texels[0]), metres_per_uv.y / norm(texels[1]));
+    };
+    // Twice the new pitch must still carry the shortest wave.
+    bool coarser = false;
+    while (4 * pitch() <= options_.shortest_wave_m && field.width() >= 4 && field.height() >= 4 &&
+           field.width() % 2 == 0 && field.height() % 2 == 0) {
+      field = field.halved();
+      coarser = true;
+    }
+    result.maps_coarsened += coarser;
+    return field;
+  }
+
+  bool in_reach(Vec3 a, Vec3 b, Vec3 c) const {
+    if (options_.reach_around.empty()) return true;
+    // The ball around the triangle against the ball around each point.
+    const Vec3 middle = (1.0 / 3) * (a + b + c);
+    const double radius = std::max({norm(a - middle), norm(b - middle), norm(c - middle)});
+    return std::any_of(options_.reach_around.begin(), options_.reach_around.end(),
+                       [&](Vec3 p) { return norm(p - middle) <= options_.reach_m + radius; });
   }
 
   void check_uv(std::uint32_t source, bool missing) {
@@ -119,7 +199,7 @@ class Builder {
 
   const Scene& scene_;
   std::filesystem::path folder_;
-  double radius_;
+  HapticSceneOptions options_;
   std::vector<std::optional<std::uint32_t>> felt_;  // Scene material -> material of the result.
   std::vector<int> tex_coord_;
   std::map<std::uint32_t, std::size_t> without_uv_;
@@ -128,8 +208,8 @@ class Builder {
 
 }  // namespace
 
-TaggedScene tagged_scene(const Scene& scene, const std::filesystem::path& path, double probe_radius_m) {
-  Builder builder(scene, path, probe_radius_m);
+HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options) {
+  Builder builder(scene, path, options);
   builder.read_materials();
   if (builder.result.materials.empty()) {
     std::string reason = path.string() + ": no material has a usable haptic tag";
@@ -142,7 +222,11 @@ TaggedScene tagged_scene(const Scene& scene, const std::filesystem::path& path, 
   return std::move(builder.result);
 }
 
-LargestMaterial largest_material(const TaggedScene& scene) {
+HapticScene load_haptic_scene(const std::filesystem::path& path, const HapticSceneOptions& options) {
+  return haptic_scene(read_gltf(path), path, options);
+}
+
+LargestMaterial largest_material(const HapticScene& scene) {
   std::vector<double> area(scene.materials.size(), 0.0);
   std::vector<Vec3> moment(scene.materials.size());
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
@@ -161,4 +245,4 @@ LargestMaterial largest_material(const TaggedScene& scene) {
   return largest;
 }
 
-}  // namespace papilla::player
+}  // namespace papilla

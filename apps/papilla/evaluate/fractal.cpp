@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "evaluate/evaluation.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/best_dimension.hpp"
+#include "papilla/texture/box_dimension.hpp"
+#include "papilla/texture/fshot_dimension.hpp"
+#include "papilla/texture/probability_dimension.hpp"
+
+namespace papilla::app {
+namespace {
+
+struct Method {
+  const char* name;
+  int least_side;
+  FractalEstimate (*estimate)(const GreyImage&);
+};
+constexpr std::array<Method, 6> k_methods = {
+    {{"box", 32, box_dimension},
+     {"information", 32, information_dimension},
+     {"correlation", 32, correlation_dimension},
+     {"probability", 66, [](const GreyImage& image) { return probability_dimension(image); }},
+     {"fshot", 32, [](const GreyImage& image) { return fshot_dimension(image).estimate; }},
+     {"best", 32, [](const GreyImage& image) { return best_dimension(image).estimate; }}}};
+
+}  // namespace
+
+GreyImage middle_part(const GreyImage& image, int side) {
+  const int width = std::min(side, image.width), height = std::min(side, image.height);
+  GreyImage part{width, height, {}, image.pitch_mm, image.bits};
+  const int left = (image.width - width) / 2, top = (image.height - height) / 2;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) part.pixels.push_back(image.at(left + x, top + y));
+  return part;
+}
+
+std::vector<int> rising_sides(int shorter_side) {
+  constexpr int k_first = 64, k_last = 4096;
+  std::vector<int> sides;
+  for (int side = k_first; side < std::min(shorter_side, k_last); side *= 2) sides.push_back(side);
+  sides.push_back(std::min(shorter_side, k_last));
+  return sides;
+}
+
+std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
+  const GreyImage image = read_grey_image(input.file);
+  const std::vector<int> sides = rising_sides(std::min(image.width, image.height));
+  std::vector<EvaluationRun> runs;
+  for (const Method& method : k_methods) {
+    EvaluationRun run{method.name, "analyze", input.file, "half width of the 95 % interval of the dimension",
+                      {},          "direct",  ""};
+    for (const int side : sides) {
+      if (side < method.least_side) continue;
+      const GreyImage part = middle_part(image, side);
+      const Stopwatch clock;
+      const FractalEstimate estimate = method.estimate(part);
+      run.trace.push_back({clock.seconds(), (estimate.high - estimate.low) / 2});
+      run.notes += fmt::format("middle {} pixels: D {:.4f}; ", side, estimate.dimension);
+    }
+    runs.push_back(std::move(run));
+    if (input.progress)
+      input.progress("fractal dimension", static_cast<double>(runs.size()) / static_cast<double>(k_methods.size()));
+  }
+  return runs;
+}
+
+}  // namespace papilla::app

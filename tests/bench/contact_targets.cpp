@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+#include "contact_targets.hpp"
+
+#include <fmt/core.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <sstream>
+
+#include "call_counter.hpp"
+#include "haptic/contact_shapes.hpp"
+#include "haptic/felt_texture.hpp"
+#include "haptic/passive_contact.hpp"
+#include "papilla/haptic/contact_audit.hpp"
+#include "papilla/haptic/haptic_loop.hpp"
+#include "papilla/haptic/proxy.hpp"
+#include "papilla/haptic/stroke.hpp"
+
+namespace papilla::bench {
+namespace {
+
+constexpr double k_speed = 0.2, k_period = 1e-3, k_travel = k_speed * k_period;
+
+/// Runs a probe over a surface; `reference` is the place where the proxy should be, given the one before, or nothing.
+template <class Probe, class Reference>
+void run(const ContactSurface& surface, long ticks, Vec3 start, Probe&& probe, Reference&& reference, LongRun& sum) {
+  auto proxy = std::make_unique<Proxy>(surface);
+  ContactAudit audit(surface);
+  proxy->reset(start);
+  audit.lost(start, false);
+  Vec3 last_probe = start;
+  for (long i = 0; i < ticks; ++i) {
+    const Vec3 at = probe(i), before = proxy->state().proxy;
+    const long allocated = allocations(), locked = locks();
+    proxy->update(at, k_period);
+    const bool lost = audit.lost(at, proxy->state().in_contact);
+    sum.allocations += allocations() - allocated;
+    sum.locks += locks() - locked;
+    sum.lost += lost;
+    sum.contact += proxy->state().in_contact;
+    ++sum.ticks;
+    const std::optional<Vec3> wanted = reference(i, at, before);
+    if (wanted && i > 0) {
+      const double gap = norm(proxy->state().proxy - *wanted) - norm(at - last_probe);
+      sum.worst_gap_m = std::max(sum.worst_gap_m, gap);
+      sum.gaps += gap > 1e-4;
+    }
+    last_probe = at;
+  }
+}
+
+/// The height of the triangles of testing::height_grid().
+struct Grid {
+  int n;
+  double size;
+  std::function<double(double, double)> height;
+
+  double at(Vec2 p) const {
+    const double cell = size / n;
+    const double i = std::clamp(std::floor(p.x / cell), 0.0, n - 1.0),
+                 j = std::clamp(std::floor(p.y / cell), 0.0, n - 1.0);
+    const double u = p.x / cell - i, v = p.y / cell - j;
+    const auto corner = [&](int a, int b) { return height((i + a) * cell, (j + b) * cell); };
+    const double low = corner(0, 0), high = corner(1, 1);
+    return u >= v ? low + u * (corner(1, 0) - low) + v * (high - corner(1, 0))
+                  : low + v * (corner(0, 1) - low) + u * (high - corner(0, 1));
+  }
+};
+
+/// Where a point on the triangles comes to rest that starts at `from` and goes down the distance to `goal`, by steps
+/// too short to jump over anything.
+Vec3 descend(const Grid& grid, Vec3 goal, Vec3 from) {
+  Vec2 p{from.x, from.y};
+  const auto distance2 = [&](Vec2 q) {
+    const Vec3 d = Vec3{q.x, q.y, grid.at(q)} - goal;
+    return dot(d, d);
+  };
+  double now = distance2(p);
+  // The best of sixteen directions: along the creases between triangles a gradient alone comes to a halt.
+  constexpr int directions = 16;
+  for (double step = 2e-5; step > 1e-7;) {
+    Vec2 best = p;
+    for (int i = 0; i < directions; ++i) {
+      const double angle = 2 * std::numbers::pi * i / directions;
+      const Vec2 next{p.x + step * std::cos(angle), p.y + step * std::sin(angle)};
+      if (const double then = distance2(next); then < now) {
+        now = then;
+        best = next;
+      }
+    }
+    if (best == p) step *= 0.5;
+    p = best;
+  }
+  return {p.x, p.y, grid.at(p)};
+}
+
+/// Output of a command, or nothing when it fails.
+std::optional<std::string> output_of(const std::string& command) {
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return std::nullopt;
+  std::string text;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) text.append(buffer.data(), n);
+  return ::pclose(pipe) == 0 ? std::optional(text) : std::nullopt;
+}
+
+/// p99.9 of cyclictest's histogram: lines "microseconds count".
+std::optional<double> cyclictest_p999(int seconds) {
+  const auto text = output_of(fmt::format("cyclictest -q -m -p80 -i1000 -l{} -h100000 2>/dev/null", 1000 * seconds));
+  if (!text) return std::nullopt;
+  std::vector<std::pair<double, long>> bins;
+  long total = 0;
+  std::istringstream lines(*text);
+  for (std::string line; std::getline(lines, line);) {
+    double us = 0;
+    long count = 0;
+    if (line.empty() || line[0] == '#' || std::sscanf(line.c_str(), "%lf %ld", &us, &count) != 2) continue;
+    bins.emplace_back(us, count);
+    total += count;
+  }
+  long seen = 0;
+  for (const auto& [us, count] : bins)
+    if (static_cast<double>(seen += count) >= 0.999 * static_cast<double>(total)) return us;
+  return std::nullopt;
+}
+
+}  // namespace
+
+LongRun sliver_run(long ticks, int seeds) {
+  constexpr double width = 2e-5, length = 0.01;
+  constexpr int columns = 10000, rows = 20;
+  const ContactSurface surface(testing::plate(columns, rows, columns * width, rows * length), {ContactMaterial{}}, {},
+                               0);
+  LongRun sum;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    testing::Wanderer wanderer(static_cast<std::uint64_t>(seed), 0.2, 0.02, k_travel);
+    run(
+        surface, ticks / seeds, {0.1, 0.1, 0.01},
+        [&](long i) {
+          const Vec2 at = wanderer.next();
+          return Vec3{at.x, at.y, -0.002 + 0.001 * std::cos(0.01 * static_cast<double>(i))};
+        },
+        [](long, Vec3 at, Vec3) {
+          return std::optional(Vec3{at.x, at.y, 2e-5});
+        },
+        sum);
+  }
+  return sum;
+}
+
+LongRun relief_run(double size, long triangles, double radius_m, long ticks, int seeds) {
+  const int n = static_cast<int>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)));
+  const double stretch = size / 0.2;  // Slopes stay as they are.
+  const auto height = [stretch](double x, double y) {
+    return stretch * testing::rough_relief(x / stretch, y / stretch);
+  };
+  const ContactSurface surface(testing::height_grid(n, n, size, size, height), {ContactMaterial{}}, {}, radius_m);
+  LongRun sum;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    testing::Wanderer wanderer(static_cast<std::uint64_t>(seed), size, 0.1 * size, k_travel);
+    run(
+        surface, ticks / seeds, {0.5 * size, 0.5 * size, height(0.5 * size, 0.5 * size) + 0.02},
+        [&](long i) {
+          const Vec2 at = wanderer.next();
+          return Vec3{at.x, at.y, height(at.x, at.y) - 0.002 + 0.001 * std::cos(0.01 * static_cast<double>(i))};
+        },
+        [&](long i, Vec3 at, Vec3 before) -> std::optional<Vec3> {
+          if (radius_m > 0 || i % 100 != 99) return std::nullopt;
+          return descend(Grid{n, size, height}, at, before);
+        },
+        sum);
+  }
+  return sum;
+}
+
+LongRun sphere_run(long triangles, long ticks, int seeds) {
+  const int n = static_cast<int>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)));
+  const ContactSurface surface(testing::sphere(n, 0.1), {ContactMaterial{}}, {}, 0);
+  LongRun sum;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    testing::Wanderer wanderer(static_cast<std::uint64_t>(seed), 0.4, 0.1, k_travel);
+    run(
+        surface, ticks / seeds, {0.12, 0, 0},
+        [&](long i) {
+          const Vec2 at = wanderer.next();
+          const double around = (at.x - 0.2) / 0.1, up = 0.5 * std::sin((at.y - 0.2) / 0.1);
+          return (0.098 + 0.001 * std::cos(0.01 * static_cast<double>(i))) *
+                 Vec3{std::cos(around) * std::cos(up), std::sin(around) * std::cos(up), std::sin(up)};
+        },
+        [](long, Vec3 at, Vec3) { return std::optional((0.1 / norm(at)) * at); }, sum);
+  }
+  return sum;
+}
+
+std::optional<WakeUp> wake_up(int seconds) {
+  const ContactSurface surface(testing::plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
+  StrokeOptions stroke;
+  stroke.seconds = seconds;
+  const Trajectory hand = press_and_stroke(surface, 0, {0.05, 0.05, 0}, stroke);
+  std::vector<double> ours, theirs;
+  for (int turn = 0; turn < 3; ++turn) {
+    SimDevice device(device_presets().front().caps(), hand, 1e-3);
+    LoopOptions options;
+    options.ticks = static_cast<std::uint64_t>(1000 * seconds);
+    ours.push_back(run_haptic_loop(device, surface, options).wakeup_us.quantile(0.999));
+    const auto other = cyclictest_p999(seconds);
+    if (!other) return std::nullopt;
+    theirs.push_back(*other);
+  }
+  return WakeUp{median(ours), median(theirs)};
+}
+
+std::optional<long> stripped_bytes(const std::string& program) {
+  namespace fs = std::filesystem;
+  const fs::path copy = fs::temp_directory_path() / fmt::format("papilla-stripped-{}", ::getpid());
+  if (!output_of(fmt::format("strip -o '{}' '{}'", copy.string(), program))) return std::nullopt;
+  const auto size = static_cast<long>(fs::file_size(copy));
+  fs::remove(copy);
+  return size;
+}
+
+namespace {
+
+std::string count_text(const LongRun& r) {
+  return fmt::format("{} lost of {} ticks, {} in contact", r.lost, r.ticks, r.contact);
+}
+
+void add_long_runs(BenchReport& report) {
+  const bool quick = report.options().quick;
+  const long ticks = quick ? 2000 : 1000000, large = quick ? 20000 : 2000000;
+  const int seeds = quick ? 1 : 5;
+  const LongRun slivers = sliver_run(ticks, seeds);
+  report.target({"no contact lost in a million ticks on 400 000 slivers of 0.02 × 10 mm", count_text(slivers),
+                 slivers.lost == 0 && slivers.contact > slivers.ticks / 2});
+  const LongRun metre = relief_run(1, large, 0, ticks, seeds);
+  report.target({"no contact lost in a million ticks on a metre of relief with two million triangles",
+                 count_text(metre), metre.lost == 0 && metre.contact > metre.ticks / 2});
+  const LongRun sphere = sphere_run(quick ? 20000 : 200000, ticks / 5, seeds);
+  const LongRun relief = relief_run(0.2, quick ? 20000 : 200000, 0, ticks / 5, seeds);
+  const auto gap = [&](const char* where, const LongRun& r) {
+    report.target({fmt::format("proxy within 0.1 mm and one tick of travel of the reference, {}", where),
+                   fmt::format("{} ticks farther, worst {:.3f} mm beyond the travel", r.gaps, 1e3 * r.worst_gap_m),
+                   r.gaps == 0});
+  };
+  gap("slivers (global closest point)", slivers);
+  gap("sphere (global closest point)", sphere);
+  gap("relief 0.2 m (descent from the proxy before, every 100th tick)", relief);
+  gap("relief 1 m (descent from the proxy before, every 100th tick)", metre);
+  report.target({"no allocation and no lock in a million ticks",
+                 fmt::format("{} allocations, {} locks in {} ticks", slivers.allocations + metre.allocations,
+                             slivers.locks + metre.locks, slivers.ticks + metre.ticks),
+                 slivers.allocations + metre.allocations + slivers.locks + metre.locks == 0});
+}
+
+void add_felt(BenchReport& report) {
+  const int ticks = report.options().quick ? 50 : 2000;
+  const auto row = [&](const char* what, const testing::AnalyticRelief& relief) {
+    const double share = testing::felt_error(relief, 1024, k_speed, ticks).rms_share;
+    report.target({fmt::format("textured force within 1 % rms of the analytic relief at 0.2 m/s, {}", what),
+                   fmt::format("{:.2f} %", 100 * share), share <= 0.01});
+  };
+  row("sine of 2 mm and 0.1 mm", testing::sine_relief());
+  row("spheres of 1.5 mm, 2 mm apart", testing::sphere_relief());
+
+  ContactMaterial material;
+  material.static_friction = 0.5;
+  material.dynamic_friction = 0.3;
+  const ContactSurface surface(testing::plate(10, 10, 0.1, 0.1), {material}, {}, 0);
+  Proxy proxy(surface);
+  proxy.reset({0.02, 0.05, 0.001});
+  double worst = 0;
+  for (int i = 0; i < 250; ++i) {
+    const Vec3 probe{0.02 + 2e-4 * i, 0.05, -1e-3};
+    const Vec3 force = heightfield_force(surface, proxy.update(probe, k_period), probe, {});
+    if (i > 20) worst = std::max(worst, std::abs(-force.x / (0.3 * force.z) - 1));
+  }
+  report.target(
+      {"sliding friction within 1 % of Coulomb's", fmt::format("{:.3f} % at worst", 100 * worst), worst <= 0.01});
+}
+
+void add_passivity(BenchReport& report) {
+  EvidenceTable table{
+      "Stability of every device",
+      "K: the largest stable stiffness at 1 kHz. Work: the least that the hand has done on the device since "
+      "it was at rest, at 0.9 K; below zero the device would feed the hand. Speed: of the handle eight "
+      "seconds after it came down at 0.5 m/s, held by a spring only. m mass, b damping, f friction, Δ "
+      "encoder step, t delay; every number but the largest force is assumed or derived as "
+      "`--list-devices` and the header say.",
+      {"device", "m [kg]", "b [N·s/m]", "f [N]", "Δ [µm]", "t [ms]", "K [N/m]", "least work [J]",
+       "speed at 0.9 K [m/s]", "speed at 3 K [m/s]"},
+      {}};
+  bool never_negative = true, control_fails = true;
+  const double seconds = report.options().quick ? 2 : 600;
+  for (const DevicePreset& preset : device_presets()) {
+    const testing::PortEnergy energy = testing::wall_contact(preset, 0.9, seconds, 1);
+    const double calm = testing::speed_at_rest(preset, 0.9), wild = testing::speed_at_rest(preset, 3);
+    never_negative = never_negative && energy.least_j >= 0 && energy.contact_share > 0.1;
+    control_fails = control_fails && calm < 1e-3 && wild > 1e-2;
+    const DeviceDynamics d = preset.caps().dynamics;
+    table.rows.push_back({std::string(preset.name), fmt::format("{:.3f}", d.mass_kg), fmt::format("{:.2f}", d.damping),
+                          fmt::format("{:.2f}", d.friction_n), fmt::format("{:.0f}", 1e6 * d.encoder_step_m),
+                          fmt::format("{:.1f}", 1e3 * d.delay_s), fmt::format("{:.0f}", energy.limit),
+                          fmt::format("{:.2g}", energy.least_j), fmt::format("{:.2g}", calm),
+                          fmt::format("{:.2g}", wild)});
+  }
+  report.target({"passivity observer never negative for every device at 0.9 of its limit, 10 minutes each",
+                 fmt::format("{} devices, {:.0f} s each", table.rows.size(), seconds), never_negative});
+  report.target({"without the clamp, at 3 times the limit, every device goes unstable",
+                 fmt::format("{} devices, see the table", table.rows.size()), control_fails});
+  report.table(std::move(table));
+}
+
+void add_system(BenchReport& report) {
+  const auto size = stripped_bytes(PAPILLA_PLAYER);
+  report.target({"player binary at most 1 MB stripped", size ? fmt::format("{} bytes", *size) : "no strip here",
+                 size ? std::optional(*size <= 1000000) : std::nullopt});
+  const auto wake = report.options().quick ? std::nullopt : wake_up(10);
+  report.target({"wake-up p99.9 no worse than cyclictest's in turn + 10 µs",
+                 wake ? fmt::format("{:.0f} µs, cyclictest {:.0f} µs (medians of 3 turns of 10 s)", wake->ours_us,
+                                    wake->cyclictest_us)
+                      : "no cyclictest here",
+                 wake ? std::optional(wake->ours_us <= wake->cyclictest_us + 10) : std::nullopt});
+  const int status = report.options().quick ? -1 : std::system(PAPILLA_UHID_TEST " >/dev/null 2>&1");
+  const int code = status >= 0 && WIFEXITED(status) ? WEXITSTATUS(status) : 77;
+  report.target({"HID path with real hidapi and a real kernel (uhid in a virtual machine)",
+                 code == 77  ? "not run: no qemu or no kernel"
+                 : code == 0 ? "passed"
+                             : "failed",
+                 code == 77 ? std::nullopt : std::optional(code == 0)});
+}
+
+void add_survival(BenchReport& report) {
+  namespace fs = std::filesystem;
+  const fs::path file = fs::temp_directory_path() / fmt::format("papilla-survival-{}.json", ::getpid());
+  const int status = std::system((std::string(PAPILLA_SURVIVAL " ") + file.string() + " >/dev/null 2>&1").c_str());
+  std::ifstream stream(file);
+  const Json rows = stream ? Json::parse(stream) : Json::array();
+  fs::remove(file);
+  EvidenceTable table{
+      "What other tools leave of the haptic tag",
+      "A plate with a relief in a data: URI goes through the tool, the player feels what comes out: kept "
+      "means the same map, the same force within 5 %, no contact lost. three.js runs without a browser, so "
+      "its pictures are left out. uv_transform: the player followed the packer's KHR_texture_transform. "
+      "gltfpack drops all extras without -ke; a file without a tag is refused with exit code 3. Blender "
+      "was not installed here.",
+      {"tool", "tag", "detail"},
+      {}};
+  for (const Json& row : rows)
+    table.rows.push_back(
+        {row.at("tool").get<std::string>(), row.at("outcome").get<std::string>(), row.at("detail").get<std::string>()});
+  report.target({"the haptic tag survives other tools (see the table)",
+                 rows.empty() ? "tools not installed" : fmt::format("{} tools", rows.size()),
+                 rows.empty() ? std::nullopt : std::optional(status == 0)});
+  report.table(std::move(table));
+}
+
+}  // namespace
+
+void add_contact_targets(BenchReport& report) {
+  add_long_runs(report);
+  add_felt(report);
+  add_passivity(report);
+  add_system(report);
+  add_survival(report);
+}
+
+}  // namespace papilla::bench

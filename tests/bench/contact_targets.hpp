@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/bench_json.hpp"
+#include "papilla/haptic/contact_surface.hpp"
+
+namespace papilla::bench {
+
+/// A run over a surface that is watched for lost contacts, allocations, locks and, where one is known, for the distance
+/// from a reference.
+struct LongRun {
+  long ticks = 0, contact = 0, lost = 0, allocations = 0, locks = 0;
+  double worst_gap_m = 0;  ///< Largest distance of the proxy from the reference, beyond one tick of travel.
+  long gaps = 0;           ///< Ticks on which that was more than 0.1 mm.
+};
+
+/// 400 000 slivers of 0.02 × 10 mm under a point that presses 1 to 3 mm deep; the reference is the global closest point.
+LongRun sliver_run(long ticks, int seeds);
+
+/// A relief over `size` metres of about `triangles`; the reference, in every hundredth tick, is a descent on the analytic
+/// surface in double precision from the proxy of the tick before.
+LongRun relief_run(double size, long triangles, double radius_m, long ticks, int seeds);
+
+/// A sphere of 0.1 m; the reference is the global closest point.
+LongRun sphere_run(long triangles, long ticks, int seeds);
+
+/// p99.9 of the wake-up of our loop and of cyclictest, in turn, in microseconds; nothing without cyclictest.
+struct WakeUp {
+  double ours_us = 0, cyclictest_us = 0;
+};
+std::optional<WakeUp> wake_up(int seconds);
+
+/// Length of a program without its symbols; nothing without strip.
+std::optional<long> stripped_bytes(const std::string& program);
+
+/// Adds the rows that need no timing of their own.
+void add_contact_targets(BenchReport& report);
+
+}  // namespace papilla::bench

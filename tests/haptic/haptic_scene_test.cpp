@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/io/haptic_scene.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "haptic/tagged_glb.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/sha256.hpp"
+#include "papilla/io/gltf_reader.hpp"
+#include "papilla/papilla_haptic.h"
+
+namespace papilla {
+namespace {
+
+nlohmann::json tag() {
+  const std::string png = testing::sine_png();
+  return {{"version", 1},
+          {"stiffness", 300},
+          {"height",
+           {{"image", "haptic.height.grain"},
+            {"sha256", sha256_hex(std::as_bytes(std::span(png.data(), png.size())))},
+            {"scale", 2e-4},
+            {"offset", -1e-4},
+            {"metresPerUV", {0.04, 0.04}}}}};
+}
+
+class File {
+ public:
+  explicit File(const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+  ~File() { std::filesystem::remove(path); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("papilla-scene-test-" + std::to_string(::getpid()) + ".glb");
+};
+
+TEST(HapticScene, LeavesOutWhatIsOutOfReach) {
+  const File file(testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  const HapticScene all = load_haptic_scene(file.path);
+  EXPECT_EQ(all.mesh.triangles.size(), 200U);
+  EXPECT_EQ(all.triangles_out_of_reach, 0U);
+  HapticSceneOptions options;
+  options.reach_around = {{0.05, 0, -0.05}};
+  options.reach_m = 0.02;
+  const HapticScene near = load_haptic_scene(file.path, options);
+  EXPECT_EQ(near.mesh.triangles.size() + near.triangles_out_of_reach, 200U);
+  EXPECT_GT(near.mesh.triangles.size(), 20U);
+  EXPECT_LT(near.mesh.triangles.size(), 60U);
+  options.reach_around = {{5, 0, 0}};
+  EXPECT_THROW(load_haptic_scene(file.path, options), InvalidInput);
+}
+
+TEST(HapticScene, HalvesMapsThatTheRateCantCarry) {
+  const File file(testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  HapticSceneOptions options;
+  options.shortest_wave_m = 2e-3;  // Texels of 40/128 = 0.31 mm: 0.625 mm still carries 1.25 mm.
+  const HapticScene scene = load_haptic_scene(file.path, options);
+  EXPECT_EQ(scene.maps_coarsened, 1);
+  ASSERT_EQ(scene.heights.size(), 1U);
+  EXPECT_EQ(scene.heights[0].width(), 64);
+  EXPECT_EQ(load_haptic_scene(file.path).heights[0].width(), 128);
+}
+
+TEST(HapticScene, FollowsTheTextureTransformOfPackers) {
+  // As gltfpack does: coordinates are scaled down, the texture's transform scales them up again, the tag stays.
+  std::string glb = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
+  const Scene before = [&] {
+    const File file(glb);
+    return read_gltf(file.path);
+  }();
+  Scene scene = before;
+  TextureReference reference;
+  reference.transform = TextureTransform{{0, 0}, 0, {16, 16}};
+  scene.materials[0].normal_texture = reference;
+  const HapticScene plain = haptic_scene(before, "a.glb"), packed = haptic_scene(scene, "a.glb");
+  ASSERT_EQ(packed.warnings.size(), 1U);
+  EXPECT_EQ(packed.warnings[0].warning.code, "uv_transform");
+  for (const Vec2 uv : {Vec2{0.3, 0.2}, Vec2{1.7, -0.4}})
+    EXPECT_NEAR(packed.heights[0].sample((1.0 / 16) * uv).height_m, plain.heights[0].sample(uv).height_m, 1e-12);
+}
+
+TEST(CInterface, FeelsAPlate) {
+  const File file(testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  papilla_haptic_options options{};
+  options.device = "touch";
+  papilla_haptic* const haptic = papilla_haptic_open(file.path.c_str(), &options, nullptr, 0);
+  ASSERT_NE(haptic, nullptr);
+  EXPECT_EQ(papilla_haptic_triangles(haptic), 200U);
+  EXPECT_STREQ(papilla_haptic_material(haptic, 0), "grain");
+  EXPECT_EQ(papilla_haptic_material(haptic, 1), nullptr);
+  double force[3], proxy[3], normal[3];
+  const double above[3] = {0.05, 0.005, -0.05}, below[3] = {0.05, -0.002, -0.05};
+  papilla_haptic_reset(haptic, above);
+  EXPECT_EQ(papilla_haptic_tick(haptic, above, 0, force), 0);
+  EXPECT_EQ(force[1], 0);
+  int found = 0;
+  for (int i = 0; i < 100; ++i) found = papilla_haptic_tick(haptic, below, 0, force);
+  EXPECT_TRUE(found & PAPILLA_HAPTIC_CONTACT);
+  EXPECT_NEAR(force[1], 300 * 0.002, 300 * 1.2e-4);
+  papilla_haptic_proxy(haptic, proxy, normal);
+  EXPECT_NEAR(proxy[1], 0, 1.5e-4);
+  EXPECT_GT(normal[1], 0.9);
+  EXPECT_TRUE(papilla_haptic_tick(haptic, below, 1, force) & PAPILLA_HAPTIC_FAULT);
+  EXPECT_EQ(force[1], 0);
+  papilla_haptic_reset(haptic, above);
+  EXPECT_EQ(papilla_haptic_tick(haptic, above, 0, force), 0);
+  papilla_haptic_close(haptic);
+}
+
+TEST(CInterface, RefusesWithOneLine) {
+  char message[80] = "";
+  EXPECT_EQ(papilla_haptic_open("missing.glb", nullptr, message, sizeof message), nullptr);
+  EXPECT_NE(std::string(message).find("missing.glb"), std::string::npos);
+  EXPECT_EQ(papilla_haptic_open(nullptr, nullptr, message, sizeof message), nullptr);
+  papilla_haptic_options odd{};
+  odd.rate_hz = -1;
+  EXPECT_EQ(papilla_haptic_open("missing.glb", &odd, message, 5), nullptr);
+  EXPECT_EQ(std::string(message).size(), 4U);
+  double force[3] = {1, 1, 1};
+  EXPECT_EQ(papilla_haptic_tick(nullptr, force, 0, force), PAPILLA_HAPTIC_FAULT);
+  papilla_haptic_close(nullptr);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/neighbourhood.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "haptic/contact_shapes.hpp"
+#include "papilla/haptic/contact_surface.hpp"
+
+namespace papilla {
+namespace {
+
+/// Triangles of all shapes around the origin: big and small ones, slivers, near needles.
+ContactMesh random_soup(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  ContactMesh mesh;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Vec3 a = 0.02 * vec(), b = a + 0.01 * vec();
+    const Vec3 c = i % 3 == 0 ? a + 0.01 * vec() : a + 0.7 * (b - a) + (i % 3 == 1 ? 1e-5 : 1e-8) * vec();
+    for (const Vec3& p : {a, b, c}) mesh.positions.push_back(p);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+class Near : public ::testing::TestWithParam<double> {};
+
+TEST_P(Near, SweepsAsTheTreeDoes) {
+  const ContactSurface surface(random_soup(7), {ContactMaterial{}}, {}, GetParam());
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  auto near = std::make_unique<Neighbourhood>();
+  int hits = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 from = 0.02 * vec(), to = from + (i % 2 == 0 ? 1e-3 : 1e-2) * vec();
+    if (i % 10 == 0) {
+      ASSERT_TRUE(surface.gather(from, 3e-3, *near));
+    }
+    const auto expected = surface.sweep(from, to), found = surface.sweep(from, to, *near);
+    ASSERT_EQ(expected.has_value(), found.has_value()) << i;
+    if (!expected) continue;
+    ++hits;
+    // Of several that are met at the same place either may be told.
+    EXPECT_NEAR(expected->t, found->t, 1e-9) << i;
+    EXPECT_NEAR(expected->penetration_m, found->penetration_m, 1e-12) << i;
+  }
+  EXPECT_GT(hits, 200);
+}
+
+INSTANTIATE_TEST_SUITE_P(Radius, Near, ::testing::Values(0.0, 1e-4, 1e-3));
+
+TEST(Neighbourhood, SaysWhenItIsFull) {
+  const ContactSurface surface(testing::plate(60, 60, 0.06, 0.06), {ContactMaterial{}}, {}, 0);
+  auto near = std::make_unique<Neighbourhood>();
+  EXPECT_FALSE(surface.gather({0.03, 0.03, 0}, 0.05, *near));
+  EXPECT_EQ(near->count(), 0U);
+  EXPECT_LT(surface.margin({0.03, 0.03, 0}, *near), 0);
+  EXPECT_TRUE(surface.gather({0.03, 0.03, 0}, 0.005, *near));
+  EXPECT_GT(near->count(), 100U);
+  EXPECT_NEAR(surface.margin({0.033, 0.03, 0}, *near), 0.002, 1e-9);
+}
+
+}  // namespace
+}  // namespace papilla

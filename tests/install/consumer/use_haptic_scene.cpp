@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include <papilla/core/error.hpp>
+#include <papilla/io/haptic_scene.hpp>
+#include <papilla/papilla_haptic.h>
+
+int main() {
+  char message[64] = "";
+  if (papilla_haptic_open("missing.glb", nullptr, message, sizeof message) != nullptr || message[0] == 0) return 1;
+  try {
+    papilla::load_haptic_scene("missing.glb");
+  } catch (const papilla::IoError&) {
+    return 0;
+  }
+  return 1;
+}

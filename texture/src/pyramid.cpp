@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "pyramid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checks.hpp"
+
+namespace papilla::texture_detail {
+namespace {
+
+/// What a coarse pixel covers along one axis: pixels first…last, the two at the ends in part.
+struct Cover {
+  int first = 0, last = 0;
+  double first_share = 1, last_share = 1;
+
+  double share(int i) const { return i == first ? first_share : i == last ? last_share : 1; }
+};
+
+std::vector<Cover> covers(int fine, int coarse) {
+  std::vector<Cover> result;
+  const double ratio = static_cast<double>(fine) / coarse;
+  for (int i = 0; i < coarse; ++i) {
+    const double begin = i * ratio, end = (i + 1) * ratio;
+    Cover cover;
+    cover.first = static_cast<int>(begin);
+    cover.last = std::min(fine - 1, static_cast<int>(std::ceil(end)) - 1);
+    cover.first_share = std::min(end, cover.first + 1.0) - begin;
+    cover.last_share = end - std::max(begin, static_cast<double>(cover.last));
+    result.push_back(cover);
+  }
+  return result;
+}
+
+/// The two coarse samples around a fine one and the weight of the second.
+struct Between {
+  int before = 0, after = 0;
+  double weight = 0;
+};
+
+std::vector<Between> positions(int fine, int coarse, bool periodic) {
+  std::vector<Between> result;
+  for (int i = 0; i < fine; ++i) {
+    const double at = (i + 0.5) * coarse / fine - 0.5;
+    const int before = static_cast<int>(std::floor(at));
+    const auto inside = [&](int k) { return periodic ? wrapped(k, coarse) : std::clamp(k, 0, coarse - 1); };
+    result.push_back({inside(before), inside(before + 1), at - before});
+  }
+  return result;
+}
+
+}  // namespace
+
+GreyImage halved(const GreyImage& image) {
+  GreyImage half{(image.width + 1) / 2, (image.height + 1) / 2, {}, 2 * image.pitch_mm, 32};
+  const std::vector<Cover> columns = covers(image.width, half.width), rows = covers(image.height, half.height);
+  half.pixels.reserve(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height));
+  for (const Cover& row : rows)
+    for (const Cover& column : columns) {
+      double sum = 0, area = 0;
+      for (int y = row.first; y <= row.last; ++y)
+        for (int x = column.first; x <= column.last; ++x) {
+          const double share = row.share(y) * column.share(x);
+          sum += share * static_cast<double>(image.at(x, y));
+          area += share;
+        }
+      half.pixels.push_back(static_cast<float>(sum / area));
+    }
+  return half;
+}
+
+std::vector<double> doubled(const std::vector<double>& heights, int width, int height, int fine_width, int fine_height,
+                            bool periodic) {
+  const std::vector<Between> columns = positions(fine_width, width, periodic);
+  const std::vector<Between> rows = positions(fine_height, height, periodic);
+  const double scale = (static_cast<double>(fine_width) / width + static_cast<double>(fine_height) / height) / 2;
+  std::vector<double> result;
+  result.reserve(static_cast<std::size_t>(fine_width) * static_cast<std::size_t>(fine_height));
+  for (const Between& row : rows) {
+    const double *above = heights.data() + pixel_index(0, row.before, width),
+                 *below = heights.data() + pixel_index(0, row.after, width);
+    for (const Between& column : columns) {
+      const auto across = [&](const double* line) {
+        return (1 - column.weight) * line[column.before] + column.weight * line[column.after];
+      };
+      result.push_back(scale * ((1 - row.weight) * across(above) + row.weight * across(below)));
+    }
+  }
+  return result;
+}
+
+}  // namespace papilla::texture_detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "reflectance.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "checks.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla::texture_detail {
+
+void require_shading(const GreyImage& image, const ShadingOptions& options, const char* function) {
+  require_image(image, function);
+  constexpr std::size_t k_most_pixels = std::size_t{8192} * 8192;  // 6 GB for the variational method.
+  if (image.pixels.size() > k_most_pixels)
+    throw InvalidInput(std::string(function) + ": " + std::to_string(image.width) + " x " +
+                       std::to_string(image.height) + " pixels are more than 8192 x 8192");
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+  if (!positive(options.albedo) || !positive(options.smoothness) || options.iterations < 1 ||
+      !positive(options.relative_tolerance))
+    throw InvalidInput(std::string(function) + ": albedo " + std::to_string(options.albedo) + ", smoothness " +
+                       std::to_string(options.smoothness) + ", tolerance " +
+                       std::to_string(options.relative_tolerance) + " and iterations " +
+                       std::to_string(options.iterations) + " must be positive");
+}
+
+std::vector<double> brightness(const GreyImage& image, double albedo) {
+  std::vector<double> values(image.pixels.size());
+  std::transform(image.pixels.begin(), image.pixels.end(), values.begin(),
+                 [albedo](float grey) { return static_cast<double>(grey) / albedo; });
+  return values;
+}
+
+void remove_mean(std::vector<double>& field) {
+  const double mean = std::accumulate(field.begin(), field.end(), 0.0) / static_cast<double>(field.size());
+  for (double& value : field) value -= mean;
+}
+
+}  // namespace papilla::texture_detail

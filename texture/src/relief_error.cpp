@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/texture/relief_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "checks.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+using Field = std::vector<double>;
+
+void remove_plane(Field& field, int width, int height) {
+  const double middle_x = (width - 1) / 2.0, middle_y = (height - 1) / 2.0;
+  double mean = 0, along_x = 0, along_y = 0, square_x = 0, square_y = 0;
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x, ++i) {
+      mean += field[i];
+      along_x += field[i] * (x - middle_x);
+      along_y += field[i] * (y - middle_y);
+      square_x += (x - middle_x) * (x - middle_x);
+      square_y += (y - middle_y) * (y - middle_y);
+    }
+  mean /= static_cast<double>(field.size());
+  const double slope_x = square_x > 0 ? along_x / square_x : 0, slope_y = square_y > 0 ? along_y / square_y : 0;
+  i = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x, ++i) field[i] -= mean + slope_x * (x - middle_x) + slope_y * (y - middle_y);
+}
+
+double mean_difference(const Field& a, const Field& b, double scale) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(scale * a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
+}
+
+}  // namespace
+
+ReliefError relief_error(const std::vector<double>& found_px, const HeightMap& truth) {
+  texture_detail::require_height_map(truth, "relief_error", true);
+  if (found_px.size() != truth.mm.size())
+    throw InvalidInput("relief_error: " + std::to_string(found_px.size()) + " heights for " +
+                       std::to_string(truth.mm.size()) + " samples");
+  if (!std::all_of(found_px.begin(), found_px.end(), [](double h) { return std::isfinite(h); }))
+    throw InvalidInput("relief_error: a height is not finite");
+  Field found = found_px, expected;
+  for (const float height : truth.mm) expected.push_back(static_cast<double>(height) / truth.pitch_mm_x);
+  const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
+  const double range = *high - *low;
+  if (!(range > 0)) throw InvalidInput("relief_error: the truth is flat");
+  remove_plane(found, truth.width, truth.height);
+  remove_plane(expected, truth.width, truth.height);
+  double product = 0, square = 0, expected_square = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    product += found[i] * expected[i];
+    square += found[i] * found[i];
+    expected_square += expected[i] * expected[i];
+  }
+  ReliefError error;
+  error.mean = mean_difference(found, expected, 1) / range;
+  error.scaled_mean = mean_difference(found, expected, square > 0 ? product / square : 0) / range;
+  if (square > 0 && expected_square > 0) error.correlation = product / std::sqrt(square * expected_square);
+  return error;
+}
+
+}  // namespace papilla

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shaped_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "checks.hpp"
+#include "fft.hpp"
+#include "random.hpp"
+
+namespace papilla::texture_detail {
+namespace {
+
+void multiply_spectrum(RealFft2d& fft, int width, int height, double norm,
+                       const std::function<double(double, double)>& gain) {
+  std::complex<double>* value = fft.spectrum();
+  for (int v = 0; v < height; ++v) {
+    const double y = static_cast<double>(2 * v <= height ? v : v - height) / height;
+    for (int u = 0; u <= width / 2; ++u, ++value) *value *= norm * gain(static_cast<double>(u) / width, y);
+  }
+}
+
+}  // namespace
+
+std::vector<double> shaped_noise(int width, int height, std::uint64_t seed,
+                                 const std::function<double(double, double)>& gain) {
+  RealFft2d fft(width, height);
+  Random random(seed);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) fft.real(x, y) = random.normal();
+  fft.forward();
+  multiply_spectrum(fft, width, height, 1, gain);
+  fft.backward();
+  std::vector<double> field;
+  field.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  double squares = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      field.push_back(fft.real(x, y));
+      squares += field.back() * field.back();
+    }
+  const double scale = squares > 0 ? std::sqrt(static_cast<double>(field.size()) / squares) : 0;
+  for (double& value : field) value *= scale;
+  return field;
+}
+
+void filter(std::vector<double>& field, int width, int height, bool periodic,
+            const std::function<double(double, double)>& gain) {
+  const auto row = static_cast<std::size_t>(width);
+  if (periodic) {
+    RealFft2d fft(width, height);
+    for (int y = 0; y < height; ++y) std::copy_n(field.data() + pixel_index(0, y, width), row, &fft.real(0, y));
+    fft.forward();
+    multiply_spectrum(fft, width, height, 1 / (static_cast<double>(width) * height), gain);
+    fft.backward();
+    for (int y = 0; y < height; ++y) std::copy_n(&fft.real(0, y), row, field.data() + pixel_index(0, y, width));
+    return;
+  }
+  CosineTransform2d transform(width, height);
+  std::copy(field.begin(), field.end(), transform.data());
+  transform.forward();
+  const double norm = 1 / (4 * static_cast<double>(field.size()));
+  double* value = transform.data();
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u, ++value) *value *= norm * gain(0.5 * u / width, 0.5 * v / height);
+  transform.backward();
+  std::copy_n(transform.data(), field.size(), field.begin());
+}
+
+}  // namespace papilla::texture_detail
