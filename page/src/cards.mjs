@@ -65,14 +65,19 @@ function drawPrimitive(canvas, image, vectors, size) {
   for (const x of [-1, 0, 1]) for (const y of [-1, 0, 1]) context.drawImage(image, x * image.width, y * image.height);
 }
 
+const plots = [];
+
+/** After a change of colours. */
+export function repaintCards() { for (const plot of plots) plot.redraw(); }
+
 function fractalPlot(host, relief, size) {
   const ink = () => getComputedStyle(document.body).color, line = () => getComputedStyle(document.body).getPropertyValue('--line');
   const axis = (label) => ({ label, stroke: ink, grid: { stroke: line }, ticks: { stroke: line }, size: 52, values: (_, ticks) => ticks.map((t) => t === null ? '' : number(t)) });
-  return new uPlot({
+  plots.push(new uPlot({
     width: 300, height: 180, legend: { show: false }, cursor: { show: false },
     scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
     series: [{}, { stroke: '#1b7fd6', width: 2, points: { show: true, size: 6 } }], axes: [axis('lag [mm]'), axis('rms [mm]')],
-  }, structureFunction(relief, size[0] / relief.width), host);
+  }, structureFunction(relief, size[0] / relief.width), host));
 }
 
 async function imageOf(bytes) {

@@ -18,8 +18,10 @@ function decodeMesh(mesh) {
   const indices = new Uint32Array(3 * mesh.shown);
   MeshoptDecoder.decodeVertexBuffer(packed, mesh.vertices, 24, bytesOf(mesh.vertex_stream));
   MeshoptDecoder.decodeIndexBuffer(new Uint8Array(indices.buffer), indices.length, 4, bytesOf(mesh.index_stream));
+  const coarse = new Uint32Array(3 * mesh.coarse);
+  MeshoptDecoder.decodeIndexBuffer(new Uint8Array(coarse.buffer), coarse.length, 4, bytesOf(mesh.coarse_stream));
   const u16 = new Uint16Array(packed.buffer), i8 = new Int8Array(packed.buffer), n = mesh.vertices;
-  const out = { positions: new Float32Array(3 * n), normals: new Float32Array(3 * n), uv: new Float32Array(2 * n), measured: new Float32Array(3 * n), indices };
+  const out = { positions: new Float32Array(3 * n), normals: new Float32Array(3 * n), uv: new Float32Array(2 * n), measured: new Float32Array(3 * n), indices, coarse };
   const at = (code, low, high) => low + (high - low) * code / 65535;
   const fromLog = (code) => code === NO_VALUE ? -1 : 2 ** (code / 2048 - 16);
   for (let i = 0; i < n; ++i) {
@@ -58,6 +60,7 @@ export async function load() {
       mesh.data = decodeMesh(mesh);
       delete mesh.vertex_stream;
       delete mesh.index_stream;
+      delete mesh.coarse_stream;
     }
   scene.materials.forEach((material, index) => {
     material.index = index;

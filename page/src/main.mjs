@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together.
-import { fillCards } from './cards.mjs';
+import { fillCards, repaintCards } from './cards.mjs';
 import { number, viridis } from './colour.mjs';
 import { load } from './data.mjs';
 import { element } from './dom.mjs';
@@ -75,6 +75,7 @@ class Page {
     this.three?.setBackground(back);
     this.uv?.setBackground(back);
     this.touch.repaint();
+    repaintCards();
   }
 
   listViews() {

@@ -8,14 +8,21 @@ import { applyView, shadingOf, uvMatrix } from './shading.mjs';
 
 const GL_WRAP = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
 
+/** A full frame that takes longer makes moving unpleasant. */
+const SLOW_MS = 30;
+
 export function geometryOf(mesh) {
-  const { positions, normals, uv, measured, indices } = mesh.data;
+  const { positions, normals, uv, measured, indices, coarse } = mesh.data;
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
   geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
   geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
   geometry.setAttribute('measured', new THREE.BufferAttribute(measured, 3));
-  geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+  const both = new Uint32Array(indices.length + coarse.length);
+  both.set(indices);
+  both.set(coarse, indices.length);
+  geometry.setIndex(new THREE.BufferAttribute(both, 1));
+  geometry.setDrawRange(0, indices.length);
   return geometry;
 }
 
@@ -50,12 +57,13 @@ export class SceneView {
   constructor(canvas, scene, onPick, onHover) {
     Object.assign(this, { canvas, data: scene, onPick, onHover });
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.ratio = Math.min(window.devicePixelRatio, 2);
+    this.renderer.setPixelRatio(this.ratio);
     this.renderer.toneMapping = THREE.ACESFilmicToneMapping;
     this.world = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.1, 1e6);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener('change', () => this.invalidate());
+    this.controls.addEventListener('change', () => this.moved());
     const environment = new THREE.PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
     this.world.environment = environment;
     this.addLights();
@@ -208,6 +216,26 @@ export class SceneView {
     event.preventDefault();
     this.camera.position.copy(this.controls.target).add(new THREE.Vector3().setFromSpherical(sphere));
     this.controls.update();
+    this.moved();
+  }
+
+  /** While the camera moves, a slow machine draws the coarse triangles in half the resolution. */
+  moved() {
+    if (this.slow) this.detail(true);
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => this.detail(false), 250);
+    this.invalidate();
+  }
+
+  detail(coarse) {
+    if (this.coarse === coarse) return;
+    this.coarse = coarse;
+    for (const part of this.data.parts)
+      for (const { geometry, data } of part.meshes)
+        if (coarse) geometry.setDrawRange(data.indices.length, data.coarse.length);
+        else geometry.setDrawRange(0, data.indices.length);
+    this.renderer.setPixelRatio(coarse ? this.ratio / 2 : this.ratio);
+    this.resize();
     this.invalidate();
   }
 
@@ -231,6 +259,10 @@ export class SceneView {
     this.renderer.render(this.world, this.camera);
     this.frames = (this.frames ?? 0) + 1;
     this.canvas.dataset.frames = this.frames;
-    this.canvas.dataset.frameMs = (performance.now() - start).toFixed(1);
+    this.canvas.dataset.triangles = this.renderer.info.render.triangles;
+    if (this.frames < 3 || this.coarse) return;
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until the frame is there
+    this.slow = performance.now() - start > SLOW_MS;
   }
 }

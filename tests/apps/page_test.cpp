@@ -44,6 +44,8 @@ TEST(PageMesh, KeepsEverythingWhenAsked) {
   const auto meshes = page_meshes(mesh, mesh.uv, measure_distortion(mesh, mesh.uv), 1);
   ASSERT_EQ(meshes.size(), 1U);
   EXPECT_EQ(meshes[0].shown, 800U);
+  EXPECT_GT(meshes[0].coarse, 0U);
+  EXPECT_LT(meshes[0].coarse, 200U);
   EXPECT_EQ(meshes[0].vertices, 441U);
   EXPECT_EQ(meshes[0].error_mm, 0);
   EXPECT_EQ(meshes[0].high, (Vec3{20, 20, 0}));
@@ -92,7 +94,8 @@ TEST(PageFile, MarkupInNamesStaysText) {
   EXPECT_EQ(plain.find("AAAA"), std::string::npos);
 
   const auto file = std::filesystem::path(testing::TempDir()) / "papilla_page_test.html";
-  EXPECT_EQ(write_page(content, file), std::filesystem::file_size(file));
+  const std::size_t bytes = write_page(content, file);
+  EXPECT_EQ(bytes, std::filesystem::file_size(file));
   EXPECT_EQ(read_file(file).find("<img src=x"), std::string::npos);
   std::filesystem::remove(file);
   EXPECT_THROW(write_page(content, "/nowhere/page.html"), IoError);

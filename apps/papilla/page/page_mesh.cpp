@@ -37,6 +37,8 @@ struct Around {
 constexpr float k_most_error = 0.05F;
 /// Clustering when simplification stays above this multiple of what was asked.
 constexpr double k_too_many = 1.5;
+/// Triangles shown while the camera moves, as a share of those shown at rest.
+constexpr double k_coarse = 0.1;
 /// No fewer triangles than this are asked of a mesh: a knob stays a knob.
 constexpr std::size_t k_least_triangles = 64;
 
@@ -113,30 +115,39 @@ class Builder {
     around.density += distortion.area_mm2 * distortion.texels_per_mm;
   }
 
-  void simplify(double keep, PageMesh& out) {
-    const auto wanted = static_cast<std::size_t>(keep * static_cast<double>(out.triangles));
+  /// Triangles over the same vertices, about `keep` times as many; all of them when fewer make no surface.
+  std::vector<unsigned int> fewer(double keep, double& error_mm) const {
+    const auto wanted = static_cast<std::size_t>(keep * static_cast<double>(indices_.size() / 3));
     const std::size_t target = 3 * std::max(wanted, k_least_triangles);
-    if (keep < 1 && target < indices_.size()) {
-      const float* positions = vertices_.front().position.data();
-      std::vector<unsigned int> fewer(indices_.size());
-      float error = 0;
-      fewer.resize(meshopt_simplify(fewer.data(), indices_.data(), indices_.size(), positions, vertices_.size(),
-                                    sizeof(Corner), target, k_most_error, 0, &error));
-      if (static_cast<double>(fewer.size()) > k_too_many * static_cast<double>(target)) {
-        fewer.resize(indices_.size());
-        fewer.resize(meshopt_simplifySloppy(fewer.data(), indices_.data(), indices_.size(), positions, vertices_.size(),
-                                            sizeof(Corner), target, 1, &error));
-      }
-      if (!fewer.empty()) {
-        indices_ = std::move(fewer);
-        out.error_mm = static_cast<double>(error * meshopt_simplifyScale(positions, vertices_.size(), sizeof(Corner)));
-      }
+    if (keep >= 1 || target >= indices_.size()) return indices_;
+    const float* positions = vertices_.front().position.data();
+    std::vector<unsigned int> result(indices_.size());
+    float error = 0;
+    result.resize(meshopt_simplify(result.data(), indices_.data(), indices_.size(), positions, vertices_.size(),
+                                   sizeof(Corner), target, k_most_error, 0, &error));
+    if (static_cast<double>(result.size()) > k_too_many * static_cast<double>(target)) {
+      result.resize(indices_.size());
+      result.resize(meshopt_simplifySloppy(result.data(), indices_.data(), indices_.size(), positions, vertices_.size(),
+                                           sizeof(Corner), target, 1, &error));
     }
+    if (result.empty()) return indices_;
+    error_mm = static_cast<double>(error * meshopt_simplifyScale(positions, vertices_.size(), sizeof(Corner)));
+    return result;
+  }
+
+  void simplify(double keep, PageMesh& out) {
+    indices_ = fewer(keep, out.error_mm);
     out.shown = indices_.size() / 3;
     meshopt_optimizeVertexCache(indices_.data(), indices_.data(), indices_.size(), vertices_.size());
+    double unused = 0;
+    coarse_ = fewer(k_coarse, unused);
+    out.coarse = coarse_.size() / 3;
     order_.resize(vertices_.size());
-    out.vertices = meshopt_optimizeVertexFetchRemap(order_.data(), indices_.data(), indices_.size(), vertices_.size());
-    meshopt_remapIndexBuffer(indices_.data(), indices_.data(), indices_.size(), order_.data());
+    std::vector<unsigned int> used = indices_;  // clustering may choose vertices that the finer triangles have not
+    used.insert(used.end(), coarse_.begin(), coarse_.end());
+    out.vertices = meshopt_optimizeVertexFetchRemap(order_.data(), used.data(), used.size(), vertices_.size());
+    for (std::vector<unsigned int>* list : {&indices_, &coarse_})
+      meshopt_remapIndexBuffer(list->data(), list->data(), list->size(), order_.data());
   }
 
   void find_bounds(PageMesh& out) const {
@@ -185,9 +196,12 @@ class Builder {
     out.vertex_stream.resize(meshopt_encodeVertexBufferBound(packed.size(), sizeof(Packed)));
     out.vertex_stream.resize(meshopt_encodeVertexBuffer(bytes(out.vertex_stream), out.vertex_stream.size(),
                                                         packed.data(), packed.size(), sizeof(Packed)));
-    out.index_stream.resize(meshopt_encodeIndexBufferBound(indices_.size(), packed.size()));
-    out.index_stream.resize(
-        meshopt_encodeIndexBuffer(bytes(out.index_stream), out.index_stream.size(), indices_.data(), indices_.size()));
+    const auto encode_indices = [&](const std::vector<unsigned int>& indices, std::vector<std::byte>& stream) {
+      stream.resize(meshopt_encodeIndexBufferBound(indices.size(), packed.size()));
+      stream.resize(meshopt_encodeIndexBuffer(bytes(stream), stream.size(), indices.data(), indices.size()));
+    };
+    encode_indices(indices_, out.index_stream);
+    encode_indices(coarse_, out.coarse_stream);
   }
 
   const TriangleMesh& mesh_;
@@ -195,7 +209,7 @@ class Builder {
   const DistortionReport& report_;
   std::vector<Corner> vertices_;
   std::vector<Around> around_;
-  std::vector<unsigned int> indices_, order_;
+  std::vector<unsigned int> indices_, coarse_, order_;
 };
 
 }  // namespace

@@ -17,11 +17,12 @@ namespace papilla::app {
 struct PageMesh {
   std::uint32_t slot = 0;
   std::size_t triangles = 0, shown = 0, vertices = 0;
-  double error_mm = 0;  ///< Of the simplification, as the simplifier estimates it; 0 when nothing was left out.
+  std::size_t coarse = 0;  ///< Triangles of `coarse_stream`, over the same vertices; shown while the camera moves.
+  double error_mm = 0;     ///< Of the simplification, as the simplifier estimates it; 0 when nothing was left out.
   bool has_uv = false;
   Vec3 low, high;
   Vec2 uv_low, uv_high;
-  std::vector<std::byte> vertex_stream, index_stream;
+  std::vector<std::byte> vertex_stream, index_stream, coarse_stream;
 };
 
 /// "Not measured" in the streams of a PageMesh.

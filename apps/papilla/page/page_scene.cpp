@@ -35,7 +35,9 @@ Json mesh_json(const PageMesh& mesh, const Part& part) {
           {"uv_low", pair(mesh.uv_low)},
           {"uv_high", pair(mesh.uv_high)},
           {"vertex_stream", base64(mesh.vertex_stream)},
-          {"index_stream", base64(mesh.index_stream)}};
+          {"index_stream", base64(mesh.index_stream)},
+          {"coarse", mesh.coarse},
+          {"coarse_stream", base64(mesh.coarse_stream)}};
 }
 
 /// Where nothing is tagged or pictured, channel 0 is what people made.

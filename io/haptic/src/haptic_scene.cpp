@@ -7,12 +7,12 @@
 #include <map>
 #include <optional>
 
-#include "papilla/io/height_source.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/roughness_field.hpp"
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/io/gltf_reader.hpp"
+#include "papilla/io/height_source.hpp"
 
 namespace papilla {
 namespace {
