@@ -183,7 +183,9 @@ TEST(Ageing, NothingAtTimeZeroAndHeightAndFrictionLater) {
     EXPECT_NEAR(young.values[Channel::bump][77], fresh.values[Channel::bump][77], 1e-6) << name;
     EXPECT_GT(change(young.values[Channel::friction], old.values[Channel::friction]), 1e-3) << name;
     EXPECT_GT(change(young.values[Channel::color], old.values[Channel::color]), 1e-3) << name;
-    if (std::string(name) != "greying") EXPECT_GT(change(young.values[Channel::bump], old.values[Channel::bump]), 1e-4) << name;
+    if (std::string(name) != "greying") {
+      EXPECT_GT(change(young.values[Channel::bump], old.values[Channel::bump]), 1e-4) << name;
+    }
   }
 }
 
