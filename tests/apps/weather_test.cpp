@@ -18,7 +18,8 @@ namespace {
 Scene two_sides() {
   Part part;
   part.name = "sides";
-  part.mesh.positions = {{0, 0, 0}, {1000, 0, 0}, {1000, 1000, 0}, {0, 1000, 0}, {0, 0, -50}, {1000, 0, -50}, {1000, 1000, -50}, {0, 1000, -50}};
+  part.mesh.positions = {{0, 0, 0},   {1000, 0, 0},   {1000, 1000, 0},   {0, 1000, 0},
+                         {0, 0, -50}, {1000, 0, -50}, {1000, 1000, -50}, {0, 1000, -50}};
   part.mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
   part.mesh.uv.values = {{0, 0}, {.5, 0}, {.5, 1}, {0, 1}, {.5, 0}, {1, 0}, {1, 1}, {.5, 1}};
   part.mesh.uv.indices = part.mesh.triangles;
@@ -58,7 +59,8 @@ TEST(Weather, LeavesAloneWhatNoLayerFits) {
 }
 
 TEST(Weather, ConfigurationErrorsNameTheKey) {
-  const auto path = std::filesystem::temp_directory_path() / ("papilla-weather-" + std::to_string(::getpid()) + ".json");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("papilla-weather-" + std::to_string(::getpid()) + ".json");
   const auto refusal = [&](const std::string& text) {
     std::ofstream(path) << text;
     try {
