@@ -15,7 +15,9 @@ namespace {
 constexpr int k_gap = 4;
 constexpr unsigned k_looks = 1U << static_cast<unsigned>(Channel::color) | 1U << static_cast<unsigned>(Channel::bump);
 
-std::size_t index_of(int x, int y, int width) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x); }
+std::size_t index_of(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
 
 /// Largest step across the borders over the 99th percentile of the steps within.
 double seam_of(const std::vector<float>& height, int width, int rows) {
@@ -37,7 +39,8 @@ double seam_of(const std::vector<float>& height, int width, int rows) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+  for (const char c : text)
+    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
   return out;
 }
 
@@ -49,27 +52,31 @@ ColorImage shaded(const RenderedTexture& texture, double relief) {
   std::vector<unsigned char> pixels;
   pixels.reserve(color.size());
   const auto height = [&](int x, int y) {
-    return static_cast<double>(bump[index_of(std::clamp(x, 0, texture.width - 1), std::clamp(y, 0, texture.height - 1), texture.width)]);
+    return static_cast<double>(
+        bump[index_of(std::clamp(x, 0, texture.width - 1), std::clamp(y, 0, texture.height - 1), texture.width)]);
   };
   for (int y = 0; y < texture.height; ++y)
     for (int x = 0; x < texture.width; ++x) {
-      const double sx = relief * (height(x + 1, y) - height(x - 1, y)) / 2, sy = relief * (height(x, y + 1) - height(x, y - 1)) / 2;
+      const double sx = relief * (height(x + 1, y) - height(x - 1, y)) / 2,
+                   sy = relief * (height(x, y + 1) - height(x, y - 1)) / 2;
       const double light = (1 + sx * 0.6 + sy * 0.6) / std::sqrt(1 + sx * sx + sy * sy) / 1.05;
       for (std::size_t k = 0; k < 3; ++k) {
         const double c = static_cast<double>(color[3 * index_of(x, y, texture.width) + k]);
-        pixels.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(c * std::clamp(light, 0.15, 1.8), 0.0, 1.0))));
+        pixels.push_back(
+            static_cast<unsigned char>(std::lround(255 * std::clamp(c * std::clamp(light, 0.15, 1.8), 0.0, 1.0))));
       }
     }
   return {texture.width, texture.height, std::move(pixels)};
 }
 
-ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::string>>& recipes, const RecipeLibrary& library,
-                                const CompileOptions& options, int side) {
+ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::string>>& recipes,
+                                const RecipeLibrary& library, const CompileOptions& options, int side) {
   ContactSheet sheet;
   sheet.columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(recipes.size())))));
   const int rows = (static_cast<int>(recipes.size()) + sheet.columns - 1) / sheet.columns, pitch = side + k_gap;
   sheet.picture = {sheet.columns * pitch + k_gap, rows * pitch + k_gap, {}};
-  sheet.picture.pixels.assign(3 * static_cast<std::size_t>(sheet.picture.width) * static_cast<std::size_t>(sheet.picture.height), 255);
+  sheet.picture.pixels.assign(
+      3 * static_cast<std::size_t>(sheet.picture.width) * static_cast<std::size_t>(sheet.picture.height), 255);
   int place = 0;
   for (const auto& [name, recipe] : recipes) {
     SheetEntry entry{name, recipe, {}, 0, 0, 0, 0, ""};
@@ -89,7 +96,8 @@ ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::st
       const ColorImage tile = shaded(picture, side / 24.0);
       for (int y = 0; y < side; ++y)
         std::copy_n(tile.pixels.begin() + static_cast<std::ptrdiff_t>(3 * index_of(0, y, side)), 3 * side,
-                    sheet.picture.pixels.begin() + static_cast<std::ptrdiff_t>(3 * index_of(left, top + y, sheet.picture.width)));
+                    sheet.picture.pixels.begin() +
+                        static_cast<std::ptrdiff_t>(3 * index_of(left, top + y, sheet.picture.width)));
     } catch (const InvalidInput& refusal) {
       entry.error = refusal.what();
     }
@@ -99,19 +107,27 @@ ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::st
 }
 
 std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file) {
-  std::string page = "<!doctype html><meta charset=\"utf-8\"><title>Recipes</title><style>body{font:14px sans-serif;margin:2em}td,th{padding:2px 8px;"
-                     "text-align:left;vertical-align:top;border-bottom:1px solid #ccc}code{font-size:12px}</style>\n";
-  page += fmt::format("<h1>Recipes</h1><p><img src=\"{}\" alt=\"{} tiles, {} a row\"></p>\n", picture_file, sheet.entries.size(), sheet.columns);
+  std::string page =
+      "<!doctype html><meta charset=\"utf-8\"><title>Recipes</title><style>body{font:14px "
+      "sans-serif;margin:2em}td,th{padding:2px 8px;"
+      "text-align:left;vertical-align:top;border-bottom:1px solid #ccc}code{font-size:12px}</style>\n";
+  page += fmt::format("<h1>Recipes</h1><p><img src=\"{}\" alt=\"{} tiles, {} a row\"></p>\n", picture_file,
+                      sheet.entries.size(), sheet.columns);
   page += "<table><tr><th>#<th>name<th>recipe<th>rests on<th>height<th>mean<th>seam</tr>\n";
   int number = 0;
   for (const SheetEntry& e : sheet.entries) {
     std::string uses;
     for (const std::string& name : e.uses) uses += (uses.empty() ? "" : ", ") + name;
     page += fmt::format("<tr><td>{}<td>{}<td><code>{}</code>", ++number, escaped(e.name), escaped(e.recipe));
-    if (e.error.empty()) page += fmt::format("<td>{}<td>{:.3f} to {:.3f}<td>{:.3f}<td>{:.2f}</tr>\n", escaped(uses), e.low, e.high, e.mean, e.seam);
-    else page += fmt::format("<td colspan=4>{}</tr>\n", escaped(e.error));
+    if (e.error.empty())
+      page += fmt::format("<td>{}<td>{:.3f} to {:.3f}<td>{:.3f}<td>{:.2f}</tr>\n", escaped(uses), e.low, e.high, e.mean,
+                          e.seam);
+    else
+      page += fmt::format("<td colspan=4>{}</tr>\n", escaped(e.error));
   }
-  return page + "</table>\n<p>Seam: largest step of the height across the border over the largest step within; not above 1 where the texture tiles.</p>\n";
+  return page +
+         "</table>\n<p>Seam: largest step of the height across the border over the largest step within; not above 1 "
+         "where the texture tiles.</p>\n";
 }
 
 }  // namespace papilla::app

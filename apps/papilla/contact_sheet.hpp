@@ -13,10 +13,10 @@ namespace papilla::app {
 /// What a contact sheet says of a recipe.
 struct SheetEntry {
   std::string name, recipe;
-  std::vector<std::string> uses;   ///< Recipes of the library that it rests on.
+  std::vector<std::string> uses;       ///< Recipes of the library that it rests on.
   double low = 0, high = 0, mean = 0;  ///< Of the height.
-  double seam = 0;                 ///< Largest step across the border over the largest step within; about 1 where it tiles.
-  std::string error;               ///< Why it has no picture.
+  double seam = 0;    ///< Largest step across the border over the largest step within; about 1 where it tiles.
+  std::string error;  ///< Why it has no picture.
 };
 
 struct ContactSheet {
@@ -27,8 +27,8 @@ struct ContactSheet {
 
 /// Pictures of recipes side by side, colours lit by the height.
 /// @pre side >= 8.
-ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::string>>& recipes, const RecipeLibrary& library,
-                                const CompileOptions& options, int side);
+ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::string>>& recipes,
+                                const RecipeLibrary& library, const CompileOptions& options, int side);
 
 /// The sheet as a self-contained HTML page.
 std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file);

@@ -36,7 +36,8 @@ bool looks_like_recipe(const std::string& text, const RecipeLibrary& library) {
 ColorImage to_color_image(const std::vector<float>& rgb, int width, int height) {
   ColorImage image{width, height, {}};
   image.pixels.reserve(rgb.size());
-  for (const float v : rgb) image.pixels.push_back(static_cast<unsigned char>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F)));
+  for (const float v : rgb)
+    image.pixels.push_back(static_cast<unsigned char>(std::lround(std::clamp(v, 0.0F, 1.0F) * 255.0F)));
   return image;
 }
 

@@ -3,8 +3,8 @@
 
 namespace papilla::procedural_detail {
 
-/// Heights are shares of a relief's depth, friction is a coefficient, stiffness a multiple. An ageing recipe is a layer: it
-/// covers nothing at time 0 and has done its work at time 1.
+/// Heights are shares of a relief's depth, friction is a coefficient, stiffness a multiple. An ageing recipe is a
+/// layer: it covers nothing at time 0 and has done its work at time 1.
 const std::string_view k_builtin_recipes = R"(
 # --- colours ---
 colour fire = black, red, yellow, white, white

@@ -37,8 +37,12 @@ int distances_wanted(const TypeArguments& arguments) {
 class Combination {
  public:
   Combination(TypeArguments& arguments, bool random)
-      : rooted_(arguments.flag("rooted")), inverse_(arguments.flag("inversedistance")), func_(arguments.formula("func")), random_(random) {
-    for (std::uint32_t k = 0; k < k_most_distances; ++k) share_[k] = 2 * unit_number(mix_bits(k, arguments.seed(), 77)) - 1;
+      : rooted_(arguments.flag("rooted")),
+        inverse_(arguments.flag("inversedistance")),
+        func_(arguments.formula("func")),
+        random_(random) {
+    for (std::uint32_t k = 0; k < k_most_distances; ++k)
+      share_[k] = 2 * unit_number(mix_bits(k, arguments.seed(), 77)) - 1;
     const std::string text = arguments.text("func");
     if (text == "f1") plain_ = true;
   }
@@ -77,7 +81,8 @@ CellDistance metric_of(const TypeArguments& arguments) {
   return metrics[arguments.integer("distmode")];
 }
 
-void keep_point(const PatternRow& row, int rank, int i, double x, double y, double dx, double dy, double distance, double id) {
+void keep_point(const PatternRow& row, int rank, int i, double x, double y, double dx, double dy, double distance,
+                double id) {
   if (rank == 0) row.id[i] = id;
   if ((rank + 1) * k_infos_of_point > k_infos) return;
   const double infos[k_infos_of_point] = {x, y, dx, dy, distance, id};
@@ -87,14 +92,20 @@ void keep_point(const PatternRow& row, int rank, int i, double x, double y, doub
 class Voronoi final : public Pattern {
  public:
   explicit Voronoi(TypeArguments& arguments)
-      : combination_(arguments, arguments.flag("random")), octaves_(arguments.integer("octaves")), lacunarity_(arguments.number("lacunarity")),
-        sponge_(arguments.integer("cell_initmode")), sponge_power_(arguments.number("initpower")), seed_(arguments.seed()),
-        needs_points_(arguments.mentions("get") || arguments.mentions("get0") || arguments.mentions("get1") || arguments.mentions("id")) {
+      : combination_(arguments, arguments.flag("random")),
+        octaves_(arguments.integer("octaves")),
+        lacunarity_(arguments.number("lacunarity")),
+        sponge_(arguments.integer("cell_initmode")),
+        sponge_power_(arguments.number("initpower")),
+        seed_(arguments.seed()),
+        needs_points_(arguments.mentions("get") || arguments.mentions("get0") || arguments.mentions("get1") ||
+                      arguments.mentions("id")) {
     cells_.distance = metric_of(arguments);
     cells_.power_a = arguments.number("distmodea"), cells_.power_b = arguments.number("distmodeb");
     cells_.wanted = distances_wanted(arguments);
     cells_.smooth = arguments.number("smooth");
-    cells_.displace_mode = arguments.integer("displacemode"), cells_.displace = std::clamp(arguments.number("displace"), -1.0, 1.0);
+    cells_.displace_mode = arguments.integer("displacemode"),
+    cells_.displace = std::clamp(arguments.number("displace"), -1.0, 1.0);
     weights_ = numbers_of(arguments, "weights");
     for (int k = static_cast<int>(weights_.size()); k < octaves_; ++k) weights_.push_back(std::pow(lacunarity_, -k));
     fill_counts(arguments);
@@ -115,13 +126,15 @@ class Voronoi final : public Pattern {
         for (int i = 0; i < row.n; ++i) distance[k][i] = octave == 0 ? k_infinite : first_distance(distance[k][i]);
       cell_row(x, y, row.n, cells, rows, needs_points_ && octave == 0 ? hits.data() : nullptr);
       for (int k = 0; k < cells.wanted; ++k)
-        for (int i = 0; i < row.n; ++i) sum[k][i] += weights_[static_cast<std::size_t>(octave)] * std::min(distance[k][i], k_infinite);
+        for (int i = 0; i < row.n; ++i)
+          sum[k][i] += weights_[static_cast<std::size_t>(octave)] * std::min(distance[k][i], k_infinite);
     }
     if (needs_points_)
       for (int k = 0; k < cells.wanted; ++k)
         for (int i = 0; i < row.n; ++i) {
           const CellHit& hit = hits[static_cast<std::size_t>(k * row.n + i)];
-          keep_point(row, k, i, hit.x / k_cells, hit.y / k_cells, hit.dx / k_cells, hit.dy / k_cells, sum[k][i], hit.id);
+          keep_point(row, k, i, hit.x / k_cells, hit.y / k_cells, hit.dx / k_cells, hit.dy / k_cells, sum[k][i],
+                     hit.id);
         }
     combination_.apply(row, sum, cells.wanted);
   }
@@ -144,7 +157,8 @@ class Voronoi final : public Pattern {
     const double* f[2] = {orig, index};
     Evaluator(arguments.graph()).run_on_distances(density, f, 2, k_row, out);
     for (std::size_t i = 0; i < k_row; ++i)
-      cells_.counts[i] = static_cast<std::uint8_t>(std::clamp(std::round(out[i]), 0.0, static_cast<double>(k_most_cell_points)));
+      cells_.counts[i] =
+          static_cast<std::uint8_t>(std::clamp(std::round(out[i]), 0.0, static_cast<double>(k_most_cell_points)));
   }
 
   Combination combination_;
@@ -169,7 +183,8 @@ std::vector<Site> repelled_points(int count, int iterations, std::uint32_t seed)
   std::vector<Site> sites(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const auto n = static_cast<std::uint32_t>(k);
-    sites[k] = {unit_number(mix_bits(n, 1, seed)), unit_number(mix_bits(n, 2, seed)), unit_number(mix_bits(n, 3, seed))};
+    sites[k] = {unit_number(mix_bits(n, 1, seed)), unit_number(mix_bits(n, 2, seed)),
+                unit_number(mix_bits(n, 3, seed))};
   }
   const double stride = 0.1 / count;
   for (int step = 0; step < iterations; ++step) {
@@ -196,8 +211,14 @@ std::vector<Site> repelled_points(int count, int iterations, std::uint32_t seed)
 class SeamlessVoronoi final : public Pattern {
  public:
   explicit SeamlessVoronoi(TypeArguments& arguments)
-      : combination_(arguments, false), metric_(metric_of(arguments)), a_(arguments.number("distmodea")), b_(arguments.number("distmodeb")),
-        wanted_(arguments.mentions("f4") || arguments.mentions("get") ? 4 : arguments.mentions("f3") ? 3 : arguments.mentions("f2") ? 2 : 1),
+      : combination_(arguments, false),
+        metric_(metric_of(arguments)),
+        a_(arguments.number("distmodea")),
+        b_(arguments.number("distmodeb")),
+        wanted_(arguments.mentions("f4") || arguments.mentions("get") ? 4
+                : arguments.mentions("f3")                            ? 3
+                : arguments.mentions("f2")                            ? 2
+                                                                      : 1),
         sites_(repelled_points(arguments.integer("points"), arguments.integer("smoothiterations"), arguments.seed())) {}
 
   void evaluate(const PatternRow& row) const override {
@@ -216,7 +237,8 @@ class SeamlessVoronoi final : public Pattern {
         if (place == wanted_) continue;
         for (int j = wanted_ - 1; j > place; --j) {
           distance[j][i] = distance[j - 1][i];
-          for (int m = 0; m < k_infos_of_point; ++m) row.info[(j * 6 + m) * k_row + i] = row.info[((j - 1) * 6 + m) * k_row + i];
+          for (int m = 0; m < k_infos_of_point; ++m)
+            row.info[(j * 6 + m) * k_row + i] = row.info[((j - 1) * 6 + m) * k_row + i];
         }
         distance[place][i] = d;
         keep_point(row, place, i, site.x, site.y, dx, dy, d, site.id);

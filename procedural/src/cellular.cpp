@@ -17,11 +17,14 @@ struct Feature {
   double x, y, id;
 };
 
-double wrapped(double cell, double period) noexcept { return period > 0 ? cell - period * std::floor(cell / period) : cell; }
+double wrapped(double cell, double period) noexcept {
+  return period > 0 ? cell - period * std::floor(cell / period) : cell;
+}
 std::uint32_t lattice(double cell) noexcept { return static_cast<std::uint32_t>(static_cast<std::int32_t>(cell)); }
 
 /// Shift of a whole cell's points, for honeycombs and the like.
-void displacement(const CellOptions& o, std::uint32_t cx, std::uint32_t cy, std::uint32_t hash, double& dx, double& dy) {
+void displacement(const CellOptions& o, std::uint32_t cx, std::uint32_t cy, std::uint32_t hash, double& dx,
+                  double& dy) {
   const double odd_row = cy & 1U, odd_column = cx & 1U, chequer = (cx ^ cy) & 1U;
   switch (o.displace_mode) {
     case 1: dx = odd_row * o.displace; break;
@@ -47,7 +50,8 @@ int add_features(const CellOptions& o, double cell_x, double cell_y, Feature* ou
     const std::uint32_t a = mix_bits(hash, static_cast<std::uint32_t>(2 * k + 1), 0x51ED270BU);
     const std::uint32_t b = mix_bits(hash, static_cast<std::uint32_t>(2 * k + 2), 0x51ED270BU);
     const double px = unit_number(a), py = unit_number(b);
-    out[k] = {cell_x + px + (0.5 - px) * o.smooth + dx, cell_y + py + (0.5 - py) * o.smooth + dy, unit_number(mix_bits(a, b, 3))};
+    out[k] = {cell_x + px + (0.5 - px) * o.smooth + dx, cell_y + py + (0.5 - py) * o.smooth + dy,
+              unit_number(mix_bits(a, b, 3))};
   }
   return count;
 }
@@ -82,7 +86,8 @@ int prune(Feature* features, int count, double x0, double x1, double y0, double 
 }  // namespace
 
 // The two commonest cases, without branches so that they vectorise.
-PAPILLA_WIDE static void nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy, int count, double* f1) {
+PAPILLA_WIDE static void nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy,
+                                     int count, double* f1) {
   for (int k = 0; k < count; ++k) {
     const double px = fx[k], py = fy[k];
     for (int i = 0; i < n; ++i) {
@@ -92,8 +97,8 @@ PAPILLA_WIDE static void nearest_run(const double* x, const double* y, int n, co
   }
 }
 
-PAPILLA_WIDE static void two_nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy, int count, double* f1,
-                            double* f2) {
+PAPILLA_WIDE static void two_nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy,
+                                         int count, double* f1, double* f2) {
   for (int k = 0; k < count; ++k) {
     const double px = fx[k], py = fy[k];
     for (int i = 0; i < n; ++i) {
@@ -108,8 +113,8 @@ PAPILLA_WIDE static void two_nearest_run(const double* x, const double* y, int n
 namespace {
 
 template <CellDistance metric>
-void insert_run(const double* x, const double* y, int first, int last, int n, const CellOptions& o, const Feature* features, int count,
-                double* const* distance, CellHit* hits) {
+void insert_run(const double* x, const double* y, int first, int last, int n, const CellOptions& o,
+                const Feature* features, int count, double* const* distance, CellHit* hits) {
   for (int k = 0; k < count; ++k) {
     for (int i = first; i < last; ++i) {
       const double dx = features[k].x - x[i], dy = features[k].y - y[i];
@@ -127,8 +132,8 @@ void insert_run(const double* x, const double* y, int first, int last, int n, co
   }
 }
 
-void visit_run(const double* x, const double* y, int first, int last, int n, const CellOptions& o, Feature* features, int count,
-               double* const* distance, CellHit* hits) {
+void visit_run(const double* x, const double* y, int first, int last, int n, const CellOptions& o, Feature* features,
+               int count, double* const* distance, CellHit* hits) {
   if (o.distance == CellDistance::squared) {
     const auto [x0, x1] = std::minmax_element(x + first, x + last);
     const auto [y0, y1] = std::minmax_element(y + first, y + last);
@@ -139,8 +144,11 @@ void visit_run(const double* x, const double* y, int first, int last, int n, con
         fx[static_cast<std::size_t>(k)] = features[k].x;
         fy[static_cast<std::size_t>(k)] = features[k].y;
       }
-      if (o.wanted == 1) nearest_run(x + first, y + first, last - first, fx.data(), fy.data(), count, distance[0] + first);
-      else two_nearest_run(x + first, y + first, last - first, fx.data(), fy.data(), count, distance[0] + first, distance[1] + first);
+      if (o.wanted == 1)
+        nearest_run(x + first, y + first, last - first, fx.data(), fy.data(), count, distance[0] + first);
+      else
+        two_nearest_run(x + first, y + first, last - first, fx.data(), fy.data(), count, distance[0] + first,
+                        distance[1] + first);
       return;
     }
     insert_run<CellDistance::squared>(x, y, first, last, n, o, features, count, distance, hits);
@@ -153,7 +161,8 @@ void visit_run(const double* x, const double* y, int first, int last, int n, con
 
 }  // namespace
 
-void cell_row(const double* raw_x, const double* raw_y, int n, const CellOptions& o, double* const* distance, CellHit* hits) {
+void cell_row(const double* raw_x, const double* raw_y, int n, const CellOptions& o, double* const* distance,
+              CellHit* hits) {
   std::vector<double> tamed(static_cast<std::size_t>(2 * n));
   double* const x = tamed.data();
   double* const y = x + n;

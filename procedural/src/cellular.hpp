@@ -14,13 +14,13 @@ enum class CellDistance { squared, manhattan, minkowski };
 
 struct CellOptions {
   CellDistance distance = CellDistance::squared;
-  double power_a = 1, power_b = 1;      ///< Of minkowski.
-  int wanted = 1;                       ///< How many distances, 1 to 4.
+  double power_a = 1, power_b = 1;         ///< Of minkowski.
+  int wanted = 1;                          ///< How many distances, 1 to 4.
   std::array<std::uint8_t, 256> counts{};  ///< Points of a cell by the low byte of its hash.
-  double smooth = 0;                    ///< 1: all points in the middle of their cells.
+  double smooth = 0;                       ///< 1: all points in the middle of their cells.
   int displace_mode = 0;
   double displace = 0;
-  double period_x = 0, period_y = 0;    ///< In cells, whole numbers; 0: does not repeat.
+  double period_x = 0, period_y = 0;  ///< In cells, whole numbers; 0: does not repeat.
   std::uint32_t seed = 0;
 };
 
@@ -34,6 +34,7 @@ struct CellHit {
 /// @param hits  null, or wanted x n entries for the nearest points, hits[k * n + i].
 /// Looks at the cell and its two rings, and so finds all points up to one cell away plus the part within the cell.
 /// Cost: points are made once a cell and run, then wanted comparisons a point and texel.
-void cell_row(const double* x, const double* y, int n, const CellOptions& options, double* const* distance, CellHit* hits);
+void cell_row(const double* x, const double* y, int n, const CellOptions& options, double* const* distance,
+              CellHit* hits);
 
 }  // namespace papilla::procedural_detail

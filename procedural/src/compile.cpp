@@ -71,7 +71,8 @@ class Arguments final : public TypeArguments {
 
 class Compiler {
  public:
-  Compiler(const RecipeLibrary& library, const CompileOptions& options) : library_(library), options_(options), graph_(std::make_shared<Graph>()) {}
+  Compiler(const RecipeLibrary& library, const CompileOptions& options)
+      : library_(library), options_(options), graph_(std::make_shared<Graph>()) {}
 
   std::shared_ptr<const Graph> compile(std::string_view recipe) {
     const Origin& origin = keep({options_.source, recipe});
@@ -79,7 +80,8 @@ class Compiler {
     const auto root = texture(trimmed({recipe, 0}), origin, heritage);
     if (!root) {
       const Piece head = split_recipe(trimmed({recipe, 0}), origin).head;
-      fail_at(origin, head.position, "unknown texture " + in_quotes(head.text) + did_you_mean(head.text, known_names()));
+      fail_at(origin, head.position,
+              "unknown texture " + in_quotes(head.text) + did_you_mean(head.text, known_names()));
     }
     graph_->root = *root;
     return graph_;
@@ -89,9 +91,11 @@ class Compiler {
   std::optional<int> texture(Piece recipe, const Origin& origin, const Heritage& heritage) {
     const RecipeSyntax syntax = split_recipe(recipe, origin);
     if (!find_type(syntax.head.text) && !library_.find(syntax.head.text)) return std::nullopt;
-    const std::string key = std::string(recipe.text) + '\n' + std::to_string(heritage.seed) + '/' + std::to_string(heritage.time) + (heritage.seamless ? 's' : '-');
+    const std::string key = std::string(recipe.text) + '\n' + std::to_string(heritage.seed) + '/' +
+                            std::to_string(heritage.time) + (heritage.seamless ? 's' : '-');
     if (const auto it = made_.find(key); it != made_.end()) return it->second;
-    if (depth_ >= k_deepest) fail_at(origin, recipe.position, "textures are nested more than " + std::to_string(k_deepest) + " deep");
+    if (depth_ >= k_deepest)
+      fail_at(origin, recipe.position, "textures are nested more than " + std::to_string(k_deepest) + " deep");
     ++depth_;
     const std::size_t open = open_.size();
     std::vector<Bound> bound;
@@ -146,10 +150,12 @@ class Compiler {
       if (is_open(head)) {
         std::string way;
         for (const std::string& name : open_) way += name + " > ";
-        fail_at(origin, syntax.head.position, "recipe " + in_quotes(head) + " uses itself: " + way.substr(way.find(head)) + std::string(head));
+        fail_at(origin, syntax.head.position,
+                "recipe " + in_quotes(head) + " uses itself: " + way.substr(way.find(head)) + std::string(head));
       }
       open_.emplace_back(head);
-      if (open_.size() > 4 * k_deepest) fail_at(origin, syntax.head.position, "recipes refer to each other more than 128 deep");
+      if (open_.size() > 4 * k_deepest)
+        fail_at(origin, syntax.head.position, "recipes refer to each other more than 128 deep");
       graph_->recipes.emplace(head);
       const Origin& inner = keep({"recipe '" + std::string(head) + "'", found->second});
       type = &expand(split_recipe(trimmed({inner.whole, 0}), inner), inner, bound);
@@ -158,7 +164,8 @@ class Compiler {
     return *type;
   }
 
-  int build(const TypeInfo& type, std::vector<Bound> bound, const Heritage& heritage, const Origin& origin, std::size_t position);
+  int build(const TypeInfo& type, std::vector<Bound> bound, const Heritage& heritage, const Origin& origin,
+            std::size_t position);
   void place_and_limits(Node& node, Arguments& arguments) const;
   void formulas(Node& node, Arguments& arguments) const;
 
@@ -187,10 +194,12 @@ std::vector<Rgb> Compiler::parse_colours(Piece text, const Origin& origin, int d
       for (std::size_t k = 0; k < 3; ++k) {
         while (at < s.size() && s[at] == ' ') ++at;
         const auto [stop, error] = std::from_chars(s.data() + at, s.data() + s.size(), rgb[k]);
-        if (error != std::errc() || !std::isfinite(rgb[k])) fail_at(origin, text.position + at, "expected a number of a colour <r,g,b>");
+        if (error != std::errc() || !std::isfinite(rgb[k]))
+          fail_at(origin, text.position + at, "expected a number of a colour <r,g,b>");
         at = static_cast<std::size_t>(stop - s.data());
         while (at < s.size() && s[at] == ' ') ++at;
-        if (at >= s.size() || s[at] != (k < 2 ? ',' : '>')) fail_at(origin, text.position + at, std::string("expected '") + (k < 2 ? ',' : '>') + "' in the colour");
+        if (at >= s.size() || s[at] != (k < 2 ? ',' : '>'))
+          fail_at(origin, text.position + at, std::string("expected '") + (k < 2 ? ',' : '>') + "' in the colour");
         ++at;
         rgb[k] = std::clamp(rgb[k], 0.0, 1.0);
       }
@@ -198,7 +207,9 @@ std::vector<Rgb> Compiler::parse_colours(Piece text, const Origin& origin, int d
     } else {
       while (at < s.size() && s[at] != ',' && s[at] != ' ' && s[at] != '<') ++at;
       const auto list = colour_list(s.substr(start, at - start), depth);
-      if (!list) fail_at(origin, text.position + start, "unknown colour " + in_quotes(s.substr(start, at - start)) + "; expected a name or <r,g,b>");
+      if (!list)
+        fail_at(origin, text.position + start,
+                "unknown colour " + in_quotes(s.substr(start, at - start)) + "; expected a name or <r,g,b>");
       out.insert(out.end(), list->begin(), list->end());
     }
     if (out.size() > 4096) fail_at(origin, text.position, "more than 4096 colours");
@@ -215,7 +226,9 @@ Arguments::Arguments(Compiler& compiler, const TypeInfo& type, std::vector<Bound
       std::vector<std::string_view> known;
       for (const auto& own : type.parameters) known.push_back(own.name);
       for (const auto& common : common_parameters()) known.push_back(common.name);
-      fail_at(*b.origin, b.name.position, "unknown parameter " + in_quotes(b.name.text) + " of " + in_quotes(type.name) + did_you_mean(b.name.text, known));
+      fail_at(*b.origin, b.name.position,
+              "unknown parameter " + in_quotes(b.name.text) + " of " + in_quotes(type.name) +
+                  did_you_mean(b.name.text, known));
     }
     bound_.insert_or_assign(p->name, b);
   }
@@ -309,7 +322,8 @@ std::array<double, 3> Arguments::vector(std::string_view name) const {
     return out;
   }
   if (value.text.back() != '>') refuse(name, "expected '>' behind the last number");
-  const std::vector<Piece> parts = split_outside({value.text.substr(1, value.text.size() - 2), value.position + 1}, ',', *b.origin);
+  const std::vector<Piece> parts =
+      split_outside({value.text.substr(1, value.text.size() - 2), value.position + 1}, ',', *b.origin);
   if (parts.size() > 3) refuse(name, "expected at most three numbers");
   for (std::size_t k = 0; k < 3; ++k) out[k] = k < parts.size() ? constant(parts[k], *b.origin, scope_.time) : 0;
   return out;
@@ -348,7 +362,9 @@ std::vector<int> Arguments::textures(std::string_view name) {
       piece = trimmed({piece.text.substr(1, piece.text.size() - 2), piece.position + 1});
     if (piece.text.empty()) fail_at(*b.origin, piece.position, "expected a texture");
     const std::optional<int> node = compiler_.texture(piece, *b.origin, handed_down());
-    if (!node) fail_at(*b.origin, piece.position, "unknown texture " + in_quotes(piece.text) + did_you_mean(piece.text, compiler_.known_names()));
+    if (!node)
+      fail_at(*b.origin, piece.position,
+              "unknown texture " + in_quotes(piece.text) + did_you_mean(piece.text, compiler_.known_names()));
     scope_.cost += compiler_.graph().nodes[static_cast<std::size_t>(*node)]->evaluations;
     nodes.push_back(*node);
   }
@@ -375,11 +391,14 @@ std::vector<int> Arguments::matching_textures(std::size_t most) {
 }
 
 bool Arguments::mentions(std::string_view word) const {
-  const auto in_word = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.'; };
+  const auto in_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+  };
   for (const auto& [name, b] : bound_) {
     const std::string_view s = b.value.text;
     for (std::size_t at = s.find(word); at != std::string_view::npos; at = s.find(word, at + 1)) {
-      const bool starts = at == 0 || !in_word(s[at - 1]), ends = at + word.size() == s.size() || !in_word(s[at + word.size()]);
+      const bool starts = at == 0 || !in_word(s[at - 1]),
+                 ends = at + word.size() == s.size() || !in_word(s[at + word.size()]);
       if (starts && ends) return true;
     }
   }
@@ -389,7 +408,8 @@ bool Arguments::mentions(std::string_view word) const {
 RecipePicture Arguments::picture(const std::string& path) const {
   if (!compiler_.options().read_picture) refuse("picpath", "pictures can't be read here");
   RecipePicture picture = compiler_.options().read_picture(path);
-  if (picture.width < 1 || picture.height < 1 || picture.rgb.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
+  if (picture.width < 1 || picture.height < 1 ||
+      picture.rgb.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
     refuse("picpath", "the picture is empty");
   return picture;
 }
@@ -403,13 +423,16 @@ void Arguments::read_time_modifiers() {
   std::map<std::string, double, std::less<>> modified;
   for (const Piece& piece : split_outside(b.value, ';', *b.origin)) {
     const std::size_t colon = piece.text.find(':');
-    if (colon == std::string_view::npos) fail_at(*b.origin, piece.position, "expected parameter:formula, found " + in_quotes(piece.text));
-    const Piece name = trimmed({piece.text.substr(0, colon), piece.position}), text = trimmed({piece.text.substr(colon + 1), piece.position + colon + 1});
+    if (colon == std::string_view::npos)
+      fail_at(*b.origin, piece.position, "expected parameter:formula, found " + in_quotes(piece.text));
+    const Piece name = trimmed({piece.text.substr(0, colon), piece.position}),
+                text = trimmed({piece.text.substr(colon + 1), piece.position + colon + 1});
     const ParameterInfo* p = find_parameter(type_, name.text);
     if (!p || (p->kind != ParameterKind::number && p->kind != ParameterKind::integer))
       fail_at(*b.origin, name.position, in_quotes(name.text) + " is no numeric parameter of " + in_quotes(type_.name));
     const double now = constant(text, *b.origin, time_);
-    modified[std::string(name.text)] = periodic ? (1 - time_) * now + time_ * constant(text, *b.origin, time_ - 1) : now;
+    modified[std::string(name.text)] =
+        periodic ? (1 - time_) * now + time_ * constant(text, *b.origin, time_ - 1) : now;
   }
   modified_ = std::move(modified);
 }
@@ -434,14 +457,17 @@ void Arguments::check_all() {
 
 void Arguments::use_textures(const std::vector<int>& nodes) {
   scope_.textures = nodes.size();
-  for (const int node : nodes) scope_.texture_costs.push_back(compiler_.graph().nodes[static_cast<std::size_t>(node)]->evaluations);
+  for (const int node : nodes)
+    scope_.texture_costs.push_back(compiler_.graph().nodes[static_cast<std::size_t>(node)]->evaluations);
 }
 
 void Compiler::place_and_limits(Node& node, Arguments& arguments) const {
   const auto scale = arguments.vector("scale"), shift = arguments.vector("shift");
   const double sx = scale[0] * arguments.number("sx") * arguments.number("privatescalex");
-  const double sy = (scale[1] == 0 && scale[2] == 0 ? scale[0] : scale[1]) * arguments.number("sy") * arguments.number("privatescaley");
-  if (!(std::abs(sx) >= 1e-9 && std::abs(sy) >= 1e-9 && std::abs(sx) <= 1e9 && std::abs(sy) <= 1e9)) arguments.refuse("scale", "the scale must be between 1e-9 and 1e9");
+  const double sy = (scale[1] == 0 && scale[2] == 0 ? scale[0] : scale[1]) * arguments.number("sy") *
+                    arguments.number("privatescaley");
+  if (!(std::abs(sx) >= 1e-9 && std::abs(sy) >= 1e-9 && std::abs(sx) <= 1e9 && std::abs(sy) <= 1e9))
+    arguments.refuse("scale", "the scale must be between 1e-9 and 1e9");
   node.inverse_scale_x = 1 / sx, node.inverse_scale_y = 1 / sy;
   node.du = arguments.number("du") + shift[0], node.dv = arguments.number("dv") + shift[1];
   const double turn = arguments.number("rot");
@@ -469,7 +495,9 @@ Blend blend_named(const std::string& name) {
 }
 
 void Compiler::formulas(Node& node, Arguments& arguments) const {
-  const auto unless_zero = [&](const char* name) { return arguments.given(name) ? arguments.formula(name) : Program{}; };
+  const auto unless_zero = [&](const char* name) {
+    return arguments.given(name) ? arguments.formula(name) : Program{};
+  };
   node.a = unless_zero("afunction"), node.b = unless_zero("bfunction");
   node.perturb_x = unless_zero(arguments.given("perturbx") ? "perturbx" : "pertubex");
   node.perturb_y = unless_zero(arguments.given("perturby") ? "perturby" : "pertubey");
@@ -481,12 +509,15 @@ void Compiler::formulas(Node& node, Arguments& arguments) const {
     const std::string base = std::string(to_string(channel)), name = base + "function";
     if (!node.multi || arguments.given(name) || channel == Channel::alpha)
       node.channels[c] = channel == Channel::color ? arguments.colour_formula(name) : arguments.formula(name);
-    if (channel != Channel::alpha && channel != Channel::coloralpha) node.blend[c] = blend_named(arguments.text(base + "blend"));
-    if (node.multi && find_parameter(*node.type, base + "scale") && channel != Channel::color) node.channel_scale[c] = arguments.number(base + "scale");
+    if (channel != Channel::alpha && channel != Channel::coloralpha)
+      node.blend[c] = blend_named(arguments.text(base + "blend"));
+    if (node.multi && find_parameter(*node.type, base + "scale") && channel != Channel::color)
+      node.channel_scale[c] = arguments.number(base + "scale");
   }
 }
 
-int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Heritage& heritage, const Origin& origin, std::size_t position) {
+int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Heritage& heritage, const Origin& origin,
+                    std::size_t position) {
   Arguments arguments(*this, type, std::move(bound), heritage);
   auto node = std::make_unique<Node>();
   node->type = &type;
@@ -504,8 +535,10 @@ int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Herita
   formulas(*node, arguments);
   node->uses_normal = arguments.scope().uses_normal;
   node->evaluations = (node->seamless && type.seamless == Seamless::four_corner ? 4 : 1) * (1 + arguments.scope().cost);
-  if (node->evaluations > k_most_evaluations) fail_at(origin, position, "the recipe evaluates more than 100000 textures a point");
-  if (graph_->nodes.size() >= k_most_nodes) fail_at(origin, position, "the recipe holds more than " + std::to_string(k_most_nodes) + " textures");
+  if (node->evaluations > k_most_evaluations)
+    fail_at(origin, position, "the recipe evaluates more than 100000 textures a point");
+  if (graph_->nodes.size() >= k_most_nodes)
+    fail_at(origin, position, "the recipe holds more than " + std::to_string(k_most_nodes) + " textures");
   graph_->nodes.push_back(std::move(node));
   return static_cast<int>(graph_->nodes.size()) - 1;
 }
@@ -523,7 +556,9 @@ std::vector<double> numbers_of(const TypeArguments& arguments, std::string_view 
     }
     double v = 0;
     const auto [stop, error] = std::from_chars(at, end, v);
-    if (error != std::errc() || !std::isfinite(v)) arguments.refuse(name, "expected numbers separated by blanks, found " + in_quotes({at, static_cast<std::size_t>(end - at)}));
+    if (error != std::errc() || !std::isfinite(v))
+      arguments.refuse(
+          name, "expected numbers separated by blanks, found " + in_quotes({at, static_cast<std::size_t>(end - at)}));
     out.push_back(v);
     at = stop;
     if (out.size() > 64) arguments.refuse(name, "expected at most 64 numbers");
@@ -535,13 +570,16 @@ std::vector<double> numbers_of(const TypeArguments& arguments, std::string_view 
 
 namespace papilla {
 
-ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& library, const CompileOptions& options) {
+ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& library,
+                                  const CompileOptions& options) {
   return ProceduralTexture(procedural_detail::Compiler(library, options).compile(recipe));
 }
 
 bool ProceduralTexture::depends_on_normal() const noexcept { return graph_->uses_normal; }
 bool ProceduralTexture::depends_on_position() const noexcept { return graph_->uses_position; }
 bool ProceduralTexture::depends_on_time() const noexcept { return graph_->uses_time; }
-std::vector<std::string> ProceduralTexture::recipes_used() const { return {graph_->recipes.begin(), graph_->recipes.end()}; }
+std::vector<std::string> ProceduralTexture::recipes_used() const {
+  return {graph_->recipes.begin(), graph_->recipes.end()};
+}
 
 }  // namespace papilla

@@ -31,10 +31,12 @@ std::unique_ptr<Pattern> make_wood(TypeArguments& arguments) {
     turbulence_row(wide.x, wide.y, row.n, 3, 3, false, seed, bend);
     turbulence_row(fine.x, fine.y, row.n, cross_cut ? 40 : 3, 2, false, seed + 1, fibre);
     for (int i = 0; i < row.n; ++i) {
-      const double place = cross_cut ? std::hypot(row.x[i] - 0.5, row.y[i] - 0.5) * 2 * rings + 0.6 * bend[i] : row.y[i] * rings / 2 + 1.6 * bend[i];
+      const double place = cross_cut ? std::hypot(row.x[i] - 0.5, row.y[i] - 0.5) * 2 * rings + 0.6 * bend[i]
+                                     : row.y[i] * rings / 2 + 1.6 * bend[i];
       const double ring = place - std::floor(place);
       // Early wood fades slowly into dark late wood, which ends sharply.
-      row.out[i] = std::clamp(1 - 0.7 * ring * ring * smooth01((1 - ring) * 12) + fibres * 0.6 * fibre[i] - 0.1, 0.0, 1.0);
+      row.out[i] =
+          std::clamp(1 - 0.7 * ring * ring * smooth01((1 - ring) * 12) + fibres * 0.6 * fibre[i] - 0.1, 0.0, 1.0);
     }
   });
 }
@@ -45,12 +47,14 @@ std::unique_ptr<Pattern> make_marble(TypeArguments& arguments) {
   const std::uint32_t seed = arguments.seed();
   return row_pattern([=](const PatternRow& row) {
     turbulence_row(row.x, row.y, row.n, 3, octaves, absolute, seed, row.out);
-    for (int i = 0; i < row.n; ++i) row.out[i] = 0.5 + 0.5 * std::sin(2 * k_pi * (2 * row.x[i] + row.y[i] + 4 * strength * row.out[i]));
+    for (int i = 0; i < row.n; ++i)
+      row.out[i] = 0.5 + 0.5 * std::sin(2 * k_pi * (2 * row.x[i] + row.y[i] + 4 * strength * row.out[i]));
   });
 }
 
 std::unique_ptr<Pattern> make_smear(TypeArguments& arguments) {
-  const double density = arguments.number("density"), turbulence = arguments.number("turbulence"), randomness = arguments.number("randomness");
+  const double density = arguments.number("density"), turbulence = arguments.number("turbulence"),
+               randomness = arguments.number("randomness");
   const std::uint32_t seed = arguments.seed();
   return row_pattern([=](const PatternRow& row) {
     double streak[k_row], bend[k_row] = {}, uneven[k_row];
@@ -59,13 +63,15 @@ std::unique_ptr<Pattern> make_smear(TypeArguments& arguments) {
     for (int i = 0; i < row.n; ++i) x[i] = row.x[i] * 0.5, y[i] = row.y[i] * 12 + turbulence * bend[i];
     turbulence_row(x, y, row.n, 2, 4, false, seed, streak);
     turbulence_row(row.x, row.y, row.n, 6, 2, false, seed + 2, uneven);
-    for (int i = 0; i < row.n; ++i) row.out[i] = smooth01(2 * (density - 0.5) + 0.5 + 1.2 * streak[i] + randomness * uneven[i] * 0.6);
+    for (int i = 0; i < row.n; ++i)
+      row.out[i] = smooth01(2 * (density - 0.5) + 0.5 + 1.2 * streak[i] + randomness * uneven[i] * 0.6);
   });
 }
 
 std::unique_ptr<Pattern> make_sparkle(TypeArguments& arguments) {
   const double cx = arguments.number("centrex"), cy = arguments.number("centrey"), radius = arguments.number("radius");
-  const double amount = std::clamp(arguments.number("amount") / 100, 0.0, 1.0), randomness = arguments.number("randomness"), rays = arguments.number("rays");
+  const double amount = std::clamp(arguments.number("amount") / 100, 0.0, 1.0),
+               randomness = arguments.number("randomness"), rays = arguments.number("rays");
   const std::uint32_t seed = arguments.seed();
   const double turn = arguments.flag("timer") ? arguments.time() : 0;
   return point_pattern([=](const PatternRow& row, int i) {
@@ -75,14 +81,16 @@ std::unique_ptr<Pattern> make_sparkle(TypeArguments& arguments) {
       const double ray = k - rays * std::floor(k / rays);
       return 1 + randomness * (2 * unit_number(mix_bits(static_cast<std::uint32_t>(ray), 5, seed)) - 1);
     };
-    const double t = place - std::floor(place), ray = level(std::floor(place)) * (1 - t) + level(std::floor(place) + 1) * t;
+    const double t = place - std::floor(place),
+                 ray = level(std::floor(place)) * (1 - t) + level(std::floor(place) + 1) * t;
     const double glow = 1 / (1 + r * r * r * r), shine = std::pow(std::abs(std::cos(k_pi * t)), 8);
     return std::clamp(glow * ((1 - amount) + amount * shine) * ray + amount * shine * ray * std::exp(-r), 0.0, 1.0);
   });
 }
 
 std::unique_ptr<Pattern> make_flame(TypeArguments& arguments) {
-  const double height = arguments.number("flameh"), width = arguments.number("flamew"), timing = arguments.number("timing"), strength = arguments.number("turb");
+  const double height = arguments.number("flameh"), width = arguments.number("flamew"),
+               timing = arguments.number("timing"), strength = arguments.number("turb");
   const std::uint32_t seed = arguments.seed();
   return row_pattern([=](const PatternRow& row) {
     double x[k_row], y[k_row], flicker[k_row];
@@ -98,9 +106,12 @@ std::unique_ptr<Pattern> make_flame(TypeArguments& arguments) {
 }
 
 std::unique_ptr<Pattern> make_ball(TypeArguments& arguments, bool explosion) {
-  const double radius = arguments.number("radius"), strength = arguments.number("turbintensity"), scale = arguments.number("turbscale");
-  const double z = arguments.number("turbz"), brightness = explosion ? arguments.number("attract") : arguments.number("radiusintensity");
-  const double timing = explosion ? 0 : arguments.number("timing"), octaves = explosion ? 6 : arguments.number("turbfreq");
+  const double radius = arguments.number("radius"), strength = arguments.number("turbintensity"),
+               scale = arguments.number("turbscale");
+  const double z = arguments.number("turbz"),
+               brightness = explosion ? arguments.number("attract") : arguments.number("radiusintensity");
+  const double timing = explosion ? 0 : arguments.number("timing"),
+               octaves = explosion ? 6 : arguments.number("turbfreq");
   const double shift = explosion ? arguments.number("turbadd") : 0;
   const bool absolute = explosion && arguments.flag("absturb");
   const std::uint32_t seed = arguments.seed();
@@ -116,7 +127,9 @@ std::unique_ptr<Pattern> make_ball(TypeArguments& arguments, bool explosion) {
     for (int i = 0; i < row.n; ++i) {
       const double r = std::hypot(row.x[i] - 0.5, row.y[i] - 0.5) / (radius * (1 + timing));
       const double ball = explosion ? std::exp(-r * r / 3) : brightness * std::max(0.0, 1 - r / 2);
-      row.out[i] = std::clamp(ball * (1 + strength * (rough[i] + shift)) + (explosion ? 0.35 * strength * (rough[i] + shift) * std::exp(-r / 3) : 0), 0.0, 1.0);
+      row.out[i] = std::clamp(ball * (1 + strength * (rough[i] + shift)) +
+                                  (explosion ? 0.35 * strength * (rough[i] + shift) * std::exp(-r / 3) : 0),
+                              0.0, 1.0);
     }
   });
 }
@@ -137,14 +150,26 @@ std::unique_ptr<Pattern> make_earthstar(TypeArguments& arguments) {
 class Mandelbrot final : public Pattern {
  public:
   explicit Mandelbrot(TypeArguments& arguments)
-      : most_(arguments.integer("max")), zoom_(arguments.number("zoom")), xp_(arguments.number("xp")), yp_(arguments.number("yp")),
-        boundary_(arguments.number("boundary")), power_(arguments.number("power")), julia_(arguments.flag("julia")), rr_(arguments.number("rr")),
-        ii_(arguments.number("ii")), paint_(arguments.integer("paintmode")) {
+      : most_(arguments.integer("max")),
+        zoom_(arguments.number("zoom")),
+        xp_(arguments.number("xp")),
+        yp_(arguments.number("yp")),
+        boundary_(arguments.number("boundary")),
+        power_(arguments.number("power")),
+        julia_(arguments.flag("julia")),
+        rr_(arguments.number("rr")),
+        ii_(arguments.number("ii")),
+        paint_(arguments.integer("paintmode")) {
     if (arguments.flag("forceintegerpow")) power_ = std::round(power_);
   }
 
   void evaluate(const PatternRow& row) const override {
-    for (int i = 0; i < row.n; ++i) row.out[i] = point(xp_ + (row.x[i] - 0.5) * 3 / zoom_ - (julia_ ? 0 : xp_ == 0 ? 0.5 : 0), yp_ + (row.y[i] - 0.5) * 3 / zoom_);
+    for (int i = 0; i < row.n; ++i)
+      row.out[i] = point(xp_ + (row.x[i] - 0.5) * 3 / zoom_ -
+                             (julia_     ? 0
+                              : xp_ == 0 ? 0.5
+                                         : 0),
+                         yp_ + (row.y[i] - 0.5) * 3 / zoom_);
   }
 
  private:
@@ -162,7 +187,8 @@ class Mandelbrot final : public Pattern {
       case 1: {
         if (steps == most_) return 1;
         const double ratio = std::log(std::max(std::norm(z), 1.0 + 1e-9)) / std::log(std::max(boundary_, 1.5));
-        return std::clamp((steps + 1 - std::log(std::max(ratio, 1e-9)) / std::log(std::max(power_, 1.5))) / most_, 0.0, 1.0);
+        return std::clamp((steps + 1 - std::log(std::max(ratio, 1e-9)) / std::log(std::max(power_, 1.5))) / most_, 0.0,
+                          1.0);
       }
       case 2: return std::clamp(std::abs(z) / std::sqrt(std::max(boundary_, 1e-9)) / 2, 0.0, 1.0);
       case 3: return std::arg(z) / (2 * k_pi) + 0.5;
@@ -178,14 +204,16 @@ class Mandelbrot final : public Pattern {
 };
 
 std::unique_ptr<Pattern> make_led(TypeArguments& arguments) {
-  const double width = arguments.number("digwidth"), height = arguments.number("digheight"), spacing = arguments.number("digspacing");
+  const double width = arguments.number("digwidth"), height = arguments.number("digheight"),
+               spacing = arguments.number("digspacing");
   const int decimals = arguments.integer("numdecimals"), digits = arguments.integer("numdigits");
   const Program number = arguments.formula("displaynumber");
   if (!number.constant) arguments.refuse("displaynumber", "the number must be the same at every point");
   double shown = number.value[0] * std::pow(10.0, arguments.number("exponent") + decimals);
   shown = std::clamp(std::round(std::abs(shown)), 0.0, 1e15);
   std::string places(static_cast<std::size_t>(digits), '0');
-  for (int k = digits - 1; k >= 0; --k, shown = std::floor(shown / 10)) places[static_cast<std::size_t>(k)] = static_cast<char>('0' + static_cast<int>(std::fmod(shown, 10)));
+  for (int k = digits - 1; k >= 0; --k, shown = std::floor(shown / 10))
+    places[static_cast<std::size_t>(k)] = static_cast<char>('0' + static_cast<int>(std::fmod(shown, 10)));
   return point_pattern([=](const PatternRow& row, int i) {
     // Segments a to g, bit 0 to 6: top, right, right, bottom, left, left, middle.
     constexpr unsigned k_segments[10] = {0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x07, 0x7F, 0x6F};
@@ -195,13 +223,15 @@ std::unique_ptr<Pattern> make_led(TypeArguments& arguments) {
     const double px = (row.x[i] - left - place * spacing) / (width / 2), py = (row.y[i] - 0.5) / (height / 2);
     const auto bar = [](double along, double off) { return std::max(std::abs(along) - 0.42, std::abs(off) - 0.13); };
     const double aspect = height / width, thin = std::min(1.0, aspect / 2);
-    const double distances[7] = {bar(px / 2, (py + 1) * aspect), bar(py + 0.5, px - 1), bar(py - 0.5, px - 1), bar(px / 2, (py - 1) * aspect),
-                                 bar(py - 0.5, px + 1), bar(py + 0.5, px + 1), bar(px / 2, py * aspect)};
+    const double distances[7] = {bar(px / 2, (py + 1) * aspect), bar(py + 0.5, px - 1), bar(py - 0.5, px - 1),
+                                 bar(px / 2, (py - 1) * aspect), bar(py - 0.5, px + 1), bar(py + 0.5, px + 1),
+                                 bar(px / 2, py * aspect)};
     const unsigned lit = k_segments[places[static_cast<std::size_t>(place)] - '0'];
     double nearest = 1;
     for (int k = 0; k < 7; ++k)
       if (lit >> k & 1U) nearest = std::min(nearest, distances[k] / thin);
-    if (decimals > 0 && place == digits - 1 - decimals) nearest = std::min(nearest, std::hypot(px - 1.45, (py - 1) * aspect) - 0.2);
+    if (decimals > 0 && place == digits - 1 - decimals)
+      nearest = std::min(nearest, std::hypot(px - 1.45, (py - 1) * aspect) - 0.2);
     return edge(-nearest, row.texel > 0 ? 2 * row.texel / width : 0);
   });
 }
@@ -214,8 +244,10 @@ std::unique_ptr<Pattern> make_lower(TypeArguments& arguments) {
     const double *bump = lower(BlockRow::lower_bump), *main = lower(BlockRow::lower_main);
     const double *r = lower(BlockRow::lower_red), *g = lower(BlockRow::lower_green), *b = lower(BlockRow::lower_blue);
     for (int i = 0; i < row.n; ++i) {
-      if (!bump) row.out[i] = 0;
-      else row.out[i] = key == "hmbump" ? bump[i] : key == "main" ? main[i] : (r[i] + g[i] + b[i]) / 3;
+      if (!bump)
+        row.out[i] = 0;
+      else
+        row.out[i] = key == "hmbump" ? bump[i] : key == "main" ? main[i] : (r[i] + g[i] + b[i]) / 3;
     }
   });
 }

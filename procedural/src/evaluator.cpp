@@ -75,7 +75,8 @@ const double* Evaluator::operand(const Operand& o, const Frame& frame, const Blo
 
 void Evaluator::step(const Instruction& code, int index, Frame& frame, const Block& block) {
   std::array<const double*, k_most_arguments> in{};
-  for (int k = 0; k < code.arguments; ++k) in[static_cast<std::size_t>(k)] = operand(code.in[static_cast<std::size_t>(k)], frame, block);
+  for (int k = 0; k < code.arguments; ++k)
+    in[static_cast<std::size_t>(k)] = operand(code.in[static_cast<std::size_t>(k)], frame, block);
   double* out = frame.reg(code.out);
   double *u = frame.row(FrameRow::u), *v = frame.row(FrameRow::v);
   const int n = block.n;
@@ -87,7 +88,8 @@ void Evaluator::step(const Instruction& code, int index, Frame& frame, const Blo
       break;
     case Action::rotate:
       for (int i = 0; i < n; ++i) {
-        const double c = std::cos(finite(in[2][i])), s = std::sin(finite(in[2][i])), dx = u[i] - in[0][i], dy = v[i] - in[1][i];
+        const double c = std::cos(finite(in[2][i])), s = std::sin(finite(in[2][i])), dx = u[i] - in[0][i],
+                     dy = v[i] - in[1][i];
         u[i] = finite(in[0][i] + c * dx - s * dy);
         v[i] = finite(in[1][i] + s * dx + c * dy);
       }
@@ -117,13 +119,16 @@ void Evaluator::step(const Instruction& code, int index, Frame& frame, const Blo
         const auto first = static_cast<std::size_t>(std::min(std::floor(place), std::max(0.0, steps - 1)));
         const std::size_t second = std::min(first + 1, node.colours.size() - 1);
         const double t = place - static_cast<double>(first);
-        for (std::size_t k = 0; k < 3; ++k) out[k * k_row + static_cast<std::size_t>(i)] = node.colours[first][k] + t * (node.colours[second][k] - node.colours[first][k]);
+        for (std::size_t k = 0; k < 3; ++k)
+          out[k * k_row + static_cast<std::size_t>(i)] =
+              node.colours[first][k] + t * (node.colours[second][k] - node.colours[first][k]);
       }
       break;
     }
     case Action::texture: {
       Block inner = block;
-      inner.x = u, inner.y = v, inner.texel = frame.texel, inner.extent_x = frame.extent_x, inner.extent_y = frame.extent_y;
+      inner.x = u, inner.y = v, inner.texel = frame.texel, inner.extent_x = frame.extent_x,
+      inner.extent_y = frame.extent_y;
       main_value(code.index, inner, out);
       break;
     }
@@ -132,7 +137,8 @@ void Evaluator::step(const Instruction& code, int index, Frame& frame, const Blo
     case Action::texmap_channel: {
       const Node& node = *graph_.nodes[static_cast<std::size_t>(index)];
       Block inner = block;
-      inner.x = u, inner.y = v, inner.texel = frame.texel, inner.extent_x = frame.extent_x, inner.extent_y = frame.extent_y;
+      inner.x = u, inner.y = v, inner.texel = frame.texel, inner.extent_x = frame.extent_x,
+      inner.extent_y = frame.extent_y;
       auto values = std::make_unique<ChannelRows>();
       if (code.action == Action::texture_color) {
         channels(node.textures[static_cast<std::size_t>(code.index)], inner, bit(Channel::color), *values);
@@ -140,7 +146,8 @@ void Evaluator::step(const Instruction& code, int index, Frame& frame, const Blo
         const Channel c = code.action == Action::texmap_color ? Channel::color : static_cast<Channel>(code.index);
         texmap(node, in[0], inner, bit(c), *values);
       }
-      if (code.action == Action::texmap_channel) std::copy_n(values->row[code.index], n, out);
+      if (code.action == Action::texmap_channel)
+        std::copy_n(values->row[code.index], n, out);
       else
         for (std::size_t k = 0; k < 3; ++k) std::copy_n(values->row[k_red + k], n, out + k * k_row);
       break;
@@ -205,14 +212,17 @@ void Evaluator::prepare(int index, Frame& frame, const Block& block) {
     for (int i = 0; i < n; ++i) {
       const float* normal = block.normals ? block.normals + 3 * i : nullptr;
       dot[i] = 0;
-      for (std::size_t k = 0; k < 3; ++k) dot[i] -= node.dirt[k] * (normal ? static_cast<double>(normal[k]) : node.normal[k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        dot[i] -= node.dirt[k] * (normal ? static_cast<double>(normal[k]) : node.normal[k]);
       dot[i] = finite(dot[i]);
     }
   }
   const auto formula = [&](const Program& program, FrameRow row) {
     double* out = frame.row(row);
-    if (program.present) run(program, index, frame, block, &out);
-    else std::fill_n(out, n, 0.0);
+    if (program.present)
+      run(program, index, frame, block, &out);
+    else
+      std::fill_n(out, n, 0.0);
   };
   formula(node.a, FrameRow::a);
   formula(node.b, FrameRow::b);
@@ -235,7 +245,8 @@ void Evaluator::pattern_and_main(int index, Frame& frame, const Block& block) {
     PatternRow row;
     row.n = block.n, row.x = frame.row(FrameRow::u), row.y = frame.row(FrameRow::v), row.out = self;
     row.id = frame.row(FrameRow::id), row.info = frame.row(FrameRow::info0), row.texel = frame.texel;
-    if (node.seamless && node.type->seamless != Seamless::four_corner) row.period_x = frame.extent_x, row.period_y = frame.extent_y;
+    if (node.seamless && node.type->seamless != Seamless::four_corner)
+      row.period_x = frame.extent_x, row.period_y = frame.extent_y;
     row.block = &block, row.evaluator = this;
     node.pattern->evaluate(row);
     tidy(self, block.n);
@@ -282,8 +293,10 @@ void Evaluator::main_value(int index, const Block& block, double* out) {
   const Node& node = *graph_.nodes[static_cast<std::size_t>(index)];
   Frame& frame = frame_of(index);
   prepare(index, frame, block);
-  if (node.seamless && node.type->seamless == Seamless::four_corner) blended_corners(index, frame, block, frame.extent_x, frame.extent_y);
-  else pattern_and_main(index, frame, block);
+  if (node.seamless && node.type->seamless == Seamless::four_corner)
+    blended_corners(index, frame, block, frame.extent_x, frame.extent_y);
+  else
+    pattern_and_main(index, frame, block);
   finish_main(node, frame, block.n);
   if (out) std::copy_n(frame.row(FrameRow::main), block.n, out);
 }
@@ -300,7 +313,8 @@ void Evaluator::channels(int index, const Block& block, unsigned mask, ChannelRo
     const int parts = c == k_red ? 3 : 1;
     double* rows[3] = {out.row[c], out.row[c + (parts > 1 ? 1 : 0)], out.row[c + (parts > 2 ? 2 : 0)]};
     const Program& program = node.channels[c];
-    if (!node.multi || program.present || c == at(Channel::alpha)) run(program, index, frame, block, rows);
+    if (!node.multi || program.present || c == at(Channel::alpha))
+      run(program, index, frame, block, rows);
     else
       for (int k = 0; k < parts; ++k)
         for (int i = 0; i < n; ++i) rows[k][i] = below->row[c + static_cast<std::size_t>(k)][i] * node.channel_scale[c];
@@ -341,7 +355,8 @@ void Evaluator::layers(int index, Frame& frame, const Block& block, ChannelRows&
         below += alpha[i] * (1 - below);
       }
     }
-    for (std::size_t c = 0; c < k_channels + 2; ++c) inner.rows[static_cast<std::size_t>(BlockRow::lower_main) + c] = out.row[c];
+    for (std::size_t c = 0; c < k_channels + 2; ++c)
+      inner.rows[static_cast<std::size_t>(BlockRow::lower_main) + c] = out.row[c];
   }
   for (std::size_t c = 0; c < k_channels + 2; ++c) tidy(out.row[c], n);
 }
@@ -353,13 +368,15 @@ void Evaluator::texmap(const Node& node, const double* place, const Block& block
   for (int i = 0; i < n; ++i) at_place[i] = std::clamp(finite(place[i]), 0.0, 1.0);
   for (std::size_t c = 0; c < k_channels + 2; ++c) std::fill_n(out.row[c], n, 0.0);
   double total = 0;
-  for (std::size_t k = 0; k < node.textures.size(); ++k) total += node.ranges[k] + (k + 1 < node.textures.size() ? node.fades[k] : 0);
+  for (std::size_t k = 0; k < node.textures.size(); ++k)
+    total += node.ranges[k] + (k + 1 < node.textures.size() ? node.fades[k] : 0);
   if (!(total > 0)) total = 1;
   double start = 0;
   auto part = std::make_unique<ChannelRows>();
   for (std::size_t k = 0; k < node.textures.size(); ++k) {
     const double end = start + node.ranges[k] / total;
-    const double before = k > 0 ? node.fades[k - 1] / total : 0, after = k + 1 < node.textures.size() ? node.fades[k] / total : 0;
+    const double before = k > 0 ? node.fades[k - 1] / total : 0,
+                 after = k + 1 < node.textures.size() ? node.fades[k] / total : 0;
     channels(node.textures[k], block, mask, *part);
     for (int i = 0; i < n; ++i) {
       const double p = at_place[i];

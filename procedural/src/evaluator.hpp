@@ -10,9 +10,9 @@ struct Block {
   int n = 0;
   const double *x = nullptr, *y = nullptr;  ///< In the coordinates of whoever asks.
   double texel = 0;
-  bool solid = false;  ///< Positions in the scene are known.
+  bool solid = false;                 ///< Positions in the scene are known.
   double extent_x = 1, extent_y = 1;  ///< What the picture spans in these coordinates.
-  const float* normals = nullptr;  ///< 3 a point, or null.
+  const float* normals = nullptr;     ///< 3 a point, or null.
   std::array<const double*, k_block_rows> rows{};
 };
 

@@ -39,16 +39,33 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 
 const std::map<std::string_view, Operand>& row_variables() {
   static const std::map<std::string_view, Operand> rows = {
-      {"x", frame_operand(FrameRow::u)}, {"y", frame_operand(FrameRow::v)}, {"this", frame_operand(FrameRow::self)},
-      {"main", frame_operand(FrameRow::main)}, {"a", frame_operand(FrameRow::a)}, {"b", frame_operand(FrameRow::b)},
-      {"id", frame_operand(FrameRow::id)}, {"normaldot", frame_operand(FrameRow::normaldot)}, {"get0", frame_operand(FrameRow::info0)},
-      {"get1", frame_operand(FrameRow::info0, 1)}, {"infox", block_operand(BlockRow::column)}, {"infoy", block_operand(BlockRow::row)},
-      {"infowidth", block_operand(BlockRow::columns)}, {"infoheight", block_operand(BlockRow::rows)}, {"infominwh", block_operand(BlockRow::shorter)},
-      {"octaveadd", block_operand(BlockRow::octaveadd)}, {"posx", block_operand(BlockRow::posx)}, {"posy", block_operand(BlockRow::posy)},
-      {"posz", block_operand(BlockRow::posz)}, {"sky", block_operand(BlockRow::sky)}, {"lowermain", block_operand(BlockRow::lower_main)},
-      {"lowerbump", block_operand(BlockRow::lower_bump)}, {"lowerreflection", block_operand(BlockRow::lower_reflection)},
-      {"lowerdiffuse", block_operand(BlockRow::lower_diffuse)}, {"lowerspecular", block_operand(BlockRow::lower_specular)},
-      {"lowerspecularcoeff", block_operand(BlockRow::lower_specularcoeff)}, {"lowerfriction", block_operand(BlockRow::lower_friction)},
+      {"x", frame_operand(FrameRow::u)},
+      {"y", frame_operand(FrameRow::v)},
+      {"this", frame_operand(FrameRow::self)},
+      {"main", frame_operand(FrameRow::main)},
+      {"a", frame_operand(FrameRow::a)},
+      {"b", frame_operand(FrameRow::b)},
+      {"id", frame_operand(FrameRow::id)},
+      {"normaldot", frame_operand(FrameRow::normaldot)},
+      {"get0", frame_operand(FrameRow::info0)},
+      {"get1", frame_operand(FrameRow::info0, 1)},
+      {"infox", block_operand(BlockRow::column)},
+      {"infoy", block_operand(BlockRow::row)},
+      {"infowidth", block_operand(BlockRow::columns)},
+      {"infoheight", block_operand(BlockRow::rows)},
+      {"infominwh", block_operand(BlockRow::shorter)},
+      {"octaveadd", block_operand(BlockRow::octaveadd)},
+      {"posx", block_operand(BlockRow::posx)},
+      {"posy", block_operand(BlockRow::posy)},
+      {"posz", block_operand(BlockRow::posz)},
+      {"sky", block_operand(BlockRow::sky)},
+      {"lowermain", block_operand(BlockRow::lower_main)},
+      {"lowerbump", block_operand(BlockRow::lower_bump)},
+      {"lowerreflection", block_operand(BlockRow::lower_reflection)},
+      {"lowerdiffuse", block_operand(BlockRow::lower_diffuse)},
+      {"lowerspecular", block_operand(BlockRow::lower_specular)},
+      {"lowerspecularcoeff", block_operand(BlockRow::lower_specularcoeff)},
+      {"lowerfriction", block_operand(BlockRow::lower_friction)},
       {"lowerstiffness", block_operand(BlockRow::lower_stiffness)}};
   return rows;
 }
@@ -76,7 +93,9 @@ class FormulaCompiler {
   }
 
  private:
-  [[noreturn]] void fail(std::size_t at, const std::string& reason) const { fail_at(*scope_.origin, start_ + at, reason); }
+  [[noreturn]] void fail(std::size_t at, const std::string& reason) const {
+    fail_at(*scope_.origin, start_ + at, reason);
+  }
 
   // --- registers and instructions ---
 
@@ -97,13 +116,15 @@ class FormulaCompiler {
     auto& pool = scope_.graph->constants;
     auto it = std::find(pool.begin(), pool.end(), s.number);
     if (it == pool.end()) {
-      if (pool.size() >= k_most_constants) fail(at_, "the recipe has more than " + std::to_string(k_most_constants) + " different constants");
+      if (pool.size() >= k_most_constants)
+        fail(at_, "the recipe has more than " + std::to_string(k_most_constants) + " different constants");
       it = pool.insert(pool.end(), std::isfinite(s.number) ? s.number : 0);
     }
     return {Operand::Where::constant, static_cast<int>(it - pool.begin())};
   }
   Instruction& add(Action action, const std::vector<Scalar>& in, int outs) {
-    if (program_.code.size() >= k_most_instructions) fail(at_, "the formula has more than " + std::to_string(k_most_instructions) + " steps");
+    if (program_.code.size() >= k_most_instructions)
+      fail(at_, "the formula has more than " + std::to_string(k_most_instructions) + " steps");
     Instruction code;
     code.action = action;
     code.arguments = static_cast<int>(in.size());
@@ -121,7 +142,8 @@ class FormulaCompiler {
       all.push_back({false, 0, frame_operand(FrameRow::u)});
       all.push_back({false, 0, frame_operand(FrameRow::v)});
     }
-    if (std::all_of(all.begin(), all.end(), [](const Scalar& s) { return s.fixed; })) return {true, folded(*info, all), {}};
+    if (std::all_of(all.begin(), all.end(), [](const Scalar& s) { return s.fixed; }))
+      return {true, folded(*info, all), {}};
     Instruction& code = add(Action::kernel, all, 1);
     code.kernel = info->kernel;
     const int out = code.out;
@@ -146,7 +168,8 @@ class FormulaCompiler {
   // --- grammar ---
 
   void blanks() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r')) ++at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
+      ++at_;
   }
   char peek() {
     blanks();
@@ -284,7 +307,8 @@ class FormulaCompiler {
   Value named(std::string_view name, std::size_t start) {
     const FunctionInfo* function = find_function(name);
     const bool call = peek() == '(';
-    if (function && (call || function->arity == 0)) return call || function->arity > 0 ? called(*function, start) : variable(name, start);
+    if (function && (call || function->arity == 0))
+      return call || function->arity > 0 ? called(*function, start) : variable(name, start);
     if (call) fail(start, "unknown function " + in_quotes(name) + suggestion(name));
     if (scope_.point)
       if (auto value = texture_value({name, start_ + start}, start)) return *value;
@@ -294,7 +318,8 @@ class FormulaCompiler {
       for (std::size_t k = 0; k < 3; ++k) v.part[k].number = (*colour)[k];
       return v;
     }
-    if (function) fail(start, in_quotes(name) + " expects " + std::to_string(function->arity) + " arguments in brackets");
+    if (function)
+      fail(start, in_quotes(name) + " expects " + std::to_string(function->arity) + " arguments in brackets");
     fail(start, "unknown name " + in_quotes(name) + suggestion(name));
   }
   std::string suggestion(std::string_view name) const {
@@ -319,11 +344,14 @@ class FormulaCompiler {
     }
     expect(')', "or ',' behind an argument");
     if (static_cast<int>(arguments.size()) != function.arity)
-      fail(start, in_quotes(function.name) + " expects " + std::to_string(function.arity) + " arguments, found " + std::to_string(arguments.size()));
+      fail(start, in_quotes(function.name) + " expects " + std::to_string(function.arity) + " arguments, found " +
+                      std::to_string(arguments.size()));
     for (std::size_t k = 0; k < arguments.size(); ++k) {
       const bool wants_colour = function.arguments[k] == 'c';
-      if (wants_colour && !arguments[k].colour) arguments[k].colour = true, arguments[k].part[1] = arguments[k].part[2] = arguments[k].part[0];
-      else if (!wants_colour) number_only(arguments[k], places[k]);
+      if (wants_colour && !arguments[k].colour)
+        arguments[k].colour = true, arguments[k].part[1] = arguments[k].part[2] = arguments[k].part[0];
+      else if (!wants_colour)
+        number_only(arguments[k], places[k]);
     }
     if (function.arity == 0) return variable(function.name, start);
     return function_value(function.name, arguments, start);
@@ -355,7 +383,9 @@ class FormulaCompiler {
     if (name.substr(0, 3) == "pos" || name == "sky") scope_.graph->uses_position = true;
     if (const auto it = row_variables().find(name); it != row_variables().end()) return scalar({false, 0, it->second});
     if (name == "random")
-      return scalar(apply("random", {{false, 0, block_operand(BlockRow::column)}, {false, 0, block_operand(BlockRow::row)}, {true, scope_.seed, {}}}));
+      return scalar(apply("random", {{false, 0, block_operand(BlockRow::column)},
+                                     {false, 0, block_operand(BlockRow::row)},
+                                     {true, scope_.seed, {}}}));
     if (name == "currentcolor") return current_colour();
     if (name == "hue") return function_value("gethsvhue", {current_colour()}, start);
     if (name == "saturation") return function_value("gethsvsaturation", {current_colour()}, start);
@@ -365,7 +395,8 @@ class FormulaCompiler {
   static Value current_colour() {
     Value v;
     v.colour = true;
-    for (std::size_t k = 0; k < 3; ++k) v.part[k] = {false, 0, {Operand::Where::block, static_cast<int>(BlockRow::lower_red) + static_cast<int>(k)}};
+    for (std::size_t k = 0; k < 3; ++k)
+      v.part[k] = {false, 0, {Operand::Where::block, static_cast<int>(BlockRow::lower_red) + static_cast<int>(k)}};
     return v;
   }
 
@@ -415,21 +446,33 @@ class FormulaCompiler {
       Value v;
       v.colour = true;
       for (std::size_t k = 0; k < 3; ++k) {
-        if (name == "colmix") v.part[k] = apply("interpolate", {part(0, k), part(1, k), part(2)}, true);
-        else if (name == "colscale") v.part[k] = apply("*", {part(0, k), part(1)}, true);
-        else v.part[k] = apply("^", {part(0, k), apply("/", {{true, 1, {}}, part(1)}, true)}, true);
+        if (name == "colmix")
+          v.part[k] = apply("interpolate", {part(0, k), part(1, k), part(2)}, true);
+        else if (name == "colscale")
+          v.part[k] = apply("*", {part(0, k), part(1)}, true);
+        else
+          v.part[k] = apply("^", {part(0, k), apply("/", {{true, 1, {}}, part(1)}, true)}, true);
       }
       return v;
     }
-    if (name == "getred" || name == "getgreen" || name == "getblue") return scalar(part(0, name == "getred" ? 0 : name == "getgreen" ? 1 : 2));
-    if (name == "gethsvhue" || name == "gethsvsaturation" || name == "gethsvvalue") return scalar(apply(name, {part(0, 0), part(0, 1), part(0, 2)}));
-    if (!scope_.point && (name == "get" || name == "set" || name == "colmap" || name == "zoom" || name == "rotate" || name == "sphere" || name == "texmap" ||
-                          name == "texmap2" || name == "coldist" || name == "huedist" || name == "region" || find_kernel_with_place(name)))
+    if (name == "getred" || name == "getgreen" || name == "getblue")
+      return scalar(part(0, name == "getred" ? 0 : name == "getgreen" ? 1 : 2));
+    if (name == "gethsvhue" || name == "gethsvsaturation" || name == "gethsvvalue")
+      return scalar(apply(name, {part(0, 0), part(0, 1), part(0, 2)}));
+    if (!scope_.point && (name == "get" || name == "set" || name == "colmap" || name == "zoom" || name == "rotate" ||
+                          name == "sphere" || name == "texmap" || name == "texmap2" || name == "coldist" ||
+                          name == "huedist" || name == "region" || find_kernel_with_place(name)))
       fail(start, in_quotes(name) + " depends on the place and is not known here");
     const Value current = current_colour();
-    if (name == "coldist") return scalar(apply("coldist", {part(0, 0), part(0, 1), part(0, 2), current.part[0], current.part[1], current.part[2]}));
-    if (name == "huedist") return scalar(apply("huedist", {function_value("gethsvhue", {current}, start).part[0], part(0)}));
-    if (name == "get") return scalar({false, 0, frame_operand(FrameRow::info0, fixed_integer(in[0], k_infos - 1, "the number of an information", start))});
+    if (name == "coldist")
+      return scalar(
+          apply("coldist", {part(0, 0), part(0, 1), part(0, 2), current.part[0], current.part[1], current.part[2]}));
+    if (name == "huedist")
+      return scalar(apply("huedist", {function_value("gethsvhue", {current}, start).part[0], part(0)}));
+    if (name == "get")
+      return scalar(
+          {false, 0,
+           frame_operand(FrameRow::info0, fixed_integer(in[0], k_infos - 1, "the number of an information", start))});
     if (name == "set") {
       Instruction& code = add(Action::set_info, {part(1)}, 1);
       code.index = fixed_integer(in[0], k_infos - 1, "the number of an information", start);
@@ -438,7 +481,10 @@ class FormulaCompiler {
     if (name == "zoom" || name == "rotate" || name == "sphere") {
       std::vector<Scalar> all;
       for (std::size_t k = 0; k < in.size(); ++k) all.push_back(part(k));
-      const Instruction& code = add(name == "zoom" ? Action::zoom : name == "rotate" ? Action::rotate : Action::sphere, all, 1);
+      const Instruction& code = add(name == "zoom"     ? Action::zoom
+                                    : name == "rotate" ? Action::rotate
+                                                       : Action::sphere,
+                                    all, 1);
       return scalar(in_register(code.out));
     }
     if (name == "preparemapping") return Value::of(0);
@@ -461,10 +507,13 @@ class FormulaCompiler {
     const int texture = fixed_integer(in[1], static_cast<int>(scope_.textures) - 1, "the index of a texture", start);
     const int mode = fixed_integer(in[2], 2, "the mode", start);
     const Value first = colour_action(Action::texture_color, {}, texture);
-    const Value second = mode == 0 ? colour_action(Action::colmap, {in[3].part[0]}, 0) : mode == 1 ? colour_action(Action::texmap_color, {in[3].part[0]}, 0) : current_colour();
+    const Value second = mode == 0   ? colour_action(Action::colmap, {in[3].part[0]}, 0)
+                         : mode == 1 ? colour_action(Action::texmap_color, {in[3].part[0]}, 0)
+                                     : current_colour();
     Value v;
     v.colour = true;
-    for (std::size_t k = 0; k < 3; ++k) v.part[k] = apply("interpolate", {first.part[k], second.part[k], in[0].part[0]}, true);
+    for (std::size_t k = 0; k < 3; ++k)
+      v.part[k] = apply("interpolate", {first.part[k], second.part[k], in[0].part[0]}, true);
     return v;
   }
 
@@ -478,6 +527,8 @@ class FormulaCompiler {
 
 }  // namespace
 
-Program compile_formula(Piece text, bool colour, FormulaScope& scope) { return FormulaCompiler(text, scope).compile(colour); }
+Program compile_formula(Piece text, bool colour, FormulaScope& scope) {
+  return FormulaCompiler(text, scope).compile(colour);
+}
 
 }  // namespace papilla::procedural_detail

@@ -15,15 +15,15 @@ struct FormulaScope {
   const Origin* origin = nullptr;
   double time = 0, globaltime = 0, realtime = 0, seed = 0;
   double du = 0, dv = 0, privatescalex = 1, privatescaley = 1;
-  bool point = true;       ///< x, y, textures and what depends on the place may be named.
-  bool distances = false;  ///< f1 to f4.
-  bool density = false;    ///< orig, index.
-  std::size_t textures = 0;                                     ///< Of the parameter `textures`.
-  std::vector<double> texture_costs;                            ///< Evaluations of each.
-  std::function<std::optional<int>(Piece recipe)> texture;      ///< Compiles a recipe; nothing when the head is unknown.
+  bool point = true;                  ///< x, y, textures and what depends on the place may be named.
+  bool distances = false;             ///< f1 to f4.
+  bool density = false;               ///< orig, index.
+  std::size_t textures = 0;           ///< Of the parameter `textures`.
+  std::vector<double> texture_costs;  ///< Evaluations of each.
+  std::function<std::optional<int>(Piece recipe)> texture;  ///< Compiles a recipe; nothing when the head is unknown.
   std::function<std::optional<Rgb>(std::string_view)> colour;
-  std::function<std::vector<std::string_view>()> known_names;   ///< For suggestions.
-  double cost = 0;         ///< Evaluations of textures within the formulas so far.
+  std::function<std::vector<std::string_view>()> known_names;  ///< For suggestions.
+  double cost = 0;                                             ///< Evaluations of textures within the formulas so far.
   bool uses_normal = false;
 };
 

@@ -19,7 +19,9 @@ double finite(double v) { return std::isfinite(v) ? v : 0; }
 double quotient(double a, double b) { return b == 0 ? 0 : a / b; }
 double modulo(double a, double b) { return b == 0 ? 0 : a - b * std::floor(a / b); }
 double power(double a, double b) { return finite(std::pow(a, b)); }
-double bias(double a, double x) { return x <= 0 ? 0 : power(x, quotient(std::log(clamp_to(a, 1e-9, 1 - 1e-9)), std::log(0.5))); }
+double bias(double a, double x) {
+  return x <= 0 ? 0 : power(x, quotient(std::log(clamp_to(a, 1e-9, 1 - 1e-9)), std::log(0.5)));
+}
 double smooth(double a, double b, double x) {
   if (x < a) return 0;
   if (x >= b) return 1;
@@ -29,16 +31,21 @@ double smooth(double a, double b, double x) {
 std::uint32_t bits_of(double v) {
   const double scaled = clamp_to(std::isnan(v) ? 0 : v, -1e9, 1e9);
   const double whole = std::floor(scaled);
-  return mix_bits(static_cast<std::uint32_t>(static_cast<std::int32_t>(whole)), static_cast<std::uint32_t>((scaled - whole) * 4294967295.0), 17);
+  return mix_bits(static_cast<std::uint32_t>(static_cast<std::int32_t>(whole)),
+                  static_cast<std::uint32_t>((scaled - whole) * 4294967295.0), 17);
 }
-std::uint32_t cell_of(double v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(clamp_to(std::isnan(v) ? 0 : v, -1e9, 1e9)))); }
+std::uint32_t cell_of(double v) {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(clamp_to(std::isnan(v) ? 0 : v, -1e9, 1e9))));
+}
 
 double segment_distance(double x1, double y1, double x2, double y2, double u, double v) {
   const double dx = x2 - x1, dy = y2 - y1, length2 = dx * dx + dy * dy;
   const double t = length2 > 0 ? clamp_to(((u - x1) * dx + (v - y1) * dy) / length2, 0, 1) : 0;
   return std::hypot(u - x1 - t * dx, v - y1 - t * dy);
 }
-double outside(double low, double high, double x) { return std::max({std::min(low, high) - x, x - std::max(low, high), 0.0}); }
+double outside(double low, double high, double x) {
+  return std::max({std::min(low, high) - x, x - std::max(low, high), 0.0});
+}
 
 double hue_of(double r, double g, double b) {
   const double most = std::max({r, g, b}), range = most - std::min({r, g, b});
@@ -52,24 +59,52 @@ double hsv_part(double h, double s, double v, double shift) {
 }
 
 // Kernels from functions of 1 to 6 numbers.
-#define PAPILLA_K1(name, expr) \
-  void name(double* out, const double* const* in, int n) { const double* p = in[0]; for (int i = 0; i < n; ++i) { const double a = p[i]; out[i] = (expr); } }
-#define PAPILLA_K2(name, expr) \
-  void name(double* out, const double* const* in, int n) { const double *p = in[0], *q = in[1]; for (int i = 0; i < n; ++i) { const double a = p[i], b = q[i]; out[i] = (expr); } }
-#define PAPILLA_K3(name, expr) \
-  void name(double* out, const double* const* in, int n) { const double *p = in[0], *q = in[1], *r = in[2]; for (int i = 0; i < n; ++i) { const double a = p[i], b = q[i], c = r[i]; out[i] = (expr); } }
-#define PAPILLA_K4(name, expr) \
-  void name(double* out, const double* const* in, int n) { for (int i = 0; i < n; ++i) { const double a = in[0][i], b = in[1][i], c = in[2][i], d = in[3][i]; out[i] = (expr); } }
-#define PAPILLA_K6(name, expr) \
-  void name(double* out, const double* const* in, int n) { for (int i = 0; i < n; ++i) { const double a = in[0][i], b = in[1][i], c = in[2][i], d = in[3][i], e = in[4][i], f = in[5][i]; out[i] = (expr); } }
+#define PAPILLA_K1(name, expr)                             \
+  void name(double* out, const double* const* in, int n) { \
+    const double* p = in[0];                               \
+    for (int i = 0; i < n; ++i) {                          \
+      const double a = p[i];                               \
+      out[i] = (expr);                                     \
+    }                                                      \
+  }
+#define PAPILLA_K2(name, expr)                             \
+  void name(double* out, const double* const* in, int n) { \
+    const double *p = in[0], *q = in[1];                   \
+    for (int i = 0; i < n; ++i) {                          \
+      const double a = p[i], b = q[i];                     \
+      out[i] = (expr);                                     \
+    }                                                      \
+  }
+#define PAPILLA_K3(name, expr)                             \
+  void name(double* out, const double* const* in, int n) { \
+    const double *p = in[0], *q = in[1], *r = in[2];       \
+    for (int i = 0; i < n; ++i) {                          \
+      const double a = p[i], b = q[i], c = r[i];           \
+      out[i] = (expr);                                     \
+    }                                                      \
+  }
+#define PAPILLA_K4(name, expr)                                             \
+  void name(double* out, const double* const* in, int n) {                 \
+    for (int i = 0; i < n; ++i) {                                          \
+      const double a = in[0][i], b = in[1][i], c = in[2][i], d = in[3][i]; \
+      out[i] = (expr);                                                     \
+    }                                                                      \
+  }
+#define PAPILLA_K6(name, expr)                                                                         \
+  void name(double* out, const double* const* in, int n) {                                             \
+    for (int i = 0; i < n; ++i) {                                                                      \
+      const double a = in[0][i], b = in[1][i], c = in[2][i], d = in[3][i], e = in[4][i], f = in[5][i]; \
+      out[i] = (expr);                                                                                 \
+    }                                                                                                  \
+  }
 
 PAPILLA_K2(k_add, a + b)
 PAPILLA_K2(k_subtract, a - b)
-PAPILLA_K2(k_multiply, a * b)
+PAPILLA_K2(k_multiply, a* b)
 PAPILLA_K2(k_divide, b == 0 ? 0 : a / b)
 PAPILLA_K1(k_negate, -a)
-PAPILLA_K1(k_square, a * a)
-PAPILLA_K1(k_cube, a * a * a)
+PAPILLA_K1(k_square, a* a)
+PAPILLA_K1(k_cube, a* a* a)
 PAPILLA_K1(k_absolute, std::abs(a))
 PAPILLA_K1(k_arc_cosine, std::acos(clamp_to(a, -1, 1)))
 PAPILLA_K1(k_arc_tangent, std::atan(a))
@@ -103,7 +138,7 @@ PAPILLA_K2(k_power, power(a, b))
 PAPILLA_K3(k_pulse, (c >= a ? 1 : 0) - (c >= b ? 1 : 0))
 PAPILLA_K6(k_rectangledist, std::max(outside(a, c, e), outside(b, d, f)))
 PAPILLA_K6(k_rectangledist2, outside(a, c, e) + outside(b, d, f))
-PAPILLA_K4(k_region, unit_number(mix_bits(cell_of(c * a), cell_of(d * b), 29)))
+PAPILLA_K4(k_region, unit_number(mix_bits(cell_of(c* a), cell_of(d* b), 29)))
 PAPILLA_K3(k_random, unit_number(mix_bits(cell_of(a), cell_of(b), 31 + cell_of(c))))
 PAPILLA_K1(k_sine, finite(std::sin(a)))
 PAPILLA_K4(k_smoothpulse, smooth(a, b, d) - smooth(c, c + b - a, d))
@@ -130,7 +165,11 @@ void k_turbulence(double* out, const double* const* in, int n) {
   double frequency = 1;
   for (int k = 0; k < static_cast<int>(most); ++k, frequency *= 2) {
     // The shift keeps the zeros of the lattices from meeting.
-    const Octave octave{.frequency_x = frequency, .frequency_y = frequency, .shift_x = 0.171875 * k, .shift_y = 0.37 + 0.328125 * k, .seed = static_cast<std::uint32_t>(k)};
+    const Octave octave{.frequency_x = frequency,
+                        .frequency_y = frequency,
+                        .shift_x = 0.171875 * k,
+                        .shift_y = 0.37 + 0.328125 * k,
+                        .seed = static_cast<std::uint32_t>(k)};
     if constexpr (dimensions == 3) {
       for (int i = 0; i < n; ++i) depth[i] = in[2][i];
       noise_row(in[0], in[1], depth, n, octave, noise);
@@ -144,28 +183,71 @@ void k_turbulence(double* out, const double* const* in, int n) {
   }
 }
 
-constexpr KernelInfo k_kernels[] = {
-    {"+", 2, k_add, ""}, {"-", 2, k_subtract, ""}, {"*", 2, k_multiply, ""}, {"/", 2, k_divide, ""}, {"%", 2, k_mod, ""},
-    {"^", 2, k_power, ""}, {"negate", 1, k_negate, ""}, {"square", 1, k_square, ""}, {"cube", 1, k_cube, ""}, {"abs", 1, k_absolute, ""},
-    {"absturbulence", 2, k_turbulence<1, true>, ""}, {"absturbulence2d", 3, k_turbulence<2, true>, ""},
-    {"absturbulence3d", 4, k_turbulence<3, true>, ""}, {"acos", 1, k_arc_cosine, ""}, {"atan", 1, k_arc_tangent, ""},
-    {"bias", 2, k_bias, ""}, {"boxstep", 3, k_boxstep, ""}, {"c", 1, k_cosine, ""}, {"churn", 1, k_churn, ""}, {"clamp", 3, k_clamp, ""},
-    {"clampunit", 1, k_clampunit, ""}, {"coldist", 6, k_coldist, ""}, {"dist", 2, k_dist, "uv"}, {"floor", 1, k_floor, ""},
-    {"gain", 2, k_gain, ""}, {"gethsvhue", 3, k_hue, ""}, {"gethsvsaturation", 3, k_saturation, ""}, {"gethsvvalue", 3, k_value, ""},
-    {"heartbeat", 2, k_heartbeat, ""}, {"hsv_red", 3, k_hsv_red, ""}, {"hsv_green", 3, k_hsv_green, ""}, {"hsv_blue", 3, k_hsv_blue, ""},
-    {"huedist", 2, k_huedist, ""}, {"interpolate", 3, k_interpolate, ""}, {"linedist", 4, k_linedist, "uv"}, {"log", 1, k_log, ""},
-    {"max", 2, k_max, ""}, {"min", 2, k_min, ""}, {"mod", 2, k_mod, ""}, {"moddist", 2, k_moddist, "uv"}, {"noise", 1, k_noise1, ""},
-    {"noise2d", 2, k_noise2, ""}, {"noise3d", 3, k_noise3, ""}, {"ovaldist", 4, k_ovaldist, "uv"}, {"pow", 2, k_power, ""},
-    {"pulse", 3, k_pulse, ""}, {"random", 3, k_random, ""}, {"rectangledist", 4, k_rectangledist, "uv"},
-    {"rectangledist2", 4, k_rectangledist2, "uv"}, {"region", 2, k_region, "uv"}, {"s", 1, k_sine, ""},
-    {"smoothpulse", 4, k_smoothpulse, ""}, {"smoothstep", 3, k_smoothstep, ""}, {"sqrt", 1, k_square_root, ""}, {"step", 2, k_step, ""},
-    {"tan", 1, k_tangent, ""}, {"turbulence", 2, k_turbulence<1, false>, ""}, {"turbulence2d", 3, k_turbulence<2, false>, ""},
-    {"turbulence3d", 4, k_turbulence<3, false>, ""}};
+constexpr KernelInfo k_kernels[] = {{"+", 2, k_add, ""},
+                                    {"-", 2, k_subtract, ""},
+                                    {"*", 2, k_multiply, ""},
+                                    {"/", 2, k_divide, ""},
+                                    {"%", 2, k_mod, ""},
+                                    {"^", 2, k_power, ""},
+                                    {"negate", 1, k_negate, ""},
+                                    {"square", 1, k_square, ""},
+                                    {"cube", 1, k_cube, ""},
+                                    {"abs", 1, k_absolute, ""},
+                                    {"absturbulence", 2, k_turbulence<1, true>, ""},
+                                    {"absturbulence2d", 3, k_turbulence<2, true>, ""},
+                                    {"absturbulence3d", 4, k_turbulence<3, true>, ""},
+                                    {"acos", 1, k_arc_cosine, ""},
+                                    {"atan", 1, k_arc_tangent, ""},
+                                    {"bias", 2, k_bias, ""},
+                                    {"boxstep", 3, k_boxstep, ""},
+                                    {"c", 1, k_cosine, ""},
+                                    {"churn", 1, k_churn, ""},
+                                    {"clamp", 3, k_clamp, ""},
+                                    {"clampunit", 1, k_clampunit, ""},
+                                    {"coldist", 6, k_coldist, ""},
+                                    {"dist", 2, k_dist, "uv"},
+                                    {"floor", 1, k_floor, ""},
+                                    {"gain", 2, k_gain, ""},
+                                    {"gethsvhue", 3, k_hue, ""},
+                                    {"gethsvsaturation", 3, k_saturation, ""},
+                                    {"gethsvvalue", 3, k_value, ""},
+                                    {"heartbeat", 2, k_heartbeat, ""},
+                                    {"hsv_red", 3, k_hsv_red, ""},
+                                    {"hsv_green", 3, k_hsv_green, ""},
+                                    {"hsv_blue", 3, k_hsv_blue, ""},
+                                    {"huedist", 2, k_huedist, ""},
+                                    {"interpolate", 3, k_interpolate, ""},
+                                    {"linedist", 4, k_linedist, "uv"},
+                                    {"log", 1, k_log, ""},
+                                    {"max", 2, k_max, ""},
+                                    {"min", 2, k_min, ""},
+                                    {"mod", 2, k_mod, ""},
+                                    {"moddist", 2, k_moddist, "uv"},
+                                    {"noise", 1, k_noise1, ""},
+                                    {"noise2d", 2, k_noise2, ""},
+                                    {"noise3d", 3, k_noise3, ""},
+                                    {"ovaldist", 4, k_ovaldist, "uv"},
+                                    {"pow", 2, k_power, ""},
+                                    {"pulse", 3, k_pulse, ""},
+                                    {"random", 3, k_random, ""},
+                                    {"rectangledist", 4, k_rectangledist, "uv"},
+                                    {"rectangledist2", 4, k_rectangledist2, "uv"},
+                                    {"region", 2, k_region, "uv"},
+                                    {"s", 1, k_sine, ""},
+                                    {"smoothpulse", 4, k_smoothpulse, ""},
+                                    {"smoothstep", 3, k_smoothstep, ""},
+                                    {"sqrt", 1, k_square_root, ""},
+                                    {"step", 2, k_step, ""},
+                                    {"tan", 1, k_tangent, ""},
+                                    {"turbulence", 2, k_turbulence<1, false>, ""},
+                                    {"turbulence2d", 3, k_turbulence<2, false>, ""},
+                                    {"turbulence3d", 4, k_turbulence<3, false>, ""}};
 
 }  // namespace
 
 const KernelInfo* find_kernel(std::string_view name) noexcept {
-  const auto it = std::find_if(std::begin(k_kernels), std::end(k_kernels), [&](const KernelInfo& k) { return k.name == name; });
+  const auto it =
+      std::find_if(std::begin(k_kernels), std::end(k_kernels), [&](const KernelInfo& k) { return k.name == name; });
   return it == std::end(k_kernels) ? nullptr : it;
 }
 

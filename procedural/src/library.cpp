@@ -38,15 +38,18 @@ std::vector<Entry> entries_of(std::string_view text) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     const Piece content = trimmed({line, 0});
     if (content.text.empty() || content.text.front() == '#') continue;
-    if (content.position > 0 && !entries.empty()) entries.back().text += content.text;
-    else entries.push_back({line_number, std::string(content.text)});
+    if (content.position > 0 && !entries.empty())
+      entries.back().text += content.text;
+    else
+      entries.push_back({line_number, std::string(content.text)});
   }
   return entries;
 }
 
 std::string lower_case(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return out;
 }
 
@@ -54,8 +57,10 @@ std::string lower_case(std::string_view text) {
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words(1);
   for (const char c : lower_case(text)) {
-    if (c >= 'a' && c <= 'z') words.back() += c;
-    else if (!words.back().empty()) words.emplace_back();
+    if (c >= 'a' && c <= 'z')
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
   }
   std::erase(words, "");
   return words;
@@ -70,9 +75,12 @@ RecipeLibrary RecipeLibrary::builtin() {
 }
 
 void RecipeLibrary::add(const std::string& name, const std::string& recipe) {
-  if (!is_name(name)) throw InvalidInput("recipe library: " + in_quotes(name) + " is no name; names hold letters, digits, _ and . and begin with a letter");
+  if (!is_name(name))
+    throw InvalidInput("recipe library: " + in_quotes(name) +
+                       " is no name; names hold letters, digits, _ and . and begin with a letter");
   const FunctionInfo* function = find_function(name);
-  if (find_type(name) || (function && function->arity == 0)) throw InvalidInput("recipe library: the name " + in_quotes(name) + " is taken by the language");
+  if (find_type(name) || (function && function->arity == 0))
+    throw InvalidInput("recipe library: the name " + in_quotes(name) + " is taken by the language");
   recipes_.insert_or_assign(name, recipe);
 }
 
@@ -93,11 +101,13 @@ const std::string* RecipeLibrary::find_colours(std::string_view name) const {
 
 void RecipeLibrary::read_file(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw IoError(path.string() + (std::filesystem::exists(path, error) ? ": is not a file" : ": does not exist"));
+  if (!std::filesystem::is_regular_file(path, error))
+    throw IoError(path.string() + (std::filesystem::exists(path, error) ? ": is not a file" : ": does not exist"));
   if (const auto size = std::filesystem::file_size(path, error); error || size > k_most_file)
     throw InvalidInput(path.string() + ": a library of recipes has at most 16 MiB");
   const auto whole = std::filesystem::weakly_canonical(path, error);
-  if (std::find(open_files_.begin(), open_files_.end(), whole) != open_files_.end()) throw InvalidInput(path.string() + ": is included by itself");
+  if (std::find(open_files_.begin(), open_files_.end(), whole) != open_files_.end())
+    throw InvalidInput(path.string() + ": is included by itself");
   if (open_files_.size() >= k_most_open) throw InvalidInput(path.string() + ": more than 32 files include each other");
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
@@ -117,8 +127,10 @@ void RecipeLibrary::read_text(std::string_view text, const std::string& source, 
   for (const Entry& entry : entries_of(text)) {
     const std::string place = source + ": line " + std::to_string(entry.line) + ": ";
     const std::size_t blank = entry.text.find_first_of(" \t");
-    if (blank == std::string::npos) throw InvalidInput(place + "expected a name, a blank and a recipe, found " + in_quotes(entry.text));
-    const std::string name = entry.text.substr(0, blank), rest(trimmed({std::string_view(entry.text).substr(blank), 0}).text);
+    if (blank == std::string::npos)
+      throw InvalidInput(place + "expected a name, a blank and a recipe, found " + in_quotes(entry.text));
+    const std::string name = entry.text.substr(0, blank),
+                      rest(trimmed({std::string_view(entry.text).substr(blank), 0}).text);
     if (name == "include") {
       read_file(folder / rest);
     } else if (name == "colour" || name == "color") {
@@ -142,9 +154,11 @@ std::vector<std::string> suggest_recipes(std::string_view material, const Recipe
   for (const auto& [name, recipe] : library.recipes()) {
     std::string known = name;
     for (const std::string_view key : {"idmaterial=", "idtype="})
-      if (const std::size_t at = recipe.find(key); at != std::string::npos) known += ' ' + recipe.substr(at + key.size(), recipe.find('|', at) - at - key.size());
+      if (const std::size_t at = recipe.find(key); at != std::string::npos)
+        known += ' ' + recipe.substr(at + key.size(), recipe.find('|', at) - at - key.size());
     int score = 0;
-    for (const std::string& word : words_of(known)) score += static_cast<int>(std::count(wanted.begin(), wanted.end(), word));
+    for (const std::string& word : words_of(known))
+      score += static_cast<int>(std::count(wanted.begin(), wanted.end(), word));
     if (score > 0) ranked.emplace_back(-score, name);
   }
   std::sort(ranked.begin(), ranked.end());
@@ -163,7 +177,8 @@ std::string mutate_recipe(std::string_view recipe, unsigned seed, double strengt
     std::string value(a.value.text);
     double number = 0;
     const auto [stop, error] = std::from_chars(a.value.text.data(), a.value.text.data() + a.value.text.size(), number);
-    const ParameterInfo* p = type ? find_parameter(*type, a.name.text) : find_parameter(texture_types().front(), a.name.text);
+    const ParameterInfo* p =
+        type ? find_parameter(*type, a.name.text) : find_parameter(texture_types().front(), a.name.text);
     const bool is_number = error == std::errc() && stop == a.value.text.data() + a.value.text.size();
     if (is_number && p && (p->kind == ParameterKind::number || p->kind == ParameterKind::integer)) {
       number *= 1 + strength * (2 * unit_number(mix_bits(++count, 19, seed)) - 1);

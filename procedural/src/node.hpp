@@ -22,9 +22,9 @@ struct PatternRow {
   int n = 0;
   const double *x = nullptr, *y = nullptr;
   double* out = nullptr;
-  double* id = nullptr;          ///< k_row numbers each.
-  double* info = nullptr;        ///< k_infos rows of k_row numbers.
-  double texel = 0;              ///< Distance of neighbouring texels; 0: unknown.
+  double* id = nullptr;               ///< k_row numbers each.
+  double* info = nullptr;             ///< k_infos rows of k_row numbers.
+  double texel = 0;                   ///< Distance of neighbouring texels; 0: unknown.
   double period_x = 0, period_y = 0;  ///< The pattern shall repeat after this; 0: need not.
   const Block* block = nullptr;
   Evaluator* evaluator = nullptr;
@@ -56,9 +56,9 @@ struct Node {
   std::vector<double> ranges, fades;  ///< Of `textures`.
   bool multi = false;
   std::array<double, k_channels> channel_scale{};
-  double range = 1, fade = 1;         ///< Of this texture within texmap.
+  double range = 1, fade = 1;  ///< Of this texture within texmap.
   bool uses_normal = false;
-  double evaluations = 1;             ///< A point's cost in textures, those within included.
+  double evaluations = 1;  ///< A point's cost in textures, those within included.
 };
 
 struct Graph {

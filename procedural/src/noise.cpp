@@ -22,7 +22,9 @@ inline double slope(std::uint32_t h, double dx, double dy, double dz) noexcept {
   const auto part = [](std::uint32_t bits) { return (static_cast<int>(bits & 1023U) - 512) * (1.0 / 512); };
   return part(h) * dx + part(h >> 10) * dy + part(h >> 20) * dz;
 }
-inline std::uint32_t lattice(double cell) noexcept { return static_cast<std::uint32_t>(static_cast<std::int32_t>(cell)); }
+inline std::uint32_t lattice(double cell) noexcept {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(cell));
+}
 
 template <bool periodic>
 inline double noise_at(double px, double py, double period_x, double period_y, std::uint32_t seed) noexcept {
@@ -58,7 +60,8 @@ PAPILLA_WIDE static void periodic_row(const double* x, const double* y, int n, c
   for (int i = 0; i < n; ++i) out[i] = noise_at<true>(tame(x[i] * fx + sx), tame(y[i] * fy + sy), px, py, seed);
 }
 
-PAPILLA_WIDE static void space_row(const double* x, const double* y, const double* z, int n, const Octave& o, double* out) {
+PAPILLA_WIDE static void space_row(const double* x, const double* y, const double* z, int n, const Octave& o,
+                                   double* out) {
   const double fx = o.frequency_x, fy = o.frequency_y, sx = o.shift_x, sy = o.shift_y;
   const double rx = o.period_x > 0 ? o.period_x : 4 * k_far, ry = o.period_y > 0 ? o.period_y : 4 * k_far;
   const std::uint32_t seed = o.seed;
@@ -92,8 +95,10 @@ PAPILLA_WIDE static void space_row(const double* x, const double* y, const doubl
 }
 
 void noise_row(const double* x, const double* y, int n, const Octave& octave, double* out) {
-  if (octave.period_x > 0 && octave.period_y > 0) periodic_row(x, y, n, octave, out);
-  else open_row(x, y, n, octave, out);
+  if (octave.period_x > 0 && octave.period_y > 0)
+    periodic_row(x, y, n, octave, out);
+  else
+    open_row(x, y, n, octave, out);
 }
 
 void noise_row(const double* x, const double* y, const double* z, int n, const Octave& octave, double* out) {

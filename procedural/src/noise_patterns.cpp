@@ -44,13 +44,22 @@ enum class FbmKind { fbm, hetero, multi, hybrid, ridged };
 class Fbm final : public Pattern {
  public:
   explicit Fbm(TypeArguments& arguments)
-      : lacunarity_(arguments.number("lacunarity")), octaves_(arguments.number("octaves")), gain_(arguments.number("gain")),
-        offset_(arguments.number("offset")), z_(arguments.number("zvalue")), dynamic_(arguments.flag("dynamicoctaves")),
-        least_(arguments.number("minimumoctaves")), seed_(arguments.seed()) {
+      : lacunarity_(arguments.number("lacunarity")),
+        octaves_(arguments.number("octaves")),
+        gain_(arguments.number("gain")),
+        offset_(arguments.number("offset")),
+        z_(arguments.number("zvalue")),
+        dynamic_(arguments.flag("dynamicoctaves")),
+        least_(arguments.number("minimumoctaves")),
+        seed_(arguments.seed()) {
     const std::string kind = arguments.text("type");
-    kind_ = kind == "fbm" ? FbmKind::fbm : kind == "heteroterrain" ? FbmKind::hetero : kind == "multifractal" ? FbmKind::multi
-            : kind == "hybridmultifractal" ? FbmKind::hybrid : FbmKind::ridged;
-    octaves_ = std::clamp(octaves_, std::min(least_, arguments.number("maximumoctaves")), std::max(1.0, arguments.number("maximumoctaves")));
+    kind_ = kind == "fbm"                  ? FbmKind::fbm
+            : kind == "heteroterrain"      ? FbmKind::hetero
+            : kind == "multifractal"       ? FbmKind::multi
+            : kind == "hybridmultifractal" ? FbmKind::hybrid
+                                           : FbmKind::ridged;
+    octaves_ = std::clamp(octaves_, std::min(least_, arguments.number("maximumoctaves")),
+                          std::max(1.0, arguments.number("maximumoctaves")));
     weights_ = numbers_of(arguments, "weights");
     if (weights_.empty()) power_law(arguments.number("h"), arguments.flag("closed"));
     if (kind_ == FbmKind::fbm) {
@@ -69,8 +78,9 @@ class Fbm final : public Pattern {
   }
 
  private:
-  /// w_k = lacunarity^(-H k). What the missing octaves beyond both ends would add to the variogram is added to the first (whose
-  /// increments grow with r^2, as those of all slower octaves) and to the last one (whose increments are as saturated as those of all faster ones).
+  /// w_k = lacunarity^(-H k). What the missing octaves beyond both ends would add to the variogram is added to the
+  /// first (whose increments grow with r^2, as those of all slower octaves) and to the last one (whose increments are
+  /// as saturated as those of all faster ones).
   void power_law(double h, bool closed) {
     const int count = static_cast<int>(std::ceil(octaves_));
     for (int k = 0; k < count; ++k) weights_.push_back(std::pow(lacunarity_, -h * k) * std::min(1.0, octaves_ - k));
@@ -86,6 +96,7 @@ class Fbm final : public Pattern {
   }
 
   void raw(const PatternRow& row) const {
+    std::fill_n(row.out, row.n, 0.0);
     double noise[k_row], weight[k_row];
     const int n = row.n;
     double cells = k_cells;
@@ -186,7 +197,8 @@ std::unique_ptr<Pattern> make_turbulence(TypeArguments& arguments) {
       weights += w, squares += w * w;
     }
     for (int i = 0; i < row.n; ++i)
-      row.out[i] = absolute ? row.out[i] / (0.6 * weights) : 0.5 + k_spread / k_noise_rms / std::sqrt(squares) * row.out[i];
+      row.out[i] =
+          absolute ? row.out[i] / (0.6 * weights) : 0.5 + k_spread / k_noise_rms / std::sqrt(squares) * row.out[i];
   });
 }
 
@@ -200,7 +212,8 @@ std::unique_ptr<Pattern> make_noise(TypeArguments& arguments) {
 
 }  // namespace
 
-void turbulence_row(const double* x, const double* y, int n, double cells, double octaves, bool absolute, std::uint32_t seed, double* out) {
+void turbulence_row(const double* x, const double* y, int n, double cells, double octaves, bool absolute,
+                    std::uint32_t seed, double* out) {
   double noise[k_row];
   std::fill_n(out, n, 0.0);
   for (int k = 0; k < octaves; ++k) {

@@ -20,9 +20,10 @@ class TypeArguments {
   virtual ~TypeArguments() = default;
   virtual double number(std::string_view name) const = 0;  ///< Also flags (0, 1) and integers.
   virtual std::string text(std::string_view name) const = 0;
-  virtual Program formula(std::string_view name) = 0;      ///< Not present when empty.
+  virtual Program formula(std::string_view name) = 0;  ///< Not present when empty.
   virtual std::vector<int> textures(std::string_view name) = 0;
-  virtual std::vector<int> matching_textures(std::size_t most) = 0;  ///< Named recipes that pass the filters of the funky types.
+  virtual std::vector<int> matching_textures(
+      std::size_t most) = 0;                               ///< Named recipes that pass the filters of the funky types.
   virtual bool mentions(std::string_view word) const = 0;  ///< Somewhere in the recipe's formulas.
   virtual RecipePicture picture(const std::string& path) const = 0;
   virtual const Graph& graph() const = 0;
@@ -30,7 +31,8 @@ class TypeArguments {
   std::uint32_t seed() const { return static_cast<std::uint32_t>(number("seed")); }
   bool flag(std::string_view name) const { return number(name) != 0; }
   int integer(std::string_view name) const { return static_cast<int>(number(name)); }
-  [[noreturn]] virtual void refuse(std::string_view name, const std::string& reason) const = 0;  ///< Names the parameter's place.
+  [[noreturn]] virtual void refuse(std::string_view name,
+                                   const std::string& reason) const = 0;  ///< Names the parameter's place.
 };
 
 /// The pattern of a type; null for base, texture and multi.
@@ -80,7 +82,8 @@ std::unique_ptr<Pattern> row_pattern(F f) {
 }
 
 /// sum of noise / 2^k over octaves, at frequency `cells`; 0 octaves give 0.
-void turbulence_row(const double* x, const double* y, int n, double cells, double octaves, bool absolute, std::uint32_t seed, double* out);
+void turbulence_row(const double* x, const double* y, int n, double cells, double octaves, bool absolute,
+                    std::uint32_t seed, double* out);
 
 /// 0 outside, 1 inside an edge at distance d, softened over a texel.
 inline double edge(double d, double texel) {

@@ -34,14 +34,16 @@ struct Grid {
     const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
     const double tx = x - ix, ty = y - iy;
     if (interpolation == 1) {
-      const double top = at(ix, iy) + tx * (at(ix + 1, iy) - at(ix, iy)), bottom = at(ix, iy + 1) + tx * (at(ix + 1, iy + 1) - at(ix, iy + 1));
+      const double top = at(ix, iy) + tx * (at(ix + 1, iy) - at(ix, iy)),
+                   bottom = at(ix, iy + 1) + tx * (at(ix + 1, iy + 1) - at(ix, iy + 1));
       return top + ty * (bottom - top);
     }
     const auto cubic = [](double a, double b, double c, double d, double t) {
       return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
     };
     double rows[4];
-    for (int k = 0; k < 4; ++k) rows[k] = cubic(at(ix - 1, iy + k - 1), at(ix, iy + k - 1), at(ix + 1, iy + k - 1), at(ix + 2, iy + k - 1), tx);
+    for (int k = 0; k < 4; ++k)
+      rows[k] = cubic(at(ix - 1, iy + k - 1), at(ix, iy + k - 1), at(ix + 1, iy + k - 1), at(ix + 2, iy + k - 1), tx);
     return cubic(rows[0], rows[1], rows[2], rows[3], ty);
   }
   void blur(int passes) {
@@ -52,7 +54,8 @@ struct Grid {
           double sum = 0;
           for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i) sum += at(x + i, y + j);
-          soft.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] = sum / 9;
+          soft.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+              sum / 9;
         }
       values = std::move(soft.values);
     }
@@ -77,7 +80,8 @@ Grid rendered(const Graph& graph, int node, int width, int height) {
 }
 
 std::unique_ptr<Pattern> make_image(TypeArguments& arguments) {
-  constexpr double k_screen = 256;  // What "the target's size" means here: the target is not known when a recipe is compiled.
+  constexpr double k_screen =
+      256;  // What "the target's size" means here: the target is not known when a recipe is compiled.
   Grid grid;
   const std::string path = arguments.text("picpath");
   const std::vector<int> base = arguments.textures("basetexture");
@@ -86,11 +90,13 @@ std::unique_ptr<Pattern> make_image(TypeArguments& arguments) {
     grid.width = picture.width, grid.height = picture.height;
     grid.values.resize(picture.rgb.size() / 3);
     for (std::size_t i = 0; i < grid.values.size(); ++i)
-      grid.values[i] = static_cast<double>(0.2126F * picture.rgb[3 * i] + 0.7152F * picture.rgb[3 * i + 1] + 0.0722F * picture.rgb[3 * i + 2]);
+      grid.values[i] = static_cast<double>(0.2126F * picture.rgb[3 * i] + 0.7152F * picture.rgb[3 * i + 1] +
+                                           0.0722F * picture.rgb[3 * i + 2]);
   } else if (!base.empty()) {
     const bool fit = arguments.flag("fit2screen");
     const int side = std::max(16, static_cast<int>(k_screen * arguments.number("fit2screenratio")));
-    grid = rendered(arguments.graph(), base[0], fit ? side : arguments.integer("width"), fit ? side : arguments.integer("height"));
+    grid = rendered(arguments.graph(), base[0], fit ? side : arguments.integer("width"),
+                    fit ? side : arguments.integer("height"));
   }
   grid.repeat = arguments.flag("repeat") || arguments.flag("seamless");
   grid.blur(arguments.integer("blur"));
@@ -109,14 +115,36 @@ using System = std::vector<AffineMap>;
 System preset(int style) {
   switch (style % 8) {
     case 0:
-      return {{{0, 0, 0, .16, 0, 0, .01}}, {{.2, -.26, .23, .22, 0, 1.6, .07}}, {{-.15, .28, .26, .24, 0, .44, .07}}, {{.85, .04, -.04, .85, 0, 1.6, .85}}};
+      return {{{0, 0, 0, .16, 0, 0, .01}},
+              {{.2, -.26, .23, .22, 0, 1.6, .07}},
+              {{-.15, .28, .26, .24, 0, .44, .07}},
+              {{.85, .04, -.04, .85, 0, 1.6, .85}}};
     case 1: return {{{.5, 0, 0, .5, 0, 0, .33}}, {{.5, 0, 0, .5, .5, 0, .33}}, {{.5, 0, 0, .5, .25, .433, .34}}};
     case 2: return {{{.5, -.5, .5, .5, 0, 0, .5}}, {{-.5, -.5, .5, -.5, 1, 0, .5}}};
-    case 3: return {{{.14, .01, 0, .51, -.08, -1.31, .1}}, {{.43, .52, -.45, .5, 1.49, -.75, .35}}, {{.45, -.49, .47, .47, -1.62, -.74, .35}}, {{.49, 0, 0, .51, .02, 1.62, .2}}};
-    case 4: return {{{0, 0, 0, .5, 0, 0, .05}}, {{.42, -.42, .42, .42, 0, .2, .4}}, {{.42, .42, -.42, .42, 0, .2, .4}}, {{.1, 0, 0, .1, 0, .2, .15}}};
-    case 5: return {{{.787879, -.424242, .242424, .859848, 1.758647, 1.408065, .9}}, {{-.121212, .257576, .151515, .05303, -6.721654, 1.377236, .05}}, {{.181818, -.136364, .090909, .181818, 6.086107, 1.568035, .05}}};
-    case 6: return {{{.333, 0, 0, .333, 0, 0, .25}}, {{.333, 0, 0, .333, .667, 0, .25}}, {{.333, 0, 0, .333, 0, .667, .25}}, {{.5, 0, 0, .5, .25, .25, .25}}};
-    default: return {{{.255, 0, 0, .255, .3726, .6714, .2}}, {{.255, 0, 0, .255, .1146, .2232, .2}}, {{.255, 0, 0, .255, .6306, .2232, .2}}, {{.37, -.642, .642, .37, .6356, -.0061, .4}}};
+    case 3:
+      return {{{.14, .01, 0, .51, -.08, -1.31, .1}},
+              {{.43, .52, -.45, .5, 1.49, -.75, .35}},
+              {{.45, -.49, .47, .47, -1.62, -.74, .35}},
+              {{.49, 0, 0, .51, .02, 1.62, .2}}};
+    case 4:
+      return {{{0, 0, 0, .5, 0, 0, .05}},
+              {{.42, -.42, .42, .42, 0, .2, .4}},
+              {{.42, .42, -.42, .42, 0, .2, .4}},
+              {{.1, 0, 0, .1, 0, .2, .15}}};
+    case 5:
+      return {{{.787879, -.424242, .242424, .859848, 1.758647, 1.408065, .9}},
+              {{-.121212, .257576, .151515, .05303, -6.721654, 1.377236, .05}},
+              {{.181818, -.136364, .090909, .181818, 6.086107, 1.568035, .05}}};
+    case 6:
+      return {{{.333, 0, 0, .333, 0, 0, .25}},
+              {{.333, 0, 0, .333, .667, 0, .25}},
+              {{.333, 0, 0, .333, 0, .667, .25}},
+              {{.5, 0, 0, .5, .25, .25, .25}}};
+    default:
+      return {{{.255, 0, 0, .255, .3726, .6714, .2}},
+              {{.255, 0, 0, .255, .1146, .2232, .2}},
+              {{.255, 0, 0, .255, .6306, .2232, .2}},
+              {{.37, -.642, .642, .37, .6356, -.0061, .4}}};
   }
 }
 
@@ -151,7 +179,9 @@ Grid play(const System& system, int points_k, double size, const std::vector<dou
     }
   };
   double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
-  game(5000, [&](double x, double y) { x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y); });
+  game(5000, [&](double x, double y) {
+    x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+  });
   if (part.size() == 4) x0 = part[0], y0 = part[1], x1 = part[0] + part[2], y1 = part[1] + part[3];
   const double side = std::max({x1 - x0, y1 - y0, 1e-9}) * 1.04 / size, cx = (x0 + x1) / 2, cy = (y0 + y1) / 2;
   Grid grid;
@@ -159,7 +189,8 @@ Grid play(const System& system, int points_k, double size, const std::vector<dou
   grid.values.assign(static_cast<std::size_t>(k_cells_a_side) * k_cells_a_side, 0);
   game(points_k * 1000, [&](double x, double y) {
     const double gx = ((x - cx) / side + 0.5) * k_cells_a_side, gy = (0.5 - (y - cy) / side) * k_cells_a_side;
-    if (gx >= 0 && gy >= 0 && gx < k_cells_a_side && gy < k_cells_a_side) ++grid.values[static_cast<std::size_t>(gy) * k_cells_a_side + static_cast<std::size_t>(gx)];
+    if (gx >= 0 && gy >= 0 && gx < k_cells_a_side && gy < k_cells_a_side)
+      ++grid.values[static_cast<std::size_t>(gy) * k_cells_a_side + static_cast<std::size_t>(gx)];
   });
   double most = 1;
   for (const double v : grid.values) most = std::max(most, v);
@@ -180,7 +211,8 @@ std::unique_ptr<Pattern> make_ifs(TypeArguments& arguments) {
     for (std::size_t m = 0; m < count; ++m)
       for (std::size_t k = 0; k < 7; ++k) system[m].v[k] += t * (other[m].v[k] - system[m].v[k]);
   }
-  Grid grid = play(system, arguments.integer("kilon"), arguments.number("scalefak"), numbers_of(arguments, "posandscale"), arguments.seed());
+  Grid grid = play(system, arguments.integer("kilon"), arguments.number("scalefak"),
+                   numbers_of(arguments, "posandscale"), arguments.seed());
   return point_pattern([grid = std::move(grid)](const PatternRow& row, int i) {
     const double x = row.x[i], y = row.y[i];
     return x < 0 || y < 0 || x > 1 || y > 1 ? 0.0 : grid.sample(x, y, 1);
@@ -193,14 +225,17 @@ std::unique_ptr<Pattern> make_text(TypeArguments& arguments) {
   if (text.size() > k_most_characters) arguments.refuse("txt", "at most 4096 characters are written");
   std::vector<std::string> lines(1);
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] == 'n') lines.emplace_back(), ++i;
-    else lines.back() += text[i];
+    if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] == 'n')
+      lines.emplace_back(), ++i;
+    else
+      lines.back() += text[i];
   }
   std::size_t longest = 1;
   for (const std::string& line : lines) longest = std::max(longest, line.size());
   const int modifier = arguments.integer("modifier");
   const bool bold = modifier == 1 || modifier == 3, slanted = modifier >= 2, centre = arguments.flag("centerx");
-  const double line_height = 9 * arguments.number("spacingy"), border_x = arguments.number("borderx"), border_y = arguments.number("bordery");
+  const double line_height = 9 * arguments.number("spacingy"), border_x = arguments.number("borderx"),
+               border_y = arguments.number("bordery");
   const double wide = 6.0 * static_cast<double>(longest), high = line_height * static_cast<double>(lines.size());
   const double scale = std::max(wide / (1 - 2 * border_x), high / (1 - 2 * border_y));  // Dots a unit.
   const std::vector<int> fill = arguments.textures("texture");
@@ -214,7 +249,8 @@ std::unique_ptr<Pattern> make_text(TypeArguments& arguments) {
     const auto set = [&](double at) {
       const double place = std::floor(at / 6);
       if (place < 0 || place >= static_cast<double>(words.size())) return false;
-      return glyph_dot(words[static_cast<std::size_t>(place)], static_cast<int>(std::floor(at - place * 6)), static_cast<int>(std::floor(y)));
+      return glyph_dot(words[static_cast<std::size_t>(place)], static_cast<int>(std::floor(at - place * 6)),
+                       static_cast<int>(std::floor(y)));
     };
     return set(x) || (bold && set(x - 0.5));
   };
@@ -227,7 +263,8 @@ std::unique_ptr<Pattern> make_text(TypeArguments& arguments) {
     }
     for (int i = 0; i < row.n; ++i) {
       double x = row.x[i], y = row.y[i];
-      if (row.period_x > 0) x *= fitted(1, row.period_x), y *= fitted(1, row.period_y), x -= std::floor(x), y -= std::floor(y);
+      if (row.period_x > 0)
+        x *= fitted(1, row.period_x), y *= fitted(1, row.period_y), x -= std::floor(x), y -= std::floor(y);
       int hits = 0;
       for (int k = 0; k < 4; ++k) {  // Four samples over a texel.
         const double sx = x + ((k & 1) - 0.5) * 0.5 * row.texel, sy = y + ((k >> 1) - 0.5) * 0.5 * row.texel;

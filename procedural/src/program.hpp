@@ -21,9 +21,29 @@ using Kernel = void (*)(double* out, const double* const* in, int n);
 enum class FrameRow : std::uint8_t { u, v, self, main, a, b, id, normaldot, f1, f2, f3, f4, info0 };
 inline constexpr int k_frame_rows = static_cast<int>(FrameRow::info0) + k_infos;
 enum class BlockRow : std::uint8_t {
-  column, row, columns, rows, shorter, octaveadd, posx, posy, posz, sky,
-  lower_main, lower_bump, lower_alpha, lower_coloralpha, lower_reflection, lower_diffuse, lower_specular, lower_specularcoeff,
-  lower_friction, lower_stiffness, lower_red, lower_green, lower_blue
+  column,
+  row,
+  columns,
+  rows,
+  shorter,
+  octaveadd,
+  posx,
+  posy,
+  posz,
+  sky,
+  lower_main,
+  lower_bump,
+  lower_alpha,
+  lower_coloralpha,
+  lower_reflection,
+  lower_diffuse,
+  lower_specular,
+  lower_specularcoeff,
+  lower_friction,
+  lower_stiffness,
+  lower_red,
+  lower_green,
+  lower_blue
 };
 inline constexpr int k_block_rows = static_cast<int>(BlockRow::lower_blue) + 1;
 
@@ -33,7 +53,18 @@ struct Operand {
   int index = 0;
 };
 
-enum class Action : std::uint8_t { kernel, set_info, rotate, zoom, sphere, texture, colmap, texmap_color, texmap_channel, texture_color };
+enum class Action : std::uint8_t {
+  kernel,
+  set_info,
+  rotate,
+  zoom,
+  sphere,
+  texture,
+  colmap,
+  texmap_color,
+  texmap_channel,
+  texture_color
+};
 
 struct Instruction {
   Action action = Action::kernel;
@@ -50,9 +81,9 @@ struct Program {
   int registers = 0;
   bool colour = false;
   std::array<Operand, 3> result{};
-  bool constant = true;               ///< Then `value` is all there is.
+  bool constant = true;  ///< Then `value` is all there is.
   std::array<double, 3> value{};
-  bool present = false;               ///< False: the recipe does not have this formula.
+  bool present = false;  ///< False: the recipe does not have this formula.
 };
 
 /// A function that works number by number: name, number of arguments, kernel, and which frame rows are handed over

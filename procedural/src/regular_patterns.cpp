@@ -12,12 +12,15 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-std::uint32_t whole(double v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(v, -1e9, 1e9))); }
+std::uint32_t whole(double v) {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(v, -1e9, 1e9)));
+}
 double share_of(double v) { return v - std::floor(v); }
 double wrap(double cell, double count) { return count > 0 ? cell - count * std::floor(cell / count) : cell; }
 
 std::unique_ptr<Pattern> make_block(TypeArguments& arguments) {
-  const double nx = arguments.number("subx"), ny = arguments.number("suby"), mx = arguments.number("subx2"), my = arguments.number("suby2");
+  const double nx = arguments.number("subx"), ny = arguments.number("suby"), mx = arguments.number("subx2"),
+               my = arguments.number("suby2");
   const std::uint32_t seed = arguments.seed();
   return point_pattern([=](const PatternRow& row, int i) {
     const double x = row.x[i] * fitted(1, row.period_x) * nx, y = row.y[i] * fitted(1, row.period_y) * ny;
@@ -33,9 +36,15 @@ std::unique_ptr<Pattern> make_block(TypeArguments& arguments) {
 class Brick final : public Pattern {
  public:
   explicit Brick(TypeArguments& arguments)
-      : joint_(arguments.number("mortarthickness") / 2), rounding_(arguments.number("round")), joint_variation_(arguments.number("mortarthicknessrand")),
-        joint_scale_(arguments.number("mortarthicknessrandscale")), id_only_(arguments.flag("returnid")), offset_(arguments.flag("offsetrand")),
-        switching_(arguments.flag("switching")), circle_(arguments.flag("circle")), seed_(arguments.seed()) {
+      : joint_(arguments.number("mortarthickness") / 2),
+        rounding_(arguments.number("round")),
+        joint_variation_(arguments.number("mortarthicknessrand")),
+        joint_scale_(arguments.number("mortarthicknessrandscale")),
+        id_only_(arguments.flag("returnid")),
+        offset_(arguments.flag("offsetrand")),
+        switching_(arguments.flag("switching")),
+        circle_(arguments.flag("circle")),
+        seed_(arguments.seed()) {
     const bool tiling = arguments.flag("tiling");
     columns_ = tiling ? arguments.number("columns") : 1 / arguments.number("brickwidth");
     rows_ = tiling ? arguments.number("rows") : 1 / arguments.number("brickheight");
@@ -59,11 +68,13 @@ class Brick final : public Pattern {
         row.out[i] = row.id[i];
         continue;
       }
-      const double from_side = (0.5 - std::abs(share_of(x) - 0.5)) * width, from_end = (0.5 - std::abs(row.y[i] * rows - j - 0.5)) * height;
+      const double from_side = (0.5 - std::abs(share_of(x) - 0.5)) * width,
+                   from_end = (0.5 - std::abs(row.y[i] * rows - j - 0.5)) * height;
       const double joint = joint_ / 2 * std::max(0.0, 1 + joint_variation_ * variation[i]);
       row.out[i] = profile(from_side - joint, from_end - joint, std::min(width, height) / 2 - joint_ / 2, row.texel);
       if (circle_) {
-        const double r = std::hypot((share_of(x) - 0.5) * width, (row.y[i] * rows - j - 0.5) * height) / (0.3 * std::min(width, height));
+        const double r = std::hypot((share_of(x) - 0.5) * width, (row.y[i] * rows - j - 0.5) * height) /
+                         (0.3 * std::min(width, height));
         row.out[i] -= 0.5 * smooth01(1 - r) * (row.out[i] > 0 ? 1 : 0);
       }
     }
@@ -99,12 +110,15 @@ std::unique_ptr<Pattern> make_funky(TypeArguments& arguments, bool cells) {
         double least = 1e30;
         for (int q = -1; q <= 1; ++q)
           for (int p = -1; p <= 1; ++p) {
-            const std::uint32_t h = mix_bits(whole(wrap(bx + p, std::round(fx * row.period_x))), whole(wrap(by + q, std::round(fy * row.period_y))), seed + 73);
-            const double dx = bx + p + 0.2 + 0.6 * (h & 1023U) / 1024.0 - row.x[i] * fx, dy = by + q + 0.2 + 0.6 * (h >> 10 & 1023U) / 1024.0 - row.y[i] * fy;
+            const std::uint32_t h = mix_bits(whole(wrap(bx + p, std::round(fx * row.period_x))),
+                                             whole(wrap(by + q, std::round(fy * row.period_y))), seed + 73);
+            const double dx = bx + p + 0.2 + 0.6 * (h & 1023U) / 1024.0 - row.x[i] * fx,
+                         dy = by + q + 0.2 + 0.6 * (h >> 10 & 1023U) / 1024.0 - row.y[i] * fy;
             if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, cx = bx + p, cy = by + q;
           }
       }
-      choice[i] = mix_bits(whole(wrap(cx, std::round(fx * row.period_x))), whole(wrap(cy, std::round(fy * row.period_y))), seed + 79);
+      choice[i] = mix_bits(whole(wrap(cx, std::round(fx * row.period_x))),
+                           whole(wrap(cy, std::round(fy * row.period_y))), seed + 79);
       row.id[i] = unit_number(choice[i]);
       row.out[i] = row.id[i];
     }
@@ -121,7 +135,8 @@ std::unique_ptr<Pattern> make_funky(TypeArguments& arguments, bool cells) {
 
 std::unique_ptr<Pattern> make_checker() {
   return point_pattern([](const PatternRow& row, int i) {
-    const double x = std::floor(row.x[i] * fitted(2, row.period_x, 2)), y = std::floor(row.y[i] * fitted(2, row.period_y, 2));
+    const double x = std::floor(row.x[i] * fitted(2, row.period_x, 2)),
+                 y = std::floor(row.y[i] * fitted(2, row.period_y, 2));
     return static_cast<double>((whole(x) + whole(y)) % 2);
   });
 }
@@ -130,7 +145,8 @@ std::unique_ptr<Pattern> make_checker3d() {
   return point_pattern([](const PatternRow& row, int i) {
     const auto at = [&](BlockRow r) { return row.block->rows[static_cast<std::size_t>(r)][i]; };
     double x = row.x[i] * fitted(k_cells, row.period_x, 2), y = row.y[i] * fitted(k_cells, row.period_y, 2), z = 0;
-    if (row.block->solid) x = at(BlockRow::posx) * k_cells, y = at(BlockRow::posy) * k_cells, z = at(BlockRow::posz) * k_cells;
+    if (row.block->solid)
+      x = at(BlockRow::posx) * k_cells, y = at(BlockRow::posy) * k_cells, z = at(BlockRow::posz) * k_cells;
     return static_cast<double>((whole(std::floor(x)) + whole(std::floor(y)) + whole(std::floor(z))) % 2);
   });
 }
@@ -147,7 +163,8 @@ std::unique_ptr<Pattern> make_circle(TypeArguments& arguments) {
 std::unique_ptr<Pattern> make_star(TypeArguments& arguments) {
   const double noise = arguments.number("noise"), turb = arguments.number("turb"), ninja = arguments.number("ninja");
   const double exponent = arguments.flag("round") ? 2 : arguments.number("roundjag");
-  const double jags = arguments.number("jags"), inner = arguments.number("rmin"), outer = arguments.number("rmax"), size = arguments.number("starscale");
+  const double jags = arguments.number("jags"), inner = arguments.number("rmin"), outer = arguments.number("rmax"),
+               size = arguments.number("starscale");
   const bool repeat = arguments.flag("repeat");
   const std::uint32_t seed = arguments.seed();
   return row_pattern([=](const PatternRow& row) {
@@ -156,7 +173,8 @@ std::unique_ptr<Pattern> make_star(TypeArguments& arguments) {
     if (turb != 0) turbulence_row(row.x, row.y, row.n, 2 * k_cells, 5, false, seed + 1, more);
     for (int i = 0; i < row.n; ++i) {
       double x = row.x[i], y = row.y[i];
-      if (repeat || row.period_x > 0) x = share_of(x * fitted(1, row.period_x)), y = share_of(y * fitted(1, row.period_y));
+      if (repeat || row.period_x > 0)
+        x = share_of(x * fitted(1, row.period_x)), y = share_of(y * fitted(1, row.period_y));
       x -= 0.5, y -= 0.5;
       const double r = std::hypot(x, y) + 0.1 * (noise * shift[i] + turb * more[i]);
       const double turn = share_of(std::atan2(y, x) / (2 * k_pi) * jags + ninja * r * jags / 10);
@@ -174,7 +192,8 @@ std::unique_ptr<Pattern> make_weave(TypeArguments& arguments) {
   const double rows = arguments.number("rows"), columns = arguments.number("columns");
   const bool round = arguments.flag("roundthreads"), dive = arguments.flag("shadecrossings");
   const std::string matrix = arguments.text("matrix");
-  if (matrix.empty() || matrix.find_first_not_of("01") != std::string::npos || static_cast<double>(matrix.size()) < rows * columns)
+  if (matrix.empty() || matrix.find_first_not_of("01") != std::string::npos ||
+      static_cast<double>(matrix.size()) < rows * columns)
     arguments.refuse("matrix", "expected at least rows x columns digits 0 or 1");
   return point_pattern([=](const PatternRow& row, int i) {
     const double x = row.x[i] * fitted(1, row.period_x) * columns, y = row.y[i] * fitted(1, row.period_y) * rows;
@@ -188,7 +207,8 @@ std::unique_ptr<Pattern> make_weave(TypeArguments& arguments) {
     const double down = profile(tx, width_x / pitch_x / 2), across = profile(ty, width_y / pitch_y / 2);
     const double swing_across = dive ? std::cos(k_pi * tx) : 1, swing_down = dive ? std::cos(k_pi * ty) : 1;
     const double side = across_on_top ? 1 : -1;
-    const double height_across = across > 0 ? across * (0.6 + 0.4 * side * swing_across) : 0, height_down = down > 0 ? down * (0.6 - 0.4 * side * swing_down) : 0;
+    const double height_across = across > 0 ? across * (0.6 + 0.4 * side * swing_across) : 0,
+                 height_down = down > 0 ? down * (0.6 - 0.4 * side * swing_down) : 0;
     row.id[i] = height_across > height_down ? 1 : 0;
     return std::max(height_across, height_down);
   });
@@ -211,7 +231,8 @@ std::unique_ptr<Pattern> make_regular_pattern(std::string_view type, TypeArgumen
 }
 
 std::unique_ptr<Pattern> make_pattern(std::string_view type, TypeArguments& arguments) {
-  for (auto* const make : {make_noise_pattern, make_cell_pattern, make_regular_pattern, make_effect_pattern, make_picture_pattern})
+  for (auto* const make :
+       {make_noise_pattern, make_cell_pattern, make_regular_pattern, make_effect_pattern, make_picture_pattern})
     if (auto pattern = make(type, arguments)) return pattern;
   return nullptr;
 }

@@ -16,8 +16,9 @@ namespace {
 
 using namespace procedural_detail;
 
-constexpr std::array<std::string_view, k_channels> k_names = {"main", "bump", "alpha", "coloralpha", "reflection", "diffuse",
-                                                             "specular", "specularcoeff", "friction", "stiffness", "color"};
+constexpr std::array<std::string_view, k_channels> k_names = {"main",       "bump",      "alpha",    "coloralpha",
+                                                              "reflection", "diffuse",   "specular", "specularcoeff",
+                                                              "friction",   "stiffness", "color"};
 constexpr std::size_t k_color = static_cast<std::size_t>(Channel::color);
 constexpr int k_most_side = 65536;
 constexpr std::int64_t k_most_texels = std::int64_t{1} << 30;
@@ -63,24 +64,30 @@ void fill_known(Workspace& w, Block& block, const Raster& raster, std::int64_t f
   block.solid = solid;
   if (points && !points->color.empty())
     for (std::size_t c = 0; c < 3; ++c) {
-      for (int i = 0; i < n; ++i) w.color[c][i] = static_cast<double>(points->color[3 * static_cast<std::size_t>(first + i) + c]);
+      for (int i = 0; i < n; ++i)
+        w.color[c][i] = static_cast<double>(points->color[3 * static_cast<std::size_t>(first + i) + c]);
       block.rows[static_cast<std::size_t>(BlockRow::lower_red) + c] = w.color[c];
     }
   if (points && !points->normals.empty()) block.normals = points->normals.data() + 3 * first;
 }
 
 /// Evaluates the points of `block` and stores the channels behind number `first`.
-void evaluate_block(const Graph& graph, Workspace& w, const Block& block, unsigned channels, std::int64_t first, TextureValues& values) {
-  if ((channels & ~1U) == 0) w.evaluator.main_value(graph.root, block, w.out.row[0]);
-  else w.evaluator.channels(graph.root, block, channels, w.out);
+void evaluate_block(const Graph& graph, Workspace& w, const Block& block, unsigned channels, std::int64_t first,
+                    TextureValues& values) {
+  if ((channels & ~1U) == 0)
+    w.evaluator.main_value(graph.root, block, w.out.row[0]);
+  else
+    w.evaluator.channels(graph.root, block, channels, w.out);
   for (std::size_t c = 0; c < k_channels; ++c) {
     if (!(channels >> c & 1U)) continue;
-    const bool limited = c == static_cast<std::size_t>(Channel::friction) || c == static_cast<std::size_t>(Channel::stiffness);
+    const bool limited =
+        c == static_cast<std::size_t>(Channel::friction) || c == static_cast<std::size_t>(Channel::stiffness);
     const std::size_t parts = c == k_color ? 3 : 1;
     float* out = values.channels[c].data() + static_cast<std::size_t>(first) * parts;
     for (std::size_t k = 0; k < parts; ++k)
       for (int i = 0; i < block.n; ++i) {
-        const double v = limited ? std::clamp(w.out.row[c][i], 0.0, k_most_factor) : std::clamp(w.out.row[c + k][i], -1e30, 1e30);
+        const double v =
+            limited ? std::clamp(w.out.row[c][i], 0.0, k_most_factor) : std::clamp(w.out.row[c + k][i], -1e30, 1e30);
         out[static_cast<std::size_t>(i) * parts + k] = static_cast<float>(v);
       }
   }
@@ -115,7 +122,8 @@ Channel channel_named(std::string_view name) {
 
 RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOptions& options) {
   const std::int64_t texels = std::int64_t{options.width} * options.height;
-  if (options.width < 1 || options.height < 1 || options.width > k_most_side || options.height > k_most_side || texels > k_most_texels)
+  if (options.width < 1 || options.height < 1 || options.width > k_most_side || options.height > k_most_side ||
+      texels > k_most_texels)
     throw InvalidInput("render_texture: " + std::to_string(options.width) + " x " + std::to_string(options.height) +
                        " texels; each side must be 1 to 65536, and all together at most 2^30");
   const Graph& graph = texture.graph();
@@ -126,29 +134,34 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
   const double step_x = 1 / (stretch ? options.width : shorter), step_y = 1 / (stretch ? options.height : shorter);
   Workspaces workspaces;
   std::atomic<std::int64_t> done = 0;
-  tbb::parallel_for(tbb::blocked_range<int>(0, options.height, static_cast<std::size_t>(std::max(1, 16384 / options.width))), [&](const tbb::blocked_range<int>& range) {
-    Workspace& w = local(workspaces, graph);
-    for (int row = range.begin(); row < range.end(); ++row)
-      for (int column = 0; column < options.width; column += k_row) {
-        Block block;
-        block.n = std::min(k_row, options.width - column);
-        for (int i = 0; i < block.n; ++i) w.x[i] = (column + i + 0.5) * step_x, w.y[i] = (row + 0.5) * step_y;
-        block.x = w.x, block.y = w.y, block.texel = std::max(step_x, step_y);
-        block.extent_x = options.width * step_x, block.extent_y = options.height * step_y;
-        const std::int64_t first = std::int64_t{row} * options.width + column;
-        fill_known(w, block, {static_cast<double>(options.width), static_cast<double>(options.height), block.texel}, first, nullptr);
-        evaluate_block(graph, w, block, options.channels, first, result.values);
-      }
-    done += range.end() - range.begin();
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, options.height, static_cast<std::size_t>(std::max(1, 16384 / options.width))),
+      [&](const tbb::blocked_range<int>& range) {
+        Workspace& w = local(workspaces, graph);
+        for (int row = range.begin(); row < range.end(); ++row)
+          for (int column = 0; column < options.width; column += k_row) {
+            Block block;
+            block.n = std::min(k_row, options.width - column);
+            for (int i = 0; i < block.n; ++i) w.x[i] = (column + i + 0.5) * step_x, w.y[i] = (row + 0.5) * step_y;
+            block.x = w.x, block.y = w.y, block.texel = std::max(step_x, step_y);
+            block.extent_x = options.width * step_x, block.extent_y = options.height * step_y;
+            const std::int64_t first = std::int64_t{row} * options.width + column;
+            fill_known(w, block, {static_cast<double>(options.width), static_cast<double>(options.height), block.texel},
+                       first, nullptr);
+            evaluate_block(graph, w, block, options.channels, first, result.values);
+          }
+        done += range.end() - range.begin();
+      });
   if (options.progress) options.progress("texture", 1);
   return result;
 }
 
-TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePoints& points, unsigned channels, double texel) {
+TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePoints& points, unsigned channels,
+                               double texel) {
   const std::size_t count = points.x.size();
   const auto fits = [&](std::size_t size, std::size_t parts) { return size == 0 || size == count * parts; };
-  if (points.y.size() != count || !fits(points.normals.size(), 3) || !fits(points.positions.size(), 3) || !fits(points.sky.size(), 1) || !fits(points.color.size(), 3))
+  if (points.y.size() != count || !fits(points.normals.size(), 3) || !fits(points.positions.size(), 3) ||
+      !fits(points.sky.size(), 1) || !fits(points.color.size(), 3))
     throw InvalidInput("evaluate_texture: the spans have unlike lengths for " + std::to_string(count) + " points");
   const Graph& graph = texture.graph();
   TextureValues values;
@@ -169,13 +182,19 @@ TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePo
   return values;
 }
 
-HeightMap render_relief(const ProceduralTexture& texture, int width, int height, double size_mm_x, double size_mm_y, double depth_mm) {
+HeightMap render_relief(const ProceduralTexture& texture, int width, int height, double size_mm_x, double size_mm_y,
+                        double depth_mm) {
   if (!(size_mm_x > 0 && size_mm_y > 0 && depth_mm > 0 && std::isfinite(size_mm_x + size_mm_y + depth_mm)))
     throw InvalidInput("render_relief: sizes and depth must be positive");
   RenderOptions options;
   options.width = width, options.height = height, options.channels = 1U << static_cast<unsigned>(Channel::bump);
   RenderedTexture rendered = render_texture(texture, options);
-  HeightMap map{width, height, std::move(rendered.values.channels[static_cast<std::size_t>(Channel::bump)]), size_mm_x / width, size_mm_y / height, false};
+  HeightMap map{width,
+                height,
+                std::move(rendered.values.channels[static_cast<std::size_t>(Channel::bump)]),
+                size_mm_x / width,
+                size_mm_y / height,
+                false};
   for (float& h : map.mm) h *= static_cast<float>(depth_mm);
   map.periodic = texture.graph().nodes[static_cast<std::size_t>(texture.graph().root)]->seamless;
   return map;

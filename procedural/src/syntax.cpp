@@ -41,12 +41,15 @@ class Nesting {
       return;
     }
     if (open_.empty() || open_.back().close != c)
-      fail_at(origin_, position, std::string("'") + c + "' closes nothing" +
-                                     (open_.empty() ? "" : std::string("; expected '") + open_.back().close + "'"));
+      fail_at(origin_, position,
+              std::string("'") + c + "' closes nothing" +
+                  (open_.empty() ? "" : std::string("; expected '") + open_.back().close + "'"));
     open_.pop_back();
   }
   void finish() const {
-    if (!open_.empty()) fail_at(origin_, open_.back().position, std::string("this bracket is never closed; expected '") + open_.back().close + "'");
+    if (!open_.empty())
+      fail_at(origin_, open_.back().position,
+              std::string("this bracket is never closed; expected '") + open_.back().close + "'");
   }
 
  private:
@@ -85,7 +88,8 @@ void fail_at(const Origin& origin, std::size_t position, const std::string& reas
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t start = before.rfind('\n');
   const std::size_t column = position - (start == std::string_view::npos ? 0 : start + 1) + 1;
-  throw InvalidInput(origin.name + ": line " + std::to_string(line) + ", column " + std::to_string(column) + ": " + reason);
+  throw InvalidInput(origin.name + ": line " + std::to_string(line) + ", column " + std::to_string(column) + ": " +
+                     reason);
 }
 
 Piece trimmed(Piece piece) {
@@ -105,7 +109,8 @@ std::string in_quotes(std::string_view text) {
 
 bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= 200 && is_letter(text.front()) &&
-         std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '.'; });
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '.'; });
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known) {
@@ -125,11 +130,14 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
 
 RecipeSyntax split_recipe(Piece recipe, const Origin& origin) {
   if (recipe.text.size() > k_most_text)
-    fail_at(origin, recipe.position, "the recipe has " + std::to_string(recipe.text.size()) + " characters; at most " + std::to_string(k_most_text) + " are read");
+    fail_at(origin, recipe.position,
+            "the recipe has " + std::to_string(recipe.text.size()) + " characters; at most " +
+                std::to_string(k_most_text) + " are read");
   const std::vector<Piece> pieces = split(recipe, '|', "[]", origin);
   RecipeSyntax syntax;
   syntax.head = pieces.front();
-  if (syntax.head.text.empty()) fail_at(origin, syntax.head.position, "expected a texture type or the name of a recipe");
+  if (syntax.head.text.empty())
+    fail_at(origin, syntax.head.position, "expected a texture type or the name of a recipe");
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     const std::size_t equals = pieces[i].text.find('=');
     if (equals == std::string_view::npos)

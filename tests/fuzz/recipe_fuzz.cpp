@@ -20,7 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::expect_result_or_refusal([&] {
     RecipeLibrary library;
     library.read_text(text, "input", "/nonexistent");
-    for (const auto& [name, recipe] : library.recipes()) fuzz::expect_result_or_refusal([&] { compile_texture(name, library); });
+    for (const auto& [name, recipe] : library.recipes())
+      fuzz::expect_result_or_refusal([&] { compile_texture(name, library); });
   });
   return 0;
 }

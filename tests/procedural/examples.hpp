@@ -23,7 +23,8 @@ inline CompileOptions at_time(double time) {
   return options;
 }
 
-inline RenderedTexture rendered(const std::string& recipe, int size, const RecipeLibrary& library, CompileOptions options = {},
+inline RenderedTexture rendered(const std::string& recipe, int size, const RecipeLibrary& library,
+                                CompileOptions options = {},
                                 unsigned channels = 1U << static_cast<unsigned>(Channel::main)) {
   RenderOptions render;
   render.width = render.height = size, render.channels = channels;

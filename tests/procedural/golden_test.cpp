@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Small pictures of every type. PAPILLA_REMAKE_GOLDEN=1 papilla_procedural_tests --gtest_filter='*Golden*' writes them anew.
+// Small pictures of every type. PAPILLA_REMAKE_GOLDEN=1 papilla_procedural_tests --gtest_filter='*Golden*' writes them
+// anew.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +22,8 @@ constexpr int k_side = 32;
 std::string pgm_of(std::string_view type) {
   const RenderedTexture texture = test::rendered(test::example_of(type), k_side, RecipeLibrary::builtin());
   std::string file = "P5\n32 32\n255\n";
-  for (const float v : texture.values[Channel::main]) file += static_cast<char>(static_cast<unsigned char>(std::lround(255 * std::clamp(v, 0.0F, 1.0F))));
+  for (const float v : texture.values[Channel::main])
+    file += static_cast<char>(static_cast<unsigned char>(std::lround(255 * std::clamp(v, 0.0F, 1.0F))));
   return file;
 }
 

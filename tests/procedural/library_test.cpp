@@ -56,10 +56,14 @@ TEST(Language, EveryFunctionOfTheTableCompilesAndGivesFiniteNumbers) {
     if (f.arity > 0) {
       call += '(';
       for (std::size_t i = 0; i < static_cast<std::size_t>(f.arity); ++i)
-        call += (i ? "," : "") + std::string(f.arguments[i] == 'c' ? "<x,y,.5>" : (f.name == "get" || f.name == "set" || f.name == "texmap2") && i < 3 ? "0" : "x/y");
+        call += (i ? "," : "") + std::string(f.arguments[i] == 'c' ? "<x,y,.5>"
+                                             : (f.name == "get" || f.name == "set" || f.name == "texmap2") && i < 3
+                                                 ? "0"
+                                                 : "x/y");
       call += ')';
     }
-    std::string recipe = f.colour ? "base|textures=noise,fbm|colorfunction=" + call : "base|textures=noise,fbm|bumpfunction=" + call;
+    std::string recipe =
+        f.colour ? "base|textures=noise,fbm|colorfunction=" + call : "base|textures=noise,fbm|bumpfunction=" + call;
     if (f.name == "f1" || f.name == "f2" || f.name == "f3" || f.name == "f4") recipe = "voronoi|func=" + call;
     if (f.name == "orig" || f.name == "index") recipe = "voronoi|densityfunc=" + call;
     RenderOptions options;
@@ -73,11 +77,15 @@ TEST(Language, EveryFunctionOfTheTableCompilesAndGivesFiniteNumbers) {
 }
 
 TEST(Language, SaysWhereAndWhatWasExpected) {
-  EXPECT_TRUE(has(refusal_of("fbm|octves=3"), "line 1, column 5: unknown parameter 'octves' of 'fbm'; did you mean 'octaves'?")) << refusal_of("fbm|octves=3");
+  EXPECT_TRUE(
+      has(refusal_of("fbm|octves=3"), "line 1, column 5: unknown parameter 'octves' of 'fbm'; did you mean 'octaves'?"))
+      << refusal_of("fbm|octves=3");
   EXPECT_TRUE(has(refusal_of("fmb"), "column 1: unknown texture 'fmb'; did you mean 'fbm'?")) << refusal_of("fmb");
-  EXPECT_TRUE(has(refusal_of("base|mainfunction=nois2d(x,y)"), "column 19: unknown function 'nois2d'; did you mean 'noise2d'?"));
+  EXPECT_TRUE(has(refusal_of("base|mainfunction=nois2d(x,y)"),
+                  "column 19: unknown function 'nois2d'; did you mean 'noise2d'?"));
   EXPECT_TRUE(has(refusal_of("base|mainfunction=noise2d(x)"), "'noise2d' expects 2 arguments, found 1"));
-  EXPECT_TRUE(has(refusal_of("base|mainfunction=x+"), "column 21: expected a number")) << refusal_of("base|mainfunction=x+");
+  EXPECT_TRUE(has(refusal_of("base|mainfunction=x+"), "column 21: expected a number"))
+      << refusal_of("base|mainfunction=x+");
   EXPECT_TRUE(has(refusal_of("base|mainfunction=(x"), "expected ')'"));
   EXPECT_TRUE(has(refusal_of("base|mainfunction=[fbm"), "never closed"));
   EXPECT_TRUE(has(refusal_of("base|mainfunction=x+<1,0,0>"), "expected a number, found a colour"));
@@ -89,7 +97,8 @@ TEST(Language, SaysWhereAndWhatWasExpected) {
   EXPECT_TRUE(has(refusal_of("base|mainfunction=f1"), "within func only"));
   EXPECT_TRUE(has(refusal_of("multi"), "needs the parameter 'textures'"));
   EXPECT_TRUE(has(refusal_of("image|picpath=a.png"), "pictures can't be read here"));
-  for (const char* text : {"fbm|a", "", "|", "base|mainfunction=s(", "base|mainfunction=1e999", "base|mainfunction=get(99)"})
+  for (const char* text :
+       {"fbm|a", "", "|", "base|mainfunction=s(", "base|mainfunction=1e999", "base|mainfunction=get(99)"})
     EXPECT_FALSE(has(refusal_of(text), "nothing was refused")) << text;
 }
 
@@ -97,13 +106,15 @@ TEST(Language, RefusesWhatWouldNeverEnd) {
   RecipeLibrary library;
   library.add("one", "base|mainfunction=two*.5");
   library.add("two", "base|mainfunction=[one|scale=.5]");
-  EXPECT_TRUE(has(refusal_of("one", library), "recipe 'one' uses itself: one > two > one")) << refusal_of("one", library);
+  EXPECT_TRUE(has(refusal_of("one", library), "recipe 'one' uses itself: one > two > one"))
+      << refusal_of("one", library);
   library.add("me", "me|scale=.5");
   EXPECT_TRUE(has(refusal_of("me", library), "uses itself"));
   // Each level names the one above twice: 2^40 evaluations a point.
   RecipeLibrary doubled;
   doubled.add("n0", "noise");
-  for (int i = 1; i <= 28; ++i) doubled.add("n" + std::to_string(i), "base|mainfunction=n" + std::to_string(i - 1) + "+n" + std::to_string(i - 1));
+  for (int i = 1; i <= 28; ++i)
+    doubled.add("n" + std::to_string(i), "base|mainfunction=n" + std::to_string(i - 1) + "+n" + std::to_string(i - 1));
   EXPECT_TRUE(has(refusal_of("n28", doubled), "more than 100000"));
   EXPECT_TRUE(has(refusal_of("base|mainfunction=" + std::string(100000, '(')), "levels of brackets"));
   EXPECT_TRUE(has(refusal_of("base|mainfunction=" + std::string(5000, '-') + "1"), "too many signs"));
@@ -116,7 +127,8 @@ TEST(Language, RefusesWhatWouldNeverEnd) {
 TEST(Library, ReadsCommentsContinuationsColoursAndIncludes) {
   const auto folder = std::filesystem::temp_directory_path() / ("papilla-recipes-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "main.recipes") << "# comment\r\ninclude other.recipes\nmine  brick|scale=.5\n      |brickwidth=.2\n";
+  std::ofstream(folder / "main.recipes")
+      << "# comment\r\ninclude other.recipes\nmine  brick|scale=.5\n      |brickwidth=.2\n";
   std::ofstream(folder / "other.recipes") << "colour two = red, <0,0,1>\nbase_one fbm|cols=two\n";
   std::ofstream(folder / "loop.recipes") << "include loop.recipes\n";
   RecipeLibrary library;
@@ -125,7 +137,8 @@ TEST(Library, ReadsCommentsContinuationsColoursAndIncludes) {
   EXPECT_EQ(*library.find("mine"), "brick|scale=.5|brickwidth=.2");
   EXPECT_NO_THROW(compile_texture("base_one|seed=3", library));
   EXPECT_TRUE(has(refusal([&] { library.read_file(folder / "loop.recipes"); }), "is included by itself"));
-  EXPECT_TRUE(has(refusal([&] { library.read_text("old fbm\nlonely\n", "file", {}); }), "file: line 2: expected a name"));
+  EXPECT_TRUE(
+      has(refusal([&] { library.read_text("old fbm\nlonely\n", "file", {}); }), "file: line 2: expected a name"));
   EXPECT_TRUE(has(refusal([&] { library.add("fbm", "noise"); }), "taken"));
   EXPECT_THROW(library.read_file(folder / "none"), IoError);
   std::filesystem::remove_all(folder);

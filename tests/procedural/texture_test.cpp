@@ -17,10 +17,14 @@ namespace {
 constexpr unsigned k_main = 1U << static_cast<unsigned>(Channel::main);
 constexpr unsigned k_all = (1U << k_channels) - 1;
 
-std::vector<float> main_at(const std::string& recipe, const std::vector<double>& x, const std::vector<double>& y, const CompileOptions& options = {}) {
-  return evaluate_texture(compile_texture(recipe, RecipeLibrary::builtin(), options), {x, y, {}, {}, {}, {}}, k_main, 0).channels[0];
+std::vector<float> main_at(const std::string& recipe, const std::vector<double>& x, const std::vector<double>& y,
+                           const CompileOptions& options = {}) {
+  return evaluate_texture(compile_texture(recipe, RecipeLibrary::builtin(), options), {x, y, {}, {}, {}, {}}, k_main, 0)
+      .channels[0];
 }
-float value(const std::string& formula, double x = 0.3, double y = 0.7) { return main_at("base|mainfunction=" + formula, {x}, {y})[0]; }
+float value(const std::string& formula, double x = 0.3, double y = 0.7) {
+  return main_at("base|mainfunction=" + formula, {x}, {y})[0];
+}
 
 TEST(Formula, FollowsTheRulesOfArithmetic) {
   EXPECT_FLOAT_EQ(value("2+3*4^2/8-1"), 7);
@@ -51,7 +55,8 @@ TEST(Formula, HasAValueWhereMathematicsHasNone) {
 
 TEST(Texture, ScaleRotationShiftAndPerturbationMoveThePlace) {
   const std::vector<double> x = {0.1, 0.4}, y = {0.2, 0.9};
-  EXPECT_EQ(main_at("base|scale=.5|mainfunction=noise2d(x,y)", x, y), main_at("base|mainfunction=noise2d(x*2,y*2)", x, y));
+  EXPECT_EQ(main_at("base|scale=.5|mainfunction=noise2d(x,y)", x, y),
+            main_at("base|mainfunction=noise2d(x*2,y*2)", x, y));
   EXPECT_EQ(main_at("base|perturbx=y|perturby=x|mainfunction=x-3*y", x, y), main_at("base|mainfunction=y-3*x", x, y));
   EXPECT_EQ(main_at("base|du=.25|mainfunction=x", x, y), main_at("base|mainfunction=x+.25", x, y));
   EXPECT_NEAR(main_at("base|rot=pi/2|mainfunction=x", x, y)[0], 0.5 - (0.2 - 0.5), 1e-6);
@@ -62,14 +67,17 @@ TEST(Texture, InlineAndNamedTexturesAreTheSame) {
   RecipeLibrary library;
   library.add("stars", "star|jags=7");
   const std::vector<double> x = {0.3}, y = {0.6};
-  const auto at = [&](const char* recipe) { return evaluate_texture(compile_texture(recipe, library), {x, y, {}, {}, {}, {}}, k_main, 0).channels[0][0]; };
+  const auto at = [&](const char* recipe) {
+    return evaluate_texture(compile_texture(recipe, library), {x, y, {}, {}, {}, {}}, k_main, 0).channels[0][0];
+  };
   EXPECT_EQ(at("base|mainfunction=stars*2"), at("base|mainfunction=[star|jags=7]*2"));
   EXPECT_EQ(at("stars|jags=3"), at("star|jags=3"));
 }
 
 TEST(Texture, IsTheSameForAnyCutOfTheWork) {
   // 300 columns are more than a row of the evaluator; the same points one by one must agree.
-  const RenderedTexture whole = test::rendered("worn_leather", 300, RecipeLibrary::builtin(), test::at_time(0.5), k_all);
+  const RenderedTexture whole =
+      test::rendered("worn_leather", 300, RecipeLibrary::builtin(), test::at_time(0.5), k_all);
   const auto texture = compile_texture("worn_leather", RecipeLibrary::builtin(), test::at_time(0.5));
   std::vector<double> x, y;
   for (int i = 0; i < 300; ++i) x.push_back((i + 0.5) * (1 / 300.0)), y.push_back(150.5 * (1 / 300.0));
@@ -87,7 +95,8 @@ double dimension_of(const std::vector<float>& height, int size, int first, int l
     for (int y = 0; y < size; ++y)
       for (int x = 0; x + lag < size; ++x, ++pairs) {
         const auto at = static_cast<std::size_t>(y * size + x);
-        const double d = static_cast<double>(height[at + static_cast<std::size_t>(lag)]) - static_cast<double>(height[at]);
+        const double d =
+            static_cast<double>(height[at + static_cast<std::size_t>(lag)]) - static_cast<double>(height[at]);
         sum += d * d;
       }
     const double lx = std::log(lag), ly = std::log(sum / static_cast<double>(pairs));
@@ -101,7 +110,12 @@ TEST(Fbm, KeepsItsDimension) {
   for (const double h : {0.2, 0.5, 0.8}) {
     double mean = 0;
     for (int seed = 0; seed < 3; ++seed)
-      mean += dimension_of(test::rendered("fbm|scale=.125|octaves=4|seed=" + std::to_string(seed) + "|h=" + std::to_string(h), 1024, {}).values[Channel::main], 1024, 2, 16) / 3;
+      mean += dimension_of(
+                  test::rendered("fbm|scale=.125|octaves=4|seed=" + std::to_string(seed) + "|h=" + std::to_string(h),
+                                 1024, {})
+                      .values[Channel::main],
+                  1024, 2, 16) /
+              3;
     EXPECT_NEAR(mean, 3 - h, 0.05) << "H = " << h;
   }
 }
@@ -118,17 +132,20 @@ TEST(Seamless, EveryTypeIsBitEqualAcrossBordersAndHasNoStepThere) {
     EXPECT_EQ(main_at(recipe, inner_x, inner_y), main_at(recipe, outer_x, outer_y)) << recipe;
   }
   // Continuous types: what lies a hair before the border equals the border.
-  for (const char* type : {"noise", "fbm", "turbulence", "voronoi", "voronoi|func=f2-f1", "marble", "wood", "voronoiseamless"}) {
+  for (const char* type :
+       {"noise", "fbm", "turbulence", "voronoi", "voronoi|func=f2-f1", "marble", "wood", "voronoiseamless"}) {
     std::vector<double> at(64, 0), before(64, 1 - 1e-9), y;
     for (int i = 0; i < 64; ++i) y.push_back((i + 0.5) / 64);
-    const auto a = main_at(std::string(type) + "|seamless=true", at, y), b = main_at(std::string(type) + "|seamless=true", before, y);
+    const auto a = main_at(std::string(type) + "|seamless=true", at, y),
+               b = main_at(std::string(type) + "|seamless=true", before, y);
     for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(a[i], b[i], 1e-4) << type;
   }
 }
 
 TEST(Multi, BlendsAsTheRulesSay) {
   const auto bump = [](const std::string& rule) {
-    const auto texture = compile_texture("multi|textures=[base|bumpfunction=.5],[base|bumpfunction=.2|alphafunction=.25|bumpblend=" + rule + "]", {});
+    const auto texture = compile_texture(
+        "multi|textures=[base|bumpfunction=.5],[base|bumpfunction=.2|alphafunction=.25|bumpblend=" + rule + "]", {});
     const std::vector<double> at = {0.5};
     return evaluate_texture(texture, {at, at, {}, {}, {}, {}}, k_all, 0)[Channel::bump][0];
   };
@@ -139,8 +156,11 @@ TEST(Multi, BlendsAsTheRulesSay) {
 }
 
 TEST(Multi, LayersReadWhatLiesBelow) {
-  const auto texture = compile_texture("multi|textures=[base|bumpfunction=.4|colorfunction=<.2,.4,.6>|frictionfunction=.3],"
-                                       "[base|bumpblend=interpolate|bumpfunction=lowerbump*2|colorfunction=colscale(currentcolor,.5)|frictionfunction=lowerfriction+.1]", {});
+  const auto texture = compile_texture(
+      "multi|textures=[base|bumpfunction=.4|colorfunction=<.2,.4,.6>|frictionfunction=.3],"
+      "[base|bumpblend=interpolate|bumpfunction=lowerbump*2|colorfunction=colscale(currentcolor,.5)|frictionfunction="
+      "lowerfriction+.1]",
+      {});
   const std::vector<double> at = {0.5};
   const TextureValues v = evaluate_texture(texture, {at, at, {}, {}, {}, {}}, k_all, 0);
   EXPECT_FLOAT_EQ(v[Channel::bump][0], 0.8F);
@@ -149,7 +169,9 @@ TEST(Multi, LayersReadWhatLiesBelow) {
 }
 
 TEST(Time, ModifiersFixedTimeAndPeriodicTime) {
-  const auto at = [](const std::string& recipe, double time) { return main_at(recipe, {0.3}, {0.4}, test::at_time(time))[0]; };
+  const auto at = [](const std::string& recipe, double time) {
+    return main_at(recipe, {0.3}, {0.4}, test::at_time(time))[0];
+  };
   EXPECT_FLOAT_EQ(at("base|mainfunction=time", 0.25), 0.25F);
   EXPECT_FLOAT_EQ(at("base|fixtime=true|time=.75|mainfunction=time", 0.25), 0.75F);
   EXPECT_FLOAT_EQ(at("base|mainfunction=1|timemodifiers=intensity:1+2*time", 0.5), 2);
@@ -171,9 +193,11 @@ TEST(Direction, NormaldotIsOneWhereDirtLands) {
 TEST(Ageing, NothingAtTimeZeroAndHeightAndFrictionLater) {
   const RecipeLibrary library = RecipeLibrary::builtin();
   const RenderedTexture fresh = test::rendered("leather", 64, library, {}, k_all);
-  for (const char* name : {"greying", "dirt", "smears", "scratches", "chipped_paint", "rust_in", "rust_on", "erosion", "moss", "wetness", "snow", "dust", "polish"}) {
+  for (const char* name : {"greying", "dirt", "smears", "scratches", "chipped_paint", "rust_in", "rust_on", "erosion",
+                           "moss", "wetness", "snow", "dust", "polish"}) {
     const std::string recipe = std::string("multi|textures=leather,") + name;
-    const RenderedTexture young = test::rendered(recipe, 64, library, test::at_time(0), k_all), old = test::rendered(recipe, 64, library, test::at_time(1), k_all);
+    const RenderedTexture young = test::rendered(recipe, 64, library, test::at_time(0), k_all),
+                          old = test::rendered(recipe, 64, library, test::at_time(1), k_all);
     const auto change = [](const std::vector<float>& a, const std::vector<float>& b) {
       double sum = 0;
       for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(std::abs(a[i] - b[i]));

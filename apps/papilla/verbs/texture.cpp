@@ -66,7 +66,12 @@ Json write_channel(const Arguments& a, const RenderedTexture& texture, Channel c
 }
 
 void write_normal_map(const Arguments& a, const RenderedTexture& rendered, const std::string& suffix, Json& json) {
-  HeightMap map{rendered.width, rendered.height, rendered.values[Channel::bump], a.size_mm / rendered.width, a.size_mm / rendered.width, a.seamless};
+  HeightMap map{rendered.width,
+                rendered.height,
+                rendered.values[Channel::bump],
+                a.size_mm / rendered.width,
+                a.size_mm / rendered.width,
+                a.seamless};
   for (float& h : map.mm) h *= static_cast<float>(a.depth_mm);
   const std::string file = "normal" + suffix + ".png";
   write_color_image(std::filesystem::path(a.output) / file, normal_map(map));
@@ -80,7 +85,8 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
   render.channels = a.normal ? 1U << static_cast<unsigned>(Channel::bump) : 0;
   for (const Channel c : channels) render.channels |= 1U << static_cast<unsigned>(c);
   std::filesystem::create_directories(a.output);
-  const std::string recipe = a.mutate > 0 ? mutate_recipe(a.recipe, static_cast<unsigned>(context.seed), a.mutate) : a.recipe;
+  const std::string recipe =
+      a.mutate > 0 ? mutate_recipe(a.recipe, static_cast<unsigned>(context.seed), a.mutate) : a.recipe;
   Json json{{"recipe", recipe}, {"size", {render.width, render.height}}, {"channels", Json::array()}};
   if (a.normal) json["normal_maps"] = Json::array();
   double seconds = 0;
@@ -97,13 +103,16 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
     for (const Channel c : channels) {
       Json entry = write_channel(a, rendered, c, suffix);
       if (a.steps > 1) entry["time"] = options.time;
-      context.console.print(fmt::format("{:<24} {:.4f} to {:.4f}, mean {:.4f}\n", entry["file"].get<std::string>(), entry["min"].get<double>(),
-                                        entry["max"].get<double>(), entry["mean"].get<double>()));
+      context.console.print(fmt::format("{:<24} {:.4f} to {:.4f}, mean {:.4f}\n", entry["file"].get<std::string>(),
+                                        entry["min"].get<double>(), entry["max"].get<double>(),
+                                        entry["mean"].get<double>()));
       json["channels"].push_back(std::move(entry));
     }
     if (a.normal) write_normal_map(a, rendered, suffix, json);
     json["uses"] = texture.recipes_used();
-    json["depends_on"] = {{"time", texture.depends_on_time()}, {"normal", texture.depends_on_normal()}, {"position", texture.depends_on_position()}};
+    json["depends_on"] = {{"time", texture.depends_on_time()},
+                          {"normal", texture.depends_on_normal()},
+                          {"position", texture.depends_on_position()}};
     if (context.progress) context.progress("texture", (step + 1.0) / a.steps);
   }
   json["seconds"] = seconds;
@@ -116,7 +125,8 @@ Json run_sheet(const Arguments& a, const RecipeLibrary& library, VerbContext& co
     for (const TypeInfo& type : texture_types()) {
       std::string recipe(type.name);
       if (type.name == "multi") recipe += "|textures=brick_wall,[moss|fixtime=true|time=.6]";
-      if (type.name == "base" || type.name == "texture") recipe += "|mainfunction=.5+.5*s(x*20+4*noise2d(x*4,y*4))*s(y*20)";
+      if (type.name == "base" || type.name == "texture")
+        recipe += "|mainfunction=.5+.5*s(x*20+4*noise2d(x*4,y*4))*s(y*20)";
       if (type.name == "image") recipe += "|basetexture=[star|jags=5]";
       if (type.name == "sd") recipe = "multi|textures=oak,[sd|invert=true|cols=black,orange]";
       recipes.emplace_back(type.name, recipe);
@@ -136,7 +146,14 @@ Json run_sheet(const Arguments& a, const RecipeLibrary& library, VerbContext& co
   write_atomically(std::filesystem::path(a.output) / "sheet.html", sheet_page(sheet, "sheet.png"));
   Json json{{"sheet", "sheet.png"}, {"page", "sheet.html"}, {"columns", sheet.columns}, {"entries", Json::array()}};
   for (const SheetEntry& e : sheet.entries) {
-    json["entries"].push_back({{"name", e.name}, {"recipe", e.recipe}, {"uses", e.uses}, {"min", e.low}, {"max", e.high}, {"mean", e.mean}, {"seam", e.seam}, {"error", e.error}});
+    json["entries"].push_back({{"name", e.name},
+                               {"recipe", e.recipe},
+                               {"uses", e.uses},
+                               {"min", e.low},
+                               {"max", e.high},
+                               {"mean", e.mean},
+                               {"seam", e.seam},
+                               {"error", e.error}});
     if (!e.error.empty()) context.console.print(e.name + ": " + e.error + "\n");
   }
   context.console.print(fmt::format("{} recipes on {}/sheet.html\n", sheet.entries.size(), a.output));
@@ -184,28 +201,57 @@ Json run(const Arguments& a, VerbContext& context) {
 
 void add_texture(CLI::App& program) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* verb = add_verb(program,
-                            {"texture", "Computes procedural textures: colour, height, friction and the other channels as pictures",
-                             "papilla texture 'brick|scale=.5|switching=true|cols=grey,red' -o brick --size 256 --normal"},
-                            [a](VerbContext& context) { return run(*a, context); });
+  CLI::App* verb =
+      add_verb(program,
+               {"texture", "Computes procedural textures: colour, height, friction and the other channels as pictures",
+                "papilla texture 'brick|scale=.5|switching=true|cols=grey,red' -o brick --size 256 --normal"},
+               [a](VerbContext& context) { return run(*a, context); });
   verb->add_option("recipe", a->recipe, "Recipe: type|parameter=value|..., or the name of one")->type_name("RECIPE");
   verb->add_option("-o,--output", a->output, "Folder of the pictures")->type_name("DIR");
-  verb->add_option("--size", a->size, "Texels a side, or width and height")->expected(1, 2)->delimiter('x')->check(CLI::Range(1, 65536))->type_name("N[xN]");
-  verb->add_option("--channels", a->channels, "Channels separated by commas, or all")->type_name("LIST")->capture_default_str();
-  verb->add_option("--bits", a->bits, "8 or 16 (PNG), 32 (EXR); colours have 8")->check(CLI::IsMember({8, 16, 32}))->capture_default_str();
+  verb->add_option("--size", a->size, "Texels a side, or width and height")
+      ->expected(1, 2)
+      ->delimiter('x')
+      ->check(CLI::Range(1, 65536))
+      ->type_name("N[xN]");
+  verb->add_option("--channels", a->channels, "Channels separated by commas, or all")
+      ->type_name("LIST")
+      ->capture_default_str();
+  verb->add_option("--bits", a->bits, "8 or 16 (PNG), 32 (EXR); colours have 8")
+      ->check(CLI::IsMember({8, 16, 32}))
+      ->capture_default_str();
   verb->add_flag("--normalize", a->normalize, "Stretch every channel to its full range");
   verb->add_flag("--normal", a->normal, "Write the glTF normal map of the height too");
-  verb->add_option("--size-mm", a->size_mm, "Side of the picture, for the normal map")->check(CLI::PositiveNumber)->type_name("MM")->capture_default_str();
-  verb->add_option("--depth-mm", a->depth_mm, "Height of 1, for the normal map")->check(CLI::PositiveNumber)->type_name("MM")->capture_default_str();
-  verb->add_option("--time", a->time, "0 new to 1 worn")->check(CLI::Range(0.0, 1.0))->type_name("T")->capture_default_str();
-  verb->add_option("--steps", a->steps, "A series of pictures from time 0 to 1")->check(CLI::Range(1, 9999))->type_name("N");
+  verb->add_option("--size-mm", a->size_mm, "Side of the picture, for the normal map")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM")
+      ->capture_default_str();
+  verb->add_option("--depth-mm", a->depth_mm, "Height of 1, for the normal map")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM")
+      ->capture_default_str();
+  verb->add_option("--time", a->time, "0 new to 1 worn")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("T")
+      ->capture_default_str();
+  verb->add_option("--steps", a->steps, "A series of pictures from time 0 to 1")
+      ->check(CLI::Range(1, 9999))
+      ->type_name("N");
   verb->add_flag("--seamless", a->seamless, "The pictures tile");
   verb->add_option("--library", a->libraries, "Files of named recipes, on top of the built-in ones")->type_name("FILE");
-  verb->add_option("--sheet", a->sheet, "A contact sheet: of all types, or of the library")->check(CLI::IsMember({"types", "library"}));
-  verb->add_option("--tile", a->tile, "Texels a side of a picture on the sheet")->check(CLI::Range(8, 1024))->type_name("N")->capture_default_str();
-  verb->add_option("--list", a->list, "Print types, functions, recipes, reference, or the parameters of a type")->type_name("WHAT")->expected(0, 1)->default_str("types");
+  verb->add_option("--sheet", a->sheet, "A contact sheet: of all types, or of the library")
+      ->check(CLI::IsMember({"types", "library"}));
+  verb->add_option("--tile", a->tile, "Texels a side of a picture on the sheet")
+      ->check(CLI::Range(8, 1024))
+      ->type_name("N")
+      ->capture_default_str();
+  verb->add_option("--list", a->list, "Print types, functions, recipes, reference, or the parameters of a type")
+      ->type_name("WHAT")
+      ->expected(0, 1)
+      ->default_str("types");
   verb->add_option("--suggest", a->suggest, "Print recipes that suit a material of this name")->type_name("NAME");
-  verb->add_option("--mutate", a->mutate, "Change the recipe's numbers by up to this share; --seed chooses")->check(CLI::Range(0.0, 1.0))->type_name("SHARE");
+  verb->add_option("--mutate", a->mutate, "Change the recipe's numbers by up to this share; --seed chooses")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE");
 }
 
 }  // namespace papilla::app

@@ -24,7 +24,8 @@ struct Arguments {
 std::string file_of(const std::string& output, std::size_t step, std::size_t steps) {
   if (steps == 1) return output;
   std::filesystem::path path(output);
-  return path.replace_extension(fmt::format("{:04}{}", step, std::filesystem::path(output).extension().string())).string();
+  return path.replace_extension(fmt::format("{:04}{}", step, std::filesystem::path(output).extension().string()))
+      .string();
 }
 
 Json run(const Arguments& a, VerbContext& context) {
@@ -36,7 +37,8 @@ Json run(const Arguments& a, VerbContext& context) {
     WeatherResult result = weather(scene, config, config.times[step]);
     const std::string file = file_of(a.output, step, config.times.size());
     write_output(result.scene, file, context.console);
-    context.console.print(fmt::format("{}: time {:.2f}, {} maps, {} of them alike\n", file, config.times[step], result.images, result.duplicates_removed));
+    context.console.print(fmt::format("{}: time {:.2f}, {} maps, {} of them alike\n", file, config.times[step],
+                                      result.images, result.duplicates_removed));
     json["materials"] = std::move(result.materials);
     json["images"] = json["images"].get<int>() + result.images;
     json["duplicates_removed"] = json["duplicates_removed"].get<int>() + result.duplicates_removed;
@@ -55,8 +57,12 @@ void add_weather(CLI::App& program) {
                              "papilla weather house.glb -c weather.json -o old-house.glb"},
                             [a](VerbContext& context) { return run(*a, context); });
   verb->add_option("scene", a->scene, "Scene with uv")->required()->type_name("SCENE");
-  verb->add_option("-c,--layers", a->config, "Which recipes lie on which materials, at what size and time (JSON)")->required()->type_name("CONFIG");
-  verb->add_option("-o,--output", a->output, "GLB or OBJ file to write; a series is numbered")->required()->type_name("OUT");
+  verb->add_option("-c,--layers", a->config, "Which recipes lie on which materials, at what size and time (JSON)")
+      ->required()
+      ->type_name("CONFIG");
+  verb->add_option("-o,--output", a->output, "GLB or OBJ file to write; a series is numbered")
+      ->required()
+      ->type_name("OUT");
   a->read.add_to(*verb);
 }
 

@@ -25,9 +25,9 @@ enum class ParameterKind {
 struct ParameterInfo {
   std::string_view name;
   ParameterKind kind;
-  double low, high;           ///< Numbers outside are refused.
-  std::string_view preset;    ///< The default, as a recipe would write it.
-  std::string_view note;      ///< What it does; for `choice` the words.
+  double low, high;         ///< Numbers outside are refused.
+  std::string_view preset;  ///< The default, as a recipe would write it.
+  std::string_view note;    ///< What it does; for `choice` the words.
 };
 
 /// How a type keeps its promise when `seamless=true`.

@@ -17,7 +17,19 @@
 namespace papilla {
 
 /// What a texture gives at a point. `color` has three numbers, the others one.
-enum class Channel { main, bump, alpha, coloralpha, reflection, diffuse, specular, specularcoeff, friction, stiffness, color };
+enum class Channel {
+  main,
+  bump,
+  alpha,
+  coloralpha,
+  reflection,
+  diffuse,
+  specular,
+  specularcoeff,
+  friction,
+  stiffness,
+  color
+};
 inline constexpr int k_channels = 11;
 std::string_view to_string(Channel channel) noexcept;
 /// @throws InvalidInput naming the channels there are.
@@ -30,10 +42,10 @@ struct RecipePicture {
 };
 
 struct CompileOptions {
-  double time = 0;           ///< 0 new … 1 worn.
-  double realtime_s = 0;     ///< What `realtime` gives.
-  std::uint32_t seed = 0;    ///< Added to the seed of the recipe.
-  bool seamless = false;     ///< As if the recipe said seamless=true.
+  double time = 0;                ///< 0 new … 1 worn.
+  double realtime_s = 0;          ///< What `realtime` gives.
+  std::uint32_t seed = 0;         ///< Added to the seed of the recipe.
+  bool seamless = false;          ///< As if the recipe said seamless=true.
   std::string source = "recipe";  ///< How messages call the recipe.
   /// Reads picpath; without it recipes that name a file are refused.
   std::function<RecipePicture(const std::string& path)> read_picture;
@@ -61,18 +73,20 @@ class ProceduralTexture {
 /// Compiles type|parameter=value|… ; the language is described in docs/procedural.md.
 /// Formulas are checked in full here, so that evaluating can't fail.
 /// Cost: O(text), and a picture of the type image, ifs, txt is drawn once.
-/// @throws InvalidInput naming recipe, line, column and what was expected: unknown types, parameters, functions, recipes,
-///         colours; wrong numbers of arguments; numbers out of range; recipes that use themselves; more than 1 MiB of text,
-///         32 levels, 1024 textures or 100 000 evaluations a point.
-ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& library, const CompileOptions& options = {});
+/// @throws InvalidInput naming recipe, line, column and what was expected: unknown types, parameters, functions,
+/// recipes,
+///         colours; wrong numbers of arguments; numbers out of range; recipes that use themselves; more than 1 MiB of
+///         text, 32 levels, 1024 textures or 100 000 evaluations a point.
+ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& library,
+                                  const CompileOptions& options = {});
 
 /// Points to evaluate at. All spans but `x` and `y` may be empty.
 struct TexturePoints {
-  std::span<const double> x, y;           ///< Place in the picture: (0, 0) is its top left, (1, 1) its bottom right.
-  std::span<const float> normals;         ///< 3 a point, unit length; empty: the recipe's own.
-  std::span<const float> positions;       ///< 3 a point, metres, y up; empty: (x, y, 0).
-  std::span<const float> sky;             ///< Share of the sky seen; empty: 1.
-  std::span<const float> color;           ///< 3 a point: what `currentcolor` is below all layers; empty: black.
+  std::span<const double> x, y;      ///< Place in the picture: (0, 0) is its top left, (1, 1) its bottom right.
+  std::span<const float> normals;    ///< 3 a point, unit length; empty: the recipe's own.
+  std::span<const float> positions;  ///< 3 a point, metres, y up; empty: (x, y, 0).
+  std::span<const float> sky;        ///< Share of the sky seen; empty: 1.
+  std::span<const float> color;      ///< 3 a point: what `currentcolor` is below all layers; empty: black.
 };
 
 /// channels[c] has one number a point (color three); empty when not asked for.
@@ -82,7 +96,7 @@ struct TextureValues {
 };
 
 struct RenderOptions {
-  int width = 256, height = 256;   ///< Texels. @pre 1 to 65536 each, and at most 2^30 in all.
+  int width = 256, height = 256;  ///< Texels. @pre 1 to 65536 each, and at most 2^30 in all.
   unsigned channels = 1U << static_cast<unsigned>(Channel::main);  ///< Bits by Channel.
   Progress progress;
 };
@@ -93,17 +107,18 @@ struct RenderedTexture {
 };
 
 /// The channels as pictures. The shorter side spans 1 unless the recipe says stretch.
-/// Every value is finite: what is not, on the way, counts as 0. Alpha, coloralpha and colours are cut to [0, 1], friction and stiffness
-/// to [0, 10].
-/// Cost: O(texels); all cores (TBB). Deterministic, whatever the number of threads.
+/// Every value is finite: what is not, on the way, counts as 0. Alpha, coloralpha and colours are cut to [0, 1],
+/// friction and stiffness to [0, 10]. Cost: O(texels); all cores (TBB). Deterministic, whatever the number of threads.
 /// @throws InvalidInput when the size breaks its precondition.
 RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOptions& options);
 
 /// The same at any points. `texel` is the distance of neighbouring points, for the choice of octaves; 0: all octaves.
-TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePoints& points, unsigned channels, double texel);
+TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePoints& points, unsigned channels,
+                               double texel);
 
 /// The height channel as relief: bump times depth_mm.
 /// @throws InvalidInput as render_texture(), or when size_mm or depth_mm is not positive.
-HeightMap render_relief(const ProceduralTexture& texture, int width, int height, double size_mm_x, double size_mm_y, double depth_mm);
+HeightMap render_relief(const ProceduralTexture& texture, int width, int height, double size_mm_x, double size_mm_y,
+                        double depth_mm);
 
 }  // namespace papilla
