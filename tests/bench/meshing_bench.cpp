@@ -210,7 +210,9 @@ void report_files(bench::BenchReport& report) {
     try {
       o = outcome_of(read_scene(file));
     } catch (const Error& error) {
-      table.rows.push_back({name, "refused: " + std::string(error.what()), "", "", "", "", "", "", ""});
+      std::string why = error.what();
+      if (why.starts_with(file.string() + ": ")) why.erase(0, file.string().size() + 2);
+      table.rows.push_back({name, "refused: " + why, "", "", "", "", "", "", ""});
       continue;
     }
     ++read;
