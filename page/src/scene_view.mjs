@@ -256,6 +256,7 @@ export class SceneView {
 
   draw() {
     const start = performance.now();
+    this.beforeDraw?.();
     this.renderer.render(this.world, this.camera);
     this.frames = (this.frames ?? 0) + 1;
     this.canvas.dataset.frames = this.frames;
