@@ -14,6 +14,8 @@ namespace papilla::player {
 namespace {
 
 constexpr int k_backlog = 8;
+/// Bytes that wait for a listener, some twenty samples: who lags sees what is now, not what was seconds ago.
+constexpr int k_waiting_bytes = 8192;
 
 /// Sends what the connection takes at once and keeps the rest. False when it is closed.
 bool send_now(int connection, std::string& rest) {
@@ -85,16 +87,16 @@ void LivePublisher::serve(const std::stop_token& end) {
     }
     RecordRow row;
     const std::uint64_t tick = slot_.load(row);
-    if (tick == last) continue;
+    publish(tick == last ? std::string() : live_line(tick, row) + '\n');
     last = tick;
-    publish(live_line(tick, row));
   }
-  publish(R"({"end":true})");
+  publish("{\"end\":true}\n");
 }
 
 void LivePublisher::accept_new() {
   const int connection = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (connection < 0) return;
+  ::setsockopt(connection, SOL_SOCKET, SO_SNDBUF, &k_waiting_bytes, sizeof k_waiting_bytes);
   Listener listener{connection, greeting_ + '\n'};
   if (listeners_.size() < k_most_listeners && send_now(connection, listener.rest))
     listeners_.push_back(std::move(listener));
@@ -102,9 +104,9 @@ void LivePublisher::accept_new() {
     ::close(connection);
 }
 
-void LivePublisher::publish(const std::string& line) {
+void LivePublisher::publish(const std::string& text) {
   std::erase_if(listeners_, [&](Listener& listener) {
-    if (listener.rest.empty()) listener.rest = line + '\n';
+    if (listener.rest.empty()) listener.rest = text;
     if (send_now(listener.connection, listener.rest)) return false;
     ::close(listener.connection);
     return true;

@@ -39,7 +39,8 @@ class LivePublisher {
 
   void serve(const std::stop_token& end);
   void accept_new();
-  void publish(const std::string& line);
+  /// Sends what is left of older lines, and the text to those who have taken all of them.
+  void publish(const std::string& text);
 
   std::string path_, greeting_;
   int socket_ = -1;
@@ -48,7 +49,7 @@ class LivePublisher {
   std::jthread thread_;
 };
 
-/// One sample as a line.
+/// One sample as a line, without line end.
 std::string live_line(std::uint64_t tick, const RecordRow& row);
 
 }  // namespace papilla::player

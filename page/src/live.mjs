@@ -7,7 +7,7 @@ import { LiveMarks } from './live_marks.mjs';
 const $ = (id) => document.getElementById(id);
 const SHOWN_S = 10;
 
-export const length = (v) => Math.hypot(...v);
+const length = (v) => Math.hypot(...v);
 const triple = (v, unit) => v ? `${v.map((c) => c.toFixed(2)).join(', ')} ${unit}` : 'no number';
 const millimetres = (v) => v?.map((c) => 1000 * c);
 
@@ -31,7 +31,7 @@ export class Live {
     $('live').dataset.state = state;
   }
 
-  clear() { this.samples = [[], [], []]; this.strongest = 0; this.count = 0; }
+  clear() { this.samples = [[], [], []]; this.count = 0; }
 
   enter({ state, file, device, rate_hz: rate }) {
     if (state === 'waiting') return this.say('No player yet: start papilla-player FILE --live.', state);
@@ -46,7 +46,6 @@ export class Live {
   }
 
   take({ t, probe, proxy, force, contact }) {
-    this.strongest = Math.max(this.strongest, force ? length(force) : 0);
     $('live-force').value = force ? `${length(force).toFixed(3)} N` : 'no number';
     $('live-vector').textContent = triple(force, 'N');
     $('live-contact').textContent = contact ? 'yes' : 'no';
@@ -61,7 +60,7 @@ export class Live {
     total.push(length(force));
     up.push(contact ? 0 : null);
     while (times[times.length - 1] - times[0] > SHOWN_S) for (const column of this.samples) column.shift();
-    this.marks?.show({ probe, proxy, force, contact }, this.strongest, $('live-camera').checked);
+    this.marks?.show({ probe, proxy, force, contact }, Math.max(...total), $('live-camera').checked);
     this.drawSoon();
   }
 

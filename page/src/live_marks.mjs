@@ -7,22 +7,25 @@ const MARK = 0.012, ARROW = 0.22;
 /** The neighbourhood that is framed first, as a share of the scene and at least in mm. */
 const AROUND = 0.04, AROUND_MM = 40;
 
-const basic = (color, more = {}) => new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true, ...more });
+const UP = new THREE.Vector3(0, 1, 0);
+const basic = (color, wireframe = false) => new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true, wireframe });
 
 export class LiveMarks {
   constructor(three) {
     this.three = three;
     this.probe = new THREE.Mesh(new THREE.SphereGeometry(1, 20, 14), basic(0xff3030));
-    this.proxy = new THREE.Mesh(new THREE.OctahedronGeometry(1.3), basic(0xffd000, { wireframe: true }));
+    this.proxy = new THREE.Mesh(new THREE.OctahedronGeometry(1.3), basic(0xffd000, true));
     this.spring = new THREE.Line(new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(new Float32Array(6), 3)),
       new THREE.LineBasicMaterial({ color: 0xffd000, depthTest: false, transparent: true }));
-    this.arrow = new THREE.ArrowHelper(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), 1, 0x1b7fd6);
+    this.arrow = new THREE.Group();
+    this.shaft = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), basic(0x35c0ff));
+    this.head = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 16).translate(0, 0.5, 0), basic(0x35c0ff));
+    this.arrow.add(this.shaft, this.head);
     this.group = new THREE.Group();
     this.group.add(this.spring, this.arrow, this.proxy, this.probe);
     this.group.traverse((o) => {
       o.renderOrder = 20;
       o.frustumCulled = false;
-      if (o.material) Object.assign(o.material, { depthTest: false, transparent: true });
     });
     this.group.visible = false;
     three.world.add(this.group);
@@ -73,9 +76,11 @@ export class LiveMarks {
     this.proxy.scale.setScalar(MARK * distance);
     this.arrow.visible = strongest > 0 && force.length() > 1e-3 * strongest;
     if (!this.arrow.visible) return;
-    const long = ARROW * distance * force.length() / strongest;
+    const long = ARROW * distance * force.length() / strongest, head = Math.min(0.5 * long, 0.03 * distance);
     this.arrow.position.copy(this.now.proxy);
-    this.arrow.setDirection(force.clone().normalize());
-    this.arrow.setLength(long, Math.min(0.3 * long, 0.03 * distance), Math.min(0.2 * long, 0.02 * distance));
+    this.arrow.quaternion.setFromUnitVectors(UP, force.clone().normalize());
+    this.shaft.scale.set(0.2 * head, long - head, 0.2 * head);
+    this.head.position.y = long - head;
+    this.head.scale.set(0.5 * head, head, 0.5 * head);
   }
 }
