@@ -9,8 +9,11 @@ mkdir -p "$out"/{unwrap,texture,meshing,contact}
 
 # Maps of one chart.
 awk -f "$make/sheet.awk" >"$out/sheet.obj"
-for method in auto best maillot levy lscm arap tutte mvc triplanar planar intermediate; do
+for method in auto best maillot levy lscm arap tutte mvc; do
   papilla unwrap "$out/sheet.obj" --method "$method" --charts keep -o "$out/unwrap/$method.glb" --picture "$out/unwrap/$method.png"
+done
+for method in triplanar planar intermediate environment; do
+  papilla unwrap "$out/sheet.obj" --method "$method" -o "$out/unwrap/$method.glb" --picture "$out/unwrap/$method.png"
 done
 papilla tessellate "$data/cockpit.step" -o "$out/cockpit.glb" --chord 1
 papilla unwrap "$data/cockpit.step" --chord 1 --method natural -o "$out/unwrap/natural.glb" --picture "$out/unwrap/natural.png"
@@ -31,7 +34,8 @@ done
 
 # CAD to triangles and on.
 papilla evaluate tessellation "$data/cockpit.step" -o "$out/tessellation"
-papilla evaluate weld "$out/cockpit.glb" -o "$out/weld"
+papilla tessellate "$data/cockpit.step" -o "$out/cockpit.stl" --chord 1
+papilla evaluate weld "$out/cockpit.stl" -o "$out/weld"
 papilla evaluate simplification "$out/sheet.obj" -o "$out/simplification"
 
 # A stroke over leather.
@@ -41,4 +45,14 @@ for kind in $(sed -n 's/.*"grain\/\([a-z0-9]*\)\.png".*/\1/p' "$data/cockpit.mat
 done
 cp "$data/cockpit.materials.json" "$out/contact/materials.json"
 papilla bake "$data/cockpit.step" -m "$out/contact/materials.json" -o "$out/contact/cockpit.glb" --chord 0.5
-"$bin/papilla-player" "$out/contact/cockpit.glb" --seconds 2 --record "$out/contact/stroke.csv" --json "$out/contact/stroke.json" --quiet
+play() { "$bin/papilla-player" "$out/contact/cockpit.glb" --quiet "$@"; }
+play --seconds 2 --record "$out/contact/stroke.csv"
+reports=() controlled=()
+for device in $("$bin/papilla-player" --list-devices --json - | sed -n 's/.*"device": "\(sim:[^"]*\)".*/\1/p'); do
+  report=$out/contact/${device#sim:}
+  play --seconds 1 --device "$device" --json "$report.json"
+  play --seconds 1 --device "$device" --passivity-control --json "$report-controlled.json"
+  reports+=("$report.json") controlled+=("$report-controlled.json")
+done
+node "$make/devices_csv.mjs" "$out/contact/devices.csv" "${reports[@]}"
+node "$make/devices_csv.mjs" "$out/contact/controlled.csv" "${controlled[@]}"

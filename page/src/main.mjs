@@ -48,7 +48,7 @@ class Page {
     this.switchTo(this.view);
     this.selectLargest();
     if (data.live) this.live = new Live(data.title, this.three);
-    return fillCards($('cards'), scene, data.report);
+    return fillCards($('cards'), scene, data.report, this.three);
   }
 
   openViews() {
