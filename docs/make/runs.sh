@@ -34,8 +34,8 @@ done
 
 # CAD to triangles and on.
 papilla evaluate tessellation "$data/cockpit.step" -o "$out/tessellation"
-papilla tessellate "$data/cockpit.step" -o "$out/cockpit.stl" --chord 1
-papilla evaluate weld "$out/cockpit.stl" -o "$out/weld"
+awk -f "$make/soup.awk" "$out/sheet.obj" >"$out/soup.obj"
+papilla evaluate weld "$out/soup.obj" -o "$out/weld"
 papilla evaluate simplification "$out/sheet.obj" -o "$out/simplification"
 
 # A stroke over leather.
