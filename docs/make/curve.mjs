@@ -19,7 +19,7 @@ function draw(file, { x, y, log, series }) {
   const script = `set terminal svg size 820,${400 + 20 * loud.length} enhanced background '#ffffff' font 'sans-serif,13'
 set output ${quote(file)}
 set termoption noenhanced
-set key below left maxcols 2
+set key below left maxcols 1
 set grid lc rgb '#d8dde2'
 set xlabel ${quote(x)}
 set ylabel ${quote(y)}
