@@ -29,7 +29,7 @@ TEST(Pareto, HoldsWhatNobodyBeats) {
 
 TEST(Evaluation, RepeatsAndTakesMedians) {
   g_runs = 0;
-  const auto runs = run_repeatedly({"slower", "", slower_each_time}, {"file", {}, {}}, 3);
+  const auto runs = run_repeatedly({"slower", "", slower_each_time}, {"file", "file", {}, {}}, 3);
   EXPECT_EQ(g_runs, 3);
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_EQ(runs[0].repeats.size(), 3U);
@@ -40,7 +40,7 @@ TEST(Evaluation, RepeatsAndTakesMedians) {
 
 TEST(Evaluation, RunsOnceWhenTheTimeIsSpent) {
   g_runs = 0;
-  const auto runs = run_repeatedly({"slower", "", slower_each_time}, {"file", {}, {}, Budget(0)}, 5);
+  const auto runs = run_repeatedly({"slower", "", slower_each_time}, {"file", "file", {}, {}, Budget(0)}, 5);
   EXPECT_EQ(g_runs, 1);
   EXPECT_EQ(runs[0].repeats.size(), 1U);
 }

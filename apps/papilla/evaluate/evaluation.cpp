@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <numeric>
 
 namespace papilla::app {
@@ -64,6 +65,11 @@ std::vector<std::uint32_t> largest_parts(const Scene& scene, std::size_t most) {
   });
   order.resize(std::min(order.size(), most));
   return order;
+}
+
+std::string input_name(const EvaluationInput& input, const std::string& part) {
+  const bool same = part.empty() || std::filesystem::path(input.name).stem() == part;
+  return same ? input.name : input.name + ": " + part;
 }
 
 double bounding_diagonal_mm(const TriangleMesh& mesh) {

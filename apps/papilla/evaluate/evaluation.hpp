@@ -15,7 +15,8 @@ namespace papilla::app {
 
 /// What every kind of evaluation gets.
 struct EvaluationInput {
-  std::string file;  ///< Empty for kinds that need none.
+  std::string file;
+  std::string name;  ///< What reports call the file.
   SceneOptions read;
   Progress progress;
   Budget budget = {};
@@ -78,6 +79,9 @@ std::span<const EvaluationKind> evaluation_kinds();
 
 /// The largest parts of a scene, most triangles first: what is evaluated when a file has many.
 std::vector<std::uint32_t> largest_parts(const Scene& scene, std::size_t most);
+
+/// What reports call a part: "file: part", or the file alone when the part is named like it.
+std::string input_name(const EvaluationInput& input, const std::string& part);
 
 /// The bounding diagonal of a mesh's positions, mm.
 double bounding_diagonal_mm(const TriangleMesh& mesh);

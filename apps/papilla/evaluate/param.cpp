@@ -305,7 +305,7 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input) {
   std::vector<EvaluationRun> runs;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (input.progress) input.progress("evaluate", static_cast<double>(i) / static_cast<double>(all.size()));
-    add_runs(all[i], chart, input.file + ": " + part.name, input.budget.share(all.size() - i), runs);
+    add_runs(all[i], chart, input_name(input, part.name), input.budget.share(all.size() - i), runs);
   }
   return runs;
 }

@@ -28,7 +28,7 @@ std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input) {
   const ReadOptions read = input.read.read_options();
   EvaluationRun deviation{"tessellation",
                           fmt::format("chord, {:g} degrees", read.angle_deg),
-                          input.file,
+                          input.name,
                           "deviation from the surface [mm]",
                           {},
                           "direct",

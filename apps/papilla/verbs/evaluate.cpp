@@ -88,6 +88,14 @@ std::string table_of(const std::vector<EvaluationRun>& runs) {
   return table;
 }
 
+/// The file's own name, with its folder when another file is called the same.
+std::string name_of(const std::string& file, const std::vector<std::string>& files) {
+  const fs::path name = fs::path(file).filename();
+  const auto alike = std::count_if(files.begin(), files.end(),
+                                   [&](const std::string& other) { return fs::path(other).filename() == name; });
+  return alike > 1 ? file : name.string();
+}
+
 Json evaluate_files(VerbContext& context, const EvaluateOptions& options) {
   if (options.files.empty()) throw UsageError("evaluate " + options.kind + ": a FILE is required");
   Folder folder(options.folder, options.kind);
@@ -95,7 +103,8 @@ Json evaluate_files(VerbContext& context, const EvaluateOptions& options) {
   std::vector<EvaluationRun> runs;
   for (const std::string& file : options.files) {
     std::vector<EvaluationRun> more = run_repeatedly(
-        kind_of(options.kind), {file, options.read, context.progress, Budget(options.seconds)}, options.repeats);
+        kind_of(options.kind),
+        {file, name_of(file, options.files), options.read, context.progress, Budget(options.seconds)}, options.repeats);
     std::move(more.begin(), more.end(), std::back_inserter(runs));
   }
   const std::vector<EvaluationGroup> groups = runs_groups(runs);

@@ -11,19 +11,24 @@ namespace {
 constexpr int k_cells = 40;
 constexpr double k_side_mm = 100;
 
-/// n × m quads over the unit square, each of two triangles, at surface(s, t).
+/// n × m quads over the unit square, each of two triangles, at surface(s, t), with (s, t) as CAD parameters.
 template <class Surface>
 TriangleMesh patch(int n, int m, Surface&& surface) {
   TriangleMesh mesh;
   for (int j = 0; j <= m; ++j)
-    for (int i = 0; i <= n; ++i)
-      mesh.positions.push_back(surface(static_cast<double>(i) / n, static_cast<double>(j) / m));
+    for (int i = 0; i <= n; ++i) {
+      const Vec2 st{static_cast<double>(i) / n, static_cast<double>(j) / m};
+      mesh.positions.push_back(surface(st.x, st.y));
+      mesh.cad_uv.values.push_back(st);
+    }
   const auto at = [&](int i, int j) { return static_cast<Index>(j * (n + 1) + i); };
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < n; ++i) {
       mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
+  mesh.cad_uv.indices = mesh.triangles;
+  mesh.face.assign(mesh.triangles.size(), 0);
   return mesh;
 }
 

@@ -55,6 +55,10 @@ void map(const TriangleMesh& mesh, MethodOptions options, StabilityCell& cell) {
     cell.note = "a texture coordinate is not finite";
     return;
   }
+  if (options.method == UnwrapMethod::environment) {
+    cell.note = "a preview of reflections: no map of the surface, nothing to measure";
+    return;
+  }
   const DistortionReport report = measure_distortion(mesh, f.uv);
   cell.error = report.symmetric_dirichlet.mean - 4;
   cell.note = fmt::format("{} charts, stop {}", f.charts.count, to_string(f.stop));
