@@ -62,6 +62,7 @@ struct Stage {
   ContactSurface surface;
   std::uint32_t material;
   Vec3 centre;
+  double samples;  ///< Of all height maps.
 };
 
 /// What of a file is felt, and by which probe.
@@ -91,8 +92,10 @@ Stage stage_of(const Scene& scene, const std::string& file, const Touch& touch, 
     if (!touch.friction) material.static_friction = material.dynamic_friction = 0;
     if (!touch.relief) material.height.reset();
   }
+  double samples = 0;
+  for (const HeightField& height : haptic.heights) samples += 1.0 * height.width() * height.height();
   return {ContactSurface(haptic.mesh, haptic.materials, std::move(haptic.heights), touch.radius_m), largest.material,
-          largest.centre};
+          largest.centre, samples};
 }
 
 EvaluationRun over_rates(const EvaluationInput& input, const Touch& touch, const Stage& stage, const Trajectory& hand) {
@@ -122,8 +125,7 @@ EvaluationRun over_detail(const EvaluationInput& input, const Scene& scene, cons
     const Stage stage = stage_of(scene, input.file, touch, 1e-3 * wave);
     const Felt felt = feel(stage.surface, hand, k_base_hz);
     run.trace.push_back({felt.tick_seconds, rms_difference(felt, whole)});
-    run.notes +=
-        fmt::format("waves from {:g} mm: {:.3g} MB; ", wave, 1e-6 * static_cast<double>(stage.surface.bytes()));
+    run.notes += fmt::format("waves from {:g} mm: {:.3g} million samples; ", wave, 1e-6 * stage.samples);
   }
   return run;
 }

@@ -52,6 +52,7 @@ Plot curves_of(const EvaluationGroup& group) {
 
 Plot bars_of(const EvaluationGroup& group) {
   Plot plot{.title = group.input + ": where each one ends", .y_name = group.error_name, .log_y = true};
+  plot.height_px = 640;
   PlotSeries bars{"", {}, Style::bars};
   const double floor = floor_of(group);
   for (const EvaluationRun* run : group.runs) {
