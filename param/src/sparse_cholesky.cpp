@@ -40,13 +40,14 @@ SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const
   }
   for (std::size_t e = 0; e < elements_.count(); ++e)
     largest_element_ = std::max(largest_element_, width_ * elements_.of(e).size());
-  factor_.resize(total + k_dense_slack);
+  stored_ = total + k_dense_slack;
+  factor_ = std::make_unique_for_overwrite<Scalar[]>(stored_);
   bad_pivots_.resize(dissection_.fronts.size());
 }
 
 template <class Scalar>
 std::size_t SparseCholesky<Scalar>::factor(const FillElement& fill) {
-  std::fill(factor_.begin(), factor_.end(), Scalar(0));
+  std::fill_n(factor_.get() + stored_ - k_dense_slack, k_dense_slack, Scalar(0));
   if (!dissection_.fronts.empty()) eliminate(static_cast<Index>(dissection_.fronts.size() - 1), fill);
   std::size_t bad = 0;
   for (const std::size_t count : bad_pivots_) bad += count;
@@ -68,14 +69,15 @@ typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index 
   else
     first(), second();
 
-  Scalar* panel = factor_.data() + panel_[f];
+  const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
+  Scalar* panel = factor_.get() + panel_[f];
+  std::fill_n(panel, rows * columns, Scalar(0));
   Update update;
   update.size = width_ * front.rows.size();
   update.values.assign(update.size * update.size + k_dense_slack, Scalar(0));
   assemble_elements(front, fill, panel, update);
   if (front.left != k_no_front) assemble_child(front, dissection_.fronts[front.left], left, panel, update);
   if (front.right != k_no_front) assemble_child(front, dissection_.fronts[front.right], right, panel, update);
-  const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
   bad_pivots_[f] = factor_columns(panel, rows, columns);
   subtract_square(panel, rows, columns, update.values.data(), update.size);
   return update;
@@ -99,15 +101,24 @@ void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillEle
     }
     fill(e, matrix.data());
     const std::size_t size = width_ * members.size();
-    for (std::size_t j = 0; j < size; ++j)
-      for (std::size_t i = j; i < size; ++i) {
-        std::size_t row = width_ * place[i / width_] + i % width_, column = width_ * place[j / width_] + j % width_;
-        Scalar value = matrix[j * size + i];
-        if (row < column) std::swap(row, column), value = conjugate(value);
-        if (column < own)
-          panel[column * rows + row] += value;
-        else
-          update.values[(column - own) * update.size + (row - own)] += value;
+    for (std::size_t j = 0; j < members.size(); ++j)
+      for (std::size_t i = j; i < members.size(); ++i) {
+        // Only lower halves are kept: a block that would lie above the diagonal is transposed.
+        const bool turned = place[i] < place[j];
+        const std::size_t row = width_ * place[turned ? j : i], column = width_ * place[turned ? i : j];
+        const bool eliminated = column < own;
+        const std::size_t stride = eliminated ? rows : update.size, shift = eliminated ? 0 : own;
+        Scalar* target =
+            (eliminated ? panel : update.values.data()) + (column - shift) * stride + (row - shift);
+        const Scalar* block = matrix.data() + width_ * (j * size + i);
+        for (std::size_t c = 0; c < width_; ++c)
+          for (std::size_t r = i == j ? c : 0; r < width_; ++r) {
+            const Scalar value = block[c * size + r];
+            if (turned)
+              target[r * stride + c] += conjugate(value);
+            else
+              target[c * stride + r] += value;
+          }
       }
   }
 }
@@ -148,7 +159,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     const std::size_t rows = width_ * front.size(), own = width_ * front.own();
     local.assign(rows, Scalar(0));
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
-    const Scalar* column = factor_.data() + panel_[f];
+    const Scalar* column = factor_.get() + panel_[f];
     for (std::size_t j = 0; j < own; ++j, column += rows) {
       const Scalar value = local[j] / real_part(column[j]);
       local[j] = value;
@@ -164,7 +175,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
     each_row(front, [&](std::size_t row, std::size_t place) { local[place] = x[row]; });
     for (std::size_t j = own; j-- > 0;) {
-      const Scalar* column = factor_.data() + panel_[f] + j * rows;
+      const Scalar* column = factor_.get() + panel_[f] + j * rows;
       Scalar value = local[j];
       for (std::size_t i = j + 1; i < rows; ++i) value -= conjugate(column[i]) * local[i];
       local[j] = value / real_part(column[j]);

@@ -35,7 +35,7 @@ class SparseCholesky {
   /// Overwrites b, `width` numbers per vertex in the caller's order, by A⁻¹ b.
   void solve(std::span<Scalar> b) const;
 
-  std::size_t stored() const { return factor_.size(); }
+  std::size_t stored() const { return stored_; }
 
  private:
   struct Update;
@@ -47,7 +47,8 @@ class SparseCholesky {
   Elements elements_;
   Dissection dissection_;
   std::vector<std::size_t> panel_;  ///< Where each front's columns begin in factor_.
-  std::vector<Scalar> factor_;
+  std::size_t stored_ = 0;
+  std::unique_ptr<Scalar[]> factor_;
   std::vector<std::size_t> bad_pivots_;  ///< Per front.
 };
 
