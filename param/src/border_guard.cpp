@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
 namespace papilla::param_detail {
@@ -18,6 +17,8 @@ constexpr double k_reach = 0.25;
 
 /// Cells of the grid per edge of the border, at most.
 constexpr double k_cells_per_edge = 16;
+
+double length(Vec2 a) { return std::sqrt(dot(a, a)); }
 
 struct Extent {
   Vec2 low, high;
@@ -164,51 +165,50 @@ BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec
 }
 
 std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2> uv) const {
-  // Vertices in cells of the longest reach; each edge looks into the cells along it.
-  const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / most_reach_)); };
-  const auto key = [](std::int64_t x, std::int64_t y) {
-    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu;
+  if (border_.empty()) return {};
+  const Extent extent = extent_of(border_, uv);
+  const double edges = static_cast<double>(border_.size());
+  const double cell = std::max(most_reach_ / k_reach, extent.size() / std::sqrt(k_cells_per_edge * edges));
+  const auto columns = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell) + 1;
+  const auto rows = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell) + 1;
+  const auto number = [cell](double distance, std::size_t count) {
+    return static_cast<std::size_t>(std::clamp(distance / cell, 0.0, static_cast<double>(count - 1)));
   };
-  std::unordered_map<std::uint64_t, std::vector<Index>> cells;
-  for (const BorderPair& pair : border_) {
-    const Vec2 p = uv[pair[0]];
-    cells[key(cell_of(p.x), cell_of(p.y))].push_back(pair[0]);
-  }
+  const auto column = [&](double x) { return number(x - extent.low.x, columns); };
+  const auto row = [&](double y) { return number(y - extent.low.y, rows); };
+  // The border's vertices sorted by cell.
+  std::vector<Index> first(columns * rows + 2, 0), sorted(border_.size());
+  const auto cell_of = [&](Vec2 p) { return row(p.y) * columns + column(p.x); };
+  for (const BorderPair& pair : border_) ++first[cell_of(uv[pair[0]]) + 2];
+  for (std::size_t c = 2; c < first.size(); ++c) first[c] += first[c - 1];
+  for (const BorderPair& pair : border_) sorted[first[cell_of(uv[pair[0]]) + 1]++] = pair[0];
   std::vector<Pair> pairs;
   for (const auto& [from, to] : border_) {
     const Vec2 a = uv[from], b = uv[to];
     const double edge_reach = std::min(reach_[from], reach_[to]);
-    const int steps = static_cast<int>(std::min(norm(b - a) / most_reach_, 1e6)) + 1;
-    const std::size_t first = pairs.size();
-    for (int s = 0; s <= steps; ++s) {
-      const Vec2 p = a + (static_cast<double>(s) / steps) * (b - a);
-      for (std::int64_t y = cell_of(p.y) - 1; y <= cell_of(p.y) + 1; ++y)
-        for (std::int64_t x = cell_of(p.x) - 1; x <= cell_of(p.x) + 1; ++x) {
-          const auto found = cells.find(key(x, y));
-          if (found == cells.end()) continue;
-          for (const Index v : found->second) {
-            const double reach = std::min(edge_reach, reach_[v]);
-            if (v != from && v != to && norm(closest(uv[v], a, b).away) < reach) pairs.push_back({v, from, to, reach});
-          }
-        }
-    }
-    const auto own = pairs.begin() + static_cast<std::ptrdiff_t>(first);
-    std::sort(own, pairs.end(), [](const Pair& p, const Pair& q) { return p.vertex < q.vertex; });
-    pairs.erase(std::unique(own, pairs.end(), [](const Pair& p, const Pair& q) { return p.vertex == q.vertex; }),
-                pairs.end());
+    const std::size_t x0 = column(std::min(a.x, b.x) - edge_reach), x1 = column(std::max(a.x, b.x) + edge_reach);
+    const std::size_t y1 = row(std::max(a.y, b.y) + edge_reach);
+    for (std::size_t y = row(std::min(a.y, b.y) - edge_reach); y <= y1; ++y)
+      for (Index i = first[y * columns + x0]; i < first[y * columns + x1 + 1]; ++i) {
+        const Index v = sorted[i];
+        const double reach = std::min(edge_reach, reach_[v]);
+        if (v == from || v == to) continue;
+        const Vec2 away = closest(uv[v], a, b).away;
+        if (dot(away, away) < reach * reach) pairs.push_back({v, from, to, reach});
+      }
   }
   return pairs;
 }
 
 double BorderBarrier::value(const Pair& pair, std::span<const Vec2> uv) const {
-  const double d = norm(closest(uv[pair.vertex], uv[pair.from], uv[pair.to]).away);
+  const double d = length(closest(uv[pair.vertex], uv[pair.from], uv[pair.to]).away);
   const double excess = pair.reach / d - 1;
   return excess > 0 ? weight_ * excess * excess : 0;
 }
 
 std::array<Vec2, 3> BorderBarrier::gradient(const Pair& pair, std::span<const Vec2> uv) const {
   const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
-  const double d = norm(c.away);
+  const double d = length(c.away);
   if (!(d < pair.reach)) return {};
   // The closest point may be held: it is a minimum.
   const Vec2 by_vertex = (-2 * weight_ * (pair.reach / d - 1) * pair.reach / (d * d * d)) * c.away;
@@ -217,7 +217,7 @@ std::array<Vec2, 3> BorderBarrier::gradient(const Pair& pair, std::span<const Ve
 
 void BorderBarrier::hessian(const Pair& pair, std::span<const Vec2> uv, double* matrix) const {
   const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
-  const double d = norm(c.away);
+  const double d = length(c.away);
   std::fill_n(matrix, 36, 0.0);
   if (!(d < pair.reach)) return;
   const double curvature = 2 * weight_ * pair.reach / (d * d * d) * (3 * pair.reach / d - 2);
