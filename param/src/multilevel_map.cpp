@@ -46,38 +46,58 @@ class Multilevel {
       : chart_(chart),
         options_(options),
         hierarchy_(chart.positions, chart.triangles, k_base_vertices),
+        base_removed_(hierarchy_.removed_count()),
         uv_(chart.positions.size()),
         least_edge_(least_edge(chart.positions, chart.triangles)) {}
 
   bool run() {
-    MapLevel level = make_level();
-    level.uv = map_to_circle(level, chart_.positions);
-    if (!std::isfinite(total(level))) return fail("Tutte's map of the coarsened chart is not valid");
-    for (MapLevel safe = level;;) {
-      improve(level);
-      if (is_simple(level)) {
-        keep(level);
-        if (hierarchy_.removed_count() == 0) break;
-        safe = level;
-        if (refine(level)) continue;
-        if (guarded_) return fail("vertices have no room in the coarser map");
-      } else if (guarded_) {
-        return fail("the chart overlaps itself");
-      }
-      // Most charts do not overlap themselves when left alone, and are done faster so; from here on this one is watched.
-      guarded_ = true;
-      result_ = {};
-      while (hierarchy_.vertex_count() > safe.vertices.size()) hierarchy_.remove_again();
-      level = safe;
-      keep(level);
+    while (!run_from_here()) {
+      // A finer start has more room.
+      while (hierarchy_.removed_count() < base_removed_) hierarchy_.remove_again();
+      if (base_removed_ == 0) return false;
+      const std::size_t enough = k_growth * hierarchy_.vertex_count();
+      while (hierarchy_.removed_count() > 0 && hierarchy_.vertex_count() < enough) hierarchy_.restore();
+      base_removed_ = hierarchy_.removed_count();
     }
-    result_.uv = uv_;
     return true;
   }
 
   MultilevelMap take() { return std::move(result_); }
 
  private:
+  /// From Tutte's map of the chart as coarse as it is now.
+  bool run_from_here() {
+    guarded_ = false;
+    result_ = {};
+    MapLevel level = make_level();
+    level.uv = map_to_circle(level, chart_.positions);
+    if (!std::isfinite(total(level))) return fail("Tutte's map of the coarsened chart is not valid");
+    keep(level);
+    std::vector<MapLevel> left_alone{level};  // levels before the border was watched
+    for (;;) {
+      improve(level);
+      std::string why = "the chart overlaps itself";
+      if (is_simple(level)) {
+        keep(level);
+        if (hierarchy_.removed_count() == 0) break;
+        if (!guarded_) left_alone.push_back(level);
+        if (refine(level)) continue;
+        why = "vertices have no room in the coarser map";
+      }
+      // Most charts do not overlap themselves when left alone, and are done faster so; this one is watched from the level
+      // before on, and where that has no room, from an earlier one.
+      if (left_alone.empty()) return fail(std::move(why));
+      guarded_ = true;
+      result_ = {};
+      level = std::move(left_alone.back());
+      left_alone.pop_back();
+      while (hierarchy_.vertex_count() > level.vertices.size()) hierarchy_.remove_again();
+      keep(level);
+    }
+    result_.uv = uv_;
+    return true;
+  }
+
   bool fail(std::string why) {
     result_.failure = std::move(why);
     return false;
@@ -195,6 +215,7 @@ class Multilevel {
   const MultilevelOptions& options_;
   Stopwatch clock_;
   DiskHierarchy hierarchy_;
+  std::size_t base_removed_;  ///< What is removed where the map began.
   std::vector<Vec2> uv_;
   double least_edge_;
   bool guarded_ = false;     ///< Keep the border out of its own way.
