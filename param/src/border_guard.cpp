@@ -51,7 +51,7 @@ Closest closest(Vec2 vertex, Vec2 from, Vec2 to) {
 }  // namespace
 
 BorderGuard::BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv)
-    : border_(std::move(border)), uv_(std::move(uv)), edges_of_(uv_.size()) {
+    : border_(std::move(border)), uv_(std::move(uv)), edges_of_(uv_.size(), {k_no_edge, k_no_edge}) {
   const Extent extent = extent_of(border_, uv_);
   double length = 0;
   for (const BorderPair& pair : border_) length += norm(uv_[pair[1]] - uv_[pair[0]]);
@@ -63,7 +63,7 @@ BorderGuard::BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv)
   rows_ = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell_) + 1;
   cells_.resize(columns_ * rows_);
   for (Index e = 0; e < border_.size(); ++e) {
-    for (const Index v : border_[e]) edges_of_[v].push_back(e);
+    edges_of_[border_[e][0]][1] = edges_of_[border_[e][1]][0] = e;
     put_in(e);
   }
 }
@@ -115,43 +115,47 @@ bool BorderGuard::are_free(std::span<const BorderEdge> edges, LeavesOut leaves_o
 }
 
 bool BorderGuard::may_move(Index vertex, Vec2 place) const {
-  std::vector<BorderEdge> moved;
-  for (const Index e : edges_of_[vertex]) {
-    moved.push_back(edge(e));
-    (moved.back().from == vertex ? moved.back().a : moved.back().b) = place;
-  }
-  return are_free(moved, [&](Index other) { return border_[other][0] == vertex || border_[other][1] == vertex; });
-}
-
-Index BorderGuard::edge_between(Index from, Index to) const {
-  return *std::find_if(edges_of_[from].begin(), edges_of_[from].end(), [&](Index e) {
-    return border_[e] == BorderPair{from, to};
-  });
+  std::array<BorderEdge, 2> moved{edge(edges_of_[vertex][0]), edge(edges_of_[vertex][1])};
+  moved[0].b = moved[1].a = place;
+  return are_free(moved, [&](Index other) { return other == edges_of_[vertex][0] || other == edges_of_[vertex][1]; });
 }
 
 bool BorderGuard::may_split(Index from, Index to, Index vertex, Vec2 place) const {
-  const Index old = edge_between(from, to);
+  const Index old = edges_of_[from][1];
   const std::array<BorderEdge, 2> halves{BorderEdge{from, vertex, uv_[from], place},
                                          BorderEdge{vertex, to, place, uv_[to]}};
   return are_free(halves, [&](Index other) { return other == old; });
 }
 
 void BorderGuard::split(Index from, Index to, Index vertex, Vec2 place) {
-  const Index first = edge_between(from, to), second = static_cast<Index>(border_.size());
+  const Index first = edges_of_[from][1], second = static_cast<Index>(border_.size());
   take_out(first);
   uv_[vertex] = place;
   border_[first][1] = vertex;
   border_.push_back({vertex, to});
-  std::replace(edges_of_[to].begin(), edges_of_[to].end(), first, second);
+  edges_of_[to][0] = second;
   edges_of_[vertex] = {first, second};
   put_in(first);
   put_in(second);
 }
 
 void BorderGuard::move(Index vertex, Vec2 place) {
-  for (const Index e : edges_of_[vertex]) take_out(e);
+  const auto box = [&](Index e) {
+    const BorderEdge own = edge(e);
+    return std::array{column(std::min(own.a.x, own.b.x)), column(std::max(own.a.x, own.b.x)),
+                      row(std::min(own.a.y, own.b.y)), row(std::max(own.a.y, own.b.y))};
+  };
+  const Vec2 before = uv_[vertex];
+  for (const Index e : edges_of_[vertex]) {
+    uv_[vertex] = place;
+    const auto next = box(e);
+    uv_[vertex] = before;
+    if (next == box(e)) continue;
+    take_out(e);
+    uv_[vertex] = place;
+    put_in(e);
+  }
   uv_[vertex] = place;
-  for (const Index e : edges_of_[vertex]) put_in(e);
 }
 
 BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec2> uv, double weight)
