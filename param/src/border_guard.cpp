@@ -53,11 +53,11 @@ Closest closest(Vec2 vertex, Vec2 from, Vec2 to) {
 BorderGuard::BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv)
     : border_(std::move(border)), uv_(std::move(uv)), edges_of_(uv_.size(), {k_no_edge, k_no_edge}) {
   const Extent extent = extent_of(border_, uv_);
-  double length = 0;
-  for (const BorderPair& pair : border_) length += norm(uv_[pair[1]] - uv_[pair[0]]);
+  double total = 0;
+  for (const BorderPair& pair : border_) total += length(uv_[pair[1]] - uv_[pair[0]]);
   const double edges = static_cast<double>(border_.size());
-  cell_ = std::max(length / edges, extent.size() / std::sqrt(k_cells_per_edge * edges));
-  tolerance_ = k_contact * length / edges;
+  cell_ = std::max(total / edges, extent.size() / std::sqrt(k_cells_per_edge * edges));
+  tolerance_ = k_contact * total / edges;
   low_ = extent.low;
   columns_ = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell_) + 1;
   rows_ = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell_) + 1;
@@ -106,7 +106,8 @@ bool BorderGuard::are_free(std::span<const BorderEdge> edges, LeavesOut leaves_o
       if (edges_conflict(edges[i], edges[j], tolerance_)) return false;
     const bool conflict = any_cell(edges[i], [&](std::size_t cell) {
       return std::any_of(cells_[cell].begin(), cells_[cell].end(), [&](Index other) {
-        return !leaves_out(other) && edges_conflict(edges[i], edge(other), tolerance_);
+        return !leaves_out(other) && !edges_apart(edges[i], edge(other), tolerance_) &&
+               edges_conflict(edges[i], edge(other), tolerance_);
       });
     });
     if (conflict) return false;
@@ -161,7 +162,7 @@ void BorderGuard::move(Index vertex, Vec2 place) {
 BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec2> uv, double weight)
     : border_(std::move(border)), reach_(uv.size(), std::numeric_limits<double>::infinity()), weight_(weight) {
   for (const auto& [from, to] : border_) {
-    const double reach = k_reach * norm(uv[to] - uv[from]);
+    const double reach = k_reach * length(uv[to] - uv[from]);
     reach_[from] = std::min(reach_[from], reach);
     reach_[to] = std::min(reach_[to], reach);
     most_reach_ = std::max(most_reach_, reach);
@@ -190,14 +191,16 @@ std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2>
   for (const auto& [from, to] : border_) {
     const Vec2 a = uv[from], b = uv[to];
     const double edge_reach = std::min(reach_[from], reach_[to]);
-    const std::size_t x0 = column(std::min(a.x, b.x) - edge_reach), x1 = column(std::max(a.x, b.x) + edge_reach);
-    const std::size_t y1 = row(std::max(a.y, b.y) + edge_reach);
-    for (std::size_t y = row(std::min(a.y, b.y) - edge_reach); y <= y1; ++y)
+    const Vec2 low{std::min(a.x, b.x) - edge_reach, std::min(a.y, b.y) - edge_reach};
+    const Vec2 high{std::max(a.x, b.x) + edge_reach, std::max(a.y, b.y) + edge_reach};
+    const std::size_t x0 = column(low.x), x1 = column(high.x), y1 = row(high.y);
+    for (std::size_t y = row(low.y); y <= y1; ++y)
       for (Index i = first[y * columns + x0]; i < first[y * columns + x1 + 1]; ++i) {
         const Index v = sorted[i];
+        const Vec2 p = uv[v];
+        if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || v == from || v == to) continue;
         const double reach = std::min(edge_reach, reach_[v]);
-        if (v == from || v == to) continue;
-        const Vec2 away = closest(uv[v], a, b).away;
+        const Vec2 away = closest(p, a, b).away;
         if (dot(away, away) < reach * reach) pairs.push_back({v, from, to, reach});
       }
   }

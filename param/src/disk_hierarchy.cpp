@@ -210,8 +210,8 @@ class DiskHierarchy::Coarsener {
       const Vec3 e = positions_[ring.vertex[i]] - positions_[v];
       squared[i] = dot(e, e);
     }
-    const auto shortest = static_cast<std::size_t>(
-        std::min_element(squared.begin(), squared.begin() + ring.size) - squared.begin());
+    const auto shortest =
+        static_cast<std::size_t>(std::min_element(squared.begin(), squared.begin() + ring.size) - squared.begin());
     consider(v, ring, shortest, round, best);
     for (std::size_t i = 0; i < ring.size && best.target == k_none; ++i)
       if (i != shortest) consider(v, ring, i, round, best);

@@ -84,8 +84,8 @@ class Multilevel {
         if (refine(level)) continue;
         why = "vertices have no room in the coarser map";
       }
-      // Most charts do not overlap themselves when left alone, and are done faster so; this one is watched from the level
-      // before on, and where that has no room, from an earlier one.
+      // Most charts do not overlap themselves when left alone, and are done faster so; this one is watched from the
+      // level before on, and where that has no room, from an earlier one.
       if (left_alone.empty()) return fail(std::move(why));
       guarded_ = true;
       result_ = {};
@@ -218,7 +218,7 @@ class Multilevel {
   std::size_t base_removed_;  ///< What is removed where the map began.
   std::vector<Vec2> uv_;
   double least_edge_;
-  bool guarded_ = false;     ///< Keep the border out of its own way.
+  bool guarded_ = false;    ///< Keep the border out of its own way.
   double mean_energy_ = 0;  ///< Per area, of the level before.
   std::vector<RingEdge> ring_;
   std::optional<BorderGuard> guard_;

@@ -177,10 +177,7 @@ bool edges_conflict(const BorderEdge& e, const BorderEdge& f, double tolerance) 
     return dot(along_e, along_f) > 0 &&
            std::abs(cross(along_e, along_f)) <= tolerance * std::sqrt(std::max(dot(d, d), dot(g, g)));
   }
-  const Box x = box_of(e), y = box_of(f);
-  if (x.low.x > y.high.x + tolerance || y.low.x > x.high.x + tolerance || x.low.y > y.high.y + tolerance ||
-      y.low.y > x.high.y + tolerance)
-    return false;
+  if (edges_apart(e, f, tolerance)) return false;
   const auto one_side = [](double s, double t, double limit) {
     return (s > limit && t > limit) || (s < -limit && t < -limit);
   };

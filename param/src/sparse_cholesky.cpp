@@ -106,8 +106,7 @@ void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillEle
         const std::size_t row = width_ * place[turned ? j : i], column = width_ * place[turned ? i : j];
         const bool eliminated = column < own;
         const std::size_t stride = eliminated ? rows : update.size, shift = eliminated ? 0 : own;
-        Scalar* target =
-            (eliminated ? panel : update.values.data()) + (column - shift) * stride + (row - shift);
+        Scalar* target = (eliminated ? panel : update.values.data()) + (column - shift) * stride + (row - shift);
         const Scalar* block = matrix.data() + width_ * (j * size + i);
         for (std::size_t c = 0; c < width_; ++c)
           for (std::size_t r = i == j ? c : 0; r < width_; ++r) {
