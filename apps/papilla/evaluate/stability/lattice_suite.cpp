@@ -18,9 +18,10 @@ struct Method {
   FeatureMatrix (*matrix)(const GreyImage&);
   LatticeMethod lattice;
 };
-constexpr std::array<Method, 3> k_methods = {{{"squared, best", feature_matrix, LatticeMethod::best},
-                                              {"squared, projection", feature_matrix, LatticeMethod::projection},
-                                              {"absolute, best", absolute_feature_matrix, LatticeMethod::best}}};
+constexpr std::array<Method, 3> k_methods = {
+    {{"squared, best", feature_matrix, LatticeMethod::best},
+     {"squared, projection", feature_matrix, LatticeMethod::projection},
+     {"absolute, best", [](const GreyImage& image) { return absolute_feature_matrix(image); }, LatticeMethod::best}}};
 
 void find(const Method& method, const NamedPicture& input, StabilityCell& cell) {
   LatticeOptions options;
