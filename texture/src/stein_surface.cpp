@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "checks.hpp"
 #include "fft.hpp"
@@ -83,9 +84,14 @@ Surface brownian_surface_exact(const BrownianSurfaceOptions& options) {
   tell(0.45);
   {
     RealFft2d circulant(period, period);
-    for (int y = 0; y < period; ++y)
-      for (int x = 0; x < period; ++x)
-        circulant.real(x, y) = covariance(pitch * std::hypot(std::min(x, period - x), std::min(y, period - y)));
+    // The same in all eight octants: a power for one in eight samples.
+    for (int y = 0; y <= period / 2; ++y)
+      for (int x = 0; x <= y; ++x) {
+        const double value = covariance(pitch * std::hypot(x, y));
+        const int right = (period - x) % period, below = (period - y) % period;
+        for (const auto& [u, v] : {std::pair{x, y}, {right, y}, {x, below}, {right, below}})
+          circulant.real(u, v) = circulant.real(v, u) = value;
+      }
     tell(0.65);
     circulant.forward();
     colour_spectrum(field, circulant, period);

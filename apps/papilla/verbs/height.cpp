@@ -94,14 +94,21 @@ Json write_pictures(const std::string& folder, HeightMap map, const Console& con
   if (failure) throw IoError(folder + ": " + failure.message());
   const std::string section = (fs::path(folder) / "section.svg").string();
   write_atomically(section, section_chart(map));
-  if (!(map.pitch_mm_x > 0)) map.pitch_mm_x = map.pitch_mm_y = 1;  // Slopes of a guess: the exaggeration sets them.
+  const double pitch_mm = map.pitch_mm_x;
+  if (!(pitch_mm > 0)) map.pitch_mm_x = map.pitch_mm_y = 1;  // Slopes of a guess: the exaggeration sets them.
   Json json = Json::array();
   const auto draw = [&](const char* name, const HeightMap& relief) {
     const std::string file = (fs::path(folder) / fmt::format("{}.png", name)).string();
     double exaggeration = 1;
-    write_color_image(file, draw_relief(relief, exaggeration));
-    console.print(fmt::format("written    {}\n", file));
-    json.push_back({{"name", name}, {"file", file}, {"exaggeration", exaggeration}});
+    ColorImage picture = draw_relief(relief, exaggeration);
+    const double bar_mm = draw_scale_bar(picture, pitch_mm);
+    write_color_image(file, picture);
+    console.print(fmt::format("written    {}, heights times {:.3g}{}\n", file, exaggeration,
+                              bar_mm > 0 ? fmt::format(", the bar is {:g} mm", bar_mm) : ""));
+    json.push_back({{"name", name},
+                    {"file", file},
+                    {"exaggeration", exaggeration},
+                    {"scale_bar_mm", bar_mm > 0 ? Json(bar_mm) : Json(nullptr)}});
   };
   draw("relief", map);
   draw("relief-opposite", opposite_relief(map));
