@@ -53,7 +53,7 @@ std::vector<double> round_ticks(double low, double high) {
   const double step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
   std::vector<double> ticks;
   for (double k = std::ceil(low / step - 1e-9); k * step <= high * (1 + 1e-9) + 1e-9 * step; ++k)
-    ticks.push_back(k * step);
+    ticks.push_back(k * step + 0.0);  // Not −0.
   return ticks;
 }
 
@@ -202,7 +202,7 @@ std::string section_chart(const HeightMap& map) {
   }
   for (const double y : round_ticks(frame.low_y, frame.high_y)) {
     body += line(frame(0, y), frame(frame.high_x, y));
-    body += text(k_margin - 6, frame(0, y).y + 4, fmt::format("{:.4g}", std::abs(y) < 1e-12 ? 0 : y), "end");
+    body += text(k_margin - 6, frame(0, y).y + 4, fmt::format("{:.4g}", y), "end");
   }
   body += frame.border();
   std::size_t color = 0;
