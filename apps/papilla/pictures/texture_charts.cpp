@@ -46,6 +46,17 @@ std::string dot_mark(Vec2 at, const char* color) {
   return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n", at.x, at.y, color);
 }
 
+/// Ticks at 1, 2 or 5 times a power of ten, about five of them, within a range.
+std::vector<double> round_ticks(double low, double high) {
+  if (!(high > low)) return {low};
+  const double rough = (high - low) / 5, power = std::pow(10, std::floor(std::log10(rough)));
+  const double step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
+  std::vector<double> ticks;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high * (1 + 1e-9) + 1e-9 * step; ++k)
+    ticks.push_back(k * step + 0.0);  // Not −0.
+  return ticks;
+}
+
 /// Maps values to the frame of a chart.
 struct Frame {
   double low_x, high_x, low_y, high_y;
@@ -118,15 +129,20 @@ std::string log_log_chart(const std::vector<LogLogSeries>& series) {
     for (const Vec2 p : curves[i].points) points.push_back(frame(p.x, p.y));
     body += path(points, color);
     for (const Vec2 p : points) body += dot_mark(p, color);
-    body += text(k_width - k_margin - 8, k_margin + 18 + 16 * static_cast<double>(i), curves[i].label, "end", color);
+    body += text(k_width - k_margin + 12, k_margin + 12 + 18 * static_cast<double>(i), curves[i].label, "start", color);
   }
   body += text(k_width / 2, k_height - 14, "scale: side, window or lag [pixels]");
   body += text(k_width / 2, 30, "measure, relative to that at the least scale");
-  return document(body, k_width, k_height);
+  constexpr double k_legend = 230;
+  const char* slopes[] = {"Counts fall with slope \u2212D;", "fshot and best rise with H = 3 \u2212 D.",
+                          "In brackets: 95 % interval."};
+  double y = k_margin + 30 + 18 * static_cast<double>(curves.size());
+  for (const char* note : slopes) body += text(k_width - k_margin + 12, y += 16, note, "start", "#666");
+  return document(body, k_width + k_legend, k_height);
 }
 
 std::string hurst_chart(const FshotSignature& signature) {
-  constexpr double k_side = 440, k_radius = 170;  // Of H = 1.
+  constexpr double k_side = 460, k_radius = 165;  // Of H = 1.
   const Vec2 centre{k_side / 2, k_side / 2};
   const auto at = [&](double angle, double hurst) {
     return centre + k_radius * hurst * Vec2{std::cos(angle), std::sin(angle)};
@@ -135,10 +151,13 @@ std::string hurst_chart(const FshotSignature& signature) {
   for (const double h : {0.25, 0.5, 0.75, 1.0}) {
     body += fmt::format("<circle cx=\"{0:.0f}\" cy=\"{0:.0f}\" r=\"{1:.1f}\" fill=\"none\" stroke=\"#ccc\"/>\n",
                         centre.x, k_radius * h);
-    body += text(centre.x + k_radius * h - 4, centre.y - 4, fmt::format("{}", h), "end", "#888");
   }
   body += line({centre.x - k_radius, centre.y}, {centre.x + k_radius, centre.y});
   body += line({centre.x, centre.y - k_radius}, {centre.x, centre.y + k_radius});
+  for (const int degrees : {0, 45, 90, 135, 180, 225, 270, 315}) {
+    const Vec2 label = at(degrees * k_radians_per_degree, 1.09);
+    body += text(label.x, label.y + 4, fmt::format("{}\u00b0", degrees), "middle", "#888");
+  }
   for (const DirectionalHurst& d : signature.directions)
     for (const double turn : {0.0, 180.0})
       body += dot_mark(at((d.angle_deg + turn) * k_radians_per_degree, std::clamp(d.hurst, 0.0, 1.2)), k_colors[0]);
@@ -153,9 +172,17 @@ std::string hurst_chart(const FshotSignature& signature) {
     }
     body += path(ellipse, k_colors[1], true);
   }
-  body += text(k_side / 2, 22,
-               fmt::format("Hurst exponent by direction: Sta {:.3f}, Str {:.3f} at {:.0f} degrees", signature.sta,
+  for (const double h : {0.25, 0.5, 0.75, 1.0}) {
+    const Vec2 label = at(-0.39, h);  // Between two labelled directions.
+    body += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"28\" height=\"14\" fill=\"white\" opacity=\"0.8\"/>\n",
+                        label.x - 14, label.y - 10);
+    body += text(label.x, label.y + 1, fmt::format("{:.2f}", h), "middle", "#555");
+  }
+  body += text(k_side / 2, 18,
+               fmt::format("Hurst exponent by direction: Sta {:.3f}, Str {:.3f} at {:.0f}\u00b0", signature.sta,
                            signature.str, signature.angle_deg));
+  body += text(12, k_side - 24, "points: measured (below 0 drawn at 0)", "start", k_colors[0]);
+  body += text(12, k_side - 8, "curve: ellipse; angles from x (right) towards y (down)", "start", k_colors[1]);
   return document(body, k_side, k_side);
 }
 
@@ -168,18 +195,22 @@ std::string section_chart(const HeightMap& map) {
       frame.low_y = std::min(frame.low_y, p.y);
       frame.high_y = std::max(frame.high_y, p.y);
     }
-  std::string body = frame.border();
-  for (int i = 0; i <= 4; ++i) {
-    const double x = frame.high_x * i / 4, y = frame.low_y + (frame.high_y - frame.low_y) * i / 4;
-    body += text(frame(x, 0).x, k_height - k_margin + 18, fmt::format("{:.3g}", x));
-    body += text(k_margin - 6, frame(0, y).y + 4, fmt::format("{:.3g}", y), "end");
+  std::string body;
+  for (const double x : round_ticks(0, frame.high_x)) {
+    body += line(frame(x, frame.low_y), frame(x, frame.high_y));
+    body += text(frame(x, 0).x, k_height - k_margin + 18, fmt::format("{:.4g}", x));
   }
+  for (const double y : round_ticks(frame.low_y, frame.high_y)) {
+    body += line(frame(0, y), frame(frame.high_x, y));
+    body += text(k_margin - 6, frame(0, y).y + 4, fmt::format("{:.4g}", y), "end");
+  }
+  body += frame.border();
   std::size_t color = 0;
   for (const auto* points : {&row, &column}) {
     std::vector<Vec2> drawn;
     for (const Vec2 p : *points) drawn.push_back(frame(p.x, p.y));
     body += path(drawn, k_colors[color]);
-    body += text(k_width - k_margin - 8, k_margin + 18 + 16 * static_cast<double>(color),
+    body += text(k_width - k_margin - 110 * static_cast<double>(color), k_margin - 8,
                  color == 0 ? "middle row" : "middle column", "end", k_colors[color]);
     ++color;
   }

@@ -219,6 +219,8 @@ void write_pictures(const Arguments& arguments, const TextureSurvey& survey, con
   json["pictures"] = Json::array();
   write_color_image(path("symmetry.png"), symmetry_strip(*survey.symmetry));
   written("symmetry", path("symmetry.png"));
+  console.print(
+      "           from the left: picture with lattice, feature matrix with minima, primitive, synthesis, rest\n");
   if (!survey.fractal || !survey.fractal->best) return;
   write_atomically(path("log-log.svg"), log_log_chart(series_of(*survey.fractal)));
   written("log-log", path("log-log.svg"));
