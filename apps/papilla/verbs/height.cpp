@@ -14,7 +14,7 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "pictures/relief.hpp"
-#include "pictures/texture_charts.hpp"
+#include "pictures/texture_plots.hpp"
 #include "vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -93,7 +93,7 @@ Json write_pictures(const std::string& folder, HeightMap map, const Console& con
   fs::create_directories(folder, failure);
   if (failure) throw IoError(folder + ": " + failure.message());
   const std::string section = (fs::path(folder) / "section.svg").string();
-  write_atomically(section, section_chart(map));
+  const bool has_section = write_plot(section, section_plot(map));
   const double pitch_mm = map.pitch_mm_x;
   if (!(pitch_mm > 0)) map.pitch_mm_x = map.pitch_mm_y = 1;  // Slopes of a guess: the exaggeration sets them.
   Json json = Json::array();
@@ -112,8 +112,9 @@ Json write_pictures(const std::string& folder, HeightMap map, const Console& con
   };
   draw("relief", map);
   draw("relief-opposite", opposite_relief(map));
-  console.print(fmt::format("written    {}\n", section));
-  json.push_back({{"name", "section"}, {"file", section}});
+  console.print(has_section ? fmt::format("written    {}\n", section)
+                            : fmt::format("not drawn  {}: gnuplot is not installed\n", section));
+  if (has_section) json.push_back({{"name", "section"}, {"file", section}});
   return json;
 }
 
