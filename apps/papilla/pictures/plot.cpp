@@ -77,7 +77,7 @@ std::string style_of(const PlotSeries& series) {
   const std::size_t mark = 1 + look % 13;
   switch (series.style) {
     case Style::line: return fmt::format("with lines lw 1.5 lc rgb '{}' dt {}", colour, dash);
-    case Style::points: return fmt::format("with points pt {} ps 0.4 lc rgb '{}'", mark, colour);
+    case Style::points: return fmt::format("with points pt {} ps 0.5 lc rgb '{}'", mark, colour);
     case Style::steps: return fmt::format("with histeps lw 1.5 lc rgb '{}' dt {}", colour, dash);
     case Style::band: return "with steps lw 7 lc rgb '#cccccc'";
     case Style::bars: return fmt::format("with boxes fs solid 0.7 lc rgb '{}'", colour);
@@ -97,13 +97,14 @@ std::string log_axis(char axis, double base) {
 
 std::string axes_of(const Plot& plot) {
   std::string script;
-  if (plot.log_x) script += log_axis('x', plot.log_base);
-  if (plot.log_y) script += log_axis('y', plot.log_base);
+  if (plot.log_x) script += log_axis('x', plot.log_x_base);
+  if (plot.log_y) script += log_axis('y', 10);
   if (plot.polar)
     return script +
            "set polar\nset angles degrees\nset theta right clockwise\nset size square\nset grid polar 30\n"
-           "unset border\nunset xtics\nunset ytics\nset rtics\nset rrange [0:*]\n";
-  script += "set grid lc rgb '#dddddd'\nset mytics\n";
+           "unset border\nunset xtics\nunset ytics\nset rtics\n" +
+           (plot.radius > 0 ? fmt::format("set rrange [0:{}]\n", plot.radius) : std::string());
+  script += "set grid lc rgb '#dddddd'\nset mytics\nset autoscale xfix\n";
   if (plot.x_labels.empty()) return script;
   script += "set xtics rotate by -40 noenhanced (";
   for (std::size_t i = 0; i < plot.x_labels.size(); ++i)

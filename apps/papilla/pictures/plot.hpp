@@ -26,7 +26,8 @@ struct PlotSeries {
 struct Plot {
   std::string title = {}, x_name = {}, y_name = {};
   bool log_x = false, log_y = false, polar = false;
-  double log_base = 10;                    ///< 10, or 2 for ticks at powers of two.
+  double log_x_base = 10;                  ///< 10, or 2 for ticks at powers of two.
+  double radius = 0;                       ///< Of a polar plot; 0: as the points need it.
   std::vector<std::string> x_labels = {};  ///< In place of numbers: label i stands at x = i.
   std::vector<PlotSeries> series = {};
   int width_px = 960, height_px = 520;

@@ -33,7 +33,7 @@ Plot log_log_plot(const std::vector<LogLogSeries>& series) {
             .y_name = "measure, relative to that at the least scale",
             .log_x = true,
             .log_y = true,
-            .log_base = 2};
+            .log_x_base = 2};
   for (const LogLogSeries& one : series) {
     const FractalEstimate& e = one.estimate;
     PlotSeries drawn{fmt::format("{}: D = {:.3f} [{:.3f}, {:.3f}]", one.name, e.dimension, e.low, e.high), {}};
@@ -52,7 +52,8 @@ Plot log_log_plot(const std::vector<LogLogSeries>& series) {
 Plot hurst_plot(const FshotSignature& signature) {
   Plot plot{.title = fmt::format("Hurst exponent by direction: Sta {:.3f}, Str {:.3f} at {:.0f}°", signature.sta,
                                  signature.str, signature.angle_deg),
-            .polar = true};
+            .polar = true,
+            .radius = 1.2};
   plot.width_px = plot.height_px = 520;
   PlotSeries measured{"", {}, Style::points, 0}, ellipse{"", {}, Style::line, 1};
   for (const DirectionalHurst& d : signature.directions)
