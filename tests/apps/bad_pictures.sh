@@ -77,6 +77,15 @@ for file in flat.pgm black.pgm saturated.pgm one.pgm line.pgm column.pgm tiny.pg
   try "evaluate height" "$file" "$papilla" evaluate height "$file" -o evaluation
 done
 try "height variational" huge.pgm "$papilla" height huge.pgm -o out.png --method variational
+grey strip.pgm 200000 1 99
+grey tower.pgm 1 200000 99
+for file in strip.pgm tower.pgm; do
+  try analyze "$file" "$papilla" analyze "$file"
+  for method in variational pentland tsai-shah intensity; do
+    try "height $method" "$file" "$papilla" height "$file" -o out.exr --method "$method"
+  done
+done
+try analyze huge.pgm "$papilla" analyze huge.pgm --only symmetry
 try "height tsai-shah" huge.pgm "$papilla" height huge.pgm -o out.png --method tsai-shah
 try "light from behind" rubble.pgm "$papilla" height rubble.pgm -o out.png --method variational --light 0,0,-1
 try "light along the ground" rubble.pgm "$papilla" height rubble.pgm -o out.png --method variational --light 1,0,1e-9

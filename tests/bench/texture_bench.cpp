@@ -19,6 +19,7 @@
 #include "papilla/texture/stein_surface.hpp"
 #include "texture/wallpaper_patterns.hpp"
 #include "texture_accuracy.hpp"
+#include "texture_sizes.hpp"
 #if defined(PAPILLA_HAVE_GWYDDION)
 #include "gwyddion_dimension.hpp"
 #endif
@@ -198,6 +199,7 @@ void body(bench::BenchReport& report) {
   report_speed(report, size, small);
   bench::report_symmetry(report);
   bench::report_height(report);
+  bench::report_sizes(report);
   bench::report_photographs(report);
 }
 

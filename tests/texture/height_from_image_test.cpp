@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "papilla/core/error.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/roughness.hpp"
+#include "papilla/texture/shading.hpp"
 #include "papilla/texture/stein_surface.hpp"
+#include "papilla/texture/tiling.hpp"
 #include "texture/fixtures.hpp"
 
 namespace papilla {
@@ -116,6 +119,45 @@ TEST(HeightFromImage, WhatRunsAcrossTheLightIsGuessed) {
   EXPECT_LT(height_from_image(image, options).guessed_share, 0.01);
   options.light = Vec3{0.05, 1, 1};
   EXPECT_GT(height_from_image(image, options).guessed_share, 0.9);
+}
+
+/// A lit lattice of bumps, turned: no whole number of cells fits the picture.
+GreyImage turned_grain(double angle_deg) {
+  const double angle = angle_deg * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+  const HeightMap relief = test::make_relief(230, 210, 1, [&](int x, int y) {
+    const double u = 2 * std::numbers::pi * (c * x + s * y) / 23.4, v = 2 * std::numbers::pi * (c * y - s * x) / 19.7;
+    return 1.5 * (std::cos(u) + std::cos(v) + 0.5 * std::sin(u + v));
+  });
+  return render_lambert(relief, {1, 0.4, 1});
+}
+
+TEST(HeightFromImage, TurnedLatticesTile) {
+  for (const double angle : {0.0, 11.0, 27.0}) {
+    const HeightResult result = height_from_image(turned_grain(angle), {.light = Vec3{1, 0.4, 1}, .tile = true});
+    ASSERT_TRUE(result.tile) << angle;
+    EXPECT_LE(result.tile->strain, 0.011);
+    EXPECT_TRUE(result.map.periodic);
+    EXPECT_EQ(result.map.width, result.tile->width);
+    EXPECT_EQ(result.roughness, HeightRoughness::synthesized);
+    const GreyImage heights{result.map.width, result.map.height, result.map.mm, 0, 32};
+    EXPECT_TRUE(measure_tiling(heights).tiles) << angle;
+  }
+}
+
+TEST(HeightFromImage, TilesNeedALattice) {
+  EXPECT_THROW(height_from_image(test::noise_image(96, 96, 9), {.tile = true}), InvalidInput);
+}
+
+TEST(HeightFromImage, OppositeLightOnTheOppositeReliefIsTheSamePicture) {
+  const HeightMap relief = test::make_relief(
+      40, 30, 0.1, [](int x, int y) { return 0.2 * std::sin(0.3 * x) * std::cos(0.4 * y) + 0.01 * x; });
+  const GreyImage one = render_lambert(relief, {0.6, -0.3, 1}),
+                  other = render_lambert(opposite_relief(relief), {-0.6, 0.3, 1});
+  for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(one.pixels[i], other.pixels[i], 1e-5);
+  const auto [low, high] = std::minmax_element(relief.mm.begin(), relief.mm.end());
+  const HeightMap opposite = opposite_relief(relief);
+  EXPECT_FLOAT_EQ(*std::min_element(opposite.mm.begin(), opposite.mm.end()), *low);
+  EXPECT_FLOAT_EQ(*std::max_element(opposite.mm.begin(), opposite.mm.end()), *high);
 }
 
 TEST(HeightFromImage, UnknownPitchStaysUnknown) {

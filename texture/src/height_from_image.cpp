@@ -63,6 +63,19 @@ void choose_method(const HeightOptions& options, const Lattice& lattice, HeightR
   result.reason = lattice.found ? "the picture repeats: lit elements" : "grey read as height: " + lattice.reason;
 }
 
+/// The map becomes one tile of the lattice.
+void choose_tile(const GreyImage& image, const Lattice& lattice, HeightResult& result) {
+  if (!lattice.found)
+    throw InvalidInput("height_from_image: a tile needs a lattice, but " + lattice.reason +
+                       "; other pictures are made to tile by matching their borders");
+  CommensurateOptions options;
+  options.least_side = std::min({options.least_side, image.width, image.height});
+  result.tile = find_commensurate_tile(lattice.vectors_px, options);
+  result.map.width = result.tile->width;
+  result.map.height = result.tile->height;
+  result.map.periodic = true;
+}
+
 void choose_light(const GreyImage& image, const HeightOptions& options, HeightResult& result) {
   if (options.light) {
     result.light = texture_detail::require_light(*options.light, "height_from_image");
@@ -132,7 +145,8 @@ Field rough_part(const GreyImage& residual, const HeightResult& result) {
   Field field(residual.pixels.begin(), residual.pixels.end());
   const double pitch = result.map.pitch_mm_x;
   const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
-  texture_detail::filter(field, residual.width, residual.height, result.map.periodic, [=](double x, double y) {
+  const bool periodic = result.map.periodic && !result.tile;  // The residual does not tile where the lattice does.
+  texture_detail::filter(field, residual.width, residual.height, periodic, [=](double x, double y) {
     return (x != 0 || y != 0) && std::hypot(x, y) * longest_px >= 1 ? 1.0 : 0.0;
   });
   return field;
@@ -146,10 +160,11 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
   const double hurst = measurable ? std::clamp(best_dimension(residual).estimate.hurst, 0.05, 0.95) : 0.5;
   const double pitch = result.map.pitch_mm_x;
   const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
-  Field noise = texture_detail::shaped_noise(residual.width, residual.height, options.seed, [=](double x, double y) {
-    const double frequency = std::hypot(x, y);
-    return frequency > 0 && frequency * longest_px >= 1 ? std::pow(frequency, -hurst - 1) : 0;
-  });
+  Field noise =
+      texture_detail::shaped_noise(result.map.width, result.map.height, options.seed, [=](double x, double y) {
+        const double frequency = std::hypot(x, y);
+        return frequency > 0 && frequency * longest_px >= 1 ? std::pow(frequency, -hurst - 1) : 0;
+      });
   const double rms = rms_of(rough);
   for (double& value : noise) value *= rms;
   return noise;
@@ -158,16 +173,15 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
 /// Relief of the symmetric part plus roughness, both in units of the relief's range.
 Field composed(const GreyImage& image, const Lattice& lattice, const HeightOptions& options, HeightResult& result) {
   const SymmetricPart part = symmetric_part(image, lattice.vectors_px);
-  Field field = relief_of(part.synthesis, options, result);
+  Field field = relief_of(result.tile ? fill_tile(part.primitive, *result.tile) : part.synthesis, options, result);
   const double range = range_of(field);
   if (range > 0)
     for (double& value : field) value /= range;
-  if (options.roughness == HeightRoughness::none) return field;
+  if (result.roughness == HeightRoughness::none) return field;
   const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   const double greys = static_cast<double>(*high) - static_cast<double>(*low);
   Field rough = rough_part(part.residual, result);
-  if (options.roughness == HeightRoughness::synthesized)
-    rough = synthesized_like(part.residual, rough, options, result);
+  if (result.roughness == HeightRoughness::synthesized) rough = synthesized_like(part.residual, rough, options, result);
   for (std::size_t i = 0; i < field.size() && greys > 0; ++i) field[i] += rough[i] / greys;
   result.roughness_rms_mm = greys > 0 ? rms_of(rough) / greys : 0;  // Of the range; scaled with it later.
   return field;
@@ -259,6 +273,15 @@ double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz) {
   return 2 * speed_mm_per_s / rate_hz;
 }
 
+HeightMap opposite_relief(const HeightMap& relief) {
+  texture_detail::require_height_map(relief, "opposite_relief", false);
+  HeightMap result = relief;
+  const auto [low, high] = std::minmax_element(relief.mm.begin(), relief.mm.end());
+  const float sum = *low + *high;
+  for (float& height : result.mm) height = sum - height;
+  return result;
+}
+
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options) {
   texture_detail::require_image(image, "height_from_image");
   require_options(options);
@@ -268,12 +291,16 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   result.map.height = image.height;
   result.map.pitch_mm_x = result.map.pitch_mm_y = pitch;
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
-  const bool asks_lattice = options.method == HeightMethod::automatic || options.roughness != HeightRoughness::whole;
-  const Lattice lattice = asks_lattice ? analyze_symmetry(image).lattice : Lattice{};
+  const bool composes = options.tile || options.roughness != HeightRoughness::whole;
+  const bool asks_lattice = options.method == HeightMethod::automatic || composes;
+  const Lattice lattice =
+      asks_lattice ? analyze_symmetry(image, {}, FeatureKind::squared, options.progress).lattice : Lattice{};
   choose_method(options, lattice, result);
+  if (options.tile) choose_tile(image, lattice, result);
   Field field;
-  if (options.roughness != HeightRoughness::whole && lattice.found) {
-    result.roughness = options.roughness;
+  if (composes && lattice.found) {
+    const bool tiles = options.tile && options.roughness != HeightRoughness::none;
+    result.roughness = tiles ? HeightRoughness::synthesized : options.roughness;
     field = composed(image, lattice, options, result);
   } else {
     field = relief_of(image, options, result);

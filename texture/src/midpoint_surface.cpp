@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "checks.hpp"
@@ -69,7 +70,10 @@ std::array<double, 3> corner_heights(double hurst, Random& random) {
   return heights;
 }
 
-void corrected(Grid& grid, double hurst, Random& random) {
+/// Told the share of the samples that have their height.
+using Told = std::function<void(double)>;
+
+void corrected(Grid& grid, double hurst, Random& random, const Told& told) {
   const int n = grid.side();
   if (grid.holds(n, n) && grid.size() > n) {
     const std::array<double, 3> corners = corner_heights(hurst, random);
@@ -101,10 +105,11 @@ void corrected(Grid& grid, double hurst, Random& random) {
           }
         grid.at(x, y) = sum / count + (count == 4 ? edge : at_border) * random.normal();
       }
+    told(1.0 / half / half);
   }
 }
 
-void cho(Grid& grid, int levels, double hurst, Random& random) {
+void cho(Grid& grid, int levels, double hurst, Random& random, const Told& told) {
   const int n = grid.side();
   for (int y = 0; y < grid.size(); y += n)
     for (int x = 0; x < grid.size(); x += n) grid.at(x, y) = random.normal();
@@ -137,6 +142,7 @@ void cho(Grid& grid, int levels, double hurst, Random& random) {
         grid.at(x, y) = (ends + centres / count) / 3 + delta();
       }
     set_centres(0);
+    told(1.0 / half / half);
   }
 }
 
@@ -146,10 +152,13 @@ Surface midpoint_surface(const MidpointOptions& options) {
   require(options.levels, 13, options.hurst, "midpoint_surface");
   Random random(options.seed);
   Grid grid(options.levels, options.periodic);
+  const Told told = [&](double share) {
+    if (options.progress) options.progress("synthesis", share);
+  };
   if (options.rule == MidpointRule::corrected)
-    corrected(grid, options.hurst, random);
+    corrected(grid, options.hurst, random, told);
   else
-    cho(grid, options.levels, options.hurst, random);
+    cho(grid, options.levels, options.hurst, random, told);
   return std::move(grid).surface();
 }
 

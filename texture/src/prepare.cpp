@@ -266,25 +266,35 @@ PictureNumbers measure_picture(const GreyImage& image) {
 
 PreparedPicture prepare_picture(const GreyImage& image, const PrepareOptions& options) {
   require(image, options);
+  const auto tell = [&](double fraction) {
+    if (options.progress) options.progress("prepare", fraction);
+  };
+  tell(0);
   PreparedPicture result;
   result.image = image;
   result.image.bits = 32;
   result.before = measure_picture(image);
   const bool flat = !(result.before.contrast > 0);
+  tell(0.1);
   result.steps.push_back({"flatten", options.flatten && !flat,
                           flat              ? "the picture is flat"
                           : options.flatten ? "gradients of brightness and contrast show as a pattern when tiled"
                                             : "not asked for"});
   if (options.flatten && !flat)
     flatten(result.image, options.flatten_px > 0 ? options.flatten_px : default_flatten_px(image));
+  tell(0.4);
   result.steps.push_back({"plasticity", options.plasticity > 0,
                           options.plasticity > 0 ? "fine detail raised as asked for" : "not asked for"});
   if (options.plasticity > 0) raise_detail(result.image, options.plasticity);
+  tell(0.5);
   match_borders(result, options.borders);
+  tell(0.8);
   result.steps.push_back(
       {"contrast", options.contrast, options.contrast ? "the full range of greys is used" : "not asked for"});
   if (options.contrast) stretch(result.image);
+  tell(0.9);
   result.after = measure_picture(result.image);
+  tell(1);
   warn(image, result);
   return result;
 }

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "bicubic.hpp"
 #include "checks.hpp"
@@ -71,6 +73,23 @@ Circles circles(const GreyImage& motif, Vec2 centre, double noise) {
   result.noise = std::max(noise_energy, texture_detail::k_model_error * result.energy) / result.parameters;
   return result;
 }
+
+/// The circles about every centre that was asked for: the searches for different orders pass the same ones.
+class CircleTable {
+ public:
+  explicit CircleTable(const GreyImage& motif) : motif_(motif), noise_(pixel_noise(motif)) {}
+
+  const Circles& about(Vec2 centre) {
+    const auto [entry, is_new] = known_.try_emplace({centre.x, centre.y});
+    if (is_new) entry->second = circles(motif_, centre, noise_);
+    return entry->second;
+  }
+
+ private:
+  const GreyImage& motif_;
+  double noise_;
+  std::map<std::pair<double, double>, Circles> known_;
+};
 
 /// Energy in the multiples of n.
 double rotated(const Circles& c, int n) {
@@ -155,9 +174,9 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
   if (!is_finite(centre_px) || !inside(centre_px))
     throw InvalidInput("find_rosette_group: the centre (" + std::to_string(centre_px.x) + ", " +
                        std::to_string(centre_px.y) + ") is not within the picture, 6 pixels off its border");
-  const double noise = pixel_noise(motif);
+  CircleTable table(motif);
   const double reach = std::min(motif.width, motif.height) * k_centre_known;
-  const Circles start = circles(motif, centre_px, noise);
+  const Circles& start = table.about(centre_px);
   Candidate best;
   best.symmetry.centre_px = centre_px;
   if (!(start.energy > 0)) return best.symmetry;
@@ -169,7 +188,7 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
     for (int divisor = 2; divisor < n; ++divisor) {
       if (n % divisor != 0) continue;
       const Vec2 other = centres[static_cast<std::size_t>(divisor)];
-      if (const double now = turned(circles(motif, other, noise), n); now > most) {
+      if (const double now = turned(table.about(other), n); now > most) {
         most = now;
         centre = other;
       }
@@ -178,8 +197,7 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
       bool moved = false;
       for (const Vec2 direction : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}}) {
         const Vec2 trial = centre + step * direction;
-        const double now =
-            inside(trial) && norm(trial - centre_px) <= reach ? turned(circles(motif, trial, noise), n) : 0;
+        const double now = inside(trial) && norm(trial - centre_px) <= reach ? turned(table.about(trial), n) : 0;
         if (now <= most) continue;
         most = now;
         centre = trial;
@@ -188,7 +206,7 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
       if (!moved) step /= 2;
     }
     centres[static_cast<std::size_t>(n)] = centre;
-    Candidate candidate = rated(circles(motif, centre, noise), n);
+    Candidate candidate = rated(table.about(centre), n);
     if (candidate.criterion >= best.criterion) continue;
     best = candidate;
     best.symmetry.centre_px = centre;

@@ -23,13 +23,20 @@ void multiply_spectrum(RealFft2d& fft, int width, int height, double norm,
 }  // namespace
 
 std::vector<double> shaped_noise(int width, int height, std::uint64_t seed,
-                                 const std::function<double(double, double)>& gain) {
+                                 const std::function<double(double, double)>& gain, const Progress& progress) {
+  const auto tell = [&](double fraction) {
+    if (progress) progress("synthesis", fraction);
+  };
+  tell(0);
   RealFft2d fft(width, height);
   Random random(seed);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) fft.real(x, y) = random.normal();
+  tell(0.4);
   fft.forward();
+  tell(0.5);
   multiply_spectrum(fft, width, height, 1, gain);
+  tell(0.8);
   fft.backward();
   std::vector<double> field;
   field.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -41,6 +48,7 @@ std::vector<double> shaped_noise(int width, int height, std::uint64_t seed,
     }
   const double scale = squares > 0 ? std::sqrt(static_cast<double>(field.size()) / squares) : 0;
   for (double& value : field) value *= scale;
+  tell(1);
   return field;
 }
 

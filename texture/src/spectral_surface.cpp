@@ -40,7 +40,7 @@ Surface spectral_surface(const SpectralSurfaceOptions& options) {
       return 0.0;
     return std::pow(waves, -directional_hurst(options, x, y) - 1);
   };
-  Surface surface{n, texture_detail::shaped_noise(n, n, options.seed, gain), true};
+  Surface surface{n, texture_detail::shaped_noise(n, n, options.seed, gain, options.progress), true};
   if (std::all_of(surface.heights.begin(), surface.heights.end(), [](double h) { return h == 0; }))
     throw InvalidInput("spectral_surface: no wave of a " + std::to_string(n) + " pixel surface is between " +
                        std::to_string(options.shortest_wavelength_px) + " and " +

@@ -76,7 +76,8 @@ std::string style_of(const PlotSeries& series) {
   const char* dash = k_dashes[look / k_colours.size() % k_dashes.size()];
   const std::size_t mark = 1 + look % 13;
   switch (series.style) {
-    case Style::points: return fmt::format("with points pt {} ps 0.4 lc rgb '{}'", mark, colour);
+    case Style::line: return fmt::format("with lines lw 1.5 lc rgb '{}' dt {}", colour, dash);
+    case Style::points: return fmt::format("with points pt {} ps 0.5 lc rgb '{}'", mark, colour);
     case Style::steps: return fmt::format("with histeps lw 1.5 lc rgb '{}' dt {}", colour, dash);
     case Style::band: return "with steps lw 7 lc rgb '#cccccc'";
     case Style::bars: return fmt::format("with boxes fs solid 0.7 lc rgb '{}'", colour);
@@ -89,14 +90,21 @@ bool has_points(const Plot& plot, const PlotSeries& series) {
   return std::any_of(series.points.begin(), series.points.end(), [&](Vec2 p) { return can_be_drawn(plot, p); });
 }
 
+/// A logarithmic axis: powers of ten, or of two as plain numbers.
+std::string log_axis(char axis, double base) {
+  return fmt::format("set logscale {0} {1:g}\nset format {0} '{2}'\n", axis, base, base == 10 ? "10^{%L}" : "%g");
+}
+
 std::string axes_of(const Plot& plot) {
   std::string script;
-  if (plot.log_x) script += "set logscale x\nset format x '10^{%L}'\n";
-  if (plot.log_y) script += "set logscale y\nset format y '10^{%L}'\n";
+  if (plot.log_x) script += log_axis('x', plot.log_x_base);
+  if (plot.log_y) script += log_axis('y', 10);
   if (plot.polar)
     return script +
-           "set polar\nset angles degrees\nset size square\nset grid polar 30\nunset border\nunset tics\nset rtics\n";
-  script += "set grid lc rgb '#dddddd'\nset mytics\n";
+           "set polar\nset angles degrees\nset theta right clockwise\nset size square\nset grid polar 30\n"
+           "unset border\nunset xtics\nunset ytics\nset rtics\n" +
+           (plot.radius > 0 ? fmt::format("set rrange [0:{}]\n", plot.radius) : std::string());
+  script += "set grid lc rgb '#dddddd'\nset mytics\nset autoscale xfix\n";
   if (plot.x_labels.empty()) return script;
   script += "set xtics rotate by -40 noenhanced (";
   for (std::size_t i = 0; i < plot.x_labels.size(); ++i)
@@ -158,6 +166,12 @@ std::optional<std::string> plot_svg(const Plot& plot) {
   write_atomically(folder.path() / "plot.gp", script_of(plot));
   if (!run_gnuplot(folder.path())) return std::nullopt;
   return read_file(folder.path() / "plot.svg");
+}
+
+bool write_plot(const std::filesystem::path& file, const Plot& plot) {
+  const auto svg = plot_svg(plot);
+  if (svg) write_atomically(file, *svg);
+  return svg.has_value();
 }
 
 }  // namespace papilla::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace papilla::app {
 /// One series of a plot, in the axes' units. Points that are not finite, and points that are not positive on a
 /// logarithmic axis, are left out.
 struct PlotSeries {
-  enum class Style { line_and_points, points, steps, band, bars };
+  enum class Style { line_and_points, line, points, steps, band, bars };
   std::string name;  ///< In the legend; empty: not there.
   std::vector<Vec2> points;
   Style style = Style::line_and_points;
@@ -20,10 +21,13 @@ struct PlotSeries {
                  ///< vision [Okabe and Ito 2008], then the same ones dashed.
 };
 
-/// A plot of any number of series. In polar plots x is the angle in degrees and y the radius.
+/// A plot of any number of series. In polar plots x is the angle in degrees, clockwise from
+/// the right, and y the radius.
 struct Plot {
   std::string title = {}, x_name = {}, y_name = {};
   bool log_x = false, log_y = false, polar = false;
+  double log_x_base = 10;                  ///< 10, or 2 for ticks at powers of two.
+  double radius = 0;                       ///< Of a polar plot; 0: as the points need it.
   std::vector<std::string> x_labels = {};  ///< In place of numbers: label i stands at x = i.
   std::vector<PlotSeries> series = {};
   int width_px = 960, height_px = 520;
@@ -33,5 +37,8 @@ struct Plot {
 /// Names are data, never commands. Deterministic for one version of gnuplot.
 /// @throws IoError when the temporary folder can't be written or gnuplot fails.
 std::optional<std::string> plot_svg(const Plot& plot);
+
+/// Writes the plot as SVG. @returns whether there is one. @throws IoError as plot_svg(), and when writing fails.
+bool write_plot(const std::filesystem::path& file, const Plot& plot);
 
 }  // namespace papilla::app

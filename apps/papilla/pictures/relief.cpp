@@ -50,4 +50,21 @@ ColorImage draw_relief(const HeightMap& map, double& exaggeration) {
   return image;
 }
 
+double draw_scale_bar(ColorImage& picture, double pitch_mm) {
+  constexpr int k_least_side = 48;
+  if (std::min(picture.width, picture.height) < k_least_side || !(pitch_mm > 0)) return 0;
+  const double most_mm = picture.width * pitch_mm / 3, power = std::pow(10, std::floor(std::log10(most_mm)));
+  const double length_mm = power * (most_mm >= 5 * power ? 5 : most_mm >= 2 * power ? 2 : 1);
+  const int length = std::max(1, static_cast<int>(std::lround(length_mm / pitch_mm)));
+  const int unit = std::max(1, picture.height / 128), left = 3 * unit, bottom = picture.height - 3 * unit;
+  for (int y = bottom - 4 * unit; y < bottom; ++y)
+    for (int x = left; x < std::min(picture.width, left + length + 2 * unit); ++x) {
+      const bool inside = y >= bottom - 3 * unit && y < bottom - unit && x >= left + unit && x < left + unit + length;
+      const auto at =
+          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+      for (std::size_t c = 0; c < 3; ++c) picture.pixels[at + c] = inside ? 255 : 0;
+    }
+  return length_mm;
+}
+
 }  // namespace papilla::app

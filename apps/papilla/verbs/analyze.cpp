@@ -14,7 +14,7 @@
 #include "papilla/texture/analysis_pictures.hpp"
 #include "papilla/texture/frieze_group.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
-#include "pictures/texture_charts.hpp"
+#include "pictures/texture_plots.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -219,11 +219,17 @@ void write_pictures(const Arguments& arguments, const TextureSurvey& survey, con
   json["pictures"] = Json::array();
   write_color_image(path("symmetry.png"), symmetry_strip(*survey.symmetry));
   written("symmetry", path("symmetry.png"));
+  console.print(
+      "           from the left: picture with lattice, feature matrix with minima, primitive, synthesis, rest\n");
   if (!survey.fractal || !survey.fractal->best) return;
-  write_atomically(path("log-log.svg"), log_log_chart(series_of(*survey.fractal)));
-  written("log-log", path("log-log.svg"));
-  write_atomically(path("hurst.svg"), hurst_chart(*survey.fractal->fshot));
-  written("hurst", path("hurst.svg"));
+  for (const auto& [name, plot] : {std::pair{"log-log", log_log_plot(series_of(*survey.fractal))},
+                                   {"hurst", hurst_plot(*survey.fractal->fshot)}}) {
+    const std::string file = path((std::string(name) + ".svg").c_str());
+    if (write_plot(file, plot))
+      written(name, file);
+    else
+      console.print(fmt::format("not drawn  {}: gnuplot is not installed\n", file));
+  }
 }
 
 Json pieces_json(const TextureSurvey& survey, const Console& console) {

@@ -14,7 +14,7 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "pictures/relief.hpp"
-#include "pictures/texture_charts.hpp"
+#include "pictures/texture_plots.hpp"
 #include "vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -26,7 +26,7 @@ struct Arguments {
   std::string image, output, normal, pictures;
   std::string method = "auto", light = "auto", periodic = "auto", roughness = "whole", cut = "none";
   double rate_hz = 1000, speed_mm_per_s = 100;
-  bool variants = false;
+  bool variants = false, alternative = false;
   HeightOptions options;
 };
 
@@ -45,6 +45,11 @@ Json to_json(const HeightResult& result) {
   json["shortest_wavelength_mm"] =
       result.shortest_wavelength_mm > 0 ? Json(result.shortest_wavelength_mm) : Json(nullptr);
   json["guessed_share"] = result.guessed_share;
+  json["tile"] = nullptr;
+  if (result.tile)
+    json["tile"] = {{"size", {result.tile->width, result.tile->height}},
+                    {"lattice_vectors", result.tile->combination},
+                    {"strain", result.tile->strain}};
   json["measured"] = result.measured;
   json["assumed"] = result.assumed;
   json["stop"] = to_string(result.stop);
@@ -67,6 +72,8 @@ void print(const Console& console, const Arguments& arguments, const HeightResul
     console.print(fmt::format("pitch      {:.4f} mm a pixel\n", result.map.pitch_mm_x));
   else
     console.print("pitch      unknown: the file has no resolution, give --pitch\n");
+  if (result.tile)
+    console.print(fmt::format("tile       of the lattice, strain {:.2f} %\n", 100 * result.tile->strain));
   if (!result.trace.empty())
     console.print(fmt::format("shading    residual {:.4f} after {} steps, {:.2f} s, {}\n", result.trace.back().error,
                               result.trace.size(), result.trace.back().seconds, to_string(result.stop)));
@@ -79,33 +86,64 @@ void print(const Console& console, const Arguments& arguments, const HeightResul
   console.print(fmt::format("written    {}\n", arguments.output));
 }
 
-/// The relief as the eye would see it, and its cross-section.
+/// The relief as the eye would see it, its opposite, and its cross-section.
 Json write_pictures(const std::string& folder, HeightMap map, const Console& console) {
   namespace fs = std::filesystem;
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw IoError(folder + ": " + failure.message());
-  const std::string relief = (fs::path(folder) / "relief.png").string();
   const std::string section = (fs::path(folder) / "section.svg").string();
-  write_atomically(section, section_chart(map));
-  if (!(map.pitch_mm_x > 0)) map.pitch_mm_x = map.pitch_mm_y = 1;  // Slopes of a guess: the exaggeration sets them.
-  double exaggeration = 1;
-  write_color_image(relief, draw_relief(map, exaggeration));
-  console.print(fmt::format("written    {} and {}\n", relief, section));
-  return {{{"name", "relief"}, {"file", relief}, {"exaggeration", exaggeration}},
-          {{"name", "section"}, {"file", section}}};
+  const bool has_section = write_plot(section, section_plot(map));
+  const double pitch_mm = map.pitch_mm_x;
+  if (!(pitch_mm > 0)) map.pitch_mm_x = map.pitch_mm_y = 1;  // Slopes of a guess: the exaggeration sets them.
+  Json json = Json::array();
+  const auto draw = [&](const char* name, const HeightMap& relief) {
+    const std::string file = (fs::path(folder) / fmt::format("{}.png", name)).string();
+    double exaggeration = 1;
+    ColorImage picture = draw_relief(relief, exaggeration);
+    const double bar_mm = draw_scale_bar(picture, pitch_mm);
+    write_color_image(file, picture);
+    console.print(fmt::format("written    {}, heights times {:.3g}{}\n", file, exaggeration,
+                              bar_mm > 0 ? fmt::format(", the bar is {:g} mm", bar_mm) : ""));
+    json.push_back({{"name", name},
+                    {"file", file},
+                    {"exaggeration", exaggeration},
+                    {"scale_bar_mm", bar_mm > 0 ? Json(bar_mm) : Json(nullptr)}});
+  };
+  draw("relief", map);
+  draw("relief-opposite", opposite_relief(map));
+  console.print(has_section ? fmt::format("written    {}\n", section)
+                            : fmt::format("not drawn  {}: gnuplot is not installed\n", section));
+  if (has_section) json.push_back({{"name", "section"}, {"file", section}});
+  return json;
+}
+
+/// FILE-suffix.ext beside FILE.ext.
+std::string beside(const std::string& output, std::string_view suffix) {
+  const std::filesystem::path path = output;
+  return (path.parent_path() / fmt::format("{}-{}{}", path.stem().string(), suffix, path.extension().string()))
+      .string();
+}
+
+/// The relief that the opposite light would make of the same picture, beside the output.
+Json write_alternative(const std::string& output, const HeightResult& result, const Console& console) {
+  const std::string file = beside(output, "opposite");
+  write_height_file(file, opposite_relief(result.map));
+  console.print(fmt::format("written    {}: the same picture under the opposite light\n", file));
+  const bool lit = result.method != HeightMethod::intensity;
+  return {{"file", file},
+          {"light", lit ? Json{-result.light.x, -result.light.y, result.light.z} : Json(nullptr)},
+          {"reason", lit ? "light from the opposite azimuth on the inverted relief gives the same picture"
+                         : "nothing in the picture says whether bright is high"}};
 }
 
 /// The same relief twice and four times as deep, beside the output.
 Json write_variants(const std::string& output, const HeightMap& map, const Console& console) {
-  const std::filesystem::path path = output;
   Json json = Json::array();
   for (const int factor : {2, 4}) {
     HeightMap deeper = map;
     for (float& height : deeper.mm) height *= static_cast<float>(factor);
-    const std::string file =
-        (path.parent_path() / fmt::format("{}-x{}{}", path.stem().string(), factor, path.extension().string()))
-            .string();
+    const std::string file = beside(output, fmt::format("x{}", factor));
     write_height_file(file, deeper);
     console.print(fmt::format("written    {}\n", file));
     json.push_back({{"factor", factor}, {"file", file}});
@@ -138,6 +176,8 @@ Json run(Arguments& arguments, VerbContext& context) {
   if (!arguments.normal.empty()) write_color_image(arguments.normal, normal_map(result.map));
   print(context.console, arguments, result);
   Json json = to_json(result);
+  json["alternative"] =
+      arguments.alternative ? write_alternative(arguments.output, result, context.console) : Json(nullptr);
   if (arguments.variants) json["variants"] = write_variants(arguments.output, result.map, context.console);
   if (!arguments.pictures.empty()) json["pictures"] = write_pictures(arguments.pictures, result.map, context.console);
   return json;
@@ -190,8 +230,13 @@ void add_height(CLI::App& program) {
       ->type_name("MM/S")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  verb->add_flag("--tile", arguments->options.tile,
+                 "One tile of the lattice, exactly periodic whatever its angle; its roughness is synthesized");
+  verb->add_flag("--alternative", arguments->alternative,
+                 "Write the relief that the opposite light would make of the same picture too");
   verb->add_flag("--variants", arguments->variants, "Write the relief twice and four times as deep too");
-  verb->add_option("--pictures", arguments->pictures, "Write the lit relief and its cross-section into DIR")
+  verb->add_option("--pictures", arguments->pictures,
+                   "Write the lit relief, its opposite and the cross-section into DIR")
       ->type_name("DIR");
 }
 

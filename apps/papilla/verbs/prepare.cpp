@@ -61,6 +61,7 @@ Json run(Arguments& arguments, VerbContext& context) {
   arguments.options.borders = border_matching(arguments.borders);
   arguments.options.flatten = !arguments.keep_gradients;
   arguments.options.contrast = !arguments.keep_contrast;
+  arguments.options.progress = context.progress;
   PreparedPicture prepared = prepare_picture(image, arguments.options);
   if (arguments.size) {
     prepared.image = scaled(prepared.image, *arguments.size, prepared.after.tiling.tiles);

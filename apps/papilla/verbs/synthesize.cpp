@@ -56,14 +56,17 @@ int levels_for(int size) {
   return levels;
 }
 
-Surface fractal_surface(const Arguments& arguments, const std::string& method, int size, std::uint64_t seed) {
-  if (method == "exact") return brownian_surface_exact({size, arguments.hurst, seed});
-  if (method == "spectral") return spectral_surface({.size = size, .hurst = arguments.hurst, .seed = seed});
+Surface fractal_surface(const Arguments& arguments, const std::string& method, int size, const VerbContext& context) {
+  const std::uint64_t seed = context.seed;
+  if (method == "exact") return brownian_surface_exact({size, arguments.hurst, seed, context.progress});
+  if (method == "spectral")
+    return spectral_surface({.size = size, .hurst = arguments.hurst, .seed = seed, .progress = context.progress});
   return midpoint_surface({.levels = levels_for(size),
                            .hurst = arguments.hurst,
                            .periodic = arguments.tile,
                            .rule = method == "cho" ? MidpointRule::cho : MidpointRule::corrected,
-                           .seed = seed});
+                           .seed = seed,
+                           .progress = context.progress});
 }
 
 /// The surface as picture and as relief of the size and height asked for.
@@ -76,10 +79,10 @@ Synthesized scaled(const Arguments& arguments, std::string method, const Surface
   return result;
 }
 
-Synthesized fractal(const Arguments& arguments, std::uint64_t seed) {
+Synthesized fractal(const Arguments& arguments, const VerbContext& context) {
   const std::string method = arguments.tile && arguments.method == "exact" ? "spectral" : arguments.method;
   const int size = arguments.size.value_or(method == "spectral" ? 256 : 257);
-  return scaled(arguments, method, fractal_surface(arguments, method, size, seed));
+  return scaled(arguments, method, fractal_surface(arguments, method, size, context));
 }
 
 /// The graph as a picture of one row and as a relief that is the same in every row.
@@ -104,7 +107,8 @@ Json signature_json(const FshotSignature& s) {
 
 Synthesized like(const Arguments& arguments, const VerbContext& context, Json& json) {
   const GreyImage image = read_grey_image(arguments.like);
-  const SurfaceLike result = surface_like(image, {.size = arguments.size.value_or(256), .seed = context.seed});
+  const SurfaceLike result =
+      surface_like(image, {.size = arguments.size.value_or(256), .seed = context.seed, .progress = context.progress});
   json["like"] = {{"image", arguments.like},
                   {"target", signature_json(result.target)},
                   {"achieved", signature_json(result.achieved)},
@@ -119,7 +123,7 @@ Synthesized like(const Arguments& arguments, const VerbContext& context, Json& j
 Synthesized made(const Arguments& arguments, const VerbContext& context, Json& json) {
   if (!arguments.like.empty()) return like(arguments, context, json);
   if (arguments.what == "grain") return grain(arguments, context.seed);
-  return arguments.method == "brownian-graph" ? graph(arguments, context.seed) : fractal(arguments, context.seed);
+  return arguments.method == "brownian-graph" ? graph(arguments, context.seed) : fractal(arguments, context);
 }
 
 Json run(Arguments& arguments, VerbContext& context) {

@@ -10,6 +10,7 @@
 #include "papilla/core/progress.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/vec.hpp"
+#include "papilla/texture/commensurate_tile.hpp"
 #include "papilla/texture/height_map.hpp"
 #include "papilla/texture/image.hpp"
 
@@ -54,6 +55,10 @@ struct HeightOptions {
   double shortest_wavelength_mm =
       0;                   ///< Waves shorter than this are left out of the result; 0 keeps all. Needs a pitch.
   std::uint64_t seed = 1;  ///< Of synthesized roughness.
+  /// One upright tile of the lattice instead of the whole picture, exactly periodic at any angle of the lattice; see
+  /// HeightResult::tile. The relief is that of the symmetric part; `whole` and `residual` become `synthesized`, because
+  /// what does not repeat can't tile. Needs a lattice.
+  bool tile = false;
   Progress progress = {};
 };
 
@@ -73,6 +78,7 @@ struct HeightResult {
   /// Share of the slopes' power that runs across the light: shading shows it to second order only, so that much of the
   /// relief is guessed. 0 for intensity.
   double guessed_share = 0;
+  std::optional<CommensurateTile> tile;        ///< When one was asked for: its size and the strain it costs.
   std::vector<std::string> measured, assumed;  ///< What rests on the picture, and what on nothing.
   Trace trace;                                 ///< See ShadingResult; empty for intensity.
   StopReason stop = StopReason::direct;
@@ -83,7 +89,17 @@ struct HeightResult {
 /// picture is a guess under the assumptions of the method and of estimate_light().
 /// Periodic pictures give exactly periodic heights. A flat or black picture gives a flat map. Every height is finite.
 /// Cost: that of the method; variational takes about 0.15 s at 256². Deterministic.
-/// @throws InvalidInput when the picture is empty or not finite, or an option is out of range.
+/// Memory: about 16 bytes a pixel beside the picture, twice that with roughness or a cut, and a constant; pictures of
+/// any size.
+/// @throws InvalidInput when the picture is empty or not finite, an option is out of range, or a tile is asked for and
+/// the picture has no lattice.
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options = {});
+
+/// The other relief that the same picture allows: h → highest + lowest − h. Light from the opposite azimuth on the
+/// inverted relief gives the same picture, R(−p, −q; −s_x, −s_y) = R(p, q; s_x, s_y), so that one picture can't tell
+/// them apart; nor can it tell bright as high from dark as high. The light that goes with it is (−s_x, −s_y, s_z).
+/// Belhumeur, Kriegman and Yuille, The bas-relief ambiguity, 1999.
+/// @throws InvalidInput when the relief is empty or not finite.
+HeightMap opposite_relief(const HeightMap& relief);
 
 }  // namespace papilla

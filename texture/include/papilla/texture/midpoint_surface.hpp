@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "papilla/core/progress.hpp"
 #include "papilla/texture/surface.hpp"
 
 namespace papilla {
@@ -21,6 +22,7 @@ struct MidpointOptions {
   bool periodic = false;  ///< Tiles: 2^levels samples a side instead of 2^levels + 1.
   MidpointRule rule = MidpointRule::corrected;
   std::uint64_t seed = 1;
+  Progress progress = {};
 };
 
 /// Fractal surface by midpoint displacement, in units in which points one side apart differ by variance 1.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "papilla/core/progress.hpp"
 #include "papilla/texture/surface.hpp"
 
 namespace papilla {
@@ -17,6 +18,7 @@ struct SpectralSurfaceOptions {
   std::uint64_t seed = 1;
   std::optional<double> hurst_across = {};  ///< H across `angle_deg`; `hurst` then is that along it.
   double angle_deg = 0;                     ///< From x (right) towards y (down).
+  Progress progress = {};
 };
 
 /// Periodic Gaussian surface with spectral density ∝ |k|^(−2H−2) between the two wavelengths and rms height 1:

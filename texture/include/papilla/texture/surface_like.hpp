@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "papilla/core/progress.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/texture/fshot_dimension.hpp"
 #include "papilla/texture/image.hpp"
@@ -16,6 +17,7 @@ struct SurfaceLikeOptions {
   int size = 256;  ///< Samples a side, 64 to 4096.
   int rounds = 6;  ///< Most corrections of the two Hurst exponents.
   std::uint64_t seed = 1;
+  Progress progress = {};
 };
 
 /// What surface_like() returns.
