@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes docs/evidence/README.md from the pages beside it: node evidence_index.mjs DOCS [--check]
 import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join, relative } from 'node:path';
 import { anchorOf, firstParagraph, headings, tableAfter } from './markdown.mjs';
 
 const [docs, mode] = process.argv.slice(2);
@@ -81,15 +81,20 @@ function stableTables(pages) {
   return `${extremes()}${whole}\n${table(['table', 'rows'], rows)}`;
 }
 
+/** Links of a page of docs/ as they are from docs/evidence. */
+function linksFrom(page, text) {
+  return text.replace(/\]\((?![a-z]+:)([^)#]*)/g, (_, target) => `](${relative('evidence', target ? join(dirname(page), target) : page)}`);
+}
+
 function limits() {
   const ofMethods = list(join(docs, 'methods')).map((name) => {
     const text = readFileSync(join(docs, 'methods', name), 'utf8');
-    return [`[${headings(text)[0].text}](../methods/${name}#limits)`, firstParagraph(text, 'Limits').replace(/\n/g, ' ')];
+    return [`[${headings(text)[0].text}](../methods/${name}#limits)`, linksFrom(`methods/${name}`, firstParagraph(text, 'Limits')).replace(/\n/g, ' ')];
   });
   const ofPages = list(docs).flatMap((name) => headings(readFileSync(join(docs, name), 'utf8'))
     .filter((h) => h.level > 1 && LIMIT_SECTION.test(h.text)).map((h) => `- [${name.replace(/\.md$/, '')}: ${h.text}](../${name}#${anchorOf(h.text)})\n`));
   const inWords = list(docs).flatMap((name) => readFileSync(join(docs, name), 'utf8').split('\n\n').filter((p) => p.startsWith('Limits: '))
-    .map((p) => `- [${name.replace(/\.md$/, '')}](../${name}): ${p.slice(8).replaceAll('\n', ' ')}\n`));
+    .map((p) => `- [${name.replace(/\.md$/, '')}](../${name}): ${linksFrom(name, p.slice(8)).replaceAll('\n', ' ')}\n`));
   return `${table(['method', 'where it breaks down'], ofMethods)}${inWords.join('')}${ofPages.join('')}\n`;
 }
 
