@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Curves as SVG, drawn by gnuplot.
 import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { readCsv } from './csv.mjs';
 
@@ -12,11 +13,13 @@ const quote = (text) => `'${text.replaceAll("'", "''").replaceAll('\n', ' ')}'`;
  */
 function draw(file, { x, y, log, series }) {
   const loud = series.filter((s) => !s.quiet), all = [...series.filter((s) => s.quiet), ...loud];
-  const style = (s) => s.quiet ? "lc rgb '#b5bcc4' lw 1 pt 7 ps 0.3 notitle" : `lc rgb '${COLOURS[loud.indexOf(s) % COLOURS.length]}' lw 2 pt ${5 + 2 * (loud.indexOf(s) % 5)} ps 0.6 title ${quote(s.title)}`;
-  const script = `set terminal svg size 760,420 enhanced background '#ffffff' font 'sans-serif,13'
+  const points = (type, size) => log ? `pt ${type} ps ${size}` : '';
+  const style = (s, at = loud.indexOf(s)) => s.quiet ? `lc rgb '#b5bcc4' lw 1 ${points(7, 0.3)} notitle`
+    : `lc rgb '${COLOURS[at % COLOURS.length]}' lw 2 ${points(5 + 2 * (at % 5), 0.6)} title ${quote(s.title)}`;
+  const script = `set terminal svg size 820,${400 + 20 * loud.length} enhanced background '#ffffff' font 'sans-serif,13'
 set output ${quote(file)}
 set termoption noenhanced
-set key outside right top width -2
+set key below left maxcols 1
 set grid lc rgb '#d8dde2'
 set xlabel ${quote(x)}
 set ylabel ${quote(y)}
@@ -27,20 +30,37 @@ ${all.map((s) => `${s.points.map((p) => p.join(' ')).join('\n')}\ne`).join('\n')
   execFileSync('gnuplot', { input: script, stdio: ['pipe', 'inherit', 'inherit'] });
 }
 
-/** The curves of a method in front of those of all others: `input` and `error_name` are those of its first row. */
-export function drawEvaluation(csv, file, method) {
-  const rows = readCsv(csv).filter((r) => (r.repeat ?? '0') === '0' && Number(r.error) > 0 && Number(r.seconds) > 0);
-  const first = rows.find((r) => r.method === method);
-  if (!first) throw new Error(`${csv}: holds no method ${method}`);
-  const curves = new Map();
-  for (const row of rows) {
-    if (row.error_name !== first.error_name || row.input !== first.input) continue;
-    const name = row.solver ? `${row.method} (${row.solver})` : row.method;
-    if (!curves.has(name)) curves.set(name, { title: name, quiet: row.method !== method, points: [] });
-    curves.get(name).points.push([row.seconds, row.error]);
-  }
-  draw(file, { x: 'run time [s]', y: first.error_name, log: true, series: [...curves.values()] });
-  return { error: first.error_name, input: basename(first.input) };
+/** The kind of error of a method's curves: one that goes over several samples, and of these the one that most methods have. */
+function errorToShow(runs, method) {
+  const weight = (error) => {
+    const same = runs.filter((r) => r.error_name === error);
+    return [same.some((r) => r.method === method && r.trace.length > 2) ? 1 : 0, new Set(same.map((r) => r.method)).size];
+  };
+  const names = [...new Set(runs.filter((r) => r.method === method && r.trace.length).map((r) => r.error_name))];
+  return names.map((name) => ({ name, weight: weight(name) })).sort((a, b) => b.weight[0] - a.weight[0] || b.weight[1] - a.weight[1])[0]?.name;
+}
+
+const nameOf = (run) => run.solver ? `${run.method} (${run.solver})` : run.method;
+
+/** With the last of the notes where names repeat: what the runs differ in. */
+function titleOf(run, runs) {
+  const alone = runs.filter((o) => nameOf(o) === nameOf(run)).length < 2;
+  return alone ? nameOf(run) : `${nameOf(run)}, ${(run.notes ?? '').split('; ').at(-1)}`;
+}
+
+/**
+ * The curves of a method in front of all others, from the JSON of `papilla evaluate`.
+ * @param variant part of the solver's name, to show only these in front
+ */
+export function drawEvaluation(json, file, method, variant = '') {
+  const { runs } = JSON.parse(readFileSync(json, 'utf8')), error = errorToShow(runs, method);
+  if (!error) throw new Error(`${json}: holds no method ${method}`);
+  const input = runs.find((r) => r.method === method && r.error_name === error).input;
+  const series = runs.filter((r) => r.error_name === error && r.input === input).map((r) => ({
+    title: titleOf(r, runs.filter((o) => o.error_name === error && o.input === input)), quiet: r.method !== method || !r.solver.includes(variant),
+    points: r.trace.filter((s) => s.seconds > 0 && s.error > 0).map((s) => [s.seconds, s.error]) })).filter((s) => s.points.length);
+  draw(file, { x: 'run time [s]', y: error, log: true, series });
+  return { error, input: basename(input), others: series.some((s) => s.quiet) };
 }
 
 const size = (row, name) => Math.hypot(...['x', 'y', 'z'].map((c) => Number(row[`${name}_${c}`])));

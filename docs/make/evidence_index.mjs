@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes docs/evidence/README.md from the pages beside it: node evidence_index.mjs DOCS [--check]
-import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { dirname, join, relative } from 'node:path';
 import { anchorOf, firstParagraph, headings, tableAfter } from './markdown.mjs';
 
 const [docs, mode] = process.argv.slice(2);
@@ -64,24 +64,37 @@ function curves() {
   return `Every method has a page with its formula, its limits and, on the built site (\`./run docs\`), its error over run time: [methods](../methods/README.md) (${methods.length}). \`papilla evaluate\` draws the same on your input.\n\n`;
 }
 
+/** The run of `papilla evaluate stability` that the pages hold. */
+function extremes() {
+  const file = join(docs, 'stability.md');
+  if (!existsSync(file)) return '';
+  const text = readFileSync(file, 'utf8'), parts = headings(text).filter((h) => h.level === 2);
+  return `- [stability](../stability.md): every method on input that was made to break it: ${parts.map((h) => `[${h.text}](../stability.md#${anchorOf(h.text)})`).join(', ')}\n`;
+}
+
 function stableTables(pages) {
   const rows = pages.flatMap((page) => headings(page.text).filter((h) => h.level === 2 && STABLE_SECTION.test(h.text)).map((h) => {
     const lines = tableAfter(page.text, h.text) ?? [];
     return [`[${page.title}: ${h.text}](${page.name}#${anchorOf(h.text)})`, lines.length];
   }));
   const whole = pages.filter((p) => !p.promises.length).map((p) => `- ${link(p)}: ${firstParagraph(p.text).replace(/\n/g, ' ')}\n`).join('');
-  return `${whole}\n${table(['table', 'rows'], rows)}`;
+  return `${extremes()}${whole}\n${table(['table', 'rows'], rows)}`;
+}
+
+/** Links of a page of docs/ as they are from docs/evidence. */
+function linksFrom(page, text) {
+  return text.replace(/\]\((?![a-z]+:)([^)#]*)/g, (_, target) => `](${relative('evidence', target ? join(dirname(page), target) : page)}`);
 }
 
 function limits() {
   const ofMethods = list(join(docs, 'methods')).map((name) => {
     const text = readFileSync(join(docs, 'methods', name), 'utf8');
-    return [`[${headings(text)[0].text}](../methods/${name}#limits)`, firstParagraph(text, 'Limits').replace(/\n/g, ' ')];
+    return [`[${headings(text)[0].text}](../methods/${name}#limits)`, linksFrom(`methods/${name}`, firstParagraph(text, 'Limits')).replace(/\n/g, ' ')];
   });
   const ofPages = list(docs).flatMap((name) => headings(readFileSync(join(docs, name), 'utf8'))
     .filter((h) => h.level > 1 && LIMIT_SECTION.test(h.text)).map((h) => `- [${name.replace(/\.md$/, '')}: ${h.text}](../${name}#${anchorOf(h.text)})\n`));
   const inWords = list(docs).flatMap((name) => readFileSync(join(docs, name), 'utf8').split('\n\n').filter((p) => p.startsWith('Limits: '))
-    .map((p) => `- [${name.replace(/\.md$/, '')}](../${name}): ${p.slice(8).replaceAll('\n', ' ')}\n`));
+    .map((p) => `- [${name.replace(/\.md$/, '')}](../${name}): ${linksFrom(name, p.slice(8)).replaceAll('\n', ' ')}\n`));
   return `${table(['method', 'where it breaks down'], ofMethods)}${inWords.join('')}${ofPages.join('')}\n`;
 }
 

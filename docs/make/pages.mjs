@@ -32,9 +32,9 @@ class PageMaker {
   }
 
   curve(text) {
-    const [file, method] = text.split(' '), name = this.place('.svg');
-    const { error, input } = drawEvaluation(join(runs, file), join(this.folder, name), method);
-    return `![Error over run time](${name})\n\n*${error} over run time on ${input}; grey: the other methods of the same run.*`;
+    const [file, method, variant] = text.split(' '), name = this.place('.svg');
+    const { error, input, others } = drawEvaluation(join(runs, file), join(this.folder, name), method, variant);
+    return `![Error over run time](${name})\n\n*${error} over run time on ${input}${others ? '; grey: all others of the same run' : ''}.*`;
   }
 
   stroke(text) {

@@ -21,7 +21,8 @@ export function structureFunction({ width, height, mm }, pitch) {
     lags.push(lag * pitch);
     rms.push(Math.sqrt(sum / count));
   }
-  return [lags, rms];
+  const seen = rms.map((value) => value > 1e-3 * Math.max(...rms));  // At a period the surface meets itself: no height on a logarithmic axis.
+  return [lags.filter((_, i) => seen[i]), rms.filter((_, i) => seen[i])];
 }
 
 function tile(draw, caption) {

@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 
 /** Of the distance to the camera. */
-const MARK = 0.012, ARROW = 0.22;
+const MARK = 0.015, ARROW = 0.22;
 /** The neighbourhood that is framed first, as a share of the scene and at least in mm. */
 const AROUND = 0.04, AROUND_MM = 40;
 
@@ -50,14 +50,14 @@ export class LiveMarks {
 
   opacity(value) { this.group.traverse((o) => { if (o.material) o.material.opacity = value; }); }
 
-  /** First contact: look at it along the force. Later: keep it in the middle half of the picture. */
+  /** First contact: look at it from 30 degrees above the surface. Later: keep it in the middle half of the picture. */
   follow(contact) {
     const { camera, controls } = this.three;
     if (!this.framed && contact && this.now.force.lengthSq() > 0) {
       this.framed = true;
-      const direction = this.now.force.clone().normalize();
-      const side = new THREE.Vector3(0.5, 0.35, 0.4);
-      camera.position.copy(controls.target).add(direction.add(side));
+      const up = this.now.force.clone().normalize(), aside = camera.position.clone().sub(controls.target).projectOnPlane(up);
+      if (aside.lengthSq() === 0) aside.set(1, 1, 1).projectOnPlane(up);
+      camera.position.copy(controls.target).addScaledVector(up, 0.5).addScaledVector(aside.normalize(), 0.87);
       const half = Math.max(AROUND * this.three.size, AROUND_MM) / 2;
       return this.three.frame(new THREE.Box3().setFromCenterAndSize(this.now.proxy, new THREE.Vector3(half, half, half)), 1.2);
     }

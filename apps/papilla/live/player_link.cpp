@@ -97,6 +97,7 @@ void PlayerLink::enter(const char* state, std::string greeting) {
   state_ = state;
   greeting_ = std::move(greeting);
   state_turn_ = ++turn_;
+  sample_turn_ = 0;  // Of the state before: nobody who comes now shall take it for what happens.
   changed_.notify_all();
 }
 
