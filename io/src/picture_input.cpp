@@ -69,6 +69,7 @@ bool check_png_from(const ByteSource& next, const fs::path& path) {
 
 bool check_png_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(path.string() + ": cannot be read");
   std::string block;
   return check_png_from(
       [&](std::size_t count) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "papilla/core/error.hpp"
 #include "papilla/texture/shading.hpp"
@@ -83,6 +85,18 @@ INSTANTIATE_TEST_SUITE_P(Methods, Pieces,
                                          Case{shape_from_shading_pentland, true, 0.02},
                                          Case{shape_from_shading_variational, false, 0.05},
                                          Case{shape_from_shading_variational, true, 0.02}));
+
+TEST(ShapeFromShadingPieces, NarrowPeriodicPicturesAreThatOfTheWhole) {
+  for (const auto& [width, height] : {std::pair{40, 600}, {600, 40}, {1, 500}}) {
+    ShadingOptions options;
+    options.periodic = true;
+    options.iterations = 100;
+    const GreyImage image = test::noise_image(width, height, 8);
+    const std::vector<double> whole = shape_from_shading_tsai_shah(image, options).height_px;
+    options.largest_piece_px = 256;
+    EXPECT_EQ(shape_from_shading_tsai_shah(image, options).height_px, whole) << width;
+  }
+}
 
 TEST(ShapeFromShadingPieces, StripsAndOddSidesGiveAsManyHeights) {
   for (const Method method :

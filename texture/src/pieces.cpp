@@ -46,14 +46,16 @@ std::vector<PieceSpan> piece_spans(int side, const PieceLayout& layout) {
   const auto start_of = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(k) * side / count); };
   // A lone piece of a side that does not go on shares nothing; one that goes on is mixed with its own other end.
   const int overlap = count == 1 && !layout.periodic ? 0 : std::min(layout.overlap, side / count / 2);
+  // Without overlap a lone piece is the whole side, and what lies beyond its ends is itself.
+  const bool whole = count == 1 && layout.overlap == 0;
   std::vector<PieceSpan> spans;
   for (int k = 0; k < count; ++k) {
     const int start = start_of(k), own = start_of(k + 1) - start;
     const bool opens = layout.periodic || k > 0, goes_on = layout.periodic || k + 1 < count;
-    const int before = layout.periodic ? layout.before : std::min(start, layout.before);
+    const int before = whole ? 0 : layout.periodic ? layout.before : std::min(start, layout.before);
     PieceSpan span{start - before, std::vector<double>(static_cast<std::size_t>(before), 0.0)};
     for (int i = 0; i < own + (goes_on ? overlap : 0); ++i) {
-      const double rise = opens ? (i + 1.0) / (overlap + 1) : 1;
+      const double rise = opens && !whole ? (i + 1.0) / (overlap + 1) : 1;
       const double fall = i < own ? 1 : static_cast<double>(own + overlap - i) / (overlap + 1);
       span.weights.push_back(std::min(rise, 1.0) * fall);
     }

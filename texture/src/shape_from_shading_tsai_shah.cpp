@@ -22,20 +22,25 @@ using Field = std::vector<double>;
 constexpr const char* k_name = "shape_from_shading_tsai_shah";
 constexpr std::string_view k_stage = "shape from shading";
 
+/// Whether the picture goes on at its left and at its upper border.
+struct Wraps {
+  bool across, down;
+};
+
 /// Calls told(squared error of every pixel, step) after each step.
 template <class Told>
-Field iterate(const GreyImage& image, const ShadingOptions& options, const Told& told) {
+Field iterate(const GreyImage& image, const ShadingOptions& options, Wraps wraps, const Told& told) {
   const Vec3 s = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
   constexpr double k_noise = 1e-8, k_first_gain = 0.01;  // W and S of the paper.
   const Field target = texture_detail::brightness(image, options.albedo);
   Field z(target.size(), 0.0), next(target.size()), gain(target.size(), k_first_gain), squares(target.size());
-  const auto before = [&](int i, int count) { return i > 0 ? i - 1 : options.periodic ? count - 1 : 0; };
+  const auto before = [](int i, int count, bool on) { return i > 0 ? i - 1 : on ? count - 1 : 0; };
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         const std::size_t i = pixel_index(x, y, image.width);
-        const std::size_t left = pixel_index(before(x, image.width), y, image.width);
-        const std::size_t up = pixel_index(x, before(y, image.height), image.width);
+        const std::size_t left = pixel_index(before(x, image.width, wraps.across), y, image.width);
+        const std::size_t up = pixel_index(x, before(y, image.height, wraps.down), image.width);
         const Reflectance r = reflectance(s, z[i] - z[left], z[i] - z[up]);
         const double error = target[i] - r.value;
         // A border pixel that is its own neighbour has no slope in that direction to change.
@@ -54,8 +59,6 @@ Field iterate(const GreyImage& image, const ShadingOptions& options, const Told&
 /// A piece that sees as many pixels to its left and above as there are steps gives what the whole picture would.
 Field iterate_by_pieces(const GreyImage& image, const ShadingOptions& options, ShadingResult& result) {
   const Stopwatch clock;
-  ShadingOptions local = options;
-  local.periodic = false;
   texture_detail::PieceLayout layout;
   layout.core = options.largest_piece_px / 2;
   layout.before = std::min(options.iterations, layout.core);
@@ -65,7 +68,9 @@ Field iterate_by_pieces(const GreyImage& image, const ShadingOptions& options, S
   Field z = texture_detail::solve_by_pieces(
       image, layout,
       [&](const texture_detail::Piece& piece) {
-        return iterate(piece.image, local, [&](const Field& squares, int iteration) {
+        const Wraps wraps{options.periodic && piece.across.length() == image.width,
+                          options.periodic && piece.down.length() == image.height};
+        return iterate(piece.image, options, wraps, [&](const Field& squares, int iteration) {
           double sum = 0;
           for (int y = 0; y < piece.down.length(); ++y)
             for (int x = 0; x < piece.across.length(); ++x)
@@ -94,11 +99,12 @@ ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const Shading
     result.height_px = iterate_by_pieces(image, options, result);
   } else {
     const Stopwatch clock;
-    result.height_px = iterate(image, options, [&](const Field& squares, int iteration) {
-      const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-      result.trace.push_back({clock.seconds(), std::sqrt(sum / static_cast<double>(squares.size()))});
-      if (options.progress) options.progress(k_stage, (iteration + 1.0) / options.iterations);
-    });
+    result.height_px =
+        iterate(image, options, {options.periodic, options.periodic}, [&](const Field& squares, int iteration) {
+          const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+          result.trace.push_back({clock.seconds(), std::sqrt(sum / static_cast<double>(squares.size()))});
+          if (options.progress) options.progress(k_stage, (iteration + 1.0) / options.iterations);
+        });
   }
   texture_detail::remove_mean(result.height_px);
   return result;

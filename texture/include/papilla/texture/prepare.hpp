@@ -64,7 +64,7 @@ struct PreparedPicture {
 /// Knots are only reported: what they hide is not in the picture. Colours are for the caller.
 /// In pictures over 2048 pixels a side the Gaussians are taken of a smaller copy on which they still span eight pixels,
 /// and the overlap is searched from coarse to fine. Cost: O(pixels · log) and the feature matrix; about 0.1 s at 512²;
-/// 16 bytes a pixel beside the picture. Deterministic.
+/// at most 16 bytes a pixel beside the picture. Deterministic.
 /// @throws InvalidInput when the picture is smaller than 16 pixels a side, empty or not finite, or an option is out of
 /// range.
 /// Schulze 2005, section 4.3.2; Efros and Freeman, Image quilting for texture synthesis and transfer, 2001.
