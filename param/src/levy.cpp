@@ -380,12 +380,8 @@ LevyResult flatten_levy(const TriangleMesh& mesh, const ChartSet& charts, const 
                          {square_mm * sums.smoothness, square_mm * sums.orthogonality, square_mm * sums.length}});
     return map;
   };
-  DriverOptions driver;
-  driver.function = k_function;
-  driver.up = options.up;
-  driver.fall_back = options.fall_back;
+  DriverOptions driver = driver_options(k_function, options);
   driver.error_per_area = false;
-  driver.projection = options.projection;
   result.flattening = flatten_charts(mesh, charts, method, driver);
   std::sort(of_charts.begin(), of_charts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [position, sums] : of_charts) {

@@ -50,6 +50,10 @@ Json runs_json(const std::vector<EvaluationRun>& runs) {
   return json;
 }
 
+std::string run_name(const EvaluationRun& run) {
+  return run.solver.empty() ? run.method : run.method + " (" + run.solver + ")";
+}
+
 std::string runs_csv(const std::vector<EvaluationRun>& runs) {
   std::string csv = "method,solver,input,error_name,seconds,error\r\n";
   for (const EvaluationRun& run : runs)
@@ -65,7 +69,7 @@ std::vector<EvaluationPicture> runs_pictures(const std::vector<EvaluationRun>& r
   for (const EvaluationRun& run : runs) {
     const std::pair key{run.input, run.error_name};
     if (!groups.contains(key)) order.push_back(key);
-    groups[key].push_back({run.solver.empty() ? run.method : run.method + " (" + run.solver + ")", run.trace});
+    groups[key].push_back({run_name(run), run.trace});
   }
   std::vector<EvaluationPicture> pictures;
   for (const auto& key : order) {

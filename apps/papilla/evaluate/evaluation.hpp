@@ -63,6 +63,9 @@ std::span<const EvaluationKind> evaluation_kinds();
 /// runs[] {method, solver, input, error_name, trace[] {seconds, error}, stop, notes}.
 Json runs_json(const std::vector<EvaluationRun>& runs);
 
+/// METHOD, or METHOD (SOLVER).
+std::string run_name(const EvaluationRun& run);
+
 /// method,solver,input,error_name,seconds,error: a line a sample, fields quoted as RFC 4180 has it.
 std::string runs_csv(const std::vector<EvaluationRun>& runs);
 

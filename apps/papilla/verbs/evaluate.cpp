@@ -30,7 +30,7 @@ const EvaluationKind& kind_of(const std::string& name) {
 std::string table_of(const std::vector<EvaluationRun>& runs) {
   std::string table;
   for (const EvaluationRun& run : runs) {
-    table += fmt::format("{} ({}), {}: {}\n", run.method, run.solver, run.input, run.error_name);
+    table += fmt::format("{}, {}: {}\n", run_name(run), run.input, run.error_name);
     for (const TraceSample& s : run.trace) table += fmt::format("  {:>10.4f} s  {:.6g}\n", s.seconds, s.error);
   }
   return table;
