@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "bake/mesh_assembly.hpp"
 #include "papilla/core/error.hpp"
@@ -18,6 +19,9 @@ namespace {
 Json json_of(const MeanMax& m) { return {{"mean", m.mean}, {"max", m.max}}; }
 Json json_of(const MinMeanMax& m) { return {{"min", m.min}, {"mean", m.mean}, {"max", m.max}}; }
 Json json_of(const Percentiles& p) { return {{"p50", p.p50}, {"p90", p.p90}, {"p99", p.p99}}; }
+
+/// Symmetric Dirichlet of a map that changes no length.
+constexpr double k_isometry = 4;
 
 /// Upper ends of the bins; a last one follows without end.
 constexpr std::array k_dirichlet_bins{4.0001, 4.001, 4.003, 4.01, 4.03, 4.1, 4.3, 5.0, 7.0, 14.0, 104.0};
@@ -98,17 +102,57 @@ Json distortion_json(const DistortionReport& r) {
           {"uv_area", r.uv_area}};
 }
 
-std::string distortion_text(const DistortionReport& r) {
-  return fmt::format(
+Json worst_chart_json(const Scene& scene, const SceneDistortion& distortion) {
+  struct Sums {
+    double area = 0, excess = 0;
+    std::size_t worst = 0;  ///< Triangle.
+  };
+  const std::vector<TriangleDistortion>& triangles = distortion.report.per_triangle;
+  std::map<std::uint32_t, Sums> charts;
+  double total = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const TriangleDistortion& d = triangles[t];
+    if (!d.measured) continue;
+    const auto [chart, is_new] = charts.try_emplace(d.chart);
+    Sums& sums = chart->second;
+    if (is_new || d.symmetric_dirichlet > triangles[sums.worst].symmetric_dirichlet) sums.worst = t;
+    const double excess = d.area_mm2 * (d.symmetric_dirichlet - k_isometry);
+    sums.area += d.area_mm2, sums.excess += excess, total += excess;
+  }
+  if (!(total > 0)) return {};
+  const auto& [chart, sums] = *std::max_element(
+      charts.begin(), charts.end(), [](const auto& a, const auto& b) { return a.second.excess < b.second.excess; });
+  const std::uint32_t part = distortion.part[sums.worst];
+  const auto first = std::lower_bound(distortion.part.begin(), distortion.part.end(), part) - distortion.part.begin();
+  return {{"part", scene.parts[part].name},
+          {"chart", chart},
+          {"triangle", sums.worst - static_cast<std::size_t>(first)},
+          {"symmetric_dirichlet",
+           {{"mean", k_isometry + sums.excess / sums.area}, {"max", triangles[sums.worst].symmetric_dirichlet}}},
+          {"area_mm2", sums.area},
+          {"share_of_distortion", sums.excess / total}};
+}
+
+std::string distortion_text(const DistortionReport& r, const Json& worst_chart) {
+  std::string text = fmt::format(
       "{} triangles in {} charts, seams {:.1f} mm\n"
       "flipped {}, mirrored charts {}, degenerate {} in space and {} in uv\n"
       "overlap {:.4g} of the uv area, {:.4g} within charts\n"
-      "symmetric Dirichlet {:.4f} (max {:.4g}), stretch L2 {:.4f}, L∞ {:.4g}\n"
+      "symmetric Dirichlet {:.4f} by area, half below {:.4f}, 99 % below {:.4f}, max {:.4g}\n"
+      "stretch L2 {:.4f}, L∞ {:.4g}\n"
       "angle error {:.3f}° (max {:.3g}°), area ratio {:.4g} to {:.4g}, edge length error {:.3g}\n",
       r.triangles, r.charts, r.seam_length_mm, r.flipped, r.mirrored_charts, r.degenerate_3d, r.degenerate_uv,
-      r.overlap_area_fraction, r.overlap_within_charts, r.symmetric_dirichlet.mean, r.symmetric_dirichlet.max,
+      r.overlap_area_fraction, r.overlap_within_charts, r.symmetric_dirichlet.mean,
+      r.symmetric_dirichlet_percentiles.p50, r.symmetric_dirichlet_percentiles.p99, r.symmetric_dirichlet.max,
       r.stretch_l2, r.stretch_linf, r.angle_error_deg.mean, r.angle_error_deg.max, r.area_ratio.min, r.area_ratio.max,
       r.edge_length_error);
+  if (!worst_chart.is_null())
+    text +=
+        fmt::format("most of it in chart {} of part '{}': {:.3g} % of the distortion, at triangle {} {:.4g}\n",
+                    worst_chart["chart"].get<std::uint32_t>(), worst_chart["part"].get<std::string>(),
+                    100 * worst_chart["share_of_distortion"].get<double>(), worst_chart["triangle"].get<std::size_t>(),
+                    worst_chart["symmetric_dirichlet"]["max"].get<double>());
+  return text;
 }
 
 std::string distortion_csv(const SceneDistortion& distortion) {

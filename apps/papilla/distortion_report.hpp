@@ -26,8 +26,13 @@ SceneDistortion measure_scene(const Scene& scene, MeasureOptions options = {},
 /// The report under the key names of `measure`.
 Json distortion_json(const DistortionReport& report);
 
+/// The chart that has the largest share of the distortion, Σ A (E - 4) of symmetric Dirichlet: one sliver can own the
+/// mean. Null without any distortion.
+Json worst_chart_json(const Scene& scene, const SceneDistortion& distortion);
+
 /// A few lines for people.
-std::string distortion_text(const DistortionReport& report);
+/// @param worst_chart of worst_chart_json().
+std::string distortion_text(const DistortionReport& report, const Json& worst_chart);
 
 /// Every triangle of the scene as a line of CSV.
 std::string distortion_csv(const SceneDistortion& distortion);

@@ -154,11 +154,8 @@ AutomaticResult flatten_automatic(const TriangleMesh& mesh, const ChartSet& char
   check(options);
   check_best_options(options.best, k_function);
   std::vector<MethodChoice> choices(charts.count);
-  DriverOptions driver;
-  driver.function = k_function;
+  DriverOptions driver = driver_options(k_function, options.best);
   driver.up = options.up;
-  driver.fall_back = options.best.fall_back;
-  driver.projection = options.best.projection;
   driver.choices = &choices;
   AutomaticResult result;
   result.flattening = flatten_charts(

@@ -38,12 +38,7 @@ Flattening flatten_best(const TriangleMesh& mesh, const ChartSet& charts, const 
     for (TraceSample& sample : map.trace) sample.error *= area_of(chart);
     return map;
   };
-  DriverOptions driver;
-  driver.function = k_function;
-  driver.up = options.up;
-  driver.fall_back = options.fall_back;
-  driver.projection = options.projection;
-  return flatten_charts(mesh, charts, method, driver);
+  return flatten_charts(mesh, charts, method, driver_options(k_function, options));
 }
 
 }  // namespace papilla

@@ -43,6 +43,17 @@ struct DriverOptions {
   std::vector<MethodChoice>* choices = nullptr;  ///< Filled per chart when given; its size is that of the chart set.
 };
 
+/// With what the options of most methods have in common.
+template <class Options>
+DriverOptions driver_options(std::string_view function, const Options& options) {
+  DriverOptions driver;
+  driver.function = function;
+  driver.up = options.up;
+  driver.fall_back = options.fall_back;
+  driver.projection = options.projection;
+  return driver;
+}
+
 /// Maps every chart on its own, in parallel, and puts the maps together. The trace is the sum over the charts as if
 /// they had run at the same time.
 /// @throws InvalidInput, SolverFailure as Flattening's producers say.

@@ -195,6 +195,28 @@ void scale_apart(const ChartSurface& chart, std::vector<Vec2>& uv) {
   for (Vec2& p : uv) p = {scale.x * p.x, scale.y * p.y};
 }
 
+/// Turns and moves a map so that lines of equal u run along v as well as may be, those of equal v along u, and lines
+/// with a value to it.
+void fit_to_lines(const std::vector<Held::Line>& lines, std::vector<Vec2>& uv) {
+  Vec2 doubled;  // Σ length² (cos, sin) of twice the angle that is missing
+  for (const Held::Line& line : lines) {
+    const Vec2 d = uv[line.vertices.back()] - uv[line.vertices.front()];
+    const Vec2 twice{d.x * d.x - d.y * d.y, -2 * d.x * d.y};
+    doubled = doubled + (line.is_u ? -1.0 : 1.0) * twice;
+  }
+  const double angle = doubled == Vec2{} ? 0 : 0.5 * std::atan2(doubled.y, doubled.x);
+  const Vec2 turn{std::cos(angle), std::sin(angle)};
+  for (Vec2& p : uv) p = {turn.x * p.x - turn.y * p.y, turn.y * p.x + turn.x * p.y};
+  for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+    double miss = 0, count = 0;
+    for (const Held::Line& line : lines)
+      if (line.value && line.is_u == (axis == &Vec2::x))
+        for (const Index v : line.vertices) miss += *line.value - uv[v].*axis, ++count;
+    if (count > 0)
+      for (Vec2& p : uv) p.*axis += miss / count;
+  }
+}
+
 struct Sums {
   double smoothness = 0, orthogonality = 0, length = 0;
 };
@@ -223,7 +245,7 @@ class LevyMap {
     } else {
       map.failure = start_free();
       if (map.failure.empty()) map.stop = alternate(map.trace);
-      if (!held_.by_user) scale_apart(chart_, uv_);
+      if (free_scale_ && held_.points.empty()) scale_apart(chart_, uv_);
     }
     sums = sums_;
     if (map.failure.empty()) map.uv = std::move(uv_);
@@ -257,16 +279,40 @@ class LevyMap {
     normalise(chart_, options_.up, true, uv_);
     if (held_.points.size() >= 2) {
       fit(held_.points[0].first, held_.points[1].first, held_.points[0].second, held_.points[1].second, uv_);
-    } else if (!held_.by_user) {
-      // The vertices that lie farthest out keep the coordinate that they are extreme in; its scale comes afterwards.
-      for (const bool is_u : {true, false}) {
-        const auto less = [&](Vec2 p, Vec2 q) { return is_u ? p.x < q.x : p.y < q.y; };
-        const auto [low, high] = std::minmax_element(uv_.begin(), uv_.end(), less);
-        for (const auto v : {low, high})
-          held_.lines.push_back({{static_cast<Index>(v - uv_.begin())}, is_u, is_u ? v->x : v->y});
+    } else {
+      if (held_.points.empty()) fit_to_lines(held_.lines, uv_);
+      for (const auto& [v, place] : held_.points) {
+        const Vec2 miss = place - uv_[v];
+        for (Vec2& p : uv_) p = p + miss;
       }
+      for (const bool is_u : {true, false}) hold_extremes(is_u);
     }
     return {};
+  }
+
+  /// Unless two values are given: the vertices that lie farthest out, of those on no line, keep the coordinate that
+  /// they are extreme in. Its scale comes afterwards when no value is given at all.
+  void hold_extremes(bool is_u) {
+    double Vec2::*axis = is_u ? &Vec2::x : &Vec2::y;
+    std::vector<double> given;
+    std::vector<char> on_line(uv_.size(), 0);
+    for (const auto& [v, place] : held_.points) given.push_back(place.*axis), on_line[v] = 1;
+    for (const Held::Line& line : held_.lines) {
+      if (line.is_u != is_u) continue;
+      if (line.value) given.push_back(*line.value);
+      for (const Index v : line.vertices) on_line[v] = 1;
+    }
+    free_scale_ = free_scale_ && given.empty();
+    if (!given.empty() && *std::max_element(given.begin(), given.end()) > *std::min_element(given.begin(), given.end()))
+      return;
+    Index low = k_no_triangle, high = k_no_triangle;
+    for (Index v = 0; v < uv_.size(); ++v) {
+      if (on_line[v]) continue;
+      if (low == k_no_triangle || uv_[v].*axis < uv_[low].*axis) low = v;
+      if (high == k_no_triangle || uv_[v].*axis > uv_[high].*axis) high = v;
+    }
+    if (low == k_no_triangle) return;
+    for (const Index v : {low, high}) held_.lines.push_back({{v}, is_u, uv_[v].*axis});
   }
 
   bool is_linear() const { return options_.orthogonality == 0 && options_.length == 0 && !held_.by_user; }
@@ -355,6 +401,7 @@ class LevyMap {
   LinearRows smoothness_, length_;
   std::vector<Vec2> uv_;
   std::vector<char> fixed_;
+  bool free_scale_ = true;  ///< No values are given.
   Sums sums_;
 };
 
@@ -368,7 +415,7 @@ LevyResult flatten_levy(const TriangleMesh& mesh, const ChartSet& charts, const 
   const auto method = [&](const ChartSurface& chart) {
     const UnitChart unit = to_unit(chart);
     Held held = held_by_user(mesh, chart, unit.scale, options);
-    const bool keep_place = !held.points.empty();
+    const bool keep_place = held.by_user;
     Sums sums;
     ChartMap map = LevyMap(unit.surface, options, std::move(held)).run(sums);
     const double square_mm = 1 / (unit.scale * unit.scale);
@@ -380,12 +427,8 @@ LevyResult flatten_levy(const TriangleMesh& mesh, const ChartSet& charts, const 
                          {square_mm * sums.smoothness, square_mm * sums.orthogonality, square_mm * sums.length}});
     return map;
   };
-  DriverOptions driver;
-  driver.function = k_function;
-  driver.up = options.up;
-  driver.fall_back = options.fall_back;
+  DriverOptions driver = driver_options(k_function, options);
   driver.error_per_area = false;
-  driver.projection = options.projection;
   result.flattening = flatten_charts(mesh, charts, method, driver);
   std::sort(of_charts.begin(), of_charts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [position, sums] : of_charts) {

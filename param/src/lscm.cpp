@@ -36,12 +36,7 @@ Flattening flatten_lscm(const TriangleMesh& mesh, const ChartSet& charts, const 
     if (map.failure.empty()) map.trace.push_back({clock.seconds(), conformal_energy(chart, map.uv)});
     return map;
   };
-  DriverOptions driver;
-  driver.function = "flatten_lscm";
-  driver.up = options.up;
-  driver.fall_back = options.fall_back;
-  driver.projection = options.projection;
-  return flatten_charts(mesh, charts, method, driver);
+  return flatten_charts(mesh, charts, method, driver_options("flatten_lscm", options));
 }
 
 }  // namespace papilla

@@ -133,14 +133,10 @@ MaillotResult flatten_maillot(const TriangleMesh& mesh, const ChartSet& charts, 
     if (options.allow_flips && map.failure.empty() && !map_failure(chart, map.uv).empty()) ++overlapping;
     return map;
   };
-  DriverOptions driver;
-  driver.function = k_function;
-  driver.up = options.up;
+  DriverOptions driver = driver_options(k_function, options);
   driver.scale_to_area = false;
   driver.allow_flips = options.allow_flips;
-  driver.fall_back = options.fall_back;
   driver.error_per_area = false;
-  driver.projection = options.projection;
   MaillotResult result;
   result.flattening = flatten_charts(mesh, charts, method, driver);
   result.invalid_charts = overlapping;

@@ -29,6 +29,9 @@ constexpr double k_armijo = 1e-4;
 /// reason to keep the factorization.
 constexpr double k_good_step = 0.3;
 
+/// A small gain means convergence only where the slope did not promise this many times as much.
+constexpr double k_promise = 10;
+
 constexpr int k_halvings = 40;
 
 /// Bisections between the longest step that is accepted and the shortest that is refused.
@@ -245,7 +248,8 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
       break;
     }
     result.trace.push_back({clock.seconds(), result.energy});
-    if (std::abs(before - result.energy) <= options.tolerance * result.energy) {
+    if (std::abs(before - result.energy) <= options.tolerance * result.energy &&
+        (problem.barrier || -slope <= k_promise * options.tolerance * result.energy)) {
       result.stop = StopReason::converged;
       break;
     }

@@ -10,17 +10,20 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <tuple>
 
 #include "check_mesh.hpp"
 #include "distortion_overlap.hpp"
+#include "mesh_sides.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 
 namespace papilla {
 namespace {
 
+using param_detail::each_run;
 using param_detail::find_uv_overlap;
+using param_detail::Side;
+using param_detail::sorted_sides;
 using param_detail::UvOverlap;
 using param_detail::UvTriangle;
 
@@ -112,60 +115,6 @@ struct RawTriangle {
   PlanarPair pair;
   double area = 0, signed_uv_area = 0;
 };
-
-/// Numbers equal values alike, by sorting; -0 and 0 are equal.
-template <class T>
-std::vector<Index> number_equal(const std::vector<T>& values) {
-  std::vector<Index> order(values.size()), number(values.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  oneapi::tbb::parallel_sort(order.begin(), order.end(), [&](Index a, Index b) {
-    if (values[a] < values[b]) return true;
-    return !(values[b] < values[a]) && a < b;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    number[order[i]] = i > 0 && values[order[i]] == values[order[i - 1]] ? number[order[i - 1]] : order[i];
-  return number;
-}
-
-/// One side of a triangle, named by the points it joins: the lower position first.
-struct Side {
-  Index part;
-  Index low, high;        ///< Positions.
-  Index uv_low, uv_high;  ///< uv at these.
-  Index corner;           ///< 3 * triangle + corner where the side starts.
-  auto edge() const { return std::tie(part, low, high); }
-  auto uv_edge() const { return std::tie(part, low, high, uv_low, uv_high); }
-};
-
-std::vector<Side> sorted_sides(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
-                               const std::vector<std::uint32_t>& part) {
-  const std::vector<Index> position = number_equal(mesh.positions), plane = number_equal(uv.values);
-  std::vector<Side> sides(3 * mesh.triangles.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t l = (k + 1) % 3;
-      Side s{part.empty() ? 0 : part[t], position[mesh.triangles[t][k]], position[mesh.triangles[t][l]],
-             plane[uv.indices[t][k]],    plane[uv.indices[t][l]],        static_cast<Index>(3 * t + k)};
-      if (s.high < s.low) std::swap(s.low, s.high), std::swap(s.uv_low, s.uv_high);
-      sides[3 * t + k] = s;
-    }
-  });
-  oneapi::tbb::parallel_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.uv_edge() != b.uv_edge() ? a.uv_edge() < b.uv_edge() : a.corner < b.corner;
-  });
-  return sides;
-}
-
-/// Calls visit(first, last) for every run of sides that are equal by `key`.
-template <class Key, class Visit>
-void each_run(const std::vector<Side>& sides, Key key, Visit visit) {
-  for (std::size_t begin = 0; begin < sides.size();) {
-    std::size_t end = begin + 1;
-    while (end < sides.size() && key(sides[end]) == key(sides[begin])) ++end;
-    visit(begin, end);
-    begin = end;
-  }
-}
 
 class Measurement {
  public:

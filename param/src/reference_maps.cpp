@@ -53,12 +53,7 @@ Flattening flatten_reference(const TriangleMesh& mesh, const ChartSet& charts, c
     map.trace.push_back({seconds, total_energy({chart.triangles, &energy}, scaled)});
     return map;
   };
-  DriverOptions driver;
-  driver.function = k_function;
-  driver.up = options.up;
-  driver.fall_back = options.fall_back;
-  driver.projection = options.projection;
-  return flatten_charts(mesh, charts, method, driver);
+  return flatten_charts(mesh, charts, method, driver_options(k_function, options));
 }
 
 }  // namespace papilla

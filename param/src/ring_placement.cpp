@@ -17,12 +17,16 @@ constexpr double k_small_move = 0.01;
 /// How much larger or smaller than its rest shape a triangle may be taken when the apex is guessed from it.
 constexpr double k_most_scale = 2;
 
+/// A corner that is nearer to the vertex than this fraction of the edge between the others tells where it goes.
+constexpr double k_near = 0.1;
+
 struct Guess {
   Vec2 apex;
   double weight;
 };
 
-/// Where the triangle's own shape puts the vertex. Edges that are short for their distance say little about it.
+/// Where the triangle's own shape puts the vertex. Edges that are short for their distance say little about it, a
+/// corner that is close to it says much.
 Guess guess(const RingEdge& e) {
   const double base = e.rest.base(), along = e.rest.along(), height = e.rest.height();
   const Vec2 rest_edge{along - base, height};  // from the second to the third corner; the vertex is at the origin
@@ -37,7 +41,8 @@ Guess guess(const RingEdge& e) {
   const double offset = from_start ? s : s - length;
   const Vec2 apex = (from_start ? e.from : e.to) + (scale * offset) * d + (scale * t) * Vec2{-d.y, d.x};
   const double far = std::sqrt(along * along + height * height), trust = length * length / (base * far);
-  return {apex, e.rest.area * trust * trust};
+  const double nearness = std::max(1.0, k_near * length / std::min(base, far));
+  return {apex, e.rest.area * trust * trust * nearness * nearness};
 }
 
 using Polygon = std::vector<Vec2>;

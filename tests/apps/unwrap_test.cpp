@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "distortion_report.hpp"
+#include "exit_code.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla_test/shapes.hpp"
+#include "unwrap/held_option.hpp"
 
 namespace papilla::app {
 namespace {
@@ -121,6 +123,66 @@ TEST(Unwrap, PinsHoldTheNearestVertex) {
     }
 }
 
+TEST(Unwrap, PinsAndIsoLinesOfOnePartLeaveTheOthersAlone) {
+  UnwrapOptions options = options_of(UnwrapMethod::levy);
+  options.layout = UvLayout::tile;
+  options.method.charts = ChartSource::keep;
+  options.method.pins = {parse_pin("0,0,0=0,0@b*"), parse_pin("40,30,0=60,30@b*")};
+  options.method.iso_lines = {parse_iso_line("u=20:20,0,0;20,30,0@b*")};
+  Scene scene = scene_of(test::plane(40, 30, 8, 6));
+  scene.parts[0].name = "a";
+  scene.parts.push_back(scene.parts[0]);
+  scene.parts[1].name = "board";
+  unwrap_scene(scene, options);
+  std::size_t on_line = 0;
+  for (std::size_t t = 0; t < scene.parts[1].mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const TriangleMesh& mesh = scene.parts[1].mesh;
+      const Vec3 p = mesh.corner(t, static_cast<int>(k));
+      const Vec2 uv = mesh.uv.values[mesh.uv.indices[t][k]];
+      if (p.x == 20) {
+        EXPECT_NEAR(uv.x, 20, 1e-9);
+        ++on_line;
+      }
+      if (p.x == 40 && p.y == 30) {
+        EXPECT_NEAR(uv.x, 60, 1e-9);
+        EXPECT_NEAR(uv.y, 30, 1e-9);
+      }
+    }
+  EXPECT_GT(on_line, 12u);
+  const DistortionReport untouched = measure_distortion(scene.parts[0].mesh, scene.parts[0].mesh.uv);
+  EXPECT_NEAR(untouched.symmetric_dirichlet.max, 4, 1e-9);
+}
+
+TEST(HeldOption, ReadsPlacesLinesAndParts) {
+  const PlacedPin pin = parse_pin("1,-2,3.5=4,5@door:left");
+  EXPECT_EQ(pin.position, (Vec3{1, -2, 3.5}));
+  EXPECT_EQ(pin.uv, (Vec2{4, 5}));
+  EXPECT_EQ(pin.part, "door:left");
+  const PlacedIsoLine line = parse_iso_line("v:0,0,0;1,0,0;1,1,0");
+  EXPECT_FALSE(line.is_u);
+  EXPECT_FALSE(line.value);
+  EXPECT_EQ(line.points.size(), 3u);
+  EXPECT_TRUE(line.part.empty());
+  EXPECT_EQ(parse_iso_line("u=-2.5:0,0,0;1,0,0").value, -2.5);
+  for (const char* bad : {"", "1,2,3", "1,2,3=4", "1,2=3,4", "1,2,3=4,nan", "1,2,3=4,5,6"})
+    EXPECT_THROW(parse_pin(bad), UsageError) << bad;
+  for (const char* bad : {"", "u", "w:0,0,0;1,0,0", "u:0,0,0", "u=x:0,0,0;1,0,0", "u:0,0;1,0,0", "u:0,0,0;"})
+    EXPECT_THROW(parse_iso_line(bad), UsageError) << bad;
+}
+
+TEST(HeldOption, IsoLineTakesTheShortestPathOfEdges) {
+  const TriangleMesh mesh = test::plane(4, 3, 4, 3);
+  const LevyIsoLine line = iso_line_on(mesh, parse_iso_line("v:0,1,0;4,1,0"));
+  ASSERT_EQ(line.vertices.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(mesh.positions[line.vertices[i]], (Vec3{static_cast<double>(i), 1, 0}));
+  TriangleMesh apart = mesh;
+  for (Vec3 p : {Vec3{10, 0, 0}, Vec3{11, 0, 0}, Vec3{10, 1, 0}}) apart.positions.push_back(p);
+  const auto first = static_cast<Index>(mesh.positions.size());
+  apart.triangles.push_back({first, first + 1, first + 2});
+  EXPECT_THROW(iso_line_on(apart, parse_iso_line("v:0,1,0;10,0,0")), InvalidInput);
+}
+
 TEST(Unwrap, KeepRefusesWhatIsNoSurface) {
   TriangleMesh mesh = test::plane(1, 1, 1, 1);
   mesh.uv = {};
@@ -152,6 +214,21 @@ TEST(DistortionReport, HistogramAddsUpAndColoursAreCorners) {
   colour_by_distortion(distortion, 5, scene);
   ASSERT_EQ(scene.parts[0].mesh.colors.indices.size(), scene.parts[0].mesh.triangles.size());
   EXPECT_LT(scene.parts[0].mesh.colors.values[0].g, scene.parts[0].mesh.colors.values[0].b);  // dark blue
+}
+
+TEST(DistortionReport, NamesTheChartThatOwnsTheDistortion) {
+  Scene scene = scene_of(test::plane(4, 3, 4, 3));
+  EXPECT_TRUE(worst_chart_json(scene, measure_scene(scene)).is_null());  // an isometry
+  scene.parts.push_back(scene.parts[0]);
+  scene.parts[1].name = "bad";
+  for (Vec2& p : scene.parts[1].mesh.uv.values) p.x *= 2;
+  const Json worst = worst_chart_json(scene, measure_scene(scene));
+  EXPECT_EQ(worst.at("part"), "bad");
+  EXPECT_LT(worst.at("triangle").get<std::size_t>(), scene.parts[1].mesh.triangles.size());
+  // Areas 12 and 24 over 24 in space: stretched by f = √(2/3) and 2f beside f and f.
+  const double f2 = 2.0 / 3, bad = 5 * f2 + 1.25 / f2, other = 2 * f2 + 2 / f2;
+  EXPECT_NEAR(worst.at("symmetric_dirichlet").at("mean").get<double>(), bad, 1e-9);
+  EXPECT_NEAR(worst.at("share_of_distortion").get<double>(), (bad - 4) / (bad + other - 8), 1e-9);
 }
 
 }  // namespace

@@ -14,22 +14,7 @@ constexpr double k_pi = std::numbers::pi;
 
 /// A sphere whose radius depends on the direction, open at its lowest ring.
 TriangleMesh star(int rings, int segments, double open, const std::function<double(Vec3)>& radius) {
-  TriangleMesh mesh;
-  const auto add = [&](Vec3 d) { mesh.positions.push_back(radius(d) * d); };
-  add({0, 0, 1});
-  for (int r = 1; r <= rings; ++r)
-    for (int s = 0; s < segments; ++s) {
-      const double a = (k_pi - open) * r / rings, b = 2 * k_pi * s / segments;
-      add({std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)});
-    }
-  const auto vertex = [&](int r, int s) { return static_cast<Index>(1 + (r - 1) * segments + s % segments); };
-  for (int s = 0; s < segments; ++s) mesh.triangles.push_back({0, vertex(1, s), vertex(1, s + 1)});
-  for (int r = 1; r < rings; ++r)
-    for (int s = 0; s < segments; ++s) {
-      mesh.triangles.push_back({vertex(r, s), vertex(r + 1, s), vertex(r + 1, s + 1)});
-      mesh.triangles.push_back({vertex(r, s), vertex(r + 1, s + 1), vertex(r, s + 1)});
-    }
-  return mesh;
+  return test::sphere_mesh(rings, segments, k_pi - open, radius);
 }
 
 struct Bump {
@@ -98,6 +83,65 @@ TriangleMesh cut_torus(int around, int across) {
   });
 }
 
+TriangleMesh spikes(int rings, int segments, int count) {
+  std::vector<Bump> bumps;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * k_pi * i / count;
+    bumps.push_back({{std::cos(angle), std::sin(angle), i % 2 == 0 ? -0.2 : 0.8}, 2, 0.15});
+  }
+  return star(rings, segments, 0.4, [&](Vec3 d) { return with_bumps(d, bumps); });
+}
+
+TriangleMesh long_arms(int rings, int segments) {
+  const std::vector<Bump> arms{
+      {{0, 0, 1}, 4, 0.2}, {{1, 0, 0.2}, 4, 0.2}, {{-1, 0, 0.2}, 4, 0.2}, {{0, 1, 0}, 4, 0.2}, {{0, -1, 0}, 4, 0.2}};
+  return star(rings, segments, 0.4, [&](Vec3 d) { return with_bumps(d, arms); });
+}
+
+/// A tube along a trefoil knot, cut open along its length and at one place across it.
+TriangleMesh knot(int along, int across) {
+  const auto curve = [](double a) {
+    return Vec3{(2 + std::cos(1.5 * a)) * std::cos(a), (2 + std::cos(1.5 * a)) * std::sin(a), std::sin(1.5 * a)};
+  };
+  return test::grid_mesh(along, across, [&](double s, double t) {
+    constexpr double step = 1e-4;
+    const double a = 4 * k_pi * s, b = 2 * k_pi * t;
+    const Vec3 tangent = normalized(curve(a + step) - curve(a - step)), side = normalized(cross(tangent, {0, 0, 1}));
+    return curve(a) + 0.4 * (std::cos(b) * side + std::sin(b) * cross(tangent, side));
+  });
+}
+
+TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
+  constexpr Index unused = ~Index{0};
+  TriangleMesh result;
+  std::vector<Index> number(mesh.positions.size(), unused);
+  for (Triangle t : mesh.triangles) {
+    for (Index& v : t) {
+      if (number[v] == unused) {
+        number[v] = static_cast<Index>(result.positions.size());
+        result.positions.push_back(mesh.positions[v]);
+      }
+      v = number[v];
+    }
+    result.triangles.push_back(t);
+  }
+  return result;
+}
+
+/// A waved sheet cut into teeth.
+TriangleMesh comb(int teeth, int length) {
+  TriangleMesh mesh = test::grid_mesh(4 * teeth - 2, length, [&](double s, double t) {
+    const double x = (4 * teeth - 2) * s, y = length * t;
+    return Vec3{x, y, 3 * std::sin(x / 4) * std::cos(y / 4)};
+  });
+  const auto in_gap = [&](const Triangle& t) {
+    const Vec3 c = (1.0 / 3) * (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]);
+    return c.y > 2 && static_cast<int>(c.x) % 4 >= 2;
+  };
+  std::erase_if(mesh.triangles, in_gap);
+  return without_unused_vertices(mesh);
+}
+
 }  // namespace
 
 TriangleMesh squashed(const TriangleMesh& mesh, double height) {
@@ -151,7 +195,11 @@ std::vector<NamedMesh> curved_disks(bool quick) {
           {"head", head(110, 96)},
           {"finger of length 30", finger(120, 30)},
           {"sphere open by 0.1", star(80, 60, 0.1, [](Vec3) { return 100.0; })},
+          {"twelve spikes", spikes(120, 110, 12)},
+          {"five long arms", long_arms(140, 110)},
           {"cut torus", cut_torus(120, 60)},
+          {"trefoil knot", knot(400, 24)},
+          {"comb", comb(20, 40)},
           {"spiral of 30 levels", spiral(30)},
           {"ramp of 2.5 turns", test::grid_mesh(120, 12, test::helical_ramp)}};
 }

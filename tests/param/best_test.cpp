@@ -217,5 +217,16 @@ TEST(Best, BadInputIsNamed) {
   EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh)), InvalidInput);
 }
 
+TEST(Best, EdgesWithoutLengthToSpeakOfStayShort) {
+  TriangleMesh mesh = test::hemisphere_mesh(20, 40);
+  const double worst = valid_map(mesh).symmetric_dirichlet.max;
+  for (Index ring = 4; ring < 12; ++ring)
+    for (Index s = 0; s < 40; s += 2) {
+      Vec3 *own = &mesh.positions[1 + (ring - 1) * 40 + s], *next = own + 1;
+      *next = *own + 1e-6 * (*next - *own);
+    }
+  EXPECT_LT(valid_map(mesh).symmetric_dirichlet.max, 1.1 * worst);
+}
+
 }  // namespace
 }  // namespace papilla

@@ -169,6 +169,30 @@ TEST(Levy, IsoLinesShareACoordinate) {
   for (const Index v : options.iso_lines[1].vertices) EXPECT_NEAR(uv[v].y, 0, 1e-9);
 }
 
+TEST(Levy, IsoLinesAloneTurnTheMapAndLeaveItsScale) {
+  const TriangleMesh mesh = test::dashboard_mesh(20, 8);
+  const double plain =
+      measure_distortion(mesh, flatten_levy(mesh, test::one_chart(mesh)).flattening.uv).symmetric_dirichlet.mean;
+  for (const bool along_is_u : {false, true}) {
+    LevyOptions options;
+    options.iso_lines.resize(2);
+    options.iso_lines[0].is_u = along_is_u;  // the long way, through the middle
+    options.iso_lines[1].is_u = !along_is_u;
+    options.iso_lines[1].value = 250.0;
+    for (Index i = 0; i <= 20; ++i) options.iso_lines[0].vertices.push_back(21 * 4 + i);
+    for (Index j = 0; j <= 8; ++j) options.iso_lines[1].vertices.push_back(21 * j);
+    const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), options);
+    ASSERT_TRUE(r.flattening.notes.empty()) << r.flattening.notes.front().reason;
+    const std::vector<Vec2> uv = per_vertex(mesh, r.flattening.uv);
+    double Vec2::*axis = along_is_u ? &Vec2::x : &Vec2::y;
+    double Vec2::*other = along_is_u ? &Vec2::y : &Vec2::x;
+    for (const Index v : options.iso_lines[0].vertices) EXPECT_NEAR(uv[v].*axis, uv[21 * 4].*axis, 1e-6);
+    for (const Index v : options.iso_lines[1].vertices) EXPECT_NEAR(uv[v].*other, 250, 1e-6);
+    EXPECT_NEAR(std::abs(uv[20].*other - 250), 1450, 60);  // 1400 wide, and crowned
+    EXPECT_LT(measure_distortion(mesh, r.flattening.uv).symmetric_dirichlet.mean, plain + 0.2);
+  }
+}
+
 TEST(Levy, BadInputIsNamed) {
   const TriangleMesh mesh = test::plane(2, 2, 2, 2);
   const ChartSet chart = test::one_chart(mesh);

@@ -76,14 +76,14 @@ Vec3 helical_ramp(double s, double t) {
 
 TriangleMesh dashboard_mesh(int columns, int rows) { return grid_mesh(columns, rows, dashboard, 0.15); }
 
-TriangleMesh hemisphere_mesh(int rings, int segments, double radius) {
+TriangleMesh sphere_mesh(int rings, int segments, double last, const std::function<double(Vec3)>& radius) {
   TriangleMesh mesh;
-  mesh.positions.push_back({0, 0, radius});
+  const auto add = [&](Vec3 direction) { mesh.positions.push_back(radius(direction) * direction); };
+  add({0, 0, 1});
   for (int r = 1; r <= rings; ++r)
     for (int s = 0; s < segments; ++s) {
-      const double latitude = 0.5 * k_pi * r / rings, longitude = 2 * k_pi * s / segments;
-      mesh.positions.push_back(radius * Vec3{std::sin(latitude) * std::cos(longitude),
-                                             std::sin(latitude) * std::sin(longitude), std::cos(latitude)});
+      const double latitude = last * r / rings, longitude = 2 * k_pi * s / segments;
+      add({std::sin(latitude) * std::cos(longitude), std::sin(latitude) * std::sin(longitude), std::cos(latitude)});
     }
   const auto vertex = [&](int r, int s) { return static_cast<Index>(1 + (r - 1) * segments + s % segments); };
   for (int s = 0; s < segments; ++s) mesh.triangles.push_back({0, vertex(1, s), vertex(1, s + 1)});
@@ -93,6 +93,10 @@ TriangleMesh hemisphere_mesh(int rings, int segments, double radius) {
       mesh.triangles.push_back({vertex(r, s), vertex(r + 1, s + 1), vertex(r, s + 1)});
     }
   return mesh;
+}
+
+TriangleMesh hemisphere_mesh(int rings, int segments, double radius) {
+  return sphere_mesh(rings, segments, 0.5 * k_pi, [radius](Vec3) { return radius; });
 }
 
 ChartSet one_chart(const TriangleMesh& mesh) {

@@ -22,6 +22,8 @@ Vec3 grab_handle(double s, double t);    ///< U-shaped tapered tube, cut open al
 Vec3 helical_ramp(double s, double t);   ///< Two and a half turns of a spiral ramp: overlaps itself seen from above.
 
 TriangleMesh dashboard_mesh(int columns, int rows);  ///< With the jitter of 0.15 cells that the benchmarks use.
+/// Rings around a pole fan, down to latitude `last` from the pole; the radius may depend on the direction.
+TriangleMesh sphere_mesh(int rings, int segments, double last, const std::function<double(Vec3)>& radius);
 TriangleMesh hemisphere_mesh(int rings, int segments, double radius = 1000);  ///< CAD style: rings and a pole fan.
 
 /// All triangles in one chart.

@@ -15,13 +15,6 @@
 namespace papilla::app {
 namespace {
 
-Index nearest_vertex(const TriangleMesh& mesh, Vec3 position) {
-  Index nearest = 0;
-  for (Index v = 1; v < mesh.positions.size(); ++v)
-    if (norm(mesh.positions[v] - position) < norm(mesh.positions[nearest] - position)) nearest = v;
-  return nearest;
-}
-
 /// Gives every method what they all share.
 MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, const PartContext& context) {
   MethodOptions o = given;
@@ -43,7 +36,10 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   if (o.tolerance)
     o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
   if (o.time_limit_s) o.maillot.time_limit_s = o.best.time_limit_s = o.levy.time_limit_s = *o.time_limit_s;
-  for (const PlacedPin& pin : o.pins) o.levy.pins.push_back({nearest_vertex(mesh, pin.position), pin.uv});
+  for (const PlacedPin& pin : o.pins)
+    if (is_for_part(pin.part, context.part)) o.levy.pins.push_back(pin_on(mesh, pin));
+  for (const PlacedIsoLine& line : o.iso_lines)
+    if (is_for_part(line.part, context.part)) o.levy.iso_lines.push_back(iso_line_on(mesh, line));
   o.automatic.up = up;
   o.automatic.best = o.best;
   o.reference.map = o.method == UnwrapMethod::tutte ? ReferenceMap::tutte

@@ -17,6 +17,7 @@
 #include "papilla/param/projections.hpp"
 #include "papilla/param/reference_maps.hpp"
 #include "papilla/param/triplanar.hpp"
+#include "unwrap/held.hpp"
 
 namespace papilla::app {
 
@@ -57,14 +58,9 @@ enum class GrainSource {
 struct PartContext {
   GrainUp up = GrainUp::z;
   Vec2 tile_mm{0, 0};          ///< Of the grain; 0: unknown.
+  std::string part;            ///< Its name.
   std::size_t parts = 1;       ///< That are unwrapped together.
   double scene_extent_mm = 0;  ///< Bounding diagonal of all of them.
-};
-
-/// The vertex nearest to a place gets this uv [mm].
-struct PlacedPin {
-  Vec3 position;
-  Vec2 uv;
 };
 
 /// The chosen method and the options of each. Orientation, tile and fallback are set for all by flatten_part().
@@ -85,7 +81,8 @@ struct MethodOptions {
   ReferenceOptions reference;
   BestOptions best;
   AutomaticOptions automatic;
-  std::vector<PlacedPin> pins;  ///< Of levy.
+  std::vector<PlacedPin> pins;           ///< Of levy.
+  std::vector<PlacedIsoLine> iso_lines;  ///< Of levy.
   /// Of the methods that iterate; not given: the method's own.
   std::optional<int> iterations;
   std::optional<double> tolerance, time_limit_s;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unwrap/unwrap.hpp"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -71,7 +69,7 @@ void place(const Scene& scene, const UnwrapOptions& options, UnwrapReport& repor
 
 double density_of(const std::string& part, const UnwrapOptions& options) {
   for (const auto& [pattern, density] : options.density)
-    if (::fnmatch(pattern.c_str(), part.c_str(), 0) == 0) return density;
+    if (is_for_part(pattern, part)) return density;
   return 1;
 }
 
@@ -130,7 +128,7 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
   UnwrapReport report;
   report.parts.resize(scene.parts.size());
   report.grain_mm = grain_size(options);
-  const PartContext context = context_of(scene, options);
+  PartContext context = context_of(scene, options);
   std::exception_ptr first_failure;
   bool any = false;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
@@ -140,6 +138,7 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
     try {
       part.mesh = weld_equal(std::move(part.mesh)).mesh;
       const double start = clock.seconds();
+      context.part = part.name;
       FlattenedPart flattened = flatten_part(part.mesh, context, options.method);
       report.seconds.segment += flattened.segment_seconds;
       report.seconds.solve += clock.seconds() - start - flattened.segment_seconds;

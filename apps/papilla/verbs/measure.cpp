@@ -102,7 +102,8 @@ Json run(const Options& options, VerbContext& context) {
     throw InvalidInput(options.input + ": " + error.what());
   }
   Json result = distortion_json(distortion.report);
-  context.console.print(distortion_text(distortion.report));
+  result["worst_chart"] = worst_chart_json(scene, distortion);
+  context.console.print(distortion_text(distortion.report, result["worst_chart"]));
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report, {.worst = options.worst}));
   if (!options.csv.empty()) write_atomically(options.csv, distortion_csv(distortion));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "pictures/uv_layout.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
+#include "unwrap/held_option.hpp"
 #include "unwrap/unwrap.hpp"
 #include "vector_option.hpp"
 #include "verb.hpp"
@@ -26,7 +28,7 @@ struct Options {
   std::string grain = "up";
   int texture_px = 0;  // 0: no second set of uv
   double gutter_px = 4;
-  std::vector<std::string> density, pins;
+  std::vector<std::string> density, pins, iso_lines;
   std::vector<double> tile{0, 0};
   SceneOptions scene;
   UnwrapOptions unwrap;
@@ -114,32 +116,18 @@ void choose_solver(const std::string& name, MethodOptions& method) {
   if (!known) throw UsageError("--solver " + name + ": " + unwrap_method_name(method.method) + " has no such solver");
 }
 
-/// X,Y,Z=U,V.
-PlacedPin parse_pin(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  PlacedPin pin;
-  double* const uv[] = {&pin.uv.x, &pin.uv.y};
-  if (equals != std::string::npos) {
-    pin.position = parse_vector("--pin", text.substr(0, equals));
-    const char *at = text.data() + equals + 1, *end = text.data() + text.size();
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto [rest, error] = std::from_chars(at, end, *uv[k]);
-      if (error != std::errc() || (k == 0 ? rest == end || *rest != ',' : rest != end)) break;
-      if (k == 1) return pin;
-      at = rest + 1;
-    }
-  }
-  throw UsageError("--pin '" + text + "': expected X,Y,Z=U,V");
-}
-
 /// What is left to do when the command line is read.
 MethodOptions method_options(const Options& options) {
   MethodOptions method = options.unwrap.method;
   if (!takes_charts(method.method) && method.charts == ChartSource::keep)
     throw UsageError("--charts keep: " + unwrap_method_name(method.method) + " makes its own charts");
   choose_solver(options.solver, method);
-  if (!options.pins.empty() && method.method != UnwrapMethod::levy) throw UsageError("--pin needs --method levy");
+  if (method.method != UnwrapMethod::levy) {
+    if (!options.pins.empty()) throw UsageError("--pin needs --method levy");
+    if (!options.iso_lines.empty()) throw UsageError("--iso-line needs --method levy");
+  }
   for (const std::string& text : options.pins) method.pins.push_back(parse_pin(text));
+  for (const std::string& text : options.iso_lines) method.iso_lines.push_back(parse_iso_line(text));
   if (options.grain == "longest") {
     method.grain = GrainSource::longest;
   } else if (options.grain != "up") {
@@ -192,12 +180,20 @@ UnwrapReport unwrap_named(const std::string& file, Scene& scene, const UnwrapOpt
   }
 }
 
+/// What is held in one part must say in which.
+void check_part(const std::string& option, const std::string& pattern, const std::string& file, const Scene& scene) {
+  if (pattern.empty() && scene.parts.size() != 1)
+    throw UsageError(fmt::format("{}: {} has {} parts, say which by @PART", option, file, scene.parts.size()));
+  if (std::none_of(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return is_for_part(pattern, p.name); }))
+    throw UsageError(option + ": " + file + " has no part named '" + pattern + "'");
+}
+
 Json run(const Options& options, VerbContext& context) {
   check_usage(options);
   const UnwrapOptions unwrap = unwrap_options(options);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  if (!options.pins.empty() && scene.parts.size() != 1)
-    throw UsageError("--pin: " + options.input + " has " + std::to_string(scene.parts.size()) + " parts, expected one");
+  for (const PlacedPin& pin : unwrap.method.pins) check_part("--pin", pin.part, options.input, scene);
+  for (const PlacedIsoLine& line : unwrap.method.iso_lines) check_part("--iso-line", line.part, options.input, scene);
   const UnwrapReport report = unwrap_named(options.input, scene, unwrap, context.progress);
   const SceneDistortion distortion =
       measure_scene(scene, {}, [&](std::size_t p) { return report.parts[p].failure.empty(); });
@@ -207,8 +203,9 @@ Json run(const Options& options, VerbContext& context) {
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
 
   const std::string method = unwrap_method_name(unwrap.method.method);
+  const Json worst_chart = worst_chart_json(scene, distortion);
   context.console.print(fmt::format("{}: {} charts in {:.3f} s\n", method, report.charts, report.seconds.total) +
-                        distortion_text(distortion.report) + remarks(report));
+                        distortion_text(distortion.report, worst_chart) + remarks(report));
   return {{"method", method},
           {"charts", report.charts},
           {"stop", to_string(report.stop)},
@@ -221,6 +218,7 @@ Json run(const Options& options, VerbContext& context) {
           {"grain_mm", report.grain_mm},
           {"unique", unique_json(report)},
           {"distortion", distortion_json(distortion.report)},
+          {"worst_chart", worst_chart},
           {"parts", parts_json(scene, report)},
           {"losses", scene.losses}};
 }
@@ -228,8 +226,11 @@ Json run(const Options& options, VerbContext& context) {
 template <class Value>
 CLI::Option* add_choice(CLI::App* verb, const std::string& name, Value& value,
                         const std::map<std::string, Value>& choices, const std::string& help) {
+  std::string names;
+  for (const auto& choice : choices) names += (names.empty() ? "" : "|") + choice.first;
   return verb->add_option(name, value, help)
-      ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case).description(""));
+      ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case).description(""))
+      ->type_name(names);
 }
 
 /// What only some methods know; the help names them.
@@ -266,7 +267,10 @@ void add_method_options(CLI::App& verb, Options& options) {
   weight("--orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
   weight("--length", m.levy.length, "Of levy: weight of even lengths");
   verb.add_option("--pin", options.pins, "Of levy: the vertex nearest to a place gets these uv; two or more")
-      ->type_name("X,Y,Z=U,V");
+      ->type_name("X,Y,Z=U,V[@PART]");
+  verb.add_option("--iso-line", options.iso_lines,
+                  "Of levy: the vertices on the shortest path of edges through these places share their u, or v")
+      ->type_name("u|v[=MM]:X,Y,Z;X,Y,Z...[@PART]");
   add_choice<IntermediateShape>(&verb, "--shape", m.intermediate.shape,
                                 {{"sphere", IntermediateShape::sphere},
                                  {"cylinder", IntermediateShape::cylinder},

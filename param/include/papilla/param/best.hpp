@@ -9,7 +9,8 @@ namespace papilla {
 /// Options of flatten_best(). All are dimensionless, so one set of values serves every size of chart.
 struct BestOptions {
   GrainUp up = GrainUp::z;
-  double tolerance = 1e-3;      ///< Stop when an iteration lowers the energy by less than this fraction; in (0, 1).
+  /// Stop when an iteration lowers the energy by less than this fraction, and its slope promised no more; in (0, 1).
+  double tolerance = 1e-3;
   int max_iterations = 50;      ///< Newton iterations on the whole chart; at least 0.
   double time_limit_s = 0;      ///< Per chart, for the iterations on the whole chart; 0: none.
   bool fall_back = true;        ///< Project charts that are no disk, with a note; false: throw.
@@ -33,7 +34,8 @@ struct BestOptions {
 /// Method: the chart is coarsened vertex by vertex to a few triangles, these are mapped by Tutte's method, and the
 /// vertices come back in order, each into the kernel of its ring; every level is relaxed, first vertex by vertex, then
 /// (up to 200,000 vertices) by projected Newton steps on a nested-dissection factorization, with a line search that
-/// crosses no flip. If the result overlaps itself, all is done again with a barrier between the edges of the border.
+/// crosses no flip. From the first level on whose border runs into itself, a barrier between the edges of the border
+/// keeps it apart; where vertices find no room then, the map begins again from an earlier level or a finer base.
 /// Cost: O(n) for coarsening and relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the
 /// factorization and sums run in parallel; the result does not depend on the number of threads.
 /// Trace: error = E / ΣA, from the first map of the whole chart on.
