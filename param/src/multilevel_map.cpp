@@ -61,10 +61,16 @@ class Multilevel {
       if (hierarchy_.removed_count() == 0) break;
       if (!refine(level)) return fail("vertices have no room in the coarser map");
     }
+    const double energy = result_.trace.back().error;
+    too_distorted_ = energy > options_.energy_limit;
+    if (too_distorted_) return fail("its mean symmetric Dirichlet energy is " + std::to_string(energy));
     if (!make_barrier(level).is_simple(level.uv)) return fail("the chart overlaps itself");
     result_.uv = uv_;
     return true;
   }
+
+  /// Was the map of the last run valid, but over the limit?
+  bool too_distorted() const noexcept { return too_distorted_; }
 
   MultilevelMap take() { return std::move(result_); }
 
@@ -186,7 +192,7 @@ class Multilevel {
   std::size_t all_removed_;
   std::vector<Vec2> uv_;
   double least_edge_;
-  bool guarded_ = false;
+  bool guarded_ = false, too_distorted_ = false;
   std::vector<RingEdge> ring_;
   std::optional<BorderGuard> guard_;
   MultilevelMap result_;
@@ -195,9 +201,10 @@ class Multilevel {
 }  // namespace
 
 MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options) {
-  // Most charts do not overlap themselves when left alone, and are done faster so.
+  // Most charts do not overlap themselves when left alone, and are done faster so. What is too distorted then will be
+  // more so when kept apart.
   Multilevel multilevel(chart, options);
-  if (!multilevel.run(false)) multilevel.run(true);
+  if (!multilevel.run(false) && !multilevel.too_distorted()) multilevel.run(true);
   return multilevel.take();
 }
 

@@ -12,6 +12,7 @@
 
 #include "bench/cgal_segmentation.hpp"
 #include "bench/model_files.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
@@ -59,6 +60,27 @@ std::vector<Piece> pieces_of(const TriangleMesh& mesh, const ChartSet& charts, i
   return pieces;
 }
 
+/// A flattened piece.
+struct Mapped {
+  std::uint32_t charts = 1;
+  double mean = 4, area = 0;
+};
+
+Mapped measured(const TriangleMesh& mesh, const Flattening& flattening) {
+  const DistortionReport report = measure_distortion(mesh, flattening.uv);
+  return {flattening.charts.count, report.measured_triangles > 0 ? report.symmetric_dirichlet.mean : 4,
+          report.area_mm2};
+}
+
+/// Of the map with the lowest energy; nothing when that is far above `most` or no map is valid.
+std::optional<Mapped> map_of(const TriangleMesh& mesh, const ChartSet& one, double most) {
+  try {
+    return measured(mesh, flatten_best(mesh, one, {.energy_limit = 4 + 2 * (most - 4), .fall_back = false}));
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 /// Flattens chart by chart; halves those that have no valid map or a mean distortion above `worst`.
 Quality flatten(const TriangleMesh& mesh, const ChartSet& charts, double worst) {
   Quality quality;
@@ -68,21 +90,21 @@ Quality flatten(const TriangleMesh& mesh, const ChartSet& charts, double worst) 
     const Piece piece = std::move(pending.back());
     pending.pop_back();
     const ChartSet one = test::one_chart(piece.mesh);
-    const Flattening flattening = flatten_best(piece.mesh, one);
-    const DistortionReport report = measure_distortion(piece.mesh, flattening.uv);
-    const double mean = report.measured_triangles > 0 ? report.symmetric_dirichlet.mean : 4;
-    const bool good = flattening.notes.empty() && mean <= worst * (1 + 1e-9);
-    if (!good && piece.mesh.triangles.size() > 1 && piece.halvings < k_max_halvings) {
+    const bool last = piece.mesh.triangles.size() == 1 || piece.halvings == k_max_halvings;
+    const double most = last ? std::numeric_limits<double>::infinity() : worst * (1 + 1e-9);
+    const std::optional<Mapped> mapped =
+        last ? measured(piece.mesh, flatten_best(piece.mesh, one)) : map_of(piece.mesh, one, most);
+    if (!mapped || mapped->mean > most) {
       const ChartSet halves = halve_charts(piece.mesh, one, std::vector<std::uint32_t>{0});
       seam += halves.seam_length_mm;
       ++quality.halvings;
       for (Piece& half : pieces_of(piece.mesh, halves, piece.halvings + 1)) pending.push_back(std::move(half));
       continue;
     }
-    quality.charts += flattening.charts.count;
-    quality.worst_chart = std::max(quality.worst_chart, mean);
-    area += report.area_mm2;
-    integral += report.area_mm2 * mean;
+    quality.charts += mapped->charts;
+    quality.worst_chart = std::max(quality.worst_chart, mapped->mean);
+    area += mapped->area;
+    integral += mapped->area * mapped->mean;
   }
   quality.mean = integral / area;
   quality.seam_over_root_area = seam / std::sqrt(area);
@@ -125,7 +147,8 @@ struct Comparison {
   std::optional<Quality> ours, cgal, feature;
   double worst() { return own().worst_chart; }
   const Quality& own() {
-    if (!ours) ours = flatten(input.mesh, segment_charts(input.mesh, our_options()).charts, 1e300);
+    const SegmentationOptions options = our_options();
+    if (!ours) ours = flatten(input.mesh, segment_charts(input.mesh, options).charts, 4 + worth_halving(options));
     return *ours;
   }
 };

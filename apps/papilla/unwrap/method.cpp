@@ -38,6 +38,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   };
   share(o.natural), share(o.maillot), share(o.levy), share(o.lscm), share(o.reference), share(o.best);
   o.natural.fall_back = true;
+  if (fall_back) o.best.energy_limit = 4 + worth_halving(o.segmentation);
   if (o.iterations) o.maillot.max_iterations = o.best.max_iterations = *o.iterations;
   if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
   if (o.tolerance)
@@ -83,7 +84,7 @@ SegmentationOptions segmentation_of(const MethodOptions& o, const PartContext& c
   return segmentation;
 }
 
-/// Halves charts that have no valid map, a few times, before another map takes their place.
+/// Halves charts that have no valid map, or none worth having, a few times; the last map stays whatever it is.
 Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, const MethodOptions& options,
                         std::vector<ChartChoice>& choices) {
   constexpr int k_max_halvings = 6;

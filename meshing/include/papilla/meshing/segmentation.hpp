@@ -27,6 +27,10 @@ struct SegmentationOptions {
   Progress progress = {};  ///< Told the fraction done; may be empty.
 };
 
+/// The distortion D, measured on the map of a chart, from which on the chart is better cut in two: 10 λ. A cut as long
+/// as the root of the area raises E by 2 λ A at most, and takes off half of A D or more.
+inline double worth_halving(const SegmentationOptions& options) { return 10 * options.seam_cost; }
+
 struct SegmentationResult {
   ChartSet charts;
   std::size_t feature_patches = 0;  ///< Pieces between feature edges.
