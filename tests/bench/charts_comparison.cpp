@@ -74,8 +74,11 @@ Mapped measured(const TriangleMesh& mesh, const Flattening& flattening) {
 
 /// Of the map with the lowest energy; nothing when that is far above `most` or no map is valid.
 std::optional<Mapped> map_of(const TriangleMesh& mesh, const ChartSet& one, double most) {
+  BestOptions options;
+  options.energy_limit = 4 + 2 * (most - 4);
+  options.fall_back = false;
   try {
-    return measured(mesh, flatten_best(mesh, one, {.energy_limit = 4 + 2 * (most - 4), .fall_back = false}));
+    return measured(mesh, flatten_best(mesh, one, options));
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -144,7 +147,8 @@ void record(const Quality& quality, Recorder& recorder) {
 /// What one input came to; the quality is the same in every repeat and found once.
 struct Comparison {
   Input input;
-  std::optional<Quality> ours, cgal, feature;
+  std::vector<std::vector<std::uint32_t>> segments = cgal_segments(input.mesh, k_clusters);
+  std::optional<Quality> ours = {}, cgal = {}, feature = {};
   double worst() { return own().worst_chart; }
   const Quality& own() {
     const SegmentationOptions options = our_options();
@@ -156,8 +160,7 @@ struct Comparison {
 /// The segments with the fewest charts at our distortion.
 Quality best_of_cgal(Comparison& comparison) {
   std::optional<Quality> best;
-  for (const std::size_t clusters : k_clusters) {
-    const auto labels = cgal_segments(comparison.input.mesh, clusters);
+  for (const auto& labels : comparison.segments) {
     const ChartSet charts = open_charts(comparison.input.mesh, as_charts(labels), false);
     const Quality quality = flatten(comparison.input.mesh, charts, comparison.worst());
     if (!best || quality.charts < best->charts) best = quality;
@@ -176,9 +179,9 @@ void add_comparison(Comparison& c, BenchReport& report) {
     if (!c.feature) c.feature = flatten(c.input.mesh, feature_split(c.input.mesh), c.worst());
     record(*c.feature, recorder);
   });
-  if (cgal_segments(c.input.mesh, k_clusters[0]).empty()) return;  // CGAL can't hold it
+  if (c.segments.empty()) return;  // CGAL can't hold it
   report.add({.method = "cgal_sdf", .input = c.input.name, .error_name = error}, [&](Recorder& recorder) {
-    recorder.time([&] { keep(cgal_segments(c.input.mesh, k_clusters[1]).size()); });
+    recorder.time([&] { keep(cgal_segments(c.input.mesh, std::span(k_clusters).last(1)).size()); });
     if (!c.cgal) c.cgal = best_of_cgal(c);
     record(*c.cgal, recorder);
   });
@@ -210,7 +213,7 @@ bool is_input(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::uintmax_t k_least = 50'000, k_most = 700'000;
+  constexpr std::uintmax_t k_least = 50'000, k_most = 4'000'000;
   const std::uintmax_t size = std::filesystem::file_size(file);
   return (extension == ".stl" || extension == ".obj" || extension == ".off") && size >= k_least && size <= k_most;
 }
@@ -248,7 +251,7 @@ struct ChartsComparison::State {
 
 ChartsComparison::ChartsComparison(BenchReport& report) : state_(std::make_unique<State>()) {
   for (Input& input : inputs(report.options())) {
-    state_->comparisons.push_back(std::make_unique<Comparison>(Comparison{std::move(input), {}, {}, {}}));
+    state_->comparisons.push_back(std::make_unique<Comparison>(Comparison{std::move(input)}));
     add_comparison(*state_->comparisons.back(), report);
   }
   state_->scaling = sizes(report.options());
