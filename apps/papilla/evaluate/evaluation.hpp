@@ -81,7 +81,4 @@ std::string runs_html(const std::string& kind, const std::vector<EvaluationPictu
 /// The largest parts of a scene, most triangles first: what is evaluated when a file has many.
 std::vector<std::uint32_t> largest_parts(const Scene& scene, std::size_t most);
 
-/// The bounding diagonal of a mesh's positions, mm.
-double bounding_diagonal_mm(const TriangleMesh& mesh);
-
 }  // namespace papilla::app

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "bounding_diagonal.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/param/components.hpp"
@@ -173,21 +173,11 @@ bool takes_charts(UnwrapMethod method) {
   }
 }
 
-double bounding_diagonal(const TriangleMesh& mesh) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high = -low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return mesh.positions.empty() ? 0 : norm(high - low);
-}
-
 FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options) {
   MethodOptions o = prepare(mesh, options, context);
   FlattenedPart part;
   if (o.method == UnwrapMethod::automatic && o.charts == ChartSource::automatic) {
-    part.reason = reason_for_triplanar(bounding_diagonal(mesh), context);
+    part.reason = reason_for_triplanar(bounding_diagonal_mm(mesh), context);
     if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;
   }
   part.method = unwrap_method_name(o.method);

@@ -105,7 +105,4 @@ struct FlattenedPart {
 /// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
 FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options);
 
-/// The bounding diagonal of a mesh's positions.
-double bounding_diagonal(const TriangleMesh& mesh);
-
 }  // namespace papilla::app
