@@ -36,7 +36,7 @@ const script = await bundle('main.mjs', {});
 const style = await bundle('style.css', {});
 const parts = { STYLE: style, SCRIPT: script, LICENCES: licences.join(', ') };
 const html = readFileSync(join(folder, 'index.html'), 'utf8').replace(/@(STYLE|SCRIPT|LICENCES)@/g, (_, name) => parts[name]);
-if (html.split('@PAPILLA_DATA@').length !== 2) throw new Error('the bundle must hold the data marker once');
+for (const marker of ['@PAPILLA_CONNECT@', '@PAPILLA_DATA@']) if (html.split(marker).length !== 2) throw new Error(`the bundle must hold ${marker} once`);
 const chunks = html.match(/[^]{1,4000}/gu);
 writeFileSync(output, `// SPDX-License-Identifier: GPL-3.0-or-later
 // Made by page/build.mjs.

@@ -96,7 +96,7 @@ void run_verb(const CommonOptions& common, const VerbBody& body) {
 }  // namespace
 
 void Console::print(const std::string& text) const {
-  if (!silent_) std::cout << text;
+  if (!silent_) std::cout << text << std::flush;  // Whoever waits at the other end of a pipe gets it now.
 }
 
 CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {

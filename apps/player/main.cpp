@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -10,6 +11,8 @@
 
 #include "device_choice.hpp"
 #include "exit_code.hpp"
+#include "live_publisher.hpp"
+#include "live_socket.hpp"
 #include "live_view.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
@@ -30,6 +33,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 
 struct Options {
   std::string file, device = "sim", trajectory, record, json;
+  std::optional<std::string> live;
   double rate_hz = 1000, seconds = 0, probe_radius_mm = 0, watchdog_ms = 10;
   double reach_mm = 0, speed = 0.1;
   std::string motion = "stroke";
@@ -97,6 +101,15 @@ std::uint64_t ticks_of(const Options& options, const std::optional<Trajectory>& 
          (options.seconds > 0 || !of_file ? 0 : 1);
 }
 
+/// The first line that listeners get.
+std::string live_greeting(const RunReport& report, const Options& options) {
+  const nlohmann::ordered_json greeting = {{"papilla_live", 1},
+                                           {"file", std::filesystem::absolute(options.file).string()},
+                                           {"device", report.device},
+                                           {"rate_hz", report.rate_hz}};
+  return greeting.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 int run(const Options& options) {
   const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
@@ -154,6 +167,9 @@ int run(const Options& options) {
   LoopStatus status;
   loop.status = &status;
   {
+    std::optional<LivePublisher> publisher;
+    if (options.live) publisher.emplace(*options.live, live_greeting(report, options));
+    if (publisher) loop.latest = &publisher->slot();
     const std::optional<LiveView> view = options.quiet ? std::nullopt : std::optional<LiveView>(std::in_place, status);
     report.loop = run_haptic_loop(device, surface, loop);
   }
@@ -265,6 +281,12 @@ int main(int argc, char** argv) {
       ->type_name("MS")
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
+  auto* const live = program
+                         .add_option("--live", options.live,
+                                     "Tell what happens over a local socket, for papilla view --follow; default: "
+                                     "$XDG_RUNTIME_DIR/papilla-player.sock, or one in /tmp")
+                         ->type_name("[SOCKET]")
+                         ->expected(0, 1);
   program.add_option("--json", options.json, "Write the machine-readable result to FILE, or to stdout with -")
       ->type_name("FILE|-");
   program.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
@@ -274,6 +296,7 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
     if (options.list) return list_devices(options);
+    if (!live->empty() && options.live.value_or("").empty()) options.live = app::default_live_socket();
     if (file->empty()) throw app::UsageError("a FILE is required");
     return run(options);
   } catch (const CLI::ParseError& error) {

@@ -180,14 +180,16 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       if (tick.proxy().in_contact) ++result.contact_ticks;
       if (tick.lost()) ++result.lost_contact_ticks;
       result.max_force_n = std::max(result.max_force_n, norm(force));
-      if (options.record) {
+      if (options.record || options.latest) {
         const double t = start_s + static_cast<double>(i) * period;
-        (*options.record)[i] = {t,
-                                options.hand ? options.hand->position(t) : state.position,
-                                state.position,
-                                tick.proxy().proxy,
-                                force,
-                                tick.proxy().in_contact};
+        const RecordRow row = {t,
+                               options.hand ? options.hand->position(t) : state.position,
+                               state.position,
+                               tick.proxy().proxy,
+                               force,
+                               tick.proxy().in_contact};
+        if (options.record) (*options.record)[i] = row;
+        if (options.latest) options.latest->store(row);
       }
       if (options.status) show(*options.status, result, norm(force), tick_us, late_us);
       result.fault = tick.guard().fault();

@@ -4,7 +4,6 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/core.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,79 +16,24 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
-#include "papilla/io/read_file.hpp"
-#include "text_scanner.hpp"
+#include "papilla/io/image_bands.hpp"
+#include "picture_input.hpp"
 
 namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
+using io_detail::check_png;
+using io_detail::check_size;
+using io_detail::color_channels;
+using io_detail::first_line;
+using io_detail::open_picture;
+using io_detail::pixel_count;
+using io_detail::stored_values;
 using OIIO::ImageInput;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-
-/// No compression that is read here stores more than this many pixels in a byte: deflate packs 1032 bytes
-/// into one, and a byte holds at most 8 pixels. A file that claims more is damaged or hostile.
-constexpr std::size_t k_max_pixels_per_byte = 8 * 1032;
-constexpr std::size_t k_free_pixels = 65536;
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-std::size_t pixel_count(int width, int height) {
-  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-}
-
-void check_size(const ImageSpec& spec, const fs::path& path, std::size_t bytes) {
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
-    throw InvalidInput(path.string() + ": is no flat picture");
-  const std::size_t pixels = pixel_count(spec.width, spec.height);
-  const std::size_t holdable = k_free_pixels + k_max_pixels_per_byte * bytes;
-  if (pixels > std::min(k_max_image_pixels, holdable))
-    throw InvalidInput(fmt::format("{}: claims {} x {} pixels; at most {} are supported for its size", path.string(),
-                                   spec.width, spec.height, std::min(k_max_image_pixels, holdable)));
-}
-
-/// Asks for values as they are stored, not multiplied by alpha.
-ImageSpec stored_values() {
-  ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);
-  return wishes;
-}
-
-std::uint32_t big_endian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char c : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(c);
-  return value;
-}
-
-/// libpng tells stderr about damaged files, where our one message is to stand alone: finds the damage first.
-void check_png(std::string_view bytes, const fs::path& path) {
-  constexpr std::size_t k_frame = 12;  // Length, type and checksum around a chunk's content.
-  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) return;
-  for (std::string_view rest = std::string_view(bytes).substr(8);;) {
-    if (rest.size() < k_frame || rest.size() - k_frame < big_endian(rest))
-      throw InvalidInput(path.string() + ": is truncated");
-    const std::size_t length = big_endian(rest);
-    const std::string_view checked = rest.substr(4, 4 + length);
-    if (crc32_z(0, reinterpret_cast<const unsigned char*>(checked.data()), checked.size()) !=
-        big_endian(rest.substr(8 + length)))
-      throw InvalidInput(fmt::format("{}: is damaged in chunk {}", path.string(), printable(checked.substr(0, 4))));
-    if (checked.starts_with("IEND")) return;
-    rest.remove_prefix(k_frame + length);
-  }
-}
-
-std::unique_ptr<ImageInput> open_picture(const fs::path& path) {
-  require_file(path);
-  if (fs::file_size(path) == 0) throw InvalidInput(path.string() + ": is empty");
-  check_png(read_file(path), path);
-  const ImageSpec wishes = stored_values();
-  auto input = ImageInput::open(path.string(), &wishes);
-  if (!input) throw InvalidInput(path.string() + ": is no picture: " + first_line(OIIO::geterror()));
-  check_size(input->spec(), path, fs::file_size(path));
-  return input;
-}
 
 /// The first `channels` channels of every pixel, interleaved.
 template <class T>
@@ -101,8 +45,6 @@ std::vector<T> read_pixels(ImageInput& input, const fs::path& path, int channels
   return pixels;
 }
 
-int color_channels(const ImageSpec& spec) { return spec.nchannels >= 3 ? 3 : 1; }
-
 ColorImage read_rgb(ImageInput& input, const fs::path& path) {
   const ImageSpec& spec = input.spec();
   const int channels = color_channels(spec);
@@ -112,15 +54,6 @@ ColorImage read_rgb(ImageInput& input, const fs::path& path) {
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
   image.pixels = std::move(rgb);
   return image;
-}
-
-double pitch_of(const ImageSpec& spec) {
-  const double x = double{spec.get_float_attribute("XResolution")},
-               y = double{spec.get_float_attribute("YResolution", static_cast<float>(x))};
-  const std::string unit(spec.get_string_attribute("ResolutionUnit"));
-  const double length_mm = unit == "in" || unit == "inch" ? k_mm_per_inch : unit == "cm" ? 10 : unit == "m" ? 1000 : 0;
-  if (!(x > 0) || !std::isfinite(x) || !(std::abs(x - y) <= 1e-3 * x)) return 0;
-  return length_mm / x;
 }
 
 /// libpng complains on stderr about a file that is opened and not written, so this is asked first.
@@ -174,34 +107,21 @@ std::vector<std::byte> to_bytes(const std::vector<unsigned char>& data) {
 }  // namespace
 
 GreyImage read_grey_image(const fs::path& path) {
-  const auto input = open_picture(path);
-  const ImageSpec& spec = input->spec();
-  const int channels = color_channels(spec);
-  GreyImage image{spec.width, spec.height, read_pixels<float>(*input, path, channels), pitch_of(spec),
-                  static_cast<int>(8 * spec.format.basesize())};
-  if (channels == 3) {
-    std::vector<float>& p = image.pixels;
-    for (std::size_t i = 0; i < p.size() / 3; ++i)
-      p[i] = 0.2126F * p[3 * i] + 0.7152F * p[3 * i + 1] + 0.0722F * p[3 * i + 2];
-    p.resize(p.size() / 3);
-  }
-  const auto bad = std::find_if(image.pixels.begin(), image.pixels.end(), [](float v) { return !std::isfinite(v); });
-  if (bad != image.pixels.end())
-    throw InvalidInput(fmt::format("{}: pixel {} is not finite", path.string(), bad - image.pixels.begin()));
-  return image;
+  ImageBands bands(path, k_max_image_pixels);
+  return bands.next(bands.height());
 }
 
-ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_picture(path), path); }
+ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_picture(path, k_max_image_pixels), path); }
 
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
-  check_png({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
+  check_png(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name);
   OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
   const bool jpeg = bytes.size() > 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
   const auto input = ImageInput::create(jpeg ? "jpeg" : "png");
   ImageSpec spec;
   if (!input || !input->set_ioproxy(&memory) || !input->open(name, spec, stored_values()))
     throw InvalidInput(name + ": is no picture: " + first_line(input ? input->geterror() : OIIO::geterror()));
-  check_size(input->spec(), name, bytes.size());
+  check_size(input->spec(), name, bytes.size(), k_max_image_pixels);
   return read_rgb(*input, name);
 }
 

@@ -142,7 +142,18 @@ async function card({ felt, materials, about }) {
   return node;
 }
 
-export async function fillCards(host, scene, report) {
+/** What the textured view is lit by; missing where the browser can't draw in 3D. */
+function environmentCard(three) {
+  const canvas = element('canvas', { class: 'tile', id: 'environment', width: 184, height: 184, role: 'img', 'aria-label': 'A mirror ball in the light of the textured view' });
+  canvas.getContext('2d').putImageData(three.environmentPicture(184), 0, 0);
+  return element('article', { class: 'card' }, element('h3', {}, 'environment'),
+    element('div', { class: 'pictures' }, element('figure', {}, canvas, element('figcaption', {}, 'mirror ball'))),
+    element('p', { class: 'note' }, 'What lights and is mirrored in the textured view: a bright room of the page itself (three.js), with a sun from the camera\'s upper right. It is no part of the file.'));
+}
+
+/** @param three the scene in 3D, or nothing */
+export async function fillCards(host, scene, report, three) {
   if (!scene.materials.length) host.append('The file has no materials.');
   for (const group of groups(scene, report).sort((a, b) => Boolean(b.about) - Boolean(a.about) || b.felt - a.felt)) host.append(await card(group));
+  if (three) host.append(environmentCard(three));
 }

@@ -4,6 +4,7 @@ import { fillCards, repaintCards } from './cards.mjs';
 import { number, viridis } from './colour.mjs';
 import { load } from './data.mjs';
 import { element } from './dom.mjs';
+import { Live } from './live.mjs';
 import { SceneView } from './scene_view.mjs';
 import { fillTables } from './tables.mjs';
 import { Touch } from './touch.mjs';
@@ -33,7 +34,8 @@ class Page {
     const fewer = scene.triangles_shown < scene.triangles;
     $('summary').textContent = `${scene.triangles.toLocaleString('en')} triangles in ${scene.parts.length} parts; `
       + (fewer ? `${scene.triangles_shown.toLocaleString('en')} shown, simplified for this page by about ${number(scene.error_mm)} mm at most` : 'all of them shown');
-    $('footer').textContent = `Written by ${data.program}. Everything is in this file; nothing is loaded from anywhere.`;
+    $('footer').textContent = data.live ? `Served by ${data.program}, on this machine only. The samples come from its player; nothing is loaded from anywhere else.`
+      : `Written by ${data.program}. Everything is in this file; nothing is loaded from anywhere.`;
     this.theme();
     this.listViews();
     this.touch = new Touch(scene, reasonOff(VIEWS[7], scene));
@@ -45,7 +47,8 @@ class Page {
     document.addEventListener('keydown', (e) => this.keys(e));
     this.switchTo(this.view);
     this.selectLargest();
-    return fillCards($('cards'), scene, data.report);
+    if (data.live) this.live = new Live(data.title, this.three);
+    return fillCards($('cards'), scene, data.report, this.three);
   }
 
   openViews() {
@@ -75,6 +78,7 @@ class Page {
     this.three?.setBackground(back);
     this.uv?.setBackground(back);
     this.touch.repaint();
+    this.live?.repaint();
     repaintCards();
   }
 

@@ -118,6 +118,26 @@ export class SceneView {
     this.world.add(this.marker, this.outline);
   }
 
+  /** A mirror ball in the light of the textured view, as sRGB rows from the top. */
+  environmentPicture(side) {
+    const target = new THREE.WebGLRenderTarget(side, side), world = new THREE.Scene(), camera = new THREE.PerspectiveCamera(30, 1, 0.1, 10);
+    camera.position.z = 4.2;
+    world.environment = this.world.environment;
+    world.background = this.world.environment;
+    world.add(new THREE.Mesh(new THREE.SphereGeometry(1, 64, 48), new THREE.MeshStandardMaterial({ metalness: 1, roughness: 0 })));
+    this.renderer.setRenderTarget(target);
+    this.renderer.render(world, camera);
+    const linear = new Uint8Array(4 * side * side), picture = new ImageData(side, side);
+    this.renderer.readRenderTargetPixels(target, 0, 0, side, side, linear);
+    this.renderer.setRenderTarget(null);
+    target.dispose();
+    for (let i = 0; i < linear.length; ++i) {
+      const [y, x] = [Math.floor(i / (4 * side)), i % (4 * side)];
+      picture.data[4 * side * (side - 1 - y) + x] = i % 4 === 3 ? 255 : 255 * (linear[i] / 255) ** (1 / 2.2);
+    }
+    return picture;
+  }
+
   async loadTextures() {
     const { materials } = this.data;
     for (const [i, material] of materials.entries()) {
@@ -256,6 +276,7 @@ export class SceneView {
 
   draw() {
     const start = performance.now();
+    this.beforeDraw?.();
     this.renderer.render(this.world, this.camera);
     this.frames = (this.frames ?? 0) + 1;
     this.canvas.dataset.frames = this.frames;

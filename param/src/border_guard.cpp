@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
 namespace papilla::param_detail {
@@ -18,6 +17,8 @@ constexpr double k_reach = 0.25;
 
 /// Cells of the grid per edge of the border, at most.
 constexpr double k_cells_per_edge = 16;
+
+double length(Vec2 a) { return std::sqrt(dot(a, a)); }
 
 struct Extent {
   Vec2 low, high;
@@ -50,19 +51,19 @@ Closest closest(Vec2 vertex, Vec2 from, Vec2 to) {
 }  // namespace
 
 BorderGuard::BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv)
-    : border_(std::move(border)), uv_(std::move(uv)), edges_of_(uv_.size()) {
+    : border_(std::move(border)), uv_(std::move(uv)), edges_of_(uv_.size(), {k_no_edge, k_no_edge}) {
   const Extent extent = extent_of(border_, uv_);
-  double length = 0;
-  for (const BorderPair& pair : border_) length += norm(uv_[pair[1]] - uv_[pair[0]]);
+  double total = 0;
+  for (const BorderPair& pair : border_) total += length(uv_[pair[1]] - uv_[pair[0]]);
   const double edges = static_cast<double>(border_.size());
-  cell_ = std::max(length / edges, extent.size() / std::sqrt(k_cells_per_edge * edges));
-  tolerance_ = k_contact * length / edges;
+  cell_ = std::max(total / edges, extent.size() / std::sqrt(k_cells_per_edge * edges));
+  tolerance_ = k_contact * total / edges;
   low_ = extent.low;
   columns_ = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell_) + 1;
   rows_ = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell_) + 1;
   cells_.resize(columns_ * rows_);
   for (Index e = 0; e < border_.size(); ++e) {
-    for (const Index v : border_[e]) edges_of_[v].push_back(e);
+    edges_of_[border_[e][0]][1] = edges_of_[border_[e][1]][0] = e;
     put_in(e);
   }
 }
@@ -105,7 +106,8 @@ bool BorderGuard::are_free(std::span<const BorderEdge> edges, LeavesOut leaves_o
       if (edges_conflict(edges[i], edges[j], tolerance_)) return false;
     const bool conflict = any_cell(edges[i], [&](std::size_t cell) {
       return std::any_of(cells_[cell].begin(), cells_[cell].end(), [&](Index other) {
-        return !leaves_out(other) && edges_conflict(edges[i], edge(other), tolerance_);
+        return !leaves_out(other) && !edges_apart(edges[i], edge(other), tolerance_) &&
+               edges_conflict(edges[i], edge(other), tolerance_);
       });
     });
     if (conflict) return false;
@@ -114,49 +116,53 @@ bool BorderGuard::are_free(std::span<const BorderEdge> edges, LeavesOut leaves_o
 }
 
 bool BorderGuard::may_move(Index vertex, Vec2 place) const {
-  std::vector<BorderEdge> moved;
-  for (const Index e : edges_of_[vertex]) {
-    moved.push_back(edge(e));
-    (moved.back().from == vertex ? moved.back().a : moved.back().b) = place;
-  }
-  return are_free(moved, [&](Index other) { return border_[other][0] == vertex || border_[other][1] == vertex; });
-}
-
-Index BorderGuard::edge_between(Index from, Index to) const {
-  return *std::find_if(edges_of_[from].begin(), edges_of_[from].end(), [&](Index e) {
-    return border_[e] == BorderPair{from, to};
-  });
+  std::array<BorderEdge, 2> moved{edge(edges_of_[vertex][0]), edge(edges_of_[vertex][1])};
+  moved[0].b = moved[1].a = place;
+  return are_free(moved, [&](Index other) { return other == edges_of_[vertex][0] || other == edges_of_[vertex][1]; });
 }
 
 bool BorderGuard::may_split(Index from, Index to, Index vertex, Vec2 place) const {
-  const Index old = edge_between(from, to);
+  const Index old = edges_of_[from][1];
   const std::array<BorderEdge, 2> halves{BorderEdge{from, vertex, uv_[from], place},
                                          BorderEdge{vertex, to, place, uv_[to]}};
   return are_free(halves, [&](Index other) { return other == old; });
 }
 
 void BorderGuard::split(Index from, Index to, Index vertex, Vec2 place) {
-  const Index first = edge_between(from, to), second = static_cast<Index>(border_.size());
+  const Index first = edges_of_[from][1], second = static_cast<Index>(border_.size());
   take_out(first);
   uv_[vertex] = place;
   border_[first][1] = vertex;
   border_.push_back({vertex, to});
-  std::replace(edges_of_[to].begin(), edges_of_[to].end(), first, second);
+  edges_of_[to][0] = second;
   edges_of_[vertex] = {first, second};
   put_in(first);
   put_in(second);
 }
 
 void BorderGuard::move(Index vertex, Vec2 place) {
-  for (const Index e : edges_of_[vertex]) take_out(e);
+  const auto box = [&](Index e) {
+    const BorderEdge own = edge(e);
+    return std::array{column(std::min(own.a.x, own.b.x)), column(std::max(own.a.x, own.b.x)),
+                      row(std::min(own.a.y, own.b.y)), row(std::max(own.a.y, own.b.y))};
+  };
+  const Vec2 before = uv_[vertex];
+  for (const Index e : edges_of_[vertex]) {
+    uv_[vertex] = place;
+    const auto next = box(e);
+    uv_[vertex] = before;
+    if (next == box(e)) continue;
+    take_out(e);
+    uv_[vertex] = place;
+    put_in(e);
+  }
   uv_[vertex] = place;
-  for (const Index e : edges_of_[vertex]) put_in(e);
 }
 
 BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec2> uv, double weight)
     : border_(std::move(border)), reach_(uv.size(), std::numeric_limits<double>::infinity()), weight_(weight) {
   for (const auto& [from, to] : border_) {
-    const double reach = k_reach * norm(uv[to] - uv[from]);
+    const double reach = k_reach * length(uv[to] - uv[from]);
     reach_[from] = std::min(reach_[from], reach);
     reach_[to] = std::min(reach_[to], reach);
     most_reach_ = std::max(most_reach_, reach);
@@ -164,51 +170,52 @@ BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec
 }
 
 std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2> uv) const {
-  // Vertices in cells of the longest reach; each edge looks into the cells along it.
-  const auto cell_of = [&](double x) { return static_cast<std::int64_t>(std::floor(x / most_reach_)); };
-  const auto key = [](std::int64_t x, std::int64_t y) {
-    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu;
+  if (border_.empty()) return {};
+  const Extent extent = extent_of(border_, uv);
+  const double edges = static_cast<double>(border_.size());
+  const double cell = std::max(most_reach_ / k_reach, extent.size() / std::sqrt(k_cells_per_edge * edges));
+  const auto columns = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell) + 1;
+  const auto rows = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell) + 1;
+  const auto number = [cell](double distance, std::size_t count) {
+    return static_cast<std::size_t>(std::clamp(distance / cell, 0.0, static_cast<double>(count - 1)));
   };
-  std::unordered_map<std::uint64_t, std::vector<Index>> cells;
-  for (const BorderPair& pair : border_) {
-    const Vec2 p = uv[pair[0]];
-    cells[key(cell_of(p.x), cell_of(p.y))].push_back(pair[0]);
-  }
+  const auto column = [&](double x) { return number(x - extent.low.x, columns); };
+  const auto row = [&](double y) { return number(y - extent.low.y, rows); };
+  // The border's vertices sorted by cell.
+  std::vector<Index> first(columns * rows + 2, 0), sorted(border_.size());
+  const auto cell_of = [&](Vec2 p) { return row(p.y) * columns + column(p.x); };
+  for (const BorderPair& pair : border_) ++first[cell_of(uv[pair[0]]) + 2];
+  for (std::size_t c = 2; c < first.size(); ++c) first[c] += first[c - 1];
+  for (const BorderPair& pair : border_) sorted[first[cell_of(uv[pair[0]]) + 1]++] = pair[0];
   std::vector<Pair> pairs;
   for (const auto& [from, to] : border_) {
     const Vec2 a = uv[from], b = uv[to];
     const double edge_reach = std::min(reach_[from], reach_[to]);
-    const int steps = static_cast<int>(std::min(norm(b - a) / most_reach_, 1e6)) + 1;
-    const std::size_t first = pairs.size();
-    for (int s = 0; s <= steps; ++s) {
-      const Vec2 p = a + (static_cast<double>(s) / steps) * (b - a);
-      for (std::int64_t y = cell_of(p.y) - 1; y <= cell_of(p.y) + 1; ++y)
-        for (std::int64_t x = cell_of(p.x) - 1; x <= cell_of(p.x) + 1; ++x) {
-          const auto found = cells.find(key(x, y));
-          if (found == cells.end()) continue;
-          for (const Index v : found->second) {
-            const double reach = std::min(edge_reach, reach_[v]);
-            if (v != from && v != to && norm(closest(uv[v], a, b).away) < reach) pairs.push_back({v, from, to, reach});
-          }
-        }
-    }
-    const auto own = pairs.begin() + static_cast<std::ptrdiff_t>(first);
-    std::sort(own, pairs.end(), [](const Pair& p, const Pair& q) { return p.vertex < q.vertex; });
-    pairs.erase(std::unique(own, pairs.end(), [](const Pair& p, const Pair& q) { return p.vertex == q.vertex; }),
-                pairs.end());
+    const Vec2 low{std::min(a.x, b.x) - edge_reach, std::min(a.y, b.y) - edge_reach};
+    const Vec2 high{std::max(a.x, b.x) + edge_reach, std::max(a.y, b.y) + edge_reach};
+    const std::size_t x0 = column(low.x), x1 = column(high.x), y1 = row(high.y);
+    for (std::size_t y = row(low.y); y <= y1; ++y)
+      for (Index i = first[y * columns + x0]; i < first[y * columns + x1 + 1]; ++i) {
+        const Index v = sorted[i];
+        const Vec2 p = uv[v];
+        if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || v == from || v == to) continue;
+        const double reach = std::min(edge_reach, reach_[v]);
+        const Vec2 away = closest(p, a, b).away;
+        if (dot(away, away) < reach * reach) pairs.push_back({v, from, to, reach});
+      }
   }
   return pairs;
 }
 
 double BorderBarrier::value(const Pair& pair, std::span<const Vec2> uv) const {
-  const double d = norm(closest(uv[pair.vertex], uv[pair.from], uv[pair.to]).away);
+  const double d = length(closest(uv[pair.vertex], uv[pair.from], uv[pair.to]).away);
   const double excess = pair.reach / d - 1;
   return excess > 0 ? weight_ * excess * excess : 0;
 }
 
 std::array<Vec2, 3> BorderBarrier::gradient(const Pair& pair, std::span<const Vec2> uv) const {
   const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
-  const double d = norm(c.away);
+  const double d = length(c.away);
   if (!(d < pair.reach)) return {};
   // The closest point may be held: it is a minimum.
   const Vec2 by_vertex = (-2 * weight_ * (pair.reach / d - 1) * pair.reach / (d * d * d)) * c.away;
@@ -217,7 +224,7 @@ std::array<Vec2, 3> BorderBarrier::gradient(const Pair& pair, std::span<const Ve
 
 void BorderBarrier::hessian(const Pair& pair, std::span<const Vec2> uv, double* matrix) const {
   const Closest c = closest(uv[pair.vertex], uv[pair.from], uv[pair.to]);
-  const double d = norm(c.away);
+  const double d = length(c.away);
   std::fill_n(matrix, 36, 0.0);
   if (!(d < pair.reach)) return;
   const double curvature = 2 * weight_ * pair.reach / (d * d * d) * (3 * pair.reach / d - 2);

@@ -17,7 +17,7 @@ class BorderGuard {
  public:
   BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv);
 
-  bool on_border(Index vertex) const { return !edges_of_[vertex].empty(); }
+  bool on_border(Index vertex) const { return edges_of_[vertex][0] != k_no_edge; }
   /// Whether the border stays free of contact when the vertex goes to `place`.
   bool may_move(Index vertex, Vec2 place) const;
   void move(Index vertex, Vec2 place);
@@ -27,12 +27,12 @@ class BorderGuard {
   void split(Index from, Index to, Index vertex, Vec2 place);
 
  private:
+  static constexpr Index k_no_edge = ~Index{0};
   BorderEdge edge(Index e) const { return {border_[e][0], border_[e][1], uv_[border_[e][0]], uv_[border_[e][1]]}; }
   std::size_t column(double x) const;
   std::size_t row(double y) const;
   template <class Visit>
   bool any_cell(const BorderEdge& e, Visit visit) const;
-  Index edge_between(Index from, Index to) const;
   /// Whether two new edges at `vertex` meet each other, or any edge but those that `leaves_out` names.
   template <class LeavesOut>
   bool are_free(std::span<const BorderEdge> edges, LeavesOut leaves_out) const;
@@ -41,7 +41,7 @@ class BorderGuard {
 
   std::vector<BorderPair> border_;
   std::vector<Vec2> uv_;
-  std::vector<std::vector<Index>> edges_of_;  ///< Per vertex.
+  std::vector<std::array<Index, 2>> edges_of_;  ///< Per vertex: that to it and that from it; none off the border.
   std::vector<std::vector<Index>> cells_;
   std::size_t columns_ = 1, rows_ = 1;
   Vec2 low_;

@@ -4,12 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-// The loader picks the version for processors with fused multiplication when there is such a processor.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define PAPILLA_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define PAPILLA_VECTOR_CLONES
-#endif
+#include "vector_clones.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -131,6 +126,41 @@ inline __attribute__((always_inline)) void subtract_any(const Scalar* panel, std
       update_tile(p + i, p + j, rows, columns, c + j * size + i, size, size - i, size - j);
 }
 
+/// Σ conj(a) b. Four sums side by side, in a fixed order.
+inline __attribute__((always_inline)) double inner(const double* a, const double* b, std::size_t count) {
+  Four sum = {};
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4) sum += *reinterpret_cast<const Four*>(a + i) * *reinterpret_cast<const Four*>(b + i);
+  double rest = 0;
+  for (; i < count; ++i) rest += a[i] * b[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]) + rest;
+}
+
+inline __attribute__((always_inline)) Complex inner(const Complex* a, const Complex* b, std::size_t count) {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += times(conjugate(a[i]), b[i]);
+  return sum;
+}
+
+template <class Scalar>
+inline __attribute__((always_inline)) void forward_any(const Scalar* panel, std::size_t rows, std::size_t columns,
+                                                       Scalar* x) {
+  for (std::size_t j = 0; j < columns; ++j, panel += rows) {
+    const Scalar value = x[j] / real_part(panel[j]);
+    x[j] = value;
+    for (std::size_t i = j + 1; i < rows; ++i) x[i] -= times(panel[i], value);
+  }
+}
+
+template <class Scalar>
+inline __attribute__((always_inline)) void backward_any(const Scalar* panel, std::size_t rows, std::size_t columns,
+                                                        Scalar* x) {
+  for (std::size_t j = columns; j-- > 0;) {
+    const Scalar* column = panel + j * rows;
+    x[j] = (x[j] - inner(column + j + 1, x + j + 1, rows - j - 1)) / real_part(column[j]);
+  }
+}
+
 }  // namespace
 
 PAPILLA_VECTOR_CLONES std::size_t factor_columns(double* a, std::size_t rows, std::size_t columns) {
@@ -149,6 +179,22 @@ PAPILLA_VECTOR_CLONES void subtract_square(const double* panel, std::size_t rows
 PAPILLA_VECTOR_CLONES void subtract_square(const Complex* panel, std::size_t rows, std::size_t columns, Complex* c,
                                            std::size_t size) {
   subtract_any(panel, rows, columns, c, size);
+}
+
+PAPILLA_VECTOR_CLONES void solve_forward(const double* panel, std::size_t rows, std::size_t columns, double* x) {
+  forward_any(panel, rows, columns, x);
+}
+
+PAPILLA_VECTOR_CLONES void solve_forward(const Complex* panel, std::size_t rows, std::size_t columns, Complex* x) {
+  forward_any(panel, rows, columns, x);
+}
+
+PAPILLA_VECTOR_CLONES void solve_backward(const double* panel, std::size_t rows, std::size_t columns, double* x) {
+  backward_any(panel, rows, columns, x);
+}
+
+PAPILLA_VECTOR_CLONES void solve_backward(const Complex* panel, std::size_t rows, std::size_t columns, Complex* x) {
+  backward_any(panel, rows, columns, x);
 }
 
 }  // namespace papilla::param_detail

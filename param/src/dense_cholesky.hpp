@@ -20,4 +20,13 @@ void subtract_square(const double* panel, std::size_t rows, std::size_t columns,
 void subtract_square(const std::complex<double>* panel, std::size_t rows, std::size_t columns, std::complex<double>* c,
                      std::size_t size);
 
+/// x := L⁻¹ x for the columns of a factored panel (rows × columns): the first `columns` numbers of x are solved for,
+/// the others get what they owe subtracted.
+void solve_forward(const double* panel, std::size_t rows, std::size_t columns, double* x);
+void solve_forward(const std::complex<double>* panel, std::size_t rows, std::size_t columns, std::complex<double>* x);
+
+/// x := L⁻ᴴ x, the numbers after the first `columns` being known.
+void solve_backward(const double* panel, std::size_t rows, std::size_t columns, double* x);
+void solve_backward(const std::complex<double>* panel, std::size_t rows, std::size_t columns, std::complex<double>* x);
+
 }  // namespace papilla::param_detail

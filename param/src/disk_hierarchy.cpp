@@ -17,9 +17,6 @@ constexpr std::size_t k_most_triangles = 24;
 /// Neighbours of a target that are looked through at most.
 constexpr std::size_t k_most_neighbors = 200;
 
-/// Shortest edges that are tried as ways to remove a vertex.
-constexpr std::size_t k_targets = 2;
-
 /// In one pass, only the cheapest part of the vertices is removed.
 constexpr double k_pass_share = 0.8;
 
@@ -148,10 +145,17 @@ class DiskHierarchy::Coarsener {
       return true;
     });
     if (!small || count == 0) return false;
+    const auto first = [count](const std::array<Index, k_most_triangles>& list, Index wanted) {
+      return static_cast<std::size_t>(std::find(list.begin(), list.begin() + count, wanted) - list.begin());
+    };
+    // Backwards from any triangle: to the border, or once around.
     std::size_t start = 0;
-    ring.closed = true;
-    for (std::size_t i = 0; i < count; ++i)
-      if (std::find(to.begin(), to.begin() + count, from[i]) == to.begin() + count) start = i, ring.closed = false;
+    for (std::size_t i = 1; i < count; ++i) {
+      const std::size_t before = first(to, from[start]);
+      if (before == count) break;
+      start = before;
+    }
+    ring.closed = first(to, from[start]) != count;
     ring.triangles = count;
     ring.size = 0;
     std::size_t at = start;
@@ -164,7 +168,7 @@ class DiskHierarchy::Coarsener {
         if (!ring.closed) ring.vertex[ring.size++] = end;
         break;
       }
-      at = static_cast<std::size_t>(std::find(from.begin(), from.begin() + count, end) - from.begin());
+      at = first(from, end);
       if (at == count) return false;
     }
     return ring.closed ? ring.size >= 3 : ring.triangles >= 2;
@@ -201,16 +205,16 @@ class DiskHierarchy::Coarsener {
       consider(v, ring, ring.size - 1, round, best);
       return best;
     }
-    std::array<std::pair<double, std::size_t>, k_most_triangles> by_length;
+    std::array<double, k_most_triangles> squared;
     for (std::size_t i = 0; i < ring.size; ++i) {
       const Vec3 e = positions_[ring.vertex[i]] - positions_[v];
-      by_length[i] = {dot(e, e), i};
+      squared[i] = dot(e, e);
     }
-    const std::size_t tried = std::min(k_targets, ring.size);
-    std::partial_sort(by_length.begin(), by_length.begin() + tried, by_length.begin() + ring.size);
-    for (std::size_t i = 0; i < tried; ++i) consider(v, ring, by_length[i].second, round, best);
-    for (std::size_t i = tried; i < ring.size && best.target == k_none; ++i)
-      consider(v, ring, by_length[i].second, round, best);
+    const auto shortest =
+        static_cast<std::size_t>(std::min_element(squared.begin(), squared.begin() + ring.size) - squared.begin());
+    consider(v, ring, shortest, round, best);
+    for (std::size_t i = 0; i < ring.size && best.target == k_none; ++i)
+      if (i != shortest) consider(v, ring, i, round, best);
     return best;
   }
 

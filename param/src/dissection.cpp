@@ -133,17 +133,13 @@ class Dissector {
     const std::uint32_t right_half = ++marks_;
     for (std::size_t i = middle; i < sorted.size(); ++i) mark_[sorted[i]] = right_half;
     const std::uint32_t separator = ++marks_;
-    std::array<std::size_t, 2> sides{0, 0};
+    std::array<std::vector<Index>, 2> at_cut;
     for (const bool right : {false, true})
       for (std::size_t i = right ? middle : 0; i < (right ? sorted.size() : middle); ++i)
-        sides[right] +=
-            touches(sorted[i], [&](Index w) { return region_[w] == inside && (mark_[w] == right_half) != right; });
+        if (touches(sorted[i], [&](Index w) { return region_[w] == inside && (mark_[w] == right_half) != right; }))
+          at_cut[right].push_back(sorted[i]);
     // The half whose members at the cut are fewer gives the separator.
-    const bool from_right = sides[1] < sides[0];
-    std::vector<Index> chosen;
-    for (std::size_t i = from_right ? middle : 0; i < (from_right ? sorted.size() : middle); ++i)
-      if (touches(sorted[i], [&](Index w) { return region_[w] == inside && (mark_[w] == right_half) != from_right; }))
-        chosen.push_back(sorted[i]);
+    const std::vector<Index>& chosen = at_cut[at_cut[1].size() < at_cut[0].size()];
     std::vector<Index> members;
     members.reserve(sorted.size());
     for (const Index v : chosen) mark_[v] = separator;

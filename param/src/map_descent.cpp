@@ -32,7 +32,7 @@ constexpr double k_good_step = 0.3;
 constexpr int k_halvings = 40;
 
 /// Bisections between the longest step that is accepted and the shortest that is refused.
-constexpr int k_refinements = 4;
+constexpr int k_refinements = 2;
 
 template <class Body>
 void for_chunks(std::size_t count, Body body) {

@@ -25,7 +25,7 @@ constexpr double k_coarse_area = 1e-3;
 
 /// Of levels that are only a step on the way.
 constexpr double k_coarse_tolerance = 1e-2;
-constexpr int k_coarse_iterations = 20;
+constexpr int k_coarse_iterations = 100;
 constexpr double k_relax_tolerance = 3e-3;
 constexpr int k_relax_sweeps = 10;
 
@@ -33,6 +33,9 @@ constexpr int k_relax_sweeps = 10;
 /// factorization takes 2 kB per vertex.
 constexpr std::size_t k_most_factored = 200'000;
 constexpr int k_fine_sweeps = 30;
+
+/// A level whose energy per area is this much of that of the level before, at most, counts as smooth.
+constexpr double k_smooth = 1.01;
 
 /// How hard a vertex and an edge of the border push each other away, in mean areas of a triangle.
 constexpr double k_push = 0.05;
@@ -43,38 +46,58 @@ class Multilevel {
       : chart_(chart),
         options_(options),
         hierarchy_(chart.positions, chart.triangles, k_base_vertices),
-        all_removed_(hierarchy_.removed_count()),
+        base_removed_(hierarchy_.removed_count()),
         uv_(chart.positions.size()),
         least_edge_(least_edge(chart.positions, chart.triangles)) {}
 
-  /// @param guarded keep the border out of its own way from the first level on.
-  bool run(bool guarded) {
-    guarded_ = guarded;
-    while (hierarchy_.removed_count() < all_removed_) hierarchy_.remove_again();
-    result_ = {};
-    MapLevel level = make_level();
-    level.uv = map_to_circle(level, chart_.positions);
-    if (!std::isfinite(total(level))) return fail("Tutte's map of the coarsened chart is not valid");
-    for (;;) {
-      improve(level);
-      keep(level);
-      if (hierarchy_.removed_count() == 0) break;
-      if (!refine(level)) return fail("vertices have no room in the coarser map");
+  bool run() {
+    while (!run_from_here()) {
+      // A finer start has more room.
+      while (hierarchy_.removed_count() < base_removed_) hierarchy_.remove_again();
+      if (base_removed_ == 0) return false;
+      const std::size_t enough = k_growth * hierarchy_.vertex_count();
+      while (hierarchy_.removed_count() > 0 && hierarchy_.vertex_count() < enough) hierarchy_.restore();
+      base_removed_ = hierarchy_.removed_count();
     }
-    const double energy = result_.trace.back().error;
-    too_distorted_ = energy > options_.energy_limit;
-    if (too_distorted_) return fail("its mean symmetric Dirichlet energy is " + std::to_string(energy));
-    if (!make_barrier(level).is_simple(level.uv)) return fail("the chart overlaps itself");
-    result_.uv = uv_;
     return true;
   }
-
-  /// Was the map of the last run valid, but over the limit?
-  bool too_distorted() const noexcept { return too_distorted_; }
 
   MultilevelMap take() { return std::move(result_); }
 
  private:
+  /// From Tutte's map of the chart as coarse as it is now.
+  bool run_from_here() {
+    guarded_ = false;
+    result_ = {};
+    MapLevel level = make_level();
+    level.uv = map_to_circle(level, chart_.positions);
+    if (!std::isfinite(total(level))) return fail("Tutte's map of the coarsened chart is not valid");
+    keep(level);
+    std::vector<MapLevel> left_alone{level};  // levels before the border was watched
+    for (;;) {
+      improve(level);
+      std::string why = "the chart overlaps itself";
+      if (is_simple(level)) {
+        keep(level);
+        if (hierarchy_.removed_count() == 0) break;
+        if (!guarded_) left_alone.push_back(level);
+        if (refine(level)) continue;
+        why = "vertices have no room in the coarser map";
+      }
+      // Most charts do not overlap themselves when left alone, and are done faster so; this one is watched from the
+      // level before on, and where that has no room, from an earlier one.
+      if (left_alone.empty()) return fail(std::move(why));
+      guarded_ = true;
+      result_ = {};
+      level = std::move(left_alone.back());
+      left_alone.pop_back();
+      while (hierarchy_.vertex_count() > level.vertices.size()) hierarchy_.remove_again();
+      keep(level);
+    }
+    result_.uv = uv_;
+    return true;
+  }
+
   bool fail(std::string why) {
     result_.failure = std::move(why);
     return false;
@@ -106,14 +129,16 @@ class Multilevel {
     return {level.border, level.uv, k_push * level.area / static_cast<double>(level.triangles.size())};
   }
 
+  static bool is_simple(const MapLevel& level) { return make_barrier(level).is_simple(level.uv); }
+
   void improve(MapLevel& level) {
     const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= k_most_factored;
     trace(level, last);
+    if (last && factored && options_.only_when_rough && total(level) <= k_smooth * mean_energy_ * level.area) return;
     const double relax_tolerance = last && !factored ? 0.1 * options_.tolerance : k_relax_tolerance;
-    const int sweeps = relax(level, last && !factored ? k_fine_sweeps : k_relax_sweeps, relax_tolerance, guarded_);
+    relax(level, last && !factored ? k_fine_sweeps : k_relax_sweeps, relax_tolerance, guarded_);
     trace(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
-    if (last && options_.only_when_rough && sweeps == 1) return;
     const SymmetricDirichlet dirichlet(level.rest);
     const BorderBarrier barrier = make_barrier(level);
     const double start = clock_.seconds();
@@ -123,6 +148,7 @@ class Multilevel {
     descent.time_limit_s = options_.time_limit_s;
     const DescentResult result =
         descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
+    mean_energy_ = result.energy / level.area;
     if (!last) return;
     result_.stop = result.stop;
     for (std::size_t i = 1; i < result.trace.size(); ++i)
@@ -189,10 +215,11 @@ class Multilevel {
   const MultilevelOptions& options_;
   Stopwatch clock_;
   DiskHierarchy hierarchy_;
-  std::size_t all_removed_;
+  std::size_t base_removed_;  ///< What is removed where the map began.
   std::vector<Vec2> uv_;
   double least_edge_;
-  bool guarded_ = false, too_distorted_ = false;
+  bool guarded_ = false;    ///< Keep the border out of its own way.
+  double mean_energy_ = 0;  ///< Per area, of the level before.
   std::vector<RingEdge> ring_;
   std::optional<BorderGuard> guard_;
   MultilevelMap result_;
@@ -201,11 +228,14 @@ class Multilevel {
 }  // namespace
 
 MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options) {
-  // Most charts do not overlap themselves when left alone, and are done faster so. What is too distorted then will be
-  // more so when kept apart.
   Multilevel multilevel(chart, options);
-  if (!multilevel.run(false) && !multilevel.too_distorted()) multilevel.run(true);
-  return multilevel.take();
+  multilevel.run();
+  MultilevelMap map = multilevel.take();
+  if (map.failure.empty() && !map.trace.empty() && map.trace.back().error > options.energy_limit) {
+    map.uv.clear();
+    map.failure = "its mean symmetric Dirichlet energy is " + std::to_string(map.trace.back().error);
+  }
+  return map;
 }
 
 }  // namespace papilla::param_detail

@@ -49,7 +49,7 @@ Box box_of(const PlaneSheet& sheet) {
 /// Has an interior that can overlap.
 bool has_interior(const std::array<Vec2, 3>& t, double tolerance) {
   const Vec2 p = t[1] - t[0], q = t[2] - t[0], r = t[2] - t[1];
-  return cross(p, q) > tolerance * std::max({norm(p), norm(q), norm(r)});
+  return cross(p, q) > tolerance * std::sqrt(std::max({dot(p, p), dot(q, q), dot(r, r)}));
 }
 
 /// Uniform grid of item numbers, singly linked lists in two arrays.
@@ -129,7 +129,7 @@ Grid grid_for(const Box& box, const Items& items) {
 /// All three corners of b lie right of, or within `tolerance` of, the edge p -> q.
 bool edge_separates(Vec2 p, Vec2 q, const std::array<Vec2, 3>& b, double tolerance) {
   const Vec2 d = q - p;
-  const double limit = tolerance * norm(d);
+  const double limit = tolerance * std::sqrt(dot(d, d));
   return cross(d, b[0] - p) <= limit && cross(d, b[1] - p) <= limit && cross(d, b[2] - p) <= limit;
 }
 
@@ -168,24 +168,21 @@ bool is_border_triangle(const PlaneSheet& sheet, Index t) {
 
 bool edges_conflict(const BorderEdge& e, const BorderEdge& f, double tolerance) {
   const Vec2 d = e.b - e.a, g = f.b - f.a;
-  const double length_e = norm(d), length_f = norm(g);
   const bool shares_start = e.from == f.from || e.from == f.to, shares_end = e.to == f.from || e.to == f.to;
   if (shares_start && shares_end) return true;
   if (shares_start || shares_end) {
     const Vec2 along_e = shares_start ? d : -1.0 * d;
     const bool f_leaves = f.from == (shares_start ? e.from : e.to);
     const Vec2 along_f = f_leaves ? g : -1.0 * g;
-    return dot(along_e, along_f) > 0 && std::abs(cross(along_e, along_f)) <= tolerance * std::max(length_e, length_f);
+    return dot(along_e, along_f) > 0 &&
+           std::abs(cross(along_e, along_f)) <= tolerance * std::sqrt(std::max(dot(d, d), dot(g, g)));
   }
+  if (edges_apart(e, f, tolerance)) return false;
   const auto one_side = [](double s, double t, double limit) {
     return (s > limit && t > limit) || (s < -limit && t < -limit);
   };
-  if (one_side(cross(d, f.a - e.a), cross(d, f.b - e.a), tolerance * length_e)) return false;
-  if (one_side(cross(g, e.a - f.a), cross(g, e.b - f.a), tolerance * length_f)) return false;
-  // On one line: apart unless their boxes meet.
-  const Box x = box_of(e), y = box_of(f);
-  return x.low.x <= y.high.x + tolerance && y.low.x <= x.high.x + tolerance && x.low.y <= y.high.y + tolerance &&
-         y.low.y <= x.high.y + tolerance;
+  return !one_side(cross(d, f.a - e.a), cross(d, f.b - e.a), tolerance * std::sqrt(dot(d, d))) &&
+         !one_side(cross(g, e.a - f.a), cross(g, e.b - f.a), tolerance * std::sqrt(dot(g, g)));
 }
 
 bool interiors_meet(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b, double tolerance) {

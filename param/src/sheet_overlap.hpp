@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -21,6 +22,14 @@ struct PlaneSheet {
   std::vector<std::array<Vec2, 3>> triangles;
   std::vector<std::array<Index, 3>> across;  ///< Neighbours inside the sheet, or k_no_triangle.
 };
+
+/// Whether the boxes of two edges are further apart than `tolerance`: then the edges don't conflict.
+inline bool edges_apart(const BorderEdge& e, const BorderEdge& f, double tolerance) {
+  const auto apart = [tolerance](double a, double b, double c, double d) {
+    return std::min(a, b) > std::max(c, d) + tolerance || std::min(c, d) > std::max(a, b) + tolerance;
+  };
+  return apart(e.a.x, e.b.x, f.a.x, f.b.x) || apart(e.a.y, e.b.y, f.a.y, f.b.y);
+}
 
 /// Whether two border edges meet elsewhere than in a named common end point. Contact up to `tolerance` (a length)
 /// counts.

@@ -18,8 +18,6 @@ constexpr std::size_t k_parallel_work = 200'000;
 
 double conjugate(double x) { return x; }
 std::complex<double> conjugate(std::complex<double> x) { return std::conj(x); }
-double real_part(double x) { return x; }
-double real_part(std::complex<double> x) { return x.real(); }
 
 }  // namespace
 
@@ -40,13 +38,22 @@ SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const
   }
   for (std::size_t e = 0; e < elements_.count(); ++e)
     largest_element_ = std::max(largest_element_, width_ * elements_.of(e).size());
-  factor_.resize(total + k_dense_slack);
+  stored_ = total + k_dense_slack;
+  place_.resize(elements_.vertices.size());
+  for (const Front& front : dissection_.fronts)
+    for (const Index e : front.elements)
+      for (Index i = elements_.first[e]; i < elements_.first[e + 1]; ++i) {
+        const Index row = dissection_.position[elements_.vertices[i]];
+        const auto found = std::lower_bound(front.rows.begin(), front.rows.end(), row) - front.rows.begin();
+        place_[i] = row < front.end ? row - front.begin : front.own() + static_cast<Index>(found);
+      }
+  factor_ = std::make_unique_for_overwrite<Scalar[]>(stored_);
   bad_pivots_.resize(dissection_.fronts.size());
 }
 
 template <class Scalar>
 std::size_t SparseCholesky<Scalar>::factor(const FillElement& fill) {
-  std::fill(factor_.begin(), factor_.end(), Scalar(0));
+  std::fill_n(factor_.get() + stored_ - k_dense_slack, k_dense_slack, Scalar(0));
   if (!dissection_.fronts.empty()) eliminate(static_cast<Index>(dissection_.fronts.size() - 1), fill);
   std::size_t bad = 0;
   for (const std::size_t count : bad_pivots_) bad += count;
@@ -68,14 +75,15 @@ typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index 
   else
     first(), second();
 
-  Scalar* panel = factor_.data() + panel_[f];
+  const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
+  Scalar* panel = factor_.get() + panel_[f];
+  std::fill_n(panel, rows * columns, Scalar(0));
   Update update;
   update.size = width_ * front.rows.size();
   update.values.assign(update.size * update.size + k_dense_slack, Scalar(0));
   assemble_elements(front, fill, panel, update);
   if (front.left != k_no_front) assemble_child(front, dissection_.fronts[front.left], left, panel, update);
   if (front.right != k_no_front) assemble_child(front, dissection_.fronts[front.right], right, panel, update);
-  const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
   bad_pivots_[f] = factor_columns(panel, rows, columns);
   subtract_square(panel, rows, columns, update.values.data(), update.size);
   return update;
@@ -86,28 +94,28 @@ void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillEle
                                                Update& update) const {
   const std::size_t rows = width_ * front.size(), own = width_ * front.own();
   std::vector<Scalar> matrix(largest_element_ * largest_element_);
-  std::vector<std::size_t> place(largest_element_);
   for (const Index e : front.elements) {
     const auto members = elements_.of(e);
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      const Index row = dissection_.position[members[i]];
-      place[i] =
-          row < front.end
-              ? row - front.begin
-              : front.own() + static_cast<std::size_t>(std::lower_bound(front.rows.begin(), front.rows.end(), row) -
-                                                       front.rows.begin());
-    }
+    const Index* place = place_.data() + elements_.first[e];
     fill(e, matrix.data());
     const std::size_t size = width_ * members.size();
-    for (std::size_t j = 0; j < size; ++j)
-      for (std::size_t i = j; i < size; ++i) {
-        std::size_t row = width_ * place[i / width_] + i % width_, column = width_ * place[j / width_] + j % width_;
-        Scalar value = matrix[j * size + i];
-        if (row < column) std::swap(row, column), value = conjugate(value);
-        if (column < own)
-          panel[column * rows + row] += value;
-        else
-          update.values[(column - own) * update.size + (row - own)] += value;
+    for (std::size_t j = 0; j < members.size(); ++j)
+      for (std::size_t i = j; i < members.size(); ++i) {
+        // Only lower halves are kept: a block that would lie above the diagonal is transposed.
+        const bool turned = place[i] < place[j];
+        const std::size_t row = width_ * place[turned ? j : i], column = width_ * place[turned ? i : j];
+        const bool eliminated = column < own;
+        const std::size_t stride = eliminated ? rows : update.size, shift = eliminated ? 0 : own;
+        Scalar* target = (eliminated ? panel : update.values.data()) + (column - shift) * stride + (row - shift);
+        const Scalar* block = matrix.data() + width_ * (j * size + i);
+        for (std::size_t c = 0; c < width_; ++c)
+          for (std::size_t r = i == j ? c : 0; r < width_; ++r) {
+            const Scalar value = block[c * size + r];
+            if (turned)
+              target[r * stride + c] += conjugate(value);
+            else
+              target[c * stride + r] += value;
+          }
       }
   }
 }
@@ -115,21 +123,28 @@ void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillEle
 template <class Scalar>
 void SparseCholesky<Scalar>::assemble_child(const Front& front, const Front& child, const Update& from, Scalar* panel,
                                             Update& to) const {
-  const std::size_t rows = width_ * front.size(), own = width_ * front.own();
-  const Scalar* value = from.values.data();
-  for (std::size_t j = 0; j < from.size; ++j) {
-    const std::size_t column = width_ * child.into_parent[j / width_] + j % width_;
-    // Places ascend with rows, so that the lower half stays the lower half; before the shift by `own` a row's place in
-    // `to` may lie in front of the array, never after the shift.
-    Scalar* target = column < own ? panel + column * rows : to.values.data() + (column - own) * to.size;
-    const std::size_t shift = column < own ? 0 : own;
-    std::size_t i = j;
-    for (; i % width_ != 0; ++i) target[width_ * child.into_parent[i / width_] + i % width_ - shift] += value[i];
-    for (; i < from.size; i += width_) {
-      Scalar* place = target + (width_ * child.into_parent[i / width_] - shift);
-      for (std::size_t k = 0; k < width_; ++k) place[k] += value[i + k];
+  if (width_ == 1)
+    add_update<1>(child.into_parent, from, front, panel, to);
+  else
+    add_update<2>(child.into_parent, from, front, panel, to);
+}
+
+template <class Scalar>
+template <std::size_t Width>
+void SparseCholesky<Scalar>::add_update(const std::vector<Index>& into, const Update& from, const Front& front,
+                                        Scalar* panel, Update& to) {
+  const std::size_t rows = Width * front.size(), own = front.own();
+  for (std::size_t j = 0; j < into.size(); ++j) {
+    // Places ascend with rows, so that the lower half stays the lower half.
+    const bool eliminated = into[j] < own;
+    const std::size_t stride = eliminated ? rows : to.size, shift = eliminated ? 0 : own;
+    Scalar* target = (eliminated ? panel : to.values.data()) + Width * (into[j] - shift) * stride;
+    const Scalar* value = from.values.data() + Width * j * from.size;
+    for (std::size_t column = 0; column < Width; ++column, target += stride, value += from.size) {
+      for (std::size_t k = column; k < Width; ++k) target[Width * (into[j] - shift) + k] += value[Width * j + k];
+      for (std::size_t i = j + 1; i < into.size(); ++i)
+        for (std::size_t k = 0; k < Width; ++k) target[Width * (into[i] - shift) + k] += value[Width * i + k];
     }
-    value += from.size;
   }
 }
 
@@ -148,12 +163,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     const std::size_t rows = width_ * front.size(), own = width_ * front.own();
     local.assign(rows, Scalar(0));
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
-    const Scalar* column = factor_.data() + panel_[f];
-    for (std::size_t j = 0; j < own; ++j, column += rows) {
-      const Scalar value = local[j] / real_part(column[j]);
-      local[j] = value;
-      for (std::size_t i = j + 1; i < rows; ++i) local[i] -= column[i] * value;
-    }
+    solve_forward(factor_.get() + panel_[f], rows, own, local.data());
     std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
     each_row(front, [&](std::size_t row, std::size_t place) { x[row] += local[place]; });
   }
@@ -163,12 +173,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     local.resize(rows);
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
     each_row(front, [&](std::size_t row, std::size_t place) { local[place] = x[row]; });
-    for (std::size_t j = own; j-- > 0;) {
-      const Scalar* column = factor_.data() + panel_[f] + j * rows;
-      Scalar value = local[j];
-      for (std::size_t i = j + 1; i < rows; ++i) value -= conjugate(column[i]) * local[i];
-      local[j] = value / real_part(column[j]);
-    }
+    solve_backward(factor_.get() + panel_[f], rows, own, local.data());
     std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
   }
   for (std::size_t i = 0; i < dissection_.order.size(); ++i)

@@ -35,7 +35,7 @@ class SparseCholesky {
   /// Overwrites b, `width` numbers per vertex in the caller's order, by A⁻¹ b.
   void solve(std::span<Scalar> b) const;
 
-  std::size_t stored() const { return factor_.size(); }
+  std::size_t stored() const { return stored_; }
 
  private:
   struct Update;
@@ -43,11 +43,17 @@ class SparseCholesky {
   void assemble_elements(const Front& front, const FillElement& fill, Scalar* panel, Update& update) const;
   void assemble_child(const Front& front, const Front& child, const Update& from, Scalar* panel, Update& to) const;
 
+  template <std::size_t Width>
+  static void add_update(const std::vector<Index>& into, const Update& from, const Front& front, Scalar* panel,
+                         Update& to);
+
   std::size_t width_, largest_element_ = 0;  ///< The latter in unknowns.
   Elements elements_;
   Dissection dissection_;
+  std::vector<Index> place_;        ///< Of each element's members in their front: own unknowns, then rows.
   std::vector<std::size_t> panel_;  ///< Where each front's columns begin in factor_.
-  std::vector<Scalar> factor_;
+  std::size_t stored_ = 0;
+  std::unique_ptr<Scalar[]> factor_;
   std::vector<std::size_t> bad_pivots_;  ///< Per front.
 };
 

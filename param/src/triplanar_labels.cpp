@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "triplanar_labels.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "vector_clones.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -27,14 +30,36 @@ inline Normal normal_of(const TriangleMesh& mesh, std::size_t t) {
   return {n, square > k_no_area * k_no_area * longest * longest ? square : 0};
 }
 
-std::uint8_t dominant_label(const Vec3& n) {
-  const double ax = std::abs(n.x), ay = std::abs(n.y), az = std::abs(n.z);
-  const bool y = ay > k_tie * ax;
-  const double axy = y ? ay : ax;
-  const bool z = az > k_tie * axy;
-  const double along = z ? n.z : y ? n.y : n.x;
-  const int axis = z ? 2 : y ? 1 : 0;
-  return static_cast<std::uint8_t>(2 * axis + (along < 0 ? 1 : 0));
+/// Triangles whose normals are found side by side.
+constexpr std::size_t k_batch = 64;
+
+/// Two edges of each triangle, coordinate by coordinate.
+struct EdgeBatch {
+  double px[k_batch] = {}, py[k_batch] = {}, pz[k_batch] = {}, qx[k_batch] = {}, qy[k_batch] = {}, qz[k_batch] = {};
+};
+
+struct LabelBatch {
+  double label[k_batch], doubled_area[k_batch];
+};
+
+/// The same as normal_of() and the largest component of it, without branches.
+PAPILLA_VECTOR_CLONES void label_batch(const EdgeBatch& e, LabelBatch& result) {
+  for (std::size_t i = 0; i < k_batch; ++i) {
+    const double x = e.py[i] * e.qz[i] - e.pz[i] * e.qy[i], y = e.pz[i] * e.qx[i] - e.px[i] * e.qz[i],
+                 z = e.px[i] * e.qy[i] - e.py[i] * e.qx[i];
+    const double square = x * x + y * y + z * z;
+    const double longest = e.px[i] * e.px[i] + e.py[i] * e.py[i] + e.pz[i] * e.pz[i] + e.qx[i] * e.qx[i] +
+                           e.qy[i] * e.qy[i] + e.qz[i] * e.qz[i];
+    const double ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
+    const bool by_y = ay > k_tie * ax;
+    const double most = by_y ? ay : ax;
+    const bool by_z = az > k_tie * most;
+    const double along = by_z ? z : by_y ? y : x, axis = by_z ? 4 : by_y ? 2 : 0;
+    const bool has_area = square > k_no_area * k_no_area * longest * longest;
+    result.label[i] = has_area ? (along < 0 ? axis + 1 : axis) : k_no_label;
+    result.doubled_area[i] = has_area ? square : 0;
+  }
+  for (double& area : result.doubled_area) area = std::sqrt(area);
 }
 
 }  // namespace
@@ -42,11 +67,22 @@ std::uint8_t dominant_label(const Vec3& n) {
 LabelledTriangles label_triangles(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
   LabelledTriangles result{std::vector<std::uint8_t>(count), std::vector<float>(count)};
-  for (std::size_t t = 0; t < count; ++t) {
-    const Normal n = normal_of(mesh, t);
-    const std::uint8_t label = dominant_label(n.direction);
-    result.label[t] = n.squared_length > 0 ? label : k_no_label;
-    result.doubled_area[t] = static_cast<float>(std::sqrt(n.squared_length));
+  EdgeBatch edges;
+  LabelBatch labels;
+  for (std::size_t begin = 0; begin < count; begin += k_batch) {
+    const std::size_t size = std::min(k_batch, count - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      const Triangle& corners = mesh.triangles[begin + i];
+      const Vec3 a = mesh.positions[corners[0]];
+      const Vec3 p = mesh.positions[corners[1]] - a, q = mesh.positions[corners[2]] - a;
+      edges.px[i] = p.x, edges.py[i] = p.y, edges.pz[i] = p.z;
+      edges.qx[i] = q.x, edges.qy[i] = q.y, edges.qz[i] = q.z;
+    }
+    label_batch(edges, labels);
+    for (std::size_t i = 0; i < size; ++i) {
+      result.label[begin + i] = static_cast<std::uint8_t>(labels.label[i]);
+      result.doubled_area[begin + i] = static_cast<float>(labels.doubled_area[i]);
+    }
   }
   return result;
 }

@@ -27,7 +27,7 @@ class EvaluateTexture : public testing::Test {
 
 TEST_F(EvaluateTexture, FractalRunsEveryEstimatorOnEverySize) {
   write_grey_image(file("grain.png"), grain_.picture, 8);
-  const std::vector<EvaluationRun> runs = evaluate_fractal({file("grain.png"), {}, {}});
+  const std::vector<EvaluationRun> runs = evaluate_fractal({file("grain.png"), "grain.png", {}, {}});
   ASSERT_EQ(runs.size(), 6U);
   for (const EvaluationRun& run : runs) {
     EXPECT_EQ(run.trace.size(), run.method == "probability" ? 2U : 3U) << run.method;
@@ -37,14 +37,14 @@ TEST_F(EvaluateTexture, FractalRunsEveryEstimatorOnEverySize) {
 
 TEST_F(EvaluateTexture, SymmetryLeavesLittleOfARegularGrain) {
   write_grey_image(file("grain.png"), grain_.picture, 8);
-  const std::vector<EvaluationRun> runs = evaluate_symmetry({file("grain.png"), {}, {}});
+  const std::vector<EvaluationRun> runs = evaluate_symmetry({file("grain.png"), "grain.png", {}, {}});
   ASSERT_EQ(runs.size(), 3U);
   for (const EvaluationRun& run : runs) EXPECT_LT(run.trace.back().error, 0.1) << run.method;
 }
 
 TEST_F(EvaluateTexture, HeightKnowsTheErrorOfAReliefAndTheResidualOfAPicture) {
   write_height_float(file("grain.exr"), grain_.relief);
-  const std::vector<EvaluationRun> known = evaluate_height({file("grain.exr"), {}, {}});
+  const std::vector<EvaluationRun> known = evaluate_height({file("grain.exr"), "grain.exr", {}, {}});
   ASSERT_EQ(known.size(), 9U);
   const auto least = [](const EvaluationRun& run) {
     return std::min_element(run.trace.begin(), run.trace.end(),
@@ -54,7 +54,7 @@ TEST_F(EvaluateTexture, HeightKnowsTheErrorOfAReliefAndTheResidualOfAPicture) {
   EXPECT_EQ(known[0].method, "variational");
   EXPECT_LT(least(known[2]), 0.2);
   write_grey_image(file("grain.png"), grain_.picture, 8);
-  const std::vector<EvaluationRun> unknown = evaluate_height({file("grain.png"), {}, {}});
+  const std::vector<EvaluationRun> unknown = evaluate_height({file("grain.png"), "grain.png", {}, {}});
   ASSERT_EQ(unknown.size(), 3U);
   EXPECT_NE(unknown[0].error_name, known[0].error_name);
 }

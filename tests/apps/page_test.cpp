@@ -101,5 +101,13 @@ TEST(PageFile, MarkupInNamesStaysText) {
   EXPECT_THROW(write_page(content, "/nowhere/page.html"), IoError);
 }
 
+TEST(PageFile, OnlyAPageThatFollowsMayAskItsServer) {
+  PageContent content{"plate", {{"parts", Json::array()}}, nullptr};
+  EXPECT_EQ(page_html(content).find("connect-src"), std::string::npos);
+  EXPECT_EQ(page_html(content).find(k_connect_marker), std::string::npos);
+  content.live = true;
+  EXPECT_EQ(page_html(content).find("; connect-src 'self'\">") != std::string::npos, !page_template().empty());
+}
+
 }  // namespace
 }  // namespace papilla::app

@@ -5,8 +5,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <sys/utsname.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include "exit_code.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/machine.hpp"
 #include "papilla_bench_build.hpp"
 
 namespace papilla::bench {
@@ -30,27 +29,12 @@ double clock_seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// The value after "key<blanks>:" in a file of /proc, or "".
-std::string proc_value(const char* file, std::string_view key) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with(key)) continue;
-    const std::size_t colon = line.find(':');
-    const std::size_t begin = colon == std::string::npos ? colon : line.find_first_not_of(" \t", colon + 1);
-    return begin == std::string::npos ? "" : line.substr(begin);
-  }
-  return "";
-}
-
-double mib_of_kb(const std::string& text) { return text.empty() ? 0 : std::stod(text) / 1024; }
-
 Json machine_json() {
-  utsname system{};
-  ::uname(&system);
-  return {{"cpu", proc_value("/proc/cpuinfo", "model name")},
-          {"cores", ::sysconf(_SC_NPROCESSORS_ONLN)},
-          {"memory_mib", std::floor(mib_of_kb(proc_value("/proc/meminfo", "MemTotal")))},
-          {"kernel", fmt::format("{} {}", system.sysname, system.release)}};
+  const Machine machine = this_machine();
+  return {{"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"memory_mib", machine.memory_mib},
+          {"kernel", machine.kernel}};
 }
 
 Json compiler_json() {
@@ -121,7 +105,6 @@ std::string command_line(const std::string& name, int argc, char** argv) {
 
 double thread_cpu_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 double process_cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
-double peak_rss_mib() { return mib_of_kb(proc_value("/proc/self/status", "VmHWM")); }
 void reset_peak_rss() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 double median(std::vector<double> values) {

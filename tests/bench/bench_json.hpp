@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/evidence.hpp"
+#include "papilla/core/machine.hpp"
 #include "papilla/core/trace.hpp"
 
 /// Harness of the programs papilla-bench-NAME: runs the methods of a comparison in turns and writes one JSON per run.
@@ -35,9 +36,8 @@ using Json = nlohmann::ordered_json;
 double thread_cpu_seconds();
 /// Processor time used by all threads of the process [s].
 double process_cpu_seconds();
-/// Most resident memory since the start or the last reset_peak_rss() [MiB].
-double peak_rss_mib();
-/// Starts a new peak; does nothing where the kernel does not allow it.
+using papilla::peak_rss_mib;
+/// Starts a new peak of peak_rss_mib(); does nothing where the kernel does not allow it.
 void reset_peak_rss();
 
 /// Makes the compiler believe that `value` is read, so that the work which made it stays.

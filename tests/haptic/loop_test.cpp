@@ -64,6 +64,22 @@ TEST(HapticLoop, RecordingPlayedAgainGivesTheSameBits) {
   EXPECT_EQ(first, second);
 }
 
+TEST(HapticLoop, OthersSeeTheNewestTick) {
+  const ContactSurface surface = stable_plate();
+  const Trajectory hand = press_and_stroke(surface, 0, {0.05, 0.05, 0}, {});
+  SimDevice device(device_preset("touch").caps(), hand, 1e-3);
+  LatestSlot<RecordRow> slot;
+  LoopOptions options;
+  options.ticks = 300;
+  options.paced = false;
+  options.hand = &hand;
+  options.latest = &slot;
+  run_haptic_loop(device, surface, options);
+  RecordRow seen;
+  EXPECT_EQ(slot.load(seen), 300U);
+  EXPECT_EQ(record_csv({&seen, 1}), record_csv({&play(surface, hand, 300).rows.back(), 1}));
+}
+
 TEST(HapticLoop, StopEndsItAndLeavesNoForce) {
   class Counting final : public HapticDevice {
    public:

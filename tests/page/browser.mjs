@@ -16,16 +16,20 @@ export async function launch() {
   return playwright.chromium.launch({ executablePath, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
 }
 
-/** Opens the file; `complaints` collects errors, warnings and requests that leave the machine. */
-export async function open(browser, file, options = {}) {
+/** Opens the file, which may ask the network for nothing. */
+export const open = (browser, file, options = {}) => openUrl(browser, pathToFileURL(file).href, options);
+
+/** Opens an address; `complaints` collects errors, warnings and requests for anything but the page and its server. */
+export async function openUrl(browser, url, options = {}) {
+  const own = url.startsWith('http') ? new URL(url).origin : 'file:';
   const page = await browser.newPage({ viewport: { width: 1400, height: 950 }, ...options });
   const complaints = [];
   page.setDefaultTimeout(120000);
   page.on('console', (message) => { if (message.type() === 'error') complaints.push(message.text()); });
   page.on('pageerror', (error) => complaints.push(error.stack));
   page.on('dialog', (dialog) => { complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
-  page.on('request', (request) => { if (!/^(file|data|blob):/.test(request.url())) complaints.push(`network: ${request.url()}`); });
-  await page.goto(pathToFileURL(file).href);
+  page.on('request', (request) => { if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(own)) complaints.push(`network: ${request.url()}`); });
+  await page.goto(url);
   await page.waitForSelector('body[data-ready=yes]');
   return { page, complaints };
 }

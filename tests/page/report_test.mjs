@@ -87,6 +87,8 @@ try {
   await downloads(page);
   assert.ok(await page.locator('#plan-table tbody tr').count() > 20);
   assert.ok(await page.locator('#cards article').count() >= 4);
+  const tones = await page.locator('#environment').evaluate((canvas) => new Set(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data).size);
+  assert.ok(tones > 30, `the environment is a picture: ${tones} tones`);
   await page.locator('body').press('3');
   assert.equal(await page.locator('#canvas3d').getAttribute('data-view'), 'stretch');
   await page.screenshot({ path: join(pictures, 'light.png'), fullPage: true });

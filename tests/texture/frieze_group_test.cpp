@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "papilla/core/error.hpp"
 #include "texture/fixtures.hpp"
@@ -91,6 +93,50 @@ TEST(RosetteGroup, RotationsAndMirrorsAreFound) {
       EXPECT_NEAR(found.sector_deg, 360.0 / n / (mirrors ? 2 : 1), 1e-9);
     }
 }
+
+/// Dots on two rings, one pair a sector: unlike waves, many harmonics and nothing in between.
+GreyImage dotted_rosette(int n, bool mirrors, Vec2 centre) {
+  return test::make_image(97, 97, [&](int x, int y) {
+    double sum = 0;
+    const auto add = [&](double radius, double angle, double width) {
+      const double dx = x - centre.x - radius * std::cos(angle), dy = y - centre.y - radius * std::sin(angle);
+      sum += std::exp(-(dx * dx + dy * dy) / (2 * width * width));
+    };
+    for (int k = 0; k < n; ++k)
+      for (const int side : mirrors ? std::vector{1, -1} : std::vector{1}) {
+        const double sector = 0.3 + 2 * std::numbers::pi * k / n;
+        add(30, sector + side * 1.1 / n, 4.3);
+        add(39, sector + side * (mirrors ? 0.6 : 2.2) / n, 3);
+      }
+    return 0.5 + 0.3 * sum;
+  });
+}
+
+/// Normal noise of half the picture's own deviation.
+GreyImage noisy(GreyImage image, unsigned seed) {
+  double mean = 0, squares = 0;
+  const auto count = static_cast<double>(image.pixels.size());
+  for (const float v : image.pixels) mean += static_cast<double>(v) / count;
+  for (const float v : image.pixels) squares += (static_cast<double>(v) - mean) * (static_cast<double>(v) - mean);
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal(0, 0.5 * std::sqrt(squares / count));
+  for (float& v : image.pixels) v = static_cast<float>(static_cast<double>(v) + normal(engine));
+  return image;
+}
+
+class NoisyRosette : public testing::TestWithParam<int> {};
+
+TEST_P(NoisyRosette, IsFound) {
+  const int n = GetParam();
+  for (const bool mirrors : {false, true}) {
+    const std::string name = (mirrors ? "d" : "c") + std::to_string(n);
+    EXPECT_EQ(find_rosette_group(noisy(rosette(n, mirrors, {47, 45.5}), 1), {48, 46}).name(), name);
+    if (n < 3) continue;
+    EXPECT_EQ(find_rosette_group(noisy(dotted_rosette(n, mirrors, {47, 48.5}), 2), {48, 48}).name(), name);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllOrders, NoisyRosette, testing::Range(1, 13));
 
 TEST(RosetteGroup, RefusesBadArguments) {
   EXPECT_THROW(find_rosette_group(test::noise_image(8, 8, 1), {4, 4}), InvalidInput);

@@ -9,6 +9,7 @@
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/texture/feature_matrix.hpp"
+#include "shared_progress.hpp"
 
 namespace papilla {
 namespace {
@@ -27,10 +28,12 @@ double difference(const float* a, const float* b, int count) {
 }
 
 template <typename Value>
-void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, int height, double unit) {
+void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, int height, double unit,
+          const Progress& progress) {
   const auto columns = static_cast<std::ptrdiff_t>(matrix.width());
   double* centre =
       matrix.distortion.data() + texture_detail::pixel_index(matrix.reach_x, matrix.reach_y, matrix.width());
+  texture_detail::SharedProgress rows(progress, "symmetry", matrix.reach_y + 1);
   oneapi::tbb::parallel_for(0, matrix.reach_y + 1, [&](int dy) {
     for (int dx = dy == 0 ? 0 : -matrix.reach_x; dx <= matrix.reach_x; ++dx) {
       const int left = std::max(0, -dx), count = width - std::abs(dx);
@@ -42,12 +45,13 @@ void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, in
       centre[dy * columns + dx] = value;
       centre[-dy * columns - dx] = value;
     }
+    rows.step();
   });
 }
 
 }  // namespace
 
-FeatureMatrix absolute_feature_matrix(const GreyImage& image) {
+FeatureMatrix absolute_feature_matrix(const GreyImage& image, const Progress& progress) {
   texture_detail::require_image(image, "absolute_feature_matrix");
   constexpr int k_most_side = 2048;
   if (std::max(image.width, image.height) > k_most_side)
@@ -59,9 +63,9 @@ FeatureMatrix absolute_feature_matrix(const GreyImage& image) {
   const std::vector<std::uint8_t> steps =
       image.bits == 8 ? texture_detail::whole_bytes(image) : std::vector<std::uint8_t>();
   if (steps.empty())
-    fill(matrix, image.pixels, image.width, image.height, 1);
+    fill(matrix, image.pixels, image.width, image.height, 1, progress);
   else
-    fill(matrix, steps, image.width, image.height, 1.0 / 255);
+    fill(matrix, steps, image.width, image.height, 1.0 / 255, progress);
   return matrix;
 }
 

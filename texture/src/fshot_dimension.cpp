@@ -144,6 +144,16 @@ double half_turn_deg(double radians) {
   return degrees < 0 ? degrees + 180 : degrees;
 }
 
+void set_ellipse(const Ellipse& ellipse, FshotSignature& signature) {
+  signature.sta = ellipse.minor;
+  signature.str = ellipse.major > 0 ? ellipse.minor / ellipse.major : 1;
+  signature.angle_deg = half_turn_deg(ellipse.angle);
+  signature.fs_h = 3 - (ellipse.major > 0 ? ellipse.radius(0) : 0);
+  signature.fs_v = 3 - (ellipse.major > 0 ? ellipse.radius(std::numbers::pi / 2) : 0);
+  signature.estimate.dimension = 3 - signature.sta;
+  signature.estimate.hurst = signature.sta;
+}
+
 /// 1.96… times the jackknife's standard error of the values obtained without one block each.
 double jackknife_half_width(const std::array<double, k_blocks>& values) {
   double mean = 0, squares = 0;
@@ -193,6 +203,33 @@ std::vector<ScalePoint> mean_curve(const std::vector<Offset>& offsets) {
 
 }  // namespace
 
+FshotSignature mean_signature(std::span<const FshotSignature> pieces) {
+  if (pieces.size() == 1) return pieces.front();
+  std::map<int, std::vector<double>> hurst;
+  std::vector<FractalEstimate> estimates;
+  for (const FshotSignature& piece : pieces) {
+    estimates.push_back(piece.estimate);
+    for (const DirectionalHurst& direction : piece.directions)
+      hurst[static_cast<int>(std::lround(direction.angle_deg / k_angle_step_deg))].push_back(direction.hurst);
+  }
+  FshotSignature signature;
+  std::vector<Direction> found;
+  for (const auto& [bin, values] : hurst) {
+    if (values.size() < pieces.size()) continue;
+    const texture_detail::MeanInterval mean = texture_detail::mean_interval(values);
+    found.push_back({bin, mean.mean});
+    signature.directions.push_back({static_cast<double>(bin * k_angle_step_deg), mean.mean, mean.mean - mean.half_width,
+                                    mean.mean + mean.half_width});
+  }
+  if (found.empty()) return signature;
+  signature.estimate = texture_detail::mean_estimate(estimates);
+  const double half_width = signature.estimate.high - signature.estimate.dimension;
+  set_ellipse(fit_ellipse(found), signature);
+  signature.estimate.low = signature.estimate.dimension - half_width;
+  signature.estimate.high = signature.estimate.dimension + half_width;
+  return signature;
+}
+
 FshotSignature fshot_dimension(const GreyImage& image) {
   texture_detail::require_image(image, "fshot_dimension", k_least_side);
   std::vector<Offset> offsets = ring();
@@ -203,14 +240,7 @@ FshotSignature fshot_dimension(const GreyImage& image) {
   for (const Direction& direction : found)
     signature.directions.push_back(
         {static_cast<double>(direction.bin * k_angle_step_deg), direction.hurst, direction.hurst, direction.hurst});
-  const Ellipse ellipse = fit_ellipse(found);
-  signature.sta = ellipse.minor;
-  signature.str = ellipse.major > 0 ? ellipse.minor / ellipse.major : 1;
-  signature.angle_deg = half_turn_deg(ellipse.angle);
-  signature.fs_h = 3 - (ellipse.major > 0 ? ellipse.radius(0) : 0);
-  signature.fs_v = 3 - (ellipse.major > 0 ? ellipse.radius(std::numbers::pi / 2) : 0);
-  signature.estimate.dimension = 3 - signature.sta;
-  signature.estimate.hurst = signature.sta;
+  set_ellipse(fit_ellipse(found), signature);
   signature.estimate.curve = mean_curve(offsets);
   add_intervals(offsets, signature);
   return signature;

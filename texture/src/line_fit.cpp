@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace papilla::texture_detail {
@@ -49,6 +50,17 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, con
   return fit;
 }
 
+MeanInterval mean_interval(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  MeanInterval result;
+  for (const double value : values) result.mean += value / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  const int freedom = static_cast<int>(values.size()) - 1;
+  if (freedom > 0) result.half_width = student_quantile(freedom) * std::sqrt(squares / freedom / count);
+  return result;
+}
+
 FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve) {
   std::vector<double> x, y;
   for (const ScalePoint& point : curve) {
@@ -63,6 +75,26 @@ FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve) {
   estimate.high = estimate.dimension + fit.half_width;
   estimate.curve = std::move(curve);
   return estimate;
+}
+
+FractalEstimate mean_estimate(std::span<const FractalEstimate> pieces) {
+  if (pieces.size() == 1) return pieces.front();
+  std::vector<double> dimensions;
+  std::map<double, std::pair<double, std::size_t>> logs;
+  for (const FractalEstimate& piece : pieces) {
+    dimensions.push_back(piece.dimension);
+    for (const ScalePoint& point : piece.curve) {
+      if (!(point.measure > 0)) continue;
+      logs[point.scale].first += std::log(point.measure);
+      ++logs[point.scale].second;
+    }
+  }
+  const MeanInterval mean = mean_interval(dimensions);
+  FractalEstimate result{mean.mean, 3 - mean.mean, mean.mean - mean.half_width, mean.mean + mean.half_width, {}};
+  for (const auto& [scale, sum] : logs)
+    if (sum.second == pieces.size())
+      result.curve.push_back({scale, std::exp(sum.first / static_cast<double>(pieces.size()))});
+  return result;
 }
 
 }  // namespace papilla::texture_detail

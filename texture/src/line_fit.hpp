@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "papilla/texture/fractal.hpp"
@@ -19,7 +20,17 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y, con
 /// The 97.5 % quantile of Student's distribution with that many degrees of freedom.
 double student_quantile(int degrees_of_freedom);
 
+/// Mean of independent values and half of its 95 % interval (Student), 0 for a single value.
+struct MeanInterval {
+  double mean = 0, half_width = 0;
+};
+MeanInterval mean_interval(const std::vector<double>& values);
+
 /// Dimension from a curve whose log measure falls with −D in log scale: the regression's slope and interval.
 FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve);
+
+/// Mean of the estimates from the pieces of a picture, with the interval of that mean; the curve is the geometric mean
+/// at the scales all of them have. One piece gives itself. @pre at least one piece.
+FractalEstimate mean_estimate(std::span<const FractalEstimate> pieces);
 
 }  // namespace papilla::texture_detail

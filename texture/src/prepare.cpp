@@ -13,6 +13,7 @@
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/texture/symmetry.hpp"
+#include "pyramid.hpp"
 #include "shaped_noise.hpp"
 
 namespace papilla {
@@ -99,36 +100,63 @@ std::vector<std::size_t> knots(const GreyImage& image, double contrast) {
   return found;
 }
 
+double mean_of(const GreyImage& image) {
+  return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) / static_cast<double>(image.pixels.size());
+}
+
+/// The picture at a size at which a Gaussian of that standard deviation still spans some pixels.
+texture_detail::Shrunk sized_for(const GreyImage& image, double deviation_px) {
+  constexpr double k_least_deviation = 8;
+  constexpr int k_large = 2048;
+  const double most = std::max<double>(k_large, std::max(image.width, image.height) * k_least_deviation / deviation_px);
+  return texture_detail::shrunk(image, static_cast<int>(std::min(most, 1e9)));
+}
+
+/// Replaces every grey by change(grey, value of the smooth field there), row by row: the field never exists at the
+/// picture's size.
+template <class Change>
+void change_rows(GreyImage& image, const GreyImage& small, const Field& smooth, const Change& change) {
+  const texture_detail::CoarseHeights field{smooth, small.width, small.height, image.width, image.height, false};
+  const double scale = texture_detail::enlargement(field, {0, 1, 0}, {0, 1, 0});
+  for (int y = 0; y < image.height; ++y) {
+    const Field row = texture_detail::enlarged(field, {0, 1, image.width}, {static_cast<double>(y), 1, 1});
+    for (int x = 0; x < image.width; ++x)
+      image.at(x, y) =
+          static_cast<float>(change(static_cast<double>(image.at(x, y)), row[static_cast<std::size_t>(x)] / scale));
+  }
+}
+
+Field to_field(const GreyImage& image) { return {image.pixels.begin(), image.pixels.end()}; }
+
 void flatten(GreyImage& image, double deviation_px) {
-  const Field grey(image.pixels.begin(), image.pixels.end());
-  const double mean = std::accumulate(grey.begin(), grey.end(), 0.0) / static_cast<double>(grey.size());
+  const double mean = mean_of(image);
+  const auto [small, halvings] = sized_for(image, deviation_px);
+  const double deviation_small = std::ldexp(deviation_px, -halvings);
   // The mirrored borders of the blur would bend a gradient: the plane is taken away first.
-  const Field plane = best_plane(grey, image.width, image.height);
-  Field low(grey.size());
-  for (std::size_t i = 0; i < grey.size(); ++i) low[i] = grey[i] - plane[i];
-  low = blurred(std::move(low), image.width, image.height, deviation_px);
-  for (std::size_t i = 0; i < grey.size(); ++i) low[i] += plane[i];
-  Field squares(grey.size());
-  double total = 0;
-  for (std::size_t i = 0; i < grey.size(); ++i) {
-    squares[i] = (grey[i] - low[i]) * (grey[i] - low[i]);
-    total += squares[i];
-  }
-  const double deviation = std::sqrt(total / static_cast<double>(grey.size()));
-  const Field local = blurred(std::move(squares), image.width, image.height, deviation_px);
-  for (std::size_t i = 0; i < grey.size(); ++i) {
-    const double here = std::sqrt(std::max(0.0, local[i]));
-    const double factor = here > 0 ? std::clamp(deviation / here, 0.5, 2.0) : 1;
-    image.pixels[i] = static_cast<float>(mean + factor * (grey[i] - low[i]));
-  }
+  Field low = to_field(small);
+  const Field plane = best_plane(low, small.width, small.height);
+  for (std::size_t i = 0; i < low.size(); ++i) low[i] -= plane[i];
+  low = blurred(std::move(low), small.width, small.height, deviation_small);
+  for (std::size_t i = 0; i < low.size(); ++i) low[i] += plane[i];
+  change_rows(image, small, low, [](double grey, double under) { return grey - under; });
+
+  GreyImage squares = image;
+  for (float& value : squares.pixels) value *= value;
+  const double deviation = std::sqrt(mean_of(squares));
+  squares = texture_detail::shrunk(squares, std::max(small.width, small.height)).image;
+  const Field local = blurred(to_field(squares), small.width, small.height, deviation_small);
+  change_rows(image, small, local, [=](double rest, double square) {
+    const double here = std::sqrt(std::max(0.0, square));
+    return mean + (here > 0 ? std::clamp(deviation / here, 0.5, 2.0) : 1) * rest;
+  });
 }
 
 void raise_detail(GreyImage& image, double amount) {
   constexpr double k_share = 0.005;
-  const Field grey(image.pixels.begin(), image.pixels.end());
-  const Field low = blurred(grey, image.width, image.height, k_share * std::min(image.width, image.height));
-  for (std::size_t i = 0; i < grey.size(); ++i)
-    image.pixels[i] = static_cast<float>(grey[i] + amount * (grey[i] - low[i]));
+  const double deviation_px = k_share * std::min(image.width, image.height);
+  const auto [small, halvings] = sized_for(image, deviation_px);
+  const Field low = blurred(to_field(small), small.width, small.height, std::ldexp(deviation_px, -halvings));
+  change_rows(image, small, low, [=](double grey, double under) { return grey + amount * (grey - under); });
 }
 
 GreyImage mirrored(const GreyImage& image) {
@@ -140,10 +168,11 @@ GreyImage mirrored(const GreyImage& image) {
 }
 
 void stretch(GreyImage& image) {
-  std::vector<float> sorted = image.pixels;
-  std::sort(sorted.begin(), sorted.end());
+  std::vector<float> greys = image.pixels;
   const auto percentile = [&](double share) {
-    return static_cast<double>(sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))]);
+    const auto place = greys.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(greys.size() - 1));
+    std::nth_element(greys.begin(), place, greys.end());
+    return static_cast<double>(*place);
   };
   const double low = percentile(0.005), high = percentile(0.995);
   for (float& grey : image.pixels)

@@ -38,10 +38,10 @@ struct Between {
   double weight = 0;
 };
 
-std::vector<Between> positions(int fine, int coarse, bool periodic) {
+std::vector<Between> positions(const FineAxis& axis, int fine, int coarse, bool periodic) {
   std::vector<Between> result;
-  for (int i = 0; i < fine; ++i) {
-    const double at = (i + 0.5) * coarse / fine - 0.5;
+  for (int i = 0; i < axis.count; ++i) {
+    const double at = (axis.begin + (i + 0.5) * axis.step) * coarse / fine - 0.5;
     const int before = static_cast<int>(std::floor(at));
     const auto inside = [&](int k) { return periodic ? wrapped(k, coarse) : std::clamp(k, 0, coarse - 1); };
     result.push_back({inside(before), inside(before + 1), at - before});
@@ -69,24 +69,43 @@ GreyImage halved(const GreyImage& image) {
   return half;
 }
 
-std::vector<double> doubled(const std::vector<double>& heights, int width, int height, int fine_width, int fine_height,
-                            bool periodic) {
-  const std::vector<Between> columns = positions(fine_width, width, periodic);
-  const std::vector<Between> rows = positions(fine_height, height, periodic);
-  const double scale = (static_cast<double>(fine_width) / width + static_cast<double>(fine_height) / height) / 2;
+Shrunk shrunk(const GreyImage& image, int most_side) {
+  Shrunk result;
+  for (const GreyImage* from = &image; std::max(from->width, from->height) > most_side; from = &result.image) {
+    result.image = halved(*from);
+    ++result.halvings;
+  }
+  if (result.halvings == 0) result.image = image;
+  return result;
+}
+
+double enlargement(const CoarseHeights& coarse, const FineAxis& across, const FineAxis& down) {
+  return (static_cast<double>(coarse.fine_width) / (across.step * coarse.width) +
+          static_cast<double>(coarse.fine_height) / (down.step * coarse.height)) /
+         2;
+}
+
+std::vector<double> enlarged(const CoarseHeights& coarse, const FineAxis& across, const FineAxis& down) {
+  const std::vector<Between> columns = positions(across, coarse.fine_width, coarse.width, coarse.periodic);
+  const std::vector<Between> rows = positions(down, coarse.fine_height, coarse.height, coarse.periodic);
+  const double scale = enlargement(coarse, across, down);
   std::vector<double> result;
-  result.reserve(static_cast<std::size_t>(fine_width) * static_cast<std::size_t>(fine_height));
+  result.reserve(columns.size() * rows.size());
   for (const Between& row : rows) {
-    const double *above = heights.data() + pixel_index(0, row.before, width),
-                 *below = heights.data() + pixel_index(0, row.after, width);
+    const double *above = coarse.heights.data() + pixel_index(0, row.before, coarse.width),
+                 *below = coarse.heights.data() + pixel_index(0, row.after, coarse.width);
     for (const Between& column : columns) {
-      const auto across = [&](const double* line) {
+      const auto along = [&](const double* line) {
         return (1 - column.weight) * line[column.before] + column.weight * line[column.after];
       };
-      result.push_back(scale * ((1 - row.weight) * across(above) + row.weight * across(below)));
+      result.push_back(scale * ((1 - row.weight) * along(above) + row.weight * along(below)));
     }
   }
   return result;
+}
+
+std::vector<double> enlarged(const CoarseHeights& coarse) {
+  return enlarged(coarse, {0, 1, coarse.fine_width}, {0, 1, coarse.fine_height});
 }
 
 }  // namespace papilla::texture_detail

@@ -10,9 +10,34 @@ namespace papilla::texture_detail {
 /// The picture at half its sides (rounded), every pixel the mean of what it covers.
 GreyImage halved(const GreyImage& image);
 
-/// Heights in pixels over a grid made by halved(), brought back to the finer grid and to its pixels: bilinear, across
-/// the borders when periodic.
-std::vector<double> doubled(const std::vector<double>& heights, int width, int height, int fine_width, int fine_height,
-                            bool periodic);
+/// A picture halved until no side is longer than `most_side`, and how often that was.
+struct Shrunk {
+  GreyImage image;
+  int halvings = 0;
+};
+Shrunk shrunk(const GreyImage& image, int most_side);
+
+/// Heights in pixels over a grid made by halved(), once or several times, and the picture it was made from.
+struct CoarseHeights {
+  const std::vector<double>& heights;
+  int width, height;
+  int fine_width, fine_height;
+  bool periodic;
+};
+
+/// Samples along one axis of the fine picture: sample i covers pixels begin + i·step … begin + (i + 1)·step, which may
+/// lie beyond the borders.
+struct FineAxis {
+  double begin = 0, step = 1;
+  int count = 0;
+};
+
+/// What heights are multiplied with on that way: the samples of the one picture over those of the other.
+double enlargement(const CoarseHeights& coarse, const FineAxis& across, const FineAxis& down);
+
+/// The heights brought to a part of the finer grid and to its samples: bilinear, across the borders when periodic.
+std::vector<double> enlarged(const CoarseHeights& coarse, const FineAxis& across, const FineAxis& down);
+/// The same for the whole picture.
+std::vector<double> enlarged(const CoarseHeights& coarse);
 
 }  // namespace papilla::texture_detail

@@ -12,10 +12,10 @@ namespace papilla::texture_detail {
 
 void require_shading(const GreyImage& image, const ShadingOptions& options, const char* function) {
   require_image(image, function);
-  constexpr std::size_t k_most_pixels = std::size_t{8192} * 8192;  // 6 GB for the variational method.
-  if (image.pixels.size() > k_most_pixels)
-    throw InvalidInput(std::string(function) + ": " + std::to_string(image.width) + " x " +
-                       std::to_string(image.height) + " pixels are more than 8192 x 8192");
+  constexpr int k_least_piece = 64;
+  if (options.largest_piece_px < k_least_piece)
+    throw InvalidInput(std::string(function) + ": pieces of " + std::to_string(options.largest_piece_px) +
+                       " pixels are smaller than " + std::to_string(k_least_piece));
   const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
   if (!positive(options.albedo) || !positive(options.smoothness) || options.iterations < 1 ||
       !positive(options.relative_tolerance))

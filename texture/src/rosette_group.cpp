@@ -18,6 +18,7 @@ using texture_detail::CircleWaves;
 
 constexpr int k_angles = 96;  // Holds the 12-fold turn and its double.
 constexpr int k_most_rotations = 12;
+constexpr double k_centre_known = 0.15;  // Of the shorter side: further off nothing is searched.
 
 /// The picture along circles, every circle counted by its length.
 struct Circles {
@@ -25,14 +26,33 @@ struct Circles {
   std::vector<double> weights;
   std::vector<int> highest;  ///< Waves along the circle longer than 4 pixels.
   double energy = 0, parameters = 0;
+  double noise = 0;  ///< Energy per parameter that is no picture: pixel noise, and what interpolation leaves.
 };
 
-Circles circles(const GreyImage& motif, Vec2 centre) {
+/// Standard deviation of the noise of single pixels, from the median of |second difference of second differences|:
+/// smooth motifs leave little there, edges are outvoted [Immerkær 1996, with the median].
+double pixel_noise(const GreyImage& motif) {
+  std::vector<double> values;
+  const auto second = [&](int x, int y) {
+    return static_cast<double>(motif.at(x - 1, y)) - 2 * static_cast<double>(motif.at(x, y)) +
+           static_cast<double>(motif.at(x + 1, y));
+  };
+  for (int y = 1; y + 1 < motif.height; ++y)
+    for (int x = 1; x + 1 < motif.width; ++x)
+      values.push_back(std::abs(second(x, y - 1) - 2 * second(x, y) + second(x, y + 1)));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  constexpr double k_gain = 6, k_median = 0.6745;  // Root of the squared coefficients; of |normal numbers|.
+  return *middle / (k_gain * k_median);
+}
+
+Circles circles(const GreyImage& motif, Vec2 centre, double noise) {
   const double reach = std::min({centre.x, centre.y, motif.width - 1 - centre.x, motif.height - 1 - centre.y});
   const auto pixel = [&](int x, int y) {
     return motif.at(std::clamp(x, 0, motif.width - 1), std::clamp(y, 0, motif.height - 1));
   };
   Circles result;
+  double noise_energy = 0;
   for (double r = 3; r <= reach; r += 2) {
     std::vector<double> samples;
     for (int i = 0; i < k_angles; ++i) {
@@ -45,7 +65,10 @@ Circles circles(const GreyImage& motif, Vec2 centre) {
     result.highest.push_back(std::min(waves.highest(), static_cast<int>(std::numbers::pi * r / 2)));
     for (int m = 1; m <= result.highest.back(); ++m) result.energy += 2 * r * std::norm(waves.at(m));
     result.parameters += 2 * result.highest.back();
+    const double independent = std::min(static_cast<double>(k_angles), 2 * std::numbers::pi * r);
+    noise_energy += 2 * r * result.highest.back() * noise * noise / independent;
   }
+  result.noise = std::max(noise_energy, texture_detail::k_model_error * result.energy) / result.parameters;
   return result;
 }
 
@@ -95,10 +118,9 @@ Mirror best_mirror(const Circles& c, int n) {
 /// Cn or Dn, whichever suits the motif read about one centre better.
 Candidate rated(const Circles& c, int n) {
   Candidate best;
-  const double noise = texture_detail::k_model_error * c.energy / c.parameters;
   const auto consider = [&](bool mirrors, double kept, double direction) {
     const int order = mirrors ? 2 * n : n;
-    const double criterion = ((c.energy - kept) / noise + 2 * c.parameters / order) / c.parameters;
+    const double criterion = ((c.energy - kept) / c.noise + 2 * c.parameters / order) / c.parameters;
     if (criterion >= best.criterion) return;
     best.criterion = criterion;
     best.symmetry = {n,
@@ -133,7 +155,9 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
   if (!is_finite(centre_px) || !inside(centre_px))
     throw InvalidInput("find_rosette_group: the centre (" + std::to_string(centre_px.x) + ", " +
                        std::to_string(centre_px.y) + ") is not within the picture, 6 pixels off its border");
-  const Circles start = circles(motif, centre_px);
+  const double noise = pixel_noise(motif);
+  const double reach = std::min(motif.width, motif.height) * k_centre_known;
+  const Circles start = circles(motif, centre_px, noise);
   Candidate best;
   best.symmetry.centre_px = centre_px;
   if (!(start.energy > 0)) return best.symmetry;
@@ -145,7 +169,7 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
     for (int divisor = 2; divisor < n; ++divisor) {
       if (n % divisor != 0) continue;
       const Vec2 other = centres[static_cast<std::size_t>(divisor)];
-      if (const double now = turned(circles(motif, other), n); now > most) {
+      if (const double now = turned(circles(motif, other, noise), n); now > most) {
         most = now;
         centre = other;
       }
@@ -154,7 +178,8 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
       bool moved = false;
       for (const Vec2 direction : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}}) {
         const Vec2 trial = centre + step * direction;
-        const double now = inside(trial) ? turned(circles(motif, trial), n) : 0;
+        const double now =
+            inside(trial) && norm(trial - centre_px) <= reach ? turned(circles(motif, trial, noise), n) : 0;
         if (now <= most) continue;
         most = now;
         centre = trial;
@@ -163,7 +188,7 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
       if (!moved) step /= 2;
     }
     centres[static_cast<std::size_t>(n)] = centre;
-    Candidate candidate = rated(circles(motif, centre), n);
+    Candidate candidate = rated(circles(motif, centre, noise), n);
     if (candidate.criterion >= best.criterion) continue;
     best = candidate;
     best.symmetry.centre_px = centre;

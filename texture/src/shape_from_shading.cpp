@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <mutex>
 #include <numeric>
+#include <string_view>
 
 #include "checks.hpp"
+#include "pieces.hpp"
 #include "pyramid.hpp"
 #include "reflectance.hpp"
 #include "relief_solver.hpp"
+#include "shaped_noise.hpp"
 
 namespace papilla {
 namespace {
@@ -21,6 +25,8 @@ using texture_detail::Reflectance;
 using texture_detail::reflectance;
 using texture_detail::remove_mean;
 using Field = std::vector<double>;
+
+constexpr std::string_view k_stage = "shape from shading";
 
 double dot_product(const Field& a, const Field& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
@@ -176,7 +182,7 @@ struct Descent {
   Field z, gradient;
 
   void progress(int done, int of) const {
-    if (options.progress) options.progress("shape from shading", begin + (end - begin) * done / of);
+    if (options.progress) options.progress(k_stage, begin + (end - begin) * done / of);
   }
 };
 
@@ -253,9 +259,14 @@ Field solve_coarsest(const GreyImage& image, const ShadingOptions& options, doub
   return std::move(state.z);
 }
 
-constexpr int k_share = 10;         ///< A finer level takes this part of the coarsest level's steps.
-constexpr int k_tile_side = 1024;   ///< Levels of more than twice this are refined tile by tile.
-constexpr int k_tile_overlap = 64;  ///< Mixed over between tiles: longer than what a few steps still change.
+constexpr int k_share = 10;  ///< A finer level takes this part of the coarsest level's steps.
+
+/// The options at half the size: the heights halve with the pixels and the pixels are a quarter, so that this keeps the
+/// energies' ratio.
+ShadingOptions coarser(ShadingOptions options) {
+  options.smoothness /= 4;
+  return options;
+}
 
 StopReason refine(const GreyImage& image, const ShadingOptions& options, double begin, double end,
                   const Stopwatch& clock, Field& z, ShadingResult& result) {
@@ -267,86 +278,91 @@ StopReason refine(const GreyImage& image, const ShadingOptions& options, double 
   return stop;
 }
 
-/// Where tiles begin along one side, and their common length.
-struct Tiles {
-  int count, length, stride;
-  explicit Tiles(int side) : count(std::max(1, side / k_tile_side)) {
-    stride = (side + count - 1) / count;
-    length = count == 1 ? side : std::min(side, stride + k_tile_overlap);
-  }
-};
-
-/// Weight of sample i of a tile: a ramp over the overlap at ends that another tile covers too.
-double ramp(int i, int length, bool open_before, bool open_after) {
-  double weight = 1;
-  if (open_before) weight = std::min(weight, (i + 1.0) / (k_tile_overlap + 1));
-  if (open_after) weight = std::min(weight, static_cast<double>(length - i) / (k_tile_overlap + 1));
-  return weight;
-}
-
-/// Refines a level too large for one piece: overlapping tiles with free borders from the common start, mixed by ramps.
-/// What is left to do at this level is local.
-StopReason refine_by_tiles(const GreyImage& image, const ShadingOptions& options, double begin, double end,
-                           const Stopwatch& clock, Field& z, ShadingResult& result) {
-  const Tiles across(image.width), down(image.height);
-  ShadingOptions local = options;
-  local.periodic = false;
-  std::vector<float> sum(z.size(), 0), weight(z.size(), 0);
-  double squares = 0;
-  StopReason stop = StopReason::converged;
-  for (int t = 0; t < across.count * down.count; ++t) {
-    const int left = t % across.count * across.stride, top = t / across.count * down.stride;
-    const auto column = [&](int x) { return texture_detail::wrapped(left + x, image.width); };
-    const auto row = [&](int y) { return texture_detail::wrapped(top + y, image.height); };
-    // Only a picture that tiles goes on beyond its last column.
-    const int width = options.periodic ? across.length : std::min(across.length, image.width - left);
-    const int height = options.periodic ? down.length : std::min(down.length, image.height - top);
-    GreyImage part{width, height, {}, 0, image.bits};
-    Field heights;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const std::size_t i = pixel_index(column(x), row(y), image.width);
-        part.pixels.push_back(image.pixels[i]);
-        heights.push_back(z[i]);
-      }
-    const double share = (end - begin) / (across.count * down.count);
-    ShadingResult steps;
-    if (refine(part, local, begin + share * t, begin + share * (t + 1), clock, heights, steps) != StopReason::converged)
-      stop = StopReason::iteration_limit;
-    if (!steps.trace.empty()) squares += steps.trace.back().error * steps.trace.back().error;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const bool before = options.periodic || left > 0, after = options.periodic || left + width < image.width;
-        const bool above = options.periodic || top > 0, below = options.periodic || top + height < image.height;
-        const double w = ramp(x, width, before && across.count > 1, after && across.count > 1) *
-                         ramp(y, height, above && down.count > 1, below && down.count > 1);
-        const std::size_t i = pixel_index(column(x), row(y), image.width);
-        sum[i] += static_cast<float>(w * (heights[pixel_index(x, y, width)] - z[i]));
-        weight[i] += static_cast<float>(w);
-      }
-  }
-  for (std::size_t i = 0; i < z.size(); ++i) z[i] += static_cast<double>(sum[i] / weight[i]);
-  result.trace.push_back({clock.seconds(), std::sqrt(squares / (across.count * down.count))});
-  return stop;
-}
-
 /// From coarse to fine: large waves converge where they are cheap, the finest level adds the smallest ones.
 Field solve(const GreyImage& image, const ShadingOptions& options, double end, const Stopwatch& clock,
             ShadingResult& result) {
-  if (std::min(image.width, image.height) < 2 * k_coarsest_side &&
-      std::max(image.width, image.height) <= 2 * k_tile_side)
+  if (std::min(image.width, image.height) < 2 * k_coarsest_side)
     return solve_coarsest(image, options, 0, end, clock, result);
-  ShadingOptions coarse = options;
-  coarse.smoothness /= 4;  // The heights halve with the pixels and the pixels are a quarter: keeps the energies' ratio.
+  const GreyImage half = texture_detail::halved(image);
+  const Field coarse = solve(half, coarser(options), end / 4, clock, result);
+  Field z = texture_detail::enlarged({coarse, half.width, half.height, image.width, image.height, options.periodic});
+  result.stop = refine(image, options, end / 4, end, clock, z, result);
+  return z;
+}
+
+/// The common coarse heights at the samples of a piece.
+Field start_of(const texture_detail::Piece& piece, const texture_detail::CoarseHeights& coarse) {
+  const auto axis = [](const texture_detail::PieceSpan& span, int count) {
+    return texture_detail::FineAxis{static_cast<double>(span.begin), static_cast<double>(span.length()) / count, count};
+  };
+  return texture_detail::enlarged(coarse, axis(piece.across, piece.image.width), axis(piece.down, piece.image.height));
+}
+
+/// The heights of one piece: from the common coarse start through the levels in between.
+Field refine_piece(const texture_detail::Piece& piece, const texture_detail::CoarseHeights& coarse, int level,
+                   const ShadingOptions& options, const Stopwatch& clock, ShadingResult& steps) {
   Field z;
-  {
-    const GreyImage half = texture_detail::halved(image);
-    z = texture_detail::doubled(solve(half, coarse, end / 4, clock, result), half.width, half.height, image.width,
-                                image.height, options.periodic);
+  if (level > 0) {
+    const GreyImage half = texture_detail::halved(piece.image);
+    const Field heights =
+        refine_piece({piece.across, piece.down, half}, coarse, level - 1, coarser(options), clock, steps);
+    z = texture_detail::enlarged({heights, half.width, half.height, piece.image.width, piece.image.height, false});
+  } else {
+    z = start_of(piece, coarse);
   }
-  const bool large = std::max(image.width, image.height) > 2 * k_tile_side;
-  result.stop = large ? refine_by_tiles(image, options, end / 4, end, clock, z, result)
-                      : refine(image, options, end / 4, end, clock, z, result);
+  steps.stop = refine(piece.image, options, 0, 1, clock, z, steps);
+  return z;
+}
+
+/// Takes from what a piece changed the waves that its free borders leave open: those longer than a piece overlaps, or
+/// than six pixels of the common start. Those stay what they are in the start.
+void keep_short_waves(Field& heights, const Field& start, int width, int height, double longest_px) {
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] -= start[i];
+  texture_detail::filter(heights, width, height, false, [=](double x, double y) {
+    const double waves = longest_px * std::hypot(x, y);
+    return -std::expm1(-waves * waves);
+  });
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += start[i];
+}
+
+/// Pictures too large for one piece: the long waves from the picture at a size that is one, the others in overlapping
+/// pieces with free borders that start from those, mixed by ramps.
+Field solve_large(const GreyImage& image, const ShadingOptions& options, const Stopwatch& clock,
+                  ShadingResult& result) {
+  const auto [small, levels] = texture_detail::shrunk(image, options.largest_piece_px / 2);
+  ShadingOptions coarse_options = options;
+  for (int level = 0; level < levels; ++level) coarse_options = coarser(coarse_options);
+  constexpr double k_coarse_share = 0.02;
+  const Field coarse = solve(small, coarse_options, k_coarse_share, clock, result);
+  ShadingOptions local = options;
+  local.periodic = false;
+  local.progress = {};
+  texture_detail::PieceLayout layout;
+  layout.core = options.largest_piece_px / 2;
+  layout.overlap = texture_detail::piece_overlap(options.largest_piece_px);
+  layout.periodic = options.periodic;
+  constexpr double k_resolved_px = 6;
+  const double longest_px = std::max<double>(layout.overlap, k_resolved_px * std::ldexp(1, levels));
+  const texture_detail::CoarseHeights common{coarse,      small.width,  small.height,
+                                             image.width, image.height, options.periodic};
+  std::mutex mutex;
+  std::vector<double> squares;
+  StopReason stop = StopReason::converged;
+  Field z = texture_detail::solve_by_pieces(
+      image, layout,
+      [&](const texture_detail::Piece& piece) {
+        ShadingResult steps;
+        Field heights = refine_piece(piece, common, levels - 1, local, clock, steps);
+        keep_short_waves(heights, start_of(piece, common), piece.image.width, piece.image.height, longest_px);
+        const std::scoped_lock lock(mutex);
+        squares.push_back(steps.trace.empty() ? 0 : steps.trace.back().error * steps.trace.back().error);
+        if (steps.stop != StopReason::converged) stop = StopReason::iteration_limit;
+        return heights;
+      },
+      texture_detail::part_of(options.progress, k_coarse_share, 1), k_stage);
+  const auto pieces = static_cast<double>(squares.size());
+  result.trace.push_back({clock.seconds(), std::sqrt(texture_detail::ordered_sum(std::move(squares)) / pieces)});
+  result.stop = stop;
   return z;
 }
 
@@ -356,42 +372,9 @@ ShadingResult shape_from_shading_variational(const GreyImage& image, const Shadi
   texture_detail::require_shading(image, options, "shape_from_shading_variational");
   const Stopwatch clock;
   ShadingResult result;
-  result.height_px = solve(image, options, 1, clock, result);
+  const bool large = std::max(image.width, image.height) > options.largest_piece_px;
+  result.height_px = large ? solve_large(image, options, clock, result) : solve(image, options, 1, clock, result);
   remove_mean(result.height_px);
-  return result;
-}
-
-ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options) {
-  texture_detail::require_shading(image, options, "shape_from_shading_tsai_shah");
-  const Vec3 s = texture_detail::oblique(texture_detail::require_light(options.light, "shape_from_shading_tsai_shah"));
-  const Stopwatch clock;
-  constexpr double k_noise = 1e-8, k_first_gain = 0.01;  // W and S of the paper.
-  const Field target = brightness(image, options.albedo);
-  Field z(target.size(), 0.0), next(target.size()), gain(target.size(), k_first_gain);
-  const auto before = [&](int i, int count) { return i > 0 ? i - 1 : options.periodic ? count - 1 : 0; };
-  ShadingResult result;
-  for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    double squares = 0;
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x) {
-        const std::size_t i = pixel_index(x, y, image.width);
-        const std::size_t left = pixel_index(before(x, image.width), y, image.width);
-        const std::size_t up = pixel_index(x, before(y, image.height), image.width);
-        const Reflectance r = reflectance(s, z[i] - z[left], z[i] - z[up]);
-        const double error = target[i] - r.value;
-        // A border pixel that is its own neighbour has no slope in that direction to change.
-        const double slope = -((left == i ? 0 : r.dp) + (up == i ? 0 : r.dq));
-        const double damped = gain[i] * slope / (k_noise + gain[i] * slope * slope);
-        next[i] = z[i] - damped * error;
-        gain[i] *= 1 - damped * slope;
-        squares += error * error;
-      }
-    std::swap(z, next);
-    result.trace.push_back({clock.seconds(), std::sqrt(squares / static_cast<double>(z.size()))});
-    if (options.progress) options.progress("shape from shading", (iteration + 1.0) / options.iterations);
-  }
-  remove_mean(z);
-  result.height_px = std::move(z);
   return result;
 }
 

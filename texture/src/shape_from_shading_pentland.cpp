@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <complex>
 #include <numbers>
-#include <numeric>
+#include <utility>
 
 #include "checks.hpp"
 #include "fft.hpp"
 #include "papilla/texture/shape_from_shading.hpp"
+#include "pieces.hpp"
+#include "pyramid.hpp"
 #include "reflectance.hpp"
 #include "slopes.hpp"
 
@@ -36,21 +38,70 @@ void integrate(texture_detail::RealFft2d& fft, int width, int height, Vec3 light
     }
 }
 
-/// Root mean square of brightness − R over the slopes of the heights.
-double residual(const Field& height, const Field& brightness, int width, int rows, Vec3 light, bool periodic) {
+/// Root mean square of the brightness − R over the slopes of the heights.
+double residual(const Field& height, const GreyImage& image, double albedo, Vec3 light, bool periodic) {
   double squares = 0;
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < width; ++x) {
-      const texture_detail::Stencil across = texture_detail::stencil(x, width, periodic);
-      const texture_detail::Stencil down = texture_detail::stencil(y, rows, periodic);
-      const auto at = [&](int column, int row) { return height[texture_detail::pixel_index(column, row, width)]; };
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const texture_detail::Stencil across = texture_detail::stencil(x, image.width, periodic);
+      const texture_detail::Stencil down = texture_detail::stencil(y, image.height, periodic);
+      const auto at = [&](int column, int row) {
+        return height[texture_detail::pixel_index(column, row, image.width)];
+      };
       const double p = (at(across.after, y) - at(across.before, y)) / across.span;
       const double q = (at(x, down.after) - at(x, down.before)) / down.span;
       const double error =
-          brightness[texture_detail::pixel_index(x, y, width)] - texture_detail::reflectance(light, p, q).value;
+          static_cast<double>(image.at(x, y)) / albedo - texture_detail::reflectance(light, p, q).value;
       squares += error * error;
     }
   return std::sqrt(squares / static_cast<double>(height.size()));
+}
+
+/// Heights of the brightness after its mean.
+Field linear_heights(Field brightness, int columns, int rows, bool periodic, Vec3 light) {
+  texture_detail::remove_mean(brightness);
+  const auto padded = [&](int side) { return periodic ? side : texture_detail::good_fft_size(side + side / 4); };
+  const int width = padded(columns), height = padded(rows);
+  texture_detail::RealFft2d fft(width, height);
+  std::fill_n(fft.real(), fft.stride() * static_cast<std::size_t>(height), 0.0);
+  for (int y = 0; y < rows; ++y)
+    std::copy_n(brightness.data() + texture_detail::pixel_index(0, y, columns), columns, &fft.real(0, y));
+  fft.forward();
+  integrate(fft, width, height, light);
+  fft.backward();
+  for (int y = 0; y < rows; ++y)
+    std::copy_n(&fft.real(0, y), columns, brightness.data() + texture_detail::pixel_index(0, y, columns));
+  return brightness;
+}
+
+/// The method is linear: the long waves come from the small picture, the others, which reach less far, from pieces.
+Field heights_by_pieces(const GreyImage& image, const ShadingOptions& options, Vec3 light) {
+  const GreyImage small = texture_detail::shrunk(image, options.largest_piece_px / 2).image;
+  const auto enlarged = [&](const Field& field, const texture_detail::Piece& piece) {
+    return texture_detail::enlarged({field, small.width, small.height, image.width, image.height, options.periodic},
+                                    {static_cast<double>(piece.across.begin), 1, piece.across.length()},
+                                    {static_cast<double>(piece.down.begin), 1, piece.down.length()});
+  };
+  const Field coarse = texture_detail::brightness(small, options.albedo);
+  const Field heights = linear_heights(coarse, small.width, small.height, options.periodic, light);
+  const double scale = texture_detail::enlargement(
+      {coarse, small.width, small.height, image.width, image.height, options.periodic}, {0, 1, 0}, {0, 1, 0});
+  texture_detail::PieceLayout layout;
+  layout.core = options.largest_piece_px / 2;
+  layout.overlap = texture_detail::piece_overlap(options.largest_piece_px);
+  layout.periodic = options.periodic;
+  return texture_detail::solve_by_pieces(
+      image, layout,
+      [&](const texture_detail::Piece& piece) {
+        Field fine = texture_detail::brightness(piece.image, options.albedo);
+        const Field low = enlarged(coarse, piece);  // As heights, hence times the scale.
+        for (std::size_t i = 0; i < fine.size(); ++i) fine[i] -= low[i] / scale;
+        fine = linear_heights(std::move(fine), piece.image.width, piece.image.height, false, light);
+        const Field common = enlarged(heights, piece);
+        for (std::size_t i = 0; i < fine.size(); ++i) fine[i] += common[i];
+        return fine;
+      },
+      options.progress, "shape from shading");
 }
 
 }  // namespace
@@ -60,28 +111,15 @@ ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingO
   const Vec3 light =
       texture_detail::oblique(texture_detail::require_light(options.light, "shape_from_shading_pentland"));
   const Stopwatch clock;
-  const Field brightness = texture_detail::brightness(image, options.albedo);
-  const double mean =
-      std::accumulate(brightness.begin(), brightness.end(), 0.0) / static_cast<double>(brightness.size());
-  const auto padded = [&](int side) {
-    return options.periodic ? side : texture_detail::good_fft_size(side + side / 4);
-  };
-  const int width = padded(image.width), height = padded(image.height);
-  texture_detail::RealFft2d fft(width, height);
-  std::fill_n(fft.real(), fft.stride() * static_cast<std::size_t>(height), 0.0);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      fft.real(x, y) = brightness[texture_detail::pixel_index(x, y, image.width)] - mean;
-  fft.forward();
-  integrate(fft, width, height, light);
-  fft.backward();
   ShadingResult result;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) result.height_px.push_back(fft.real(x, y));
+  result.height_px = std::max(image.width, image.height) > options.largest_piece_px
+                         ? heights_by_pieces(image, options, light)
+                         : linear_heights(texture_detail::brightness(image, options.albedo), image.width, image.height,
+                                          options.periodic, light);
   texture_detail::remove_mean(result.height_px);
   result.stop = StopReason::direct;
-  result.trace.push_back(
-      {clock.seconds(), residual(result.height_px, brightness, image.width, image.height, light, options.periodic)});
+  result.trace.push_back({clock.seconds(), residual(result.height_px, image, options.albedo, light, options.periodic)});
+  if (options.progress) options.progress("shape from shading", 1);
   return result;
 }
 

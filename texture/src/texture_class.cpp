@@ -10,14 +10,12 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/texture/crop.hpp"
-#include "structure_tensor.hpp"
+#include "texture_class_rules.hpp"
 
 namespace papilla {
 namespace {
 
-struct Moments {
-  double mean = 0, deviation = 0;
-};
+using texture_detail::Moments;
 
 Moments moments(const GreyImage& image, int left, int top, int right, int bottom) {
   double sum = 0, squares = 0;
@@ -32,41 +30,33 @@ Moments moments(const GreyImage& image, int left, int top, int right, int bottom
   return {mean, std::sqrt(std::max(0.0, squares / pixels - mean * mean))};
 }
 
-/// Block means within one standard deviation of the whole, block contrasts within a factor of two.
-bool is_homogeneous(const GreyImage& image, const Moments& whole) {
+std::vector<Moments> block_moments(const GreyImage& image) {
   constexpr int k_blocks = 4;
-  constexpr double k_most_contrast_ratio = 2;
+  std::vector<Moments> blocks;
   for (int row = 0; row < k_blocks; ++row)
-    for (int column = 0; column < k_blocks; ++column) {
-      const Moments block = moments(image, column * image.width / k_blocks, row * image.height / k_blocks,
-                                    (column + 1) * image.width / k_blocks, (row + 1) * image.height / k_blocks);
-      if (std::abs(block.mean - whole.mean) > whole.deviation) return false;
-      if (block.deviation > k_most_contrast_ratio * whole.deviation ||
-          block.deviation * k_most_contrast_ratio < whole.deviation)
-        return false;
-    }
-  return true;
+    for (int column = 0; column < k_blocks; ++column)
+      blocks.push_back(moments(image, column * image.width / k_blocks, row * image.height / k_blocks,
+                               (column + 1) * image.width / k_blocks, (row + 1) * image.height / k_blocks));
+  return blocks;
 }
-
-constexpr double k_directional_coherence = 0.4;  // Beyond half of what oblique light on an isotropic relief causes.
 
 }  // namespace
 
-std::string_view to_string(TextureKind kind) noexcept {
-  switch (kind) {
-    case TextureKind::disordered: return "disordered";
-    case TextureKind::weakly_ordered: return "weakly_ordered";
-    case TextureKind::strongly_ordered_symmetric: return "strongly_ordered_symmetric";
-    case TextureKind::strongly_ordered_nonsymmetric: return "strongly_ordered_nonsymmetric";
-    case TextureKind::composite: return "composite";
-  }
-  return "unknown";
+namespace texture_detail {
+
+Moments moments_of(const GreyImage& image) { return moments(image, 0, 0, image.width, image.height); }
+
+bool is_homogeneous(const std::vector<Moments>& blocks, const Moments& whole) {
+  constexpr double k_most_contrast_ratio = 2;
+  return std::all_of(blocks.begin(), blocks.end(), [&](const Moments& block) {
+    return std::abs(block.mean - whole.mean) <= whole.deviation &&
+           block.deviation <= k_most_contrast_ratio * whole.deviation &&
+           block.deviation * k_most_contrast_ratio >= whole.deviation;
+  });
 }
 
-TextureClass classify(const GreyImage& image, double explained_variance, double stripes) {
-  texture_detail::require_image(image, "classify");
+TextureClass class_of(double coherence, double explained_variance, double stripes) {
   constexpr double k_strong = 0.5, k_composite = 0.15;
-  const double coherence = texture_detail::structure_tensor(image).coherence();
   TextureClass result;
   result.strongly_ordered = std::clamp(std::max(explained_variance, stripes), 0.0, 1.0);
   result.weakly_ordered = (1 - result.strongly_ordered) * coherence;
@@ -82,43 +72,72 @@ TextureClass classify(const GreyImage& image, double explained_variance, double 
   return result;
 }
 
-OrientationField orientation_field(const GreyImage& image) {
-  texture_detail::require_image(image, "orientation_field");
-  constexpr int k_least_block = 32, k_most_blocks = 8;
-  const auto blocks = [&](int side) { return std::clamp(side / k_least_block, 1, k_most_blocks); };
+OrientationField orientation_of(const std::vector<StructureTensor>& tensors, const std::vector<double>& pixels,
+                                int columns, int rows) {
   OrientationField field;
-  field.columns = blocks(image.width);
-  field.rows = blocks(image.height);
+  field.columns = columns;
+  field.rows = rows;
   double energy = 0, coherent = 0;
   Vec2 mean{};
-  for (int row = 0; row < field.rows; ++row)
-    for (int column = 0; column < field.columns; ++column) {
-      const int left = column * image.width / field.columns, right = (column + 1) * image.width / field.columns;
-      const int top = row * image.height / field.rows, bottom = (row + 1) * image.height / field.rows;
-      const GreyImage block = crop(image, left, top, right - left, bottom - top);
-      const texture_detail::StructureTensor tensor = texture_detail::structure_tensor(block);
-      double along = tensor.angle() * 180 / std::numbers::pi + 90;
-      if (along >= 180) along -= 180;
-      field.angle_deg.push_back(along);
-      field.coherence.push_back(tensor.coherence());
-      const double weight = (tensor.xx + tensor.yy) * block.width * block.height;
-      energy += weight;
-      coherent += weight * tensor.coherence();
-      mean = mean + weight * tensor.coherence() * Vec2{std::cos(2 * tensor.angle()), std::sin(2 * tensor.angle())};
-    }
+  for (std::size_t i = 0; i < tensors.size(); ++i) {
+    const StructureTensor& tensor = tensors[i];
+    double along = tensor.angle() * 180 / std::numbers::pi + 90;
+    if (along >= 180) along -= 180;
+    field.angle_deg.push_back(along);
+    field.coherence.push_back(tensor.coherence());
+    const double weight = (tensor.xx + tensor.yy) * pixels[i];
+    energy += weight;
+    coherent += weight * tensor.coherence();
+    mean = mean + weight * tensor.coherence() * Vec2{std::cos(2 * tensor.angle()), std::sin(2 * tensor.angle())};
+  }
   if (energy > 0) field.mean_coherence = coherent / energy;
   if (coherent > 0) field.spread = 1 - norm(mean) / coherent;
   return field;
 }
 
+}  // namespace texture_detail
+
+std::string_view to_string(TextureKind kind) noexcept {
+  switch (kind) {
+    case TextureKind::disordered: return "disordered";
+    case TextureKind::weakly_ordered: return "weakly_ordered";
+    case TextureKind::strongly_ordered_symmetric: return "strongly_ordered_symmetric";
+    case TextureKind::strongly_ordered_nonsymmetric: return "strongly_ordered_nonsymmetric";
+    case TextureKind::composite: return "composite";
+  }
+  return "unknown";
+}
+
+TextureClass classify(const GreyImage& image, double explained_variance, double stripes) {
+  texture_detail::require_image(image, "classify");
+  return texture_detail::class_of(texture_detail::structure_tensor(image).coherence(), explained_variance, stripes);
+}
+
+OrientationField orientation_field(const GreyImage& image) {
+  texture_detail::require_image(image, "orientation_field");
+  constexpr int k_least_block = 32, k_most_blocks = 8;
+  const auto blocks = [&](int side) { return std::clamp(side / k_least_block, 1, k_most_blocks); };
+  const int columns = blocks(image.width), rows = blocks(image.height);
+  std::vector<texture_detail::StructureTensor> tensors;
+  std::vector<double> pixels;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const int left = column * image.width / columns, right = (column + 1) * image.width / columns;
+      const int top = row * image.height / rows, bottom = (row + 1) * image.height / rows;
+      tensors.push_back(texture_detail::structure_tensor(crop(image, left, top, right - left, bottom - top)));
+      pixels.push_back(static_cast<double>(right - left) * (bottom - top));
+    }
+  return texture_detail::orientation_of(tensors, pixels, columns, rows);
+}
+
 Suitability measure_suitability(const GreyImage& image, const Lattice& lattice) {
   texture_detail::require_image(image, "measure_suitability");
-  const Moments whole = moments(image, 0, 0, image.width, image.height);
   const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   Suitability suitability;
   suitability.flat = !(*low < *high);
-  suitability.homogeneous = is_homogeneous(image, whole);
-  suitability.directional = texture_detail::structure_tensor(image).coherence() >= k_directional_coherence;
+  suitability.homogeneous = texture_detail::is_homogeneous(block_moments(image), texture_detail::moments_of(image));
+  suitability.directional =
+      texture_detail::structure_tensor(image).coherence() >= texture_detail::k_directional_coherence;
   suitability.symmetric = lattice.found;
   return suitability;
 }

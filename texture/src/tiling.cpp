@@ -3,29 +3,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "checks.hpp"
 
 namespace papilla {
 namespace {
 
-/// Step between line `from` and line `to`, a line being a column or a row.
-double mean_step(const GreyImage& image, bool columns, int from, int to) {
-  const int length = columns ? image.height : image.width;
-  double sum = 0;
-  for (int i = 0; i < length; ++i) {
-    const float a = columns ? image.at(from, i) : image.at(i, from), b = columns ? image.at(to, i) : image.at(i, to);
-    sum += std::abs(static_cast<double>(b) - static_cast<double>(a));
-  }
-  return sum / length;
+/// Mean |difference| between each line and the next one, and from the last one to the first; a line is a column or a
+/// row. Row by row in memory either way.
+std::vector<double> mean_steps(const GreyImage& image, bool columns) {
+  const int count = columns ? image.width : image.height, length = columns ? image.height : image.width;
+  std::vector<double> steps(static_cast<std::size_t>(count), 0.0);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float next = columns ? image.at(x + 1 < count ? x + 1 : 0, y) : image.at(x, y + 1 < count ? y + 1 : 0);
+      steps[static_cast<std::size_t>(columns ? x : y)] +=
+          std::abs(static_cast<double>(next) - static_cast<double>(image.at(x, y)));
+    }
+  for (double& step : steps) step /= length;
+  return steps;
 }
 
 /// Step across the seam relative to the strongest one inside; 0 for a seam without step.
 double seam(const GreyImage& image, bool columns) {
-  const int count = columns ? image.width : image.height;
-  const double across = mean_step(image, columns, count - 1, 0);
-  double strongest = 0;
-  for (int i = 0; i + 1 < count; ++i) strongest = std::max(strongest, mean_step(image, columns, i, i + 1));
+  std::vector<double> steps = mean_steps(image, columns);
+  const double across = steps.back();
+  steps.back() = 0;
+  const double strongest = *std::max_element(steps.begin(), steps.end());
   if (across <= 0) return 0;
   constexpr double k_no_step_inside = 1e6;
   return strongest > 0 ? std::min(k_no_step_inside, across / strongest) : k_no_step_inside;

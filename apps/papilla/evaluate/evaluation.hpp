@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluate/budget.hpp"
 #include "papilla/core/trace.hpp"
 #include "scene_options.hpp"
 #include "verb.hpp"
@@ -15,19 +16,32 @@ namespace papilla::app {
 /// What every kind of evaluation gets.
 struct EvaluationInput {
   std::string file;
+  std::string name;  ///< What reports call the file.
   SceneOptions read;
   Progress progress;
+  Budget budget = {};
+};
+
+/// How the surface's area spreads over a kind of error: share i lies in [edges[i], edges[i + 1]).
+struct ErrorShares {
+  std::string error_name;
+  std::vector<double> edges, shares;
 };
 
 /// One curve of error over run time.
 struct EvaluationRun {
-  std::string method;      ///< The name on the command line.
-  std::string solver;      ///< The variant.
-  std::string input;       ///< File, and the part of it.
-  std::string error_name;  ///< With its unit.
-  Trace trace;
-  std::string stop;   ///< to_string(StopReason).
-  std::string notes;  ///< What the trace does not say, for people.
+  std::string method;               ///< The name on the command line.
+  std::string solver;               ///< The variant.
+  std::string input;                ///< File, and the part of it.
+  std::string error_name;           ///< With its unit.
+  Trace trace;                      ///< Of several repeats: their median times.
+  std::string stop;                 ///< to_string(StopReason), or why there is no trace.
+  std::string notes = {};           ///< What the trace does not say, for people.
+  bool valid = true;                ///< A result that can't be used is drawn, and is on no front.
+  ErrorShares shares = {};          ///< Of the last sample; may be empty.
+  std::vector<Trace> repeats = {};  ///< Every repeat as it was, the first one included.
+
+  std::string name() const { return solver.empty() ? method : method + " (" + solver + ")"; }
 };
 
 /// A kind of evaluation: its name on the command line and what it does. One file each, below evaluate/.
@@ -53,6 +67,9 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input);
 /// All shape-from-shading methods: the depth error over growing numbers of steps for a relief in millimetres (a float
 /// picture, .exr or .tif, lit from three sides), the residual of each step for any other picture.
 std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input);
+/// The contact on a glTF file with haptic tags: a stroke felt at growing rates, against the same stroke at the
+/// highest one; the time is that of all ticks of a second.
+std::vector<EvaluationRun> evaluate_contact(const EvaluationInput& input);
 
 /// 64, 128, … and the side itself, at most 4096.
 std::vector<int> rising_sides(int shorter_side);
@@ -60,25 +77,16 @@ std::vector<int> rising_sides(int shorter_side);
 /// All kinds, in the order of the help.
 std::span<const EvaluationKind> evaluation_kinds();
 
-/// runs[] {method, solver, input, error_name, trace[] {seconds, error}, stop, notes}.
-Json runs_json(const std::vector<EvaluationRun>& runs);
-
-/// method,solver,input,error_name,seconds,error: a line a sample, fields quoted as RFC 4180 has it.
-std::string runs_csv(const std::vector<EvaluationRun>& runs);
-
-/// A picture of runs that have an input and an error in common.
-struct EvaluationPicture {
-  std::string title, svg;
-  std::vector<std::string> front;  ///< Methods on the Pareto front of error and run time.
-};
-
-std::vector<EvaluationPicture> runs_pictures(const std::vector<EvaluationRun>& runs);
-
-/// One page that needs no other file: all pictures and a table of the runs.
-std::string runs_html(const std::string& kind, const std::vector<EvaluationPicture>& pictures,
-                      const std::vector<EvaluationRun>& runs);
-
 /// The largest parts of a scene, most triangles first: what is evaluated when a file has many.
 std::vector<std::uint32_t> largest_parts(const Scene& scene, std::size_t most);
+
+/// What reports call a part: "file: part", or the file alone when the part is named like it.
+std::string input_name(const EvaluationInput& input, const std::string& part);
+
+/// Runs a kind once, then again as long as the budget has time for it, at most `repeats` times.
+std::vector<EvaluationRun> run_repeatedly(const EvaluationKind& kind, const EvaluationInput& input, int repeats);
+
+/// Adds a further repeat of the same runs: samples with equal errors get the median of their times.
+void merge_repeat(std::vector<EvaluationRun>& runs, const std::vector<EvaluationRun>& repeat);
 
 }  // namespace papilla::app

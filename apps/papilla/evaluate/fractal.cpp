@@ -43,7 +43,7 @@ std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
   const std::vector<int> sides = rising_sides(std::min(image.width, image.height));
   std::vector<EvaluationRun> runs;
   for (const Method& method : k_methods) {
-    EvaluationRun run{method.name, "analyze", input.file, "half width of the 95 % interval of the dimension",
+    EvaluationRun run{method.name, "analyze", input.name, "half width of the 95 % interval of the dimension",
                       {},          "direct",  ""};
     for (const int side : sides) {
       if (side < method.least_side) continue;

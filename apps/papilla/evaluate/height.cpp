@@ -34,7 +34,7 @@ bool is_relief(const std::filesystem::path& file, const GreyImage& image) {
 }
 
 EvaluationRun against_truth(const EvaluationInput& input, const Method& method, const HeightMap& truth, Vec3 light) {
-  EvaluationRun run{method.name, "height", input.file, "mean depth error over the range", {}, "iteration_limit", ""};
+  EvaluationRun run{method.name, "height", input.name, "mean depth error over the range", {}, "iteration_limit", ""};
   const GreyImage picture = render_lambert(truth, light);
   ShadingOptions options{.light = light, .periodic = truth.periodic};
   for (const int iterations : k_iterations) {
@@ -54,7 +54,7 @@ EvaluationRun against_truth(const EvaluationInput& input, const Method& method, 
 }
 
 EvaluationRun residual_only(const EvaluationInput& input, const Method& method, const GreyImage& picture) {
-  EvaluationRun run{method.name, "height", input.file, "rms of brightness - R, grey over albedo", {}, "", ""};
+  EvaluationRun run{method.name, "height", input.name, "rms of brightness - R, grey over albedo", {}, "", ""};
   const LightEstimate light = estimate_light(picture);
   const double mean =
       std::accumulate(picture.pixels.begin(), picture.pixels.end(), 0.0) / static_cast<double>(picture.pixels.size());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -24,11 +26,11 @@ constexpr std::array k_iterations = {1, 2, 5, 10, 20, 50, 100, 200, 500};
 /// Gauss-Seidel moves one vertex at a time: sweeps per iteration of the others.
 constexpr int k_sweeps = 20;
 
-/// A ladder ends when a rung took longer.
-constexpr double k_longest_s = 10;
+/// A rung is expected to take this many times what the one before took.
+constexpr double k_growth = 2.5;
 
-/// Times that every rung is run; the fastest counts.
-constexpr int k_repeats = 3;
+/// Edges of the shares of the symmetric Dirichlet energy above 4: two a decade.
+constexpr double k_least_excess = 1e-8, k_most_excess = 1e8;
 
 /// One variant of a method, run with a budget of iterations.
 struct Variant {
@@ -213,60 +215,76 @@ std::vector<Variant> variants() {
   return all;
 }
 
-/// The fastest of a few runs.
-struct Rung {
-  double seconds = 0;
-  Flattening flattening;
-};
+bool is_valid(const DistortionReport& r) {
+  return r.flipped == 0 && r.degenerate_uv == 0 && r.overlap_within_charts <= 0;
+}
 
-Rung climb(const Variant& variant, const TriangleMesh& mesh, int iterations) {
-  Rung best;
-  for (int i = 0; i < k_repeats; ++i) {
-    const Stopwatch clock;
-    Flattening flattening = variant.run(mesh, iterations);
-    const double seconds = clock.seconds();
-    if (i == 0 || seconds < best.seconds) best = {seconds, std::move(flattening)};
-    if (seconds > k_longest_s / k_repeats) break;
+/// How the area spreads over the excess of the symmetric Dirichlet energy.
+ErrorShares shares_of(const DistortionReport& report) {
+  ErrorShares shares{"symmetric Dirichlet - 4", {}, {}};
+  for (double edge = k_least_excess; edge <= 1.01 * k_most_excess; edge *= std::sqrt(10.0))
+    shares.edges.push_back(edge);
+  shares.shares.assign(shares.edges.size() - 1, 0);
+  double area = 0;
+  for (const TriangleDistortion& t : report.per_triangle) {
+    if (!t.measured) continue;
+    const double bin = 2 * std::log10(std::max(t.symmetric_dirichlet - 4, k_least_excess) / k_least_excess);
+    shares.shares[std::min(static_cast<std::size_t>(bin), shares.shares.size() - 1)] += t.area_mm2;
+    area += t.area_mm2;
   }
-  return best;
+  for (double& share : shares.shares) share /= area > 0 ? area : 1;
+  return shares;
 }
 
 std::string describe(const DistortionReport& r, const Flattening& f) {
   std::string text = fmt::format("SD {:.6g} (max {:.3g}), Maillot {:.4g}, stretch L2 {:.5g}, angle {:.3g}°, {} charts",
                                  r.symmetric_dirichlet.mean, r.symmetric_dirichlet.max, r.maillot_length, r.stretch_l2,
                                  r.angle_error_deg.mean, f.charts.count);
-  if (r.flipped || r.degenerate_uv || r.overlap_within_charts > 0)
+  if (!is_valid(r))
     text += fmt::format("; NOT VALID: {} flipped, {} without area, {:.2g} overlapping", r.flipped, r.degenerate_uv,
                         r.overlap_within_charts);
   return text;
 }
 
-void add_runs(const Variant& variant, const Chart& chart, const std::string& input, std::vector<EvaluationRun>& runs) {
-  EvaluationRun dirichlet{variant.method, variant.solver, input, "symmetric Dirichlet - 4", {}, {}, {}};
+void add_runs(const Variant& variant, const Chart& chart, const std::string& input, const Budget& budget,
+              std::vector<EvaluationRun>& runs) {
+  EvaluationRun dirichlet{variant.method, variant.solver, input, "symmetric Dirichlet - 4", {}, {}};
   EvaluationRun lengths = dirichlet;
   lengths.error_name = "Maillot's length energy / sum of squared edges";
   Trace own;
+  double expected_s = 0;
   for (const int iterations : k_iterations) {
-    Rung rung;
+    if (!budget.allows(expected_s)) {
+      if (dirichlet.stop.empty()) dirichlet.stop = lengths.stop = "not run: the time was spent";
+      break;
+    }
+    Flattening flattening;
+    const Stopwatch clock;
     try {
-      rung = climb(variant, chart.mesh, iterations);
+      flattening = variant.run(chart.mesh, iterations);
     } catch (const SolverFailure& error) {
       dirichlet.notes = lengths.notes = fmt::format("{} iterations: {}; {}", iterations, error.what(), chart.notes);
+      dirichlet.stop = lengths.stop = "no result";
+      expected_s = k_growth * clock.seconds();
       if (!variant.iterates) break;
       continue;  // more iterations may undo the flips
     }
-    const DistortionReport report = measure_distortion(chart.mesh, rung.flattening.uv);
+    const double seconds = clock.seconds();
+    expected_s = k_growth * seconds;
+    const DistortionReport report = measure_distortion(chart.mesh, flattening.uv);
     const double error = report.symmetric_dirichlet.mean - 4;
     const bool same = !dirichlet.trace.empty() && dirichlet.trace.back().error == error;
     if (!same) {
-      dirichlet.trace.push_back({rung.seconds, error});
-      lengths.trace.push_back({rung.seconds, report.maillot_length});
+      dirichlet.trace.push_back({seconds, error});
+      lengths.trace.push_back({seconds, report.maillot_length});
     }
-    dirichlet.stop = lengths.stop = to_string(rung.flattening.stop);
-    dirichlet.notes = lengths.notes = describe(report, rung.flattening) + "; " + chart.notes;
-    if (rung.flattening.charts.count > 1) dirichlet.input = lengths.input = input + ", in several pieces";
-    own = rung.flattening.trace;
-    if (!variant.iterates || same || rung.seconds > k_longest_s) break;
+    dirichlet.stop = lengths.stop = to_string(flattening.stop);
+    dirichlet.notes = lengths.notes = describe(report, flattening) + "; " + chart.notes;
+    dirichlet.valid = lengths.valid = is_valid(report);
+    dirichlet.shares = shares_of(report);
+    if (flattening.charts.count > 1) dirichlet.input = lengths.input = input + ", in several pieces";
+    own = flattening.trace;
+    if (!variant.iterates || same) break;
   }
   if (variant.keeps_trace && own.size() > 1)
     runs.push_back({variant.method, variant.solver, input, variant.own_error, own, dirichlet.stop, dirichlet.notes});
@@ -287,7 +305,7 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input) {
   std::vector<EvaluationRun> runs;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (input.progress) input.progress("evaluate", static_cast<double>(i) / static_cast<double>(all.size()));
-    add_runs(all[i], chart, input.file + ": " + part.name, runs);
+    add_runs(all[i], chart, input_name(input, part.name), input.budget.share(all.size() - i), runs);
   }
   return runs;
 }

@@ -50,7 +50,7 @@ std::vector<EvaluationRun> evaluate_simplification(const EvaluationInput& input)
   std::vector<EvaluationRun> runs;
   for (const std::uint32_t number : largest_parts(scene, k_most_parts))
     for (const int passes : {1, 2, 4})
-      add_runs(input.file + ": " + scene.parts[number].name, scene.parts[number].mesh, passes, runs);
+      add_runs(input_name(input, scene.parts[number].name), scene.parts[number].mesh, passes, runs);
   return runs;
 }
 

@@ -29,7 +29,7 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input) {
   const GreyImage image = read_grey_image(input.file);
   std::vector<EvaluationRun> runs;
   for (const Variant& variant : k_variants) {
-    EvaluationRun run{variant.name, "analyze", input.file, "share of the variance that the lattice does not explain",
+    EvaluationRun run{variant.name, "analyze", input.name, "share of the variance that the lattice does not explain",
                       {},           "direct",  ""};
     for (const int side : rising_sides(std::min({image.width, image.height, variant.most_side}))) {
       const GreyImage part = middle_part(image, side);

@@ -28,18 +28,17 @@ std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input) {
   const ReadOptions read = input.read.read_options();
   EvaluationRun deviation{"tessellation",
                           fmt::format("chord, {:g} degrees", read.angle_deg),
-                          input.file,
+                          input.name,
                           "deviation from the surface [mm]",
                           {},
                           "direct",
                           ""};
-  for (const TessellationSample& sample :
-       trace_tessellation(input.file, chord_ladder(k_coarsest_mm, k_finest_mm, k_steps), cad_options(read),
-                          input.progress)) {
+  for (const TessellationSample& sample : trace_tessellation(
+           input.file, chord_ladder(k_coarsest_mm, k_finest_mm, k_steps), cad_options(read), input.progress)) {
     deviation.trace.push_back({sample.seconds, sample.deviation_mm});
-    deviation.notes += fmt::format("chord {:.3g} mm: {} triangles, deviation {:.3g} mm, {} faces failed, {} off; ",
-                                   sample.chord_mm, sample.triangles, sample.deviation_mm, sample.failed_faces,
-                                   sample.off_faces);
+    deviation.notes +=
+        fmt::format("chord {:.3g} mm: {} triangles, deviation {:.3g} mm, {} faces failed, {} off; ", sample.chord_mm,
+                    sample.triangles, sample.deviation_mm, sample.failed_faces, sample.off_faces);
   }
   return {std::move(deviation)};
 }

@@ -33,7 +33,7 @@ std::vector<EvaluationRun> evaluate_weld(const EvaluationInput& input) {
     if (!(diagonal > 0)) continue;
     std::vector<double> tolerances;
     for (const double relative : k_tolerances) tolerances.push_back(relative * diagonal);
-    EvaluationRun edges{"weld", "boundary vertices", input.file + ": " + part.name, "boundary edges left", {}, "direct",
+    EvaluationRun edges{"weld", "boundary vertices", input_name(input, part.name), "boundary edges left", {}, "direct",
                         ""};
     EvaluationRun moved = edges;
     moved.error_name = "largest deviation [mm]";

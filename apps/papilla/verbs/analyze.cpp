@@ -5,18 +5,14 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <utility>
 
+#include "analyze/survey.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/analysis_pictures.hpp"
-#include "papilla/texture/best_dimension.hpp"
-#include "papilla/texture/box_dimension.hpp"
-#include "papilla/texture/crop.hpp"
 #include "papilla/texture/frieze_group.hpp"
-#include "papilla/texture/fshot_dimension.hpp"
-#include "papilla/texture/probability_dimension.hpp"
-#include "papilla/texture/texture_class.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
 #include "pictures/texture_charts.hpp"
 #include "verb.hpp"
@@ -32,24 +28,6 @@ struct Arguments {
   std::string lattice = "best", feature = "squared", pattern = "plane";
   bool force_lattice = false;
 };
-
-/// Methods whose time grows with the square of the side see this much of the middle of a picture.
-constexpr int k_most_side = 4096;
-
-/// The estimate by one method, or nothing when the picture is too small for it.
-using Estimator = FractalEstimate (*)(const GreyImage&);
-struct Method {
-  const char* name;
-  int least_side;
-  Estimator estimate;
-};
-constexpr Method k_methods[] = {
-    {"box", 32, box_dimension},
-    {"information", 32, information_dimension},
-    {"correlation", 32, correlation_dimension},
-    {"probability", 66, [](const GreyImage& image) { return probability_dimension(image); }},
-    {"fshot", 32, [](const GreyImage& image) { return fshot_dimension(image).estimate; }},
-    {"best", 32, [](const GreyImage& image) { return best_dimension(image).estimate; }}};
 
 Json curve_json(const FractalEstimate& estimate) {
   Json json{{"low", estimate.low}, {"high", estimate.high}, {"curve", Json::array()}};
@@ -70,48 +48,61 @@ Json fshot_json(const FshotSignature& signature) {
   return json;
 }
 
-/// What the charts show.
-struct FractalResult {
-  std::vector<LogLogSeries> series;
-  FshotSignature signature;
-};
-
-Json fractal(const GreyImage& image, const VerbContext& context, FractalResult& result) {
-  const Console& console = context.console;
-  Json json = Json::object(), details = Json::object();
-  double done = 0;
-  for (const Method& method : k_methods) {
-    if (context.progress) context.progress("fractal dimension", done++ / (std::size(k_methods) + 1));
-    if (std::min(image.width, image.height) < method.least_side) {
-      json[method.name] = nullptr;
-      console.print(fmt::format("fractal    {:<12} needs {} pixels a side\n", method.name, method.least_side));
-      continue;
-    }
-    FractalEstimate e;
-    if (std::string_view(method.name) == "fshot") {
-      result.signature = fshot_dimension(image);
-      e = result.signature.estimate;
-      json[method.name] = fshot_json(result.signature);
-    } else {
-      e = method.estimate(image);
-      json[method.name] = e.dimension;
-    }
-    result.series.push_back({method.name, e});
-    details[method.name] = curve_json(e);
-    if (std::string_view(method.name) == "best") {
-      const BestDimension best = best_dimension(image);
-      json[method.name] = {{"dimension", e.dimension}, {"hurst", e.hurst}, {"low", e.low}, {"high", e.high}};
-      json[method.name]["directional_hurst"] = {{"0", best.directional_hurst[0]},
-                                                {"90", best.directional_hurst[1]},
-                                                {"45", best.directional_hurst[2]},
-                                                {"-45", best.directional_hurst[3]}};
-      json[method.name]["quantization_step"] = best.quantization_step;
-    }
-    console.print(
-        fmt::format("fractal    {:<12} D = {:.3f}  [{:.3f}, {:.3f}]\n", method.name, e.dimension, e.low, e.high));
+/// One line of the report; null when the picture is too small for the method.
+Json reading_json(const char* name, const FractalEstimate* estimate, int least_side, Json json, Json& details,
+                  const Console& console) {
+  if (!estimate) {
+    console.print(fmt::format("fractal    {:<12} needs {} pixels a side\n", name, least_side));
+    return nullptr;
   }
+  details[name] = curve_json(*estimate);
+  console.print(fmt::format("fractal    {:<12} D = {:.3f}  [{:.3f}, {:.3f}]\n", name, estimate->dimension,
+                            estimate->low, estimate->high));
+  return json.is_null() ? Json(estimate->dimension) : json;
+}
+
+Json best_json(const BestDimension& best) {
+  const FractalEstimate& e = best.estimate;
+  Json json{{"dimension", e.dimension}, {"hurst", e.hurst}, {"low", e.low}, {"high", e.high}};
+  json["directional_hurst"] = {{"0", best.directional_hurst[0]},
+                               {"90", best.directional_hurst[1]},
+                               {"45", best.directional_hurst[2]},
+                               {"-45", best.directional_hurst[3]}};
+  json["quantization_step"] = best.quantization_step;
+  return json;
+}
+
+Json fractal(const FractalReadings& readings, const Console& console) {
+  Json json = Json::object(), details = Json::object();
+  const auto add = [&](const char* name, const FractalEstimate* estimate, int least_side, Json value) {
+    json[name] = reading_json(name, estimate, least_side, std::move(value), details, console);
+  };
+  const auto estimate_of = [](const auto& reading) { return reading ? &*reading : nullptr; };
+  add("box", estimate_of(readings.box), k_least_fractal_side, nullptr);
+  add("information", estimate_of(readings.information), k_least_fractal_side, nullptr);
+  add("correlation", estimate_of(readings.correlation), k_least_fractal_side, nullptr);
+  add("probability", estimate_of(readings.probability), k_least_probability_side, nullptr);
+  add("fshot", readings.fshot ? &readings.fshot->estimate : nullptr, k_least_fractal_side,
+      readings.fshot ? fshot_json(*readings.fshot) : Json(nullptr));
+  add("best", readings.best ? &readings.best->estimate : nullptr, k_least_fractal_side,
+      readings.best ? best_json(*readings.best) : Json(nullptr));
   json["details"] = std::move(details);
   return json;
+}
+
+/// The curves of the log-log plot.
+std::vector<LogLogSeries> series_of(const FractalReadings& readings) {
+  std::vector<LogLogSeries> series;
+  const auto add = [&](const char* name, const std::optional<FractalEstimate>& estimate) {
+    if (estimate) series.push_back({name, *estimate});
+  };
+  add("box", readings.box);
+  add("information", readings.information);
+  add("correlation", readings.correlation);
+  add("probability", readings.probability);
+  if (readings.fshot) series.push_back({"fshot", readings.fshot->estimate});
+  if (readings.best) series.push_back({"best", readings.best->estimate});
+  return series;
 }
 
 Json points_json(std::span<const Vec2> points) {
@@ -181,11 +172,10 @@ Json symmetry(const SymmetryAnalysis& analysis, double pitch_mm, const Console& 
   return json;
 }
 
-void add_class(Json& json, const GreyImage& image, const SymmetryAnalysis& analysis, bool monochrome,
-               const Console& console) {
-  const TextureClass c = classify(image, analysis.explained_variance(), analysis.lattice.stripes);
-  const OrientationField field = orientation_field(image);
-  const Suitability s = measure_suitability(image, analysis.lattice);
+void add_class(Json& json, const OrderSurvey& order, const Console& console) {
+  const TextureClass& c = order.kind;
+  const OrientationField& field = order.orientation;
+  const Suitability& s = order.suitability;
   json["class"] = {{"name", to_string(c.kind)},
                    {"disordered", c.disordered},
                    {"weakly_ordered", c.weakly_ordered},
@@ -199,7 +189,7 @@ void add_class(Json& json, const GreyImage& image, const SymmetryAnalysis& analy
   json["suitability"] = {{"homogeneous", s.homogeneous},
                          {"directional", s.directional},
                          {"symmetric", s.symmetric},
-                         {"monochrome", monochrome}};
+                         {"monochrome", order.monochrome}};
   json["plan"] = Json::array();
   console.print(fmt::format("class      {}: disordered {:.2f}, weakly ordered {:.2f}, strongly ordered {:.2f}\n",
                             to_string(c.kind), c.disordered, c.weakly_ordered, c.strongly_ordered));
@@ -216,8 +206,7 @@ LatticeOptions lattice_options(const Arguments& arguments) {
   return options;
 }
 
-void write_pictures(const Arguments& arguments, const SymmetryAnalysis& analysis, const FractalResult& result,
-                    const Console& console, Json& json) {
+void write_pictures(const Arguments& arguments, const TextureSurvey& survey, const Console& console, Json& json) {
   namespace fs = std::filesystem;
   std::error_code failure;
   fs::create_directories(arguments.pictures, failure);
@@ -228,43 +217,55 @@ void write_pictures(const Arguments& arguments, const SymmetryAnalysis& analysis
     console.print(fmt::format("written    {}\n", file));
   };
   json["pictures"] = Json::array();
-  write_color_image(path("symmetry.png"), symmetry_strip(analysis));
+  write_color_image(path("symmetry.png"), symmetry_strip(*survey.symmetry));
   written("symmetry", path("symmetry.png"));
-  if (result.series.empty()) return;
-  write_atomically(path("log-log.svg"), log_log_chart(result.series));
+  if (!survey.fractal || !survey.fractal->best) return;
+  write_atomically(path("log-log.svg"), log_log_chart(series_of(*survey.fractal)));
   written("log-log", path("log-log.svg"));
-  write_atomically(path("hurst.svg"), hurst_chart(result.signature));
+  write_atomically(path("hurst.svg"), hurst_chart(*survey.fractal->fshot));
   written("hurst", path("hurst.svg"));
+}
+
+Json pieces_json(const TextureSurvey& survey, const Console& console) {
+  if (!survey.pieces) return nullptr;
+  const PieceSurvey& pieces = *survey.pieces;
+  const LatticeAgreement& lattice = pieces.lattice;
+  console.print(fmt::format("pieces     {} x {}; symmetry from the middle {} x {} pixels\n", pieces.columns,
+                            pieces.rows, survey.middle.width, survey.middle.height));
+  if (survey.symmetry)
+    console.print(fmt::format("pieces     lattice as in the middle {}, another {}, none {}\n", lattice.same,
+                              lattice.other, lattice.none));
+  return {{"columns", pieces.columns},
+          {"rows", pieces.rows},
+          {"symmetry_px", {survey.middle.width, survey.middle.height}},
+          {"lattice", {{"same", lattice.same}, {"other", lattice.other}, {"none", lattice.none}}}};
 }
 
 Json run(const Arguments& arguments, VerbContext& context) {
   const std::set<std::string> wanted(arguments.only.begin(), arguments.only.end());
-  const GreyImage whole = read_grey_image(arguments.image), image = middle_part(whole, k_most_side);
-  const double pitch = arguments.pitch_mm > 0 ? arguments.pitch_mm : image.pitch_mm;
+  SurveyOptions options;
+  options.fractal = wanted.contains("fractal");
+  options.symmetry = wanted.contains("symmetry") || !arguments.pictures.empty();
+  options.order = wanted.contains("class");
+  options.lattice = lattice_options(arguments);
+  options.feature = arguments.feature == "absolute" ? FeatureKind::absolute : FeatureKind::squared;
+  const TextureSurvey survey = survey_picture(arguments.image, options, context.progress);
+  const double pitch = arguments.pitch_mm > 0 ? arguments.pitch_mm : survey.pitch_mm;
   const Console& console = context.console;
   console.print(
-      fmt::format("{}: {} x {} pixels, {} bit, pitch {}\n", arguments.image, whole.width, whole.height, image.bits,
+      fmt::format("{}: {} x {} pixels, {} bit, pitch {}\n", arguments.image, survey.width, survey.height, survey.bits,
                   pitch > 0 ? fmt::format("{:.4f} mm", pitch) : "unknown (no resolution in the file, no --pitch)"));
-  if (image.pixels.size() < whole.pixels.size())
-    console.print(fmt::format("analysed   the middle {} x {} pixels\n", image.width, image.height));
-  Json json{{"image", arguments.image}, {"size", {whole.width, whole.height}}, {"bits", image.bits}};
-  json["analysed_px"] = {image.width, image.height};
+  Json json{{"image", arguments.image}, {"size", {survey.width, survey.height}}, {"bits", survey.bits}};
+  json["pieces"] = pieces_json(survey, console);
   json["pitch_mm"] = pitch > 0 ? Json(pitch) : Json(nullptr);
-  const bool needs_symmetry = wanted.contains("symmetry") || wanted.contains("class") || !arguments.pictures.empty();
-  SymmetryAnalysis analysis;
-  if (needs_symmetry)
-    analysis = analyze_symmetry(image, lattice_options(arguments),
-                                arguments.feature == "absolute" ? FeatureKind::absolute : FeatureKind::squared);
-  FractalResult result;
-  if (wanted.contains("fractal")) json["fractal"] = fractal(image, context, result);
+  if (survey.fractal) json["fractal"] = fractal(*survey.fractal, console);
   if (wanted.contains("symmetry")) {
-    json["symmetry"] = symmetry(analysis, pitch, console);
-    if (arguments.pattern == "strip") json["strip"] = strip_symmetry(image, console);
-    if (arguments.pattern == "rosette") json["rosette"] = rosette_symmetry(image, console);
+    json["symmetry"] = symmetry(*survey.symmetry, pitch, console);
+    if (arguments.pattern == "strip") json["strip"] = strip_symmetry(survey.middle, console);
+    if (arguments.pattern == "rosette") json["rosette"] = rosette_symmetry(survey.middle, console);
   }
-  if (wanted.contains("class"))
-    add_class(json, image, analysis, is_monochrome(read_color_image(arguments.image)), console);
-  if (!arguments.pictures.empty()) write_pictures(arguments, analysis, result, console, json);
+  if (survey.order) add_class(json, *survey.order, console);
+  if (!arguments.pictures.empty()) write_pictures(arguments, survey, console, json);
   return json;
 }
 

@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string input, materials, output, report;
+  bool pictures = false;
   std::optional<std::size_t> budget;
   LeaveOutOptions leave_out;
   SceneOptions scene;
@@ -88,7 +89,7 @@ Json run_bake(const Options& options, VerbContext& context) {
   for (const std::string& warning : result.scene.warnings) context.console.print("warning: " + warning + "\n");
   context.console.print(fmt::format("{}: {} triangles, {:.1f} MB\n", options.output, triangles,
                                     static_cast<double>(fs::file_size(options.output)) / 1e6));
-  if (!options.report.empty()) {
+  if (options.pictures) {
     const Stopwatch pictures_clock;
     json["pictures"] = write_pictures(result, options.report, context.progress);
     result.seconds["pictures"] = pictures_clock.seconds();
@@ -103,8 +104,9 @@ Json run_bake(const Options& options, VerbContext& context) {
     json["seconds"]["page"] = page_clock.seconds();
     json["seconds"]["total"] = total.seconds();
     write_atomically(folder / "report.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    context.console.print((folder / "report.json").string() + ": plan, distortion, times; pictures beside it\n" +
-                          (folder / "index.html").string() + ": the same to look at and to touch\n");
+    context.console.print((folder / "report.json").string() + ": plan, distortion, times" +
+                          (options.pictures ? "; pictures beside it\n" : "\n") + (folder / "index.html").string() +
+                          ": the same to look at and to touch\n");
   }
   return json;
 }
@@ -125,8 +127,12 @@ void add_bake(CLI::App& program) {
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--report", options->report, "Folder for report.json, a page to look at (index.html) and pictures")
-      ->type_name("DIR");
+  auto* const report =
+      verb->add_option("--report", options->report, "Folder for a page to look at (index.html) and report.json")
+          ->type_name("DIR");
+  verb->add_flag("--pictures", options->pictures,
+                 "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")
+      ->needs(report);
   options->leave_out.add_to(*verb);
   options->scene.add_to(*verb);
 }

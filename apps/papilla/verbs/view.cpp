@@ -5,7 +5,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "exit_code.hpp"
+#include "live/follow.hpp"
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
 #include "papilla/io/scene_file.hpp"
@@ -20,40 +23,65 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string input, output;
+  std::optional<std::string> follow;  ///< The player's socket; empty for the default one.
+  int port = 0;
   bool no_open = false;
   PageSceneOptions page;
   SceneOptions scene;
 };
 
-/// Gives the page to the desktop's browser. The browser outlives this program: it belongs to a child of a child.
-bool open_in_browser(const fs::path& page) {
-  const std::string file = fs::absolute(page).string();
+/// Gives a file or an address to the desktop's browser. The browser outlives this program: it belongs to a child of a
+/// child.
+bool open_in_browser(const std::string& page) {
   const pid_t child = ::fork();
   if (child < 0) return false;
   if (child == 0) {
     if (!::freopen("/dev/null", "w", stdout) || !::freopen("/dev/null", "w", stderr)) ::_exit(127);
-    ::execlp("xdg-open", "xdg-open", file.c_str(), nullptr);
+    ::execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
     ::_exit(127);
   }
   int status = 0;
   return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+PageContent content_of(const std::string& file, const Options& options, const VerbContext& context) {
+  const Scene scene = read_scene(file, options.scene.read_options(), context.progress);
+  return {fs::path(file).filename().string(), page_scene_json(scene, file, options.page, context.progress), nullptr};
+}
+
+bool open_if_wanted(const std::string& page, const Options& options, const VerbContext& context) {
+  if (options.no_open || context.console.silent()) return false;
+  const bool opened = open_in_browser(page);
+  if (!opened) context.console.print("no browser could be started; open the page by hand\n");
+  return opened;
+}
+
+Json run_follow(const Options& options, const VerbContext& context) {
+  bool opened = false;
+  Json json = follow_player(
+      {*options.follow, options.input, options.port},
+      [&](const std::string& file) { return content_of(file, options, context); },
+      [&](const std::string& url) {
+        context.console.print(url + ": follows the player; Ctrl-C ends\n");
+        opened = open_if_wanted(url, options, context);
+      });
+  json["opened"] = opened;
+  return json;
+}
+
 Json run(const Options& options, VerbContext& context) {
+  if (options.follow) return run_follow(options, context);
+  if (options.input.empty()) throw UsageError("a FILE is required");
   const fs::path page =
       options.output.empty() ? fs::path(options.input).replace_extension(".html") : fs::path(options.output);
-  const Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  PageContent content{fs::path(options.input).filename().string(),
-                      page_scene_json(scene, options.input, options.page, context.progress), nullptr};
+  const PageContent content = content_of(options.input, options, context);
   const std::size_t bytes = write_page(content, page);
   const Json& triangles = content.scene["triangles"];
   const Json& shown = content.scene["triangles_shown"];
   context.console.print(fmt::format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(),
                                     shown.get<std::size_t>(), triangles.get<std::size_t>(),
                                     static_cast<double>(bytes) / 1e6));
-  const bool opened = !options.no_open && !context.console.silent() && open_in_browser(page);
-  if (!options.no_open && !opened && !context.console.silent())
-    context.console.print("no browser could be started; open the page by hand\n");
+  const bool opened = open_if_wanted(fs::absolute(page).string(), options, context);
   return {{"page", page.string()},    {"triangles", triangles},
           {"triangles_shown", shown}, {"simplification_error_mm", content.scene["error_mm"]},
           {"bytes", bytes},           {"opened", opened}};
@@ -68,9 +96,23 @@ void add_view(CLI::App& program) {
                {"view", "Write a page that shows a scene, its uv and how it feels, and open it in the browser.",
                 "papilla view cockpit.glb -o cockpit.html --no-open"},
                [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("FILE", options->input, "GLB of any producer, or another file that is read")->required();
-  verb->add_option("-o,--output", options->output, "Page to write; beside FILE when not given")->type_name("HTML");
-  verb->add_flag("--no-open", options->no_open, "Write the page only");
+  verb->add_option("FILE", options->input,
+                   "GLB of any producer, or another file that is read; with --follow what the player plays, "
+                   "and known from it when not given");
+  auto* const output =
+      verb->add_option("-o,--output", options->output, "Page to write; beside FILE when not given")->type_name("HTML");
+  verb->add_flag("--no-open", options->no_open, "Don't start a browser");
+  auto* const follow =
+      verb->add_option("--follow", options->follow,
+                       "Serve the page on this machine, with probe, proxy and force of a player that was started with "
+                       "--live; without SOCKET at its default")
+          ->type_name("[SOCKET]")
+          ->expected(0, 1)
+          ->excludes(output);
+  verb->add_option("--port", options->port, "Of the page that follows; 0 takes any that is free")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535))
+      ->needs(follow);
   verb->add_option("--triangles", options->page.triangles, "Triangles to show; more are simplified for the page")
       ->type_name("N")
       ->check(CLI::PositiveNumber)

@@ -10,6 +10,7 @@
 #include "papilla/haptic/contact_surface.hpp"
 #include "papilla/haptic/device.hpp"
 #include "papilla/haptic/histogram.hpp"
+#include "papilla/haptic/latest_slot.hpp"
 #include "papilla/haptic/safety.hpp"
 #include "papilla/haptic/trajectory.hpp"
 
@@ -37,6 +38,7 @@ struct LoopOptions {
   const Trajectory* hand = nullptr;  ///< For the recording's hand columns; without it they repeat the probe.
   std::vector<RecordRow>* record = nullptr;  ///< Filled with one row a tick; its memory is taken before the loop.
   LoopStatus* status = nullptr;              ///< Kept up to date, lock-free.
+  LatestSlot<RecordRow>* latest = nullptr;   ///< Gets every tick, for other threads to look at the newest.
   const std::atomic<bool>* stop = nullptr;   ///< The loop ends at the next tick when it is true.
 };
 

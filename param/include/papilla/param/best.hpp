@@ -11,7 +11,7 @@ namespace papilla {
 /// Options of flatten_best(). All are dimensionless, so one set of values serves every size of chart.
 struct BestOptions {
   GrainUp up = GrainUp::z;
-  double tolerance = 5e-4;  ///< Stop when an iteration lowers the energy by less than this fraction; in (0, 1).
+  double tolerance = 1e-3;  ///< Stop when an iteration lowers the energy by less than this fraction; in (0, 1).
   int max_iterations = 50;  ///< Newton iterations on the whole chart; at least 0.
   double time_limit_s = 0;  ///< Per chart, for the iterations on the whole chart; 0: none.
   /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.

@@ -55,8 +55,10 @@ struct RosetteSymmetry {
 
 /// Symmetry of a single motif about a point: the picture is read along circles around it, up to the nearest border, and
 /// of Cn and Dn, n = 1…12, the one with the least criterion of find_wallpaper_group() is taken, with the centre moved
-/// from `centre_px` to where that group keeps most. Good input: a motif of 32 pixels or more, its centre known to a
-/// tenth of its size. Cost: about 0.1 s at 128². Deterministic.
+/// from `centre_px`, at most 0.15 of the shorter side, to where that group keeps most. The criterion weighs what a
+/// group leaves against the picture's pixel noise, estimated from its second differences, so that noise of the motif's
+/// own deviation hides neither the order nor the mirrors. Good input: a motif of 32 pixels or more, its centre known to
+/// a tenth of its size. Cost: about 0.1 s at 128². Deterministic.
 /// @throws InvalidInput when the picture is smaller than 16 pixels a side, or not finite, or the centre is outside.
 /// Schulze 2005, section 7.1.
 RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "papilla/texture/fractal.hpp"
@@ -44,5 +45,11 @@ struct FshotSignature {
 /// Podsiadlo and Stachowiak, Fractal signatures by Hurst orientation transform, 2000; Cho et al., Haptic
 /// cushion/fractal textures, 2017.
 FshotSignature fshot_dimension(const GreyImage& image);
+
+/// The signature of a surface known by pieces: in every direction that all pieces have the mean of their Hurst
+/// exponents, with the 95 % interval of that mean, and the ellipse through those; the interval of the dimension is that
+/// of the pieces' mean, the curve their geometric mean. One piece gives itself.
+/// @pre at least one piece.
+FshotSignature mean_signature(std::span<const FshotSignature> pieces);
 
 }  // namespace papilla

@@ -21,8 +21,19 @@ struct ShadingOptions {
   double relative_tolerance =
       1e-4;                  ///< variational: stop when five steps together lower the energy by less than this share.
   double smoothness = 0.05;  ///< variational: λ below, positive.
+  /// Longer pictures are solved in overlapping pieces of half of this, at least 64; see below.
+  int largest_piece_px = 2048;
   Progress progress = {};
 };
+
+/// Pictures of any size: those longer than `largest_piece_px` are cut into pieces, several of which are solved at a time
+/// on all threads. Memory is 8 bytes a pixel for the result and a constant for the pieces in work, time grows with the
+/// pixels. tsai-shah: a piece sees as many pixels to its left and above as there are steps, from where all that reaches
+/// it comes; the result is that of the whole picture to the last bit, up to half of largest_piece_px steps.
+/// variational and pentland: waves longer than a few pixels of the picture at half of largest_piece_px a side come from
+/// that, the others from pieces with free borders that overlap by 128 pixels (a quarter of largest_piece_px, if that is
+/// less) and are mixed by linear ramps, across the borders of periodic pictures too. How much that differs from the
+/// whole is measured in the tests and the report of the benchmark.
 
 /// What a shape-from-shading method returns.
 struct ShadingResult {

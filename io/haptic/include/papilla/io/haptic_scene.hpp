@@ -23,7 +23,7 @@ struct HapticSceneOptions {
   double probe_radius_m = 0;
   double shortest_wave_m = 0;  ///< Waves of the relief that are shorter can't be carried: 2·speed/rate. 0 keeps all.
   /// Triangles farther than reach_m from the ways between these points are left out. Empty: nothing is.
-  std::vector<Vec3> reach_around;
+  std::vector<Vec3> reach_around = {};
   double reach_m = 0;
 };
 

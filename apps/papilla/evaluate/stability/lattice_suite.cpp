@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "evaluate/stability/extreme_pictures.hpp"
+#include "evaluate/stability/stability.hpp"
+#include "papilla/texture/feature_matrix.hpp"
+#include "papilla/texture/lattice.hpp"
+
+namespace papilla::app {
+namespace {
+
+struct Method {
+  const char* name;
+  FeatureMatrix (*matrix)(const GreyImage&);
+  LatticeMethod lattice;
+};
+constexpr std::array<Method, 3> k_methods = {
+    {{"squared, best", feature_matrix, LatticeMethod::best},
+     {"squared, projection", feature_matrix, LatticeMethod::projection},
+     {"absolute, best", [](const GreyImage& image) { return absolute_feature_matrix(image); }, LatticeMethod::best}}};
+
+void find(const Method& method, const NamedPicture& input, StabilityCell& cell) {
+  LatticeOptions options;
+  options.method = method.lattice;
+  const Lattice found = find_lattice(method.matrix(input.picture), options);
+  cell.residual = found.significance;
+  cell.note = found.reason;
+  if (!input.period_px) return;
+  const double period = *input.period_px;
+  if (period <= 0) {
+    if (found.found) cell.outcome = Outcome::breaks;
+    return;
+  }
+  if (!found.found) {
+    cell.outcome = Outcome::fails;
+    return;
+  }
+  cell.error = std::max(std::abs(norm(found.vectors_px[0]) - period), std::abs(norm(found.vectors_px[1]) - period));
+  if (*cell.error > 0.5) cell.outcome = Outcome::breaks;
+}
+
+}  // namespace
+
+StabilitySuite lattice_stability(const StabilityRun& run) {
+  StabilitySuite suite{
+      "lattice", "Lattice", "largest error of a lattice vector's length in pixels", "significance of the lattice", {}};
+  for (const NamedPicture& input : extreme_pictures())
+    for (const Method& method : k_methods)
+      suite.cells.push_back(
+          measured_cell(run, method.name, input.name, [&](StabilityCell& cell) { find(method, input, cell); }));
+  if (run.progress) run.progress("stability: lattice", 1);
+  return suite;
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluate/budget.hpp"
+#include "papilla/core/progress.hpp"
+
+namespace papilla::app {
+
+/// What became of a method on an input that was made to break it.
+enum class Outcome {
+  holds,       ///< A valid result by the method itself.
+  falls_back,  ///< A valid result by another method, named in the note.
+  refuses,     ///< A clear error: the input is not what the method takes.
+  fails,       ///< A clear error: the input is, but there is no result.
+  breaks,      ///< A result that can't be used.
+  not_run,     ///< The time was spent.
+};
+
+/// The outcome as reports print it, for example "falls back".
+std::string_view to_string(Outcome outcome) noexcept;
+
+/// A method on an input. Numbers that have no meaning there are not given.
+struct StabilityCell {
+  std::string method, input;
+  Outcome outcome = Outcome::holds;
+  std::optional<double> error = {}, residual = {};  ///< What they are says the suite.
+  std::optional<int> iterations = {};               ///< Not given: direct.
+  double seconds = 0;
+  std::string note = {};
+};
+
+/// All methods of a kind on all inputs of a kind.
+struct StabilitySuite {
+  std::string name, title, error_name, residual_name;
+  std::vector<StabilityCell> cells;  ///< Of every method and every input one.
+};
+
+/// What the suites share while they run.
+struct StabilityRun {
+  Progress progress;
+  Budget budget;
+};
+
+StabilitySuite param_stability(const StabilityRun& run);
+StabilitySuite mesh_stability(const StabilityRun& run);
+StabilitySuite dimension_stability(const StabilityRun& run);
+StabilitySuite lattice_stability(const StabilityRun& run);
+StabilitySuite shading_stability(const StabilityRun& run);
+StabilitySuite contact_stability(const StabilityRun& run);
+
+/// What work that took `seconds` on `few` triangles is expected to take on `many`: growing with n^1.25, as sparse
+/// factorizations of surfaces do.
+double expected_seconds(double seconds, std::size_t few, std::size_t many);
+
+/// Fills a cell by work that sets outcome, numbers and note: takes the time, turns InvalidInput into `refuses` and
+/// SolverFailure into `fails` with their message, and anything that is not finite into `breaks`; does not start when
+/// the budget does not allow what the work is expected to take.
+StabilityCell measured_cell(const StabilityRun& run, std::string method, std::string input,
+                            const std::function<void(StabilityCell&)>& work, double expected_s = 0);
+
+}  // namespace papilla::app

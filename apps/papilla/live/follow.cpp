@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live/follow.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "live/page_server.hpp"
+#include "live/player_link.hpp"
+#include "live_socket.hpp"
+#include "papilla/core/error.hpp"
+
+namespace papilla::app {
+namespace {
+
+constexpr std::chrono::milliseconds k_patience{2000}, k_look{50};
+
+std::atomic<bool> g_stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+std::string file_of_player(PlayerLink& player, const std::string& socket) {
+  const std::string greeting = player.greeting(k_patience);
+  if (greeting.empty())
+    throw InvalidInput(socket + ": no player listens there (papilla-player FILE --live), and no FILE is given");
+  const Json file = Json::parse(greeting).value("file", Json());
+  if (!file.is_string()) throw InvalidInput(socket + ": the player there names no file");
+  return file.get<std::string>();
+}
+
+}  // namespace
+
+Json follow_player(const FollowOptions& options, const std::function<PageContent(const std::string&)>& make_page,
+                   const std::function<void(const std::string&)>& ready) {
+  const std::string socket = options.socket.empty() ? default_live_socket() : options.socket;
+  PlayerLink player(socket);
+  const std::string file = options.file.empty() ? file_of_player(player, socket) : options.file;
+  PageContent content = make_page(file);
+  content.live = true;
+  const PageServer server(page_html(content), player, options.port);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_stop = true; });
+  ready(server.url());
+  while (!g_stop) std::this_thread::sleep_for(k_look);
+  return {{"url", server.url()}, {"file", file}, {"socket", socket}};
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include "checks.hpp"
+#include "papilla/texture/shape_from_shading.hpp"
+#include "pieces.hpp"
+#include "reflectance.hpp"
+
+namespace papilla {
+namespace {
+
+using texture_detail::pixel_index;
+using texture_detail::Reflectance;
+using texture_detail::reflectance;
+using Field = std::vector<double>;
+
+constexpr const char* k_name = "shape_from_shading_tsai_shah";
+constexpr std::string_view k_stage = "shape from shading";
+
+/// Calls told(squared error of every pixel, step) after each step.
+template <class Told>
+Field iterate(const GreyImage& image, const ShadingOptions& options, const Told& told) {
+  const Vec3 s = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
+  constexpr double k_noise = 1e-8, k_first_gain = 0.01;  // W and S of the paper.
+  const Field target = texture_detail::brightness(image, options.albedo);
+  Field z(target.size(), 0.0), next(target.size()), gain(target.size(), k_first_gain), squares(target.size());
+  const auto before = [&](int i, int count) { return i > 0 ? i - 1 : options.periodic ? count - 1 : 0; };
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const std::size_t i = pixel_index(x, y, image.width);
+        const std::size_t left = pixel_index(before(x, image.width), y, image.width);
+        const std::size_t up = pixel_index(x, before(y, image.height), image.width);
+        const Reflectance r = reflectance(s, z[i] - z[left], z[i] - z[up]);
+        const double error = target[i] - r.value;
+        // A border pixel that is its own neighbour has no slope in that direction to change.
+        const double slope = -((left == i ? 0 : r.dp) + (up == i ? 0 : r.dq));
+        const double damped = gain[i] * slope / (k_noise + gain[i] * slope * slope);
+        next[i] = z[i] - damped * error;
+        gain[i] *= 1 - damped * slope;
+        squares[i] = error * error;
+      }
+    std::swap(z, next);
+    told(squares, iteration);
+  }
+  return z;
+}
+
+/// A piece that sees as many pixels to its left and above as there are steps gives what the whole picture would.
+Field iterate_by_pieces(const GreyImage& image, const ShadingOptions& options, ShadingResult& result) {
+  const Stopwatch clock;
+  ShadingOptions local = options;
+  local.periodic = false;
+  texture_detail::PieceLayout layout;
+  layout.core = options.largest_piece_px / 2;
+  layout.before = std::min(options.iterations, layout.core);
+  layout.periodic = options.periodic;
+  std::mutex mutex;
+  std::vector<std::vector<double>> errors(static_cast<std::size_t>(options.iterations));
+  Field z = texture_detail::solve_by_pieces(
+      image, layout,
+      [&](const texture_detail::Piece& piece) {
+        return iterate(piece.image, local, [&](const Field& squares, int iteration) {
+          double sum = 0;
+          for (int y = 0; y < piece.down.length(); ++y)
+            for (int x = 0; x < piece.across.length(); ++x)
+              if (piece.weight(x, y) > 0) sum += squares[pixel_index(x, y, piece.across.length())];
+          const std::scoped_lock lock(mutex);
+          errors[static_cast<std::size_t>(iteration)].push_back(sum);
+        });
+      },
+      options.progress, k_stage);
+  // The clock ran over the pieces, not over the steps: each step took its share.
+  const double seconds = clock.seconds() / options.iterations;
+  for (std::vector<double>& step : errors) {
+    const double time = seconds * static_cast<double>(result.trace.size() + 1);
+    result.trace.push_back(
+        {time, std::sqrt(texture_detail::ordered_sum(std::move(step)) / static_cast<double>(z.size()))});
+  }
+  return z;
+}
+
+}  // namespace
+
+ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options) {
+  texture_detail::require_shading(image, options, k_name);
+  ShadingResult result;
+  if (std::max(image.width, image.height) > options.largest_piece_px) {
+    result.height_px = iterate_by_pieces(image, options, result);
+  } else {
+    const Stopwatch clock;
+    result.height_px = iterate(image, options, [&](const Field& squares, int iteration) {
+      const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+      result.trace.push_back({clock.seconds(), std::sqrt(sum / static_cast<double>(squares.size()))});
+      if (options.progress) options.progress(k_stage, (iteration + 1.0) / options.iterations);
+    });
+  }
+  texture_detail::remove_mean(result.height_px);
+  return result;
+}
+
+}  // namespace papilla
