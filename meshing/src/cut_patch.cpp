@@ -47,6 +47,19 @@ class PatchCutter {
     part(piece, cut_in_halves(piece, weights_), work);
   }
 
+  /// Cuts between two places of the outline that lie over each other.
+  void halve(const Piece& piece, const ChartOutline& outline, Work work) {
+    const auto crossing = widest_crossing(outline.place);
+    if (!crossing) return halve(piece, std::move(work));
+    const std::vector<Index> outer = border_loops(piece).front();
+    const Index a = triangle_of(outer[crossing->first]), b = triangle_of(outer[crossing->second]);
+    if (a == b) return halve(piece, std::move(work));
+    ++cuts_.halving;
+    ++work.halvings;
+    std::vector<Index> one = cut_in_halves(piece, weights_), two = cut_apart(piece, weights_, a, b);
+    part(piece, cost(piece, one) < cost(piece, two) ? one : two, work);
+  }
+
   /// Marks the cuts and puts the pieces that they leave back to work.
   void part(const Piece& piece, const std::vector<Index>& cuts, const Work& work) {
     for (const Index h : cuts) {
@@ -66,6 +79,12 @@ class PatchCutter {
   }
 
  private:
+  double cost(const Piece& piece, const std::vector<Index>& cuts) const {
+    double sum = 0;
+    for (const Index h : cuts) sum += weights_.cost(piece.halfedge_of(h));
+    return sum;
+  }
+
   /// True when the piece was not of the right topology and its parts wait.
   bool open(const Piece& piece, Work& work) {
     const Opening opening = open_chart(piece, weights_, disks_);
@@ -104,7 +123,7 @@ std::vector<ChartOutline> cut_patch(const Surface& surface, const SeamWeights& w
     }
     ChartOutline outline = make_outline(piece, field);
     if (piece.size() > 1 && work.halvings < k_max_halvings && overlaps_itself(outline.place))
-      return patch.halve(piece, work);
+      return patch.halve(piece, outline, work);
     charts.push_back(std::move(outline));
   });
   return charts;

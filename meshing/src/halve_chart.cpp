@@ -127,6 +127,18 @@ class Crossing {
   std::vector<std::uint8_t> free_;  ///< Per half-edge: on a hole, where a cut costs nothing.
 };
 
+/// The least costly cut between two triangles, or that at equal distances from them.
+std::vector<Index> cut_between(const Piece& piece, const SeamWeights& weights, Index a, const Growth& from_a, Index b) {
+  std::vector<Index> cuts = Crossing(piece, weights).run(from_a.distance, grow(piece, {b}).distance);
+  if (!cuts.empty()) return cuts;
+  const Growth halves = grow(piece, {a, b});
+  for (Index h = 0; h < piece.opposite.size(); ++h) {
+    const Index other = piece.opposite[h];
+    if (other != k_none && h < other && halves.source[h / 3] != halves.source[other / 3]) cuts.push_back(h);
+  }
+  return cuts;
+}
+
 }  // namespace
 
 std::vector<Index> cut_in_halves(const Piece& piece, const SeamWeights& weights) {
@@ -138,14 +150,11 @@ std::vector<Index> cut_in_halves(const Piece& piece, const SeamWeights& weights)
   const Growth from_a = grow(piece, {a});
   Index b = farthest(from_a);
   if (a == b) b = a == 0 ? 1 : 0;  // all triangles in one place
-  std::vector<Index> cuts = Crossing(piece, weights).run(from_a.distance, grow(piece, {b}).distance);
-  if (!cuts.empty()) return cuts;
-  const Growth halves = grow(piece, {a, b});
-  for (Index h = 0; h < piece.opposite.size(); ++h) {
-    const Index other = piece.opposite[h];
-    if (other != k_none && h < other && halves.source[h / 3] != halves.source[other / 3]) cuts.push_back(h);
-  }
-  return cuts;
+  return cut_between(piece, weights, a, from_a, b);
+}
+
+std::vector<Index> cut_apart(const Piece& piece, const SeamWeights& weights, Index a, Index b) {
+  return cut_between(piece, weights, a, grow(piece, {a}), b);
 }
 
 }  // namespace papilla::detail

@@ -13,4 +13,8 @@ namespace papilla::detail {
 /// the edges between the triangles nearer to one and to the other of the two.
 std::vector<Index> cut_in_halves(const Piece& piece, const SeamWeights& weights);
 
+/// The same between two given triangles on the border, which come into different parts.
+/// @param a,b different.
+std::vector<Index> cut_apart(const Piece& piece, const SeamWeights& weights, Index a, Index b);
+
 }  // namespace papilla::detail

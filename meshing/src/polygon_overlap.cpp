@@ -117,17 +117,23 @@ bool cross_deeper(Vec2 a, Vec2 b, Vec2 c, Vec2 d, double depth) {
   return parted(left_of(c, a, b), left_of(d, a, b)) && parted(left_of(a, c, d), left_of(b, c, d));
 }
 
-bool edges_cross(std::span<const Vec2> polygon, double depth) {
+double depth_of(std::span<const Vec2> polygon) { return k_depth * std::sqrt(std::abs(polygon_area(polygon))); }
+
+/// Calls visit(i, k) for edges i < k that cross deeper than `depth` until it returns true, which is then returned;
+/// pairs may come more than once.
+template <class Visit>
+bool visit_crossings(std::span<const Vec2> polygon, double depth, const Visit& visit) {
   EdgeGrid grid(polygon);
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
-    bool crossed = false;
+    bool done = false;
     grid.visit(i, [&](const std::vector<std::size_t>& cell) {
       for (const std::size_t k : cell)
-        crossed = crossed ||
-                  (k > i && cross_deeper(polygon[i], polygon[(i + 1) % n], polygon[k], polygon[(k + 1) % n], depth));
+        done =
+            done || (k > i && cross_deeper(polygon[i], polygon[(i + 1) % n], polygon[k], polygon[(k + 1) % n], depth) &&
+                     visit(i, k));
     });
-    if (crossed) return true;
+    if (done) return true;
   }
   return false;
 }
@@ -160,7 +166,19 @@ double polygon_area(std::span<const Vec2> polygon) {
 bool overlaps_itself(std::span<const Vec2> polygon) {
   if (polygon.size() < 4) return false;
   return overlap_fraction(polygon) > k_max_fraction ||
-         edges_cross(polygon, k_depth * std::sqrt(std::abs(polygon_area(polygon))));
+         visit_crossings(polygon, depth_of(polygon), [](std::size_t, std::size_t) { return true; });
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> widest_crossing(std::span<const Vec2> polygon) {
+  std::optional<std::pair<std::size_t, std::size_t>> widest;
+  std::size_t most = 0;
+  if (polygon.size() >= 4)
+    visit_crossings(polygon, depth_of(polygon), [&](std::size_t i, std::size_t k) {
+      const std::size_t apart = std::min(k - i, polygon.size() - (k - i));
+      if (apart > most) most = apart, widest = {i, k};
+      return false;
+    });
+  return widest;
 }
 
 double compactness(std::span<const Vec2> polygon) {

@@ -13,25 +13,27 @@
 namespace papilla::detail {
 namespace {
 
-/// A vertex with more curvature than this ends a stretch.
-constexpr double k_cone_rad = 10 * k_radians_per_degree;
 /// Angles of a stretch that add up to less unfold exactly.
 constexpr double k_flat_rad = 1e-3;
 /// Outlines fit where points miss their partners by at most this fraction of the smaller chart's size.
 constexpr double k_fit = 1e-3;
-/// A stretch is at least this fraction of the smaller chart's border.
-constexpr double k_least_joint = 0.15;
-/// The scale that a stretch may bring in, by the estimate that prepares the solve.
-constexpr double k_max_log_scale = 0.5;
 /// A union sprawls when its compactness is below this and below that of its parts.
 constexpr double k_least_compactness = 0.4;
 /// Directions of grain that differ by less count as one.
 constexpr double k_grain_deg = 20;
 /// A chart whose grain adds up to less than this share has no direction of its own.
 constexpr double k_least_grain = 0.3;
-/// All solves together may visit this many times the triangles there are.
-constexpr std::size_t k_solve_budget = 8;
 constexpr int k_max_rounds = 100;
+
+/// What a stretch must be like for the union to be tried.
+struct Trial {
+  double cone_rad;           ///< A vertex with more curvature than this ends a stretch.
+  double least_joint;        ///< It is at least this fraction of the smaller chart's border.
+  double max_log_scale;      ///< The scale that it may bring in, by the estimate that prepares the solve.
+  std::size_t solve_budget;  ///< All solves together may visit this many times the triangles there are.
+};
+/// What unfolds easily comes first, then what is curved along the stretch or hangs together by little.
+constexpr Trial k_trials[] = {{10 * k_radians_per_degree, 0.15, 0.5, 8}, {90 * k_radians_per_degree, 0.05, 2, 20}};
 
 /// Border half-edges first ... first + size - 1 of chart a, opposite to last ... last - size + 1 of chart b, cyclic.
 struct Stretch {
@@ -59,13 +61,16 @@ class Unfolder {
         cutter_(surface, seam),
         charts_(std::move(charts)),
         chart_of_(surface.opposite.size(), k_none),
-        place_of_(surface.opposite.size(), k_none),
-        budget_(k_solve_budget * surface.size()) {
+        place_of_(surface.opposite.size(), k_none) {
     for (Index c = 0; c < charts_.size(); ++c) register_border(c);
   }
 
   std::vector<ChartOutline> run() {
-    rounds();
+    for (const Trial& trial : k_trials) {
+      trial_ = trial;
+      budget_ = trial.solve_budget * surface_.size();
+      rounds();
+    }
     std::erase_if(charts_, [](const ChartOutline& c) { return c.triangles.empty(); });
     return std::move(charts_);
   }
@@ -135,7 +140,7 @@ class Unfolder {
       return false;
     const ChartOutline& neighbour = charts_[chart_of_[other]];
     if (&neighbour == &chart || (place_of_[beyond] + 1) % neighbour.border.size() != place_of_[other]) return false;
-    return std::abs(chart.turning[next] + neighbour.turning[place_of_[other]]) < k_cone_rad;
+    return std::abs(chart.turning[next] + neighbour.turning[place_of_[other]]) < trial_.cone_rad;
   }
 
   Stretch measure(Index a, Index b, Index first, Index size) const {
@@ -181,8 +186,8 @@ class Unfolder {
   }
 
   bool unfolds(const Stretch& s) const {
-    if (s.worst_scale > k_max_log_scale) return false;
-    return s.length >= k_least_joint * std::min(perimeter(charts_[s.a]), perimeter(charts_[s.b]));
+    if (s.worst_scale > trial_.max_log_scale) return false;
+    return s.length >= trial_.least_joint * std::min(perimeter(charts_[s.a]), perimeter(charts_[s.b]));
   }
 
   /// Lays chart b against chart a; nothing when a point misses its partner by more than `tolerance`.
@@ -321,7 +326,8 @@ class Unfolder {
   PieceCutter cutter_;
   std::vector<ChartOutline> charts_;
   std::vector<Index> chart_of_, place_of_;  ///< Per half-edge on an outer border.
-  std::size_t budget_;
+  Trial trial_ = k_trials[0];
+  std::size_t budget_ = 0;
 };
 
 }  // namespace

@@ -132,8 +132,7 @@ class ChartMapper {
   }
 
   ChartMap best(double defect) {
-    const BestOptions& o = options_.best;
-    MultilevelMap solution = map_multilevel(to_unit(chart_).surface, {o.max_iterations, o.tolerance, o.time_limit_s});
+    MultilevelMap solution = map_multilevel(to_unit(chart_).surface, multilevel_options(options_.best));
     ChartMap map{std::move(solution.uv), std::move(solution.failure), solution.stop, std::move(solution.trace)};
     for (TraceSample& sample : map.trace) sample.error *= area_of(chart_);
     map.choice = {"best", defect <= options_.developable_deg

@@ -25,14 +25,24 @@ void param_detail::check_best_options(const BestOptions& options, std::string_vi
     refuse("max_iterations is " + std::to_string(options.max_iterations) + ", it must not be negative");
   if (!(options.time_limit_s >= 0))
     refuse("time_limit_s is " + std::to_string(options.time_limit_s) + ", it must not be negative");
+  if (!(options.energy_limit >= 4))
+    refuse("energy_limit is " + std::to_string(options.energy_limit) + ", it must be at least 4");
+}
+
+MultilevelOptions param_detail::multilevel_options(const BestOptions& options) {
+  MultilevelOptions result;
+  result.max_iterations = options.max_iterations;
+  result.tolerance = options.tolerance;
+  result.time_limit_s = options.time_limit_s;
+  result.energy_limit = options.energy_limit;
+  return result;
 }
 
 Flattening flatten_best(const TriangleMesh& mesh, const ChartSet& charts, const BestOptions& options) {
   check_best_options(options, k_function);
   const auto method = [&](const ChartSurface& chart) {
     const UnitChart unit = to_unit(chart);
-    MultilevelMap solution =
-        map_multilevel(unit.surface, {options.max_iterations, options.tolerance, options.time_limit_s});
+    MultilevelMap solution = map_multilevel(unit.surface, multilevel_options(options));
     ChartMap map{std::move(solution.uv), std::move(solution.failure), solution.stop, std::move(solution.trace)};
     // From per unit of area to the sum over the chart.
     for (TraceSample& sample : map.trace) sample.error *= area_of(chart);

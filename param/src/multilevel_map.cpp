@@ -230,7 +230,12 @@ class Multilevel {
 MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options) {
   Multilevel multilevel(chart, options);
   multilevel.run();
-  return multilevel.take();
+  MultilevelMap map = multilevel.take();
+  if (map.failure.empty() && !map.trace.empty() && map.trace.back().error > options.energy_limit) {
+    map.uv.clear();
+    map.failure = "its mean symmetric Dirichlet energy is " + std::to_string(map.trace.back().error);
+  }
+  return map;
 }
 
 }  // namespace papilla::param_detail

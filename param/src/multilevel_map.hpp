@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct MultilevelOptions {
   int max_iterations = 50;
   double tolerance = 1e-3;
   double time_limit_s = 0;
-  bool only_when_rough = false;  ///< No iterations on a map that is smooth already.
+  bool only_when_rough = false;                                   ///< No iterations on a map that is smooth already.
+  double energy_limit = std::numeric_limits<double>::infinity();  ///< A map with a larger mean energy is a failure.
 };
 
 struct MultilevelMap {

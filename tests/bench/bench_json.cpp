@@ -227,7 +227,12 @@ Json BenchReport::ratios_of(const Comparison& comparison) const {
 
 void BenchReport::measure() {
   for (int turn = -options_.warm_up; turn < options_.repeats; ++turn)
-    for (Entry& entry : entries_) run_once(entry, turn < 0);
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      const Subject& subject = entries_[i].subject;
+      fmt::print(stderr, "[{}/{}, {}] {} {}\n", i + 1, entries_.size(), turn < 0 ? "warm-up" : "measured",
+                 label(subject), subject.input);
+      run_once(entries_[i], turn < 0);
+    }
   Json runs = Json::array(), ratios = Json::array();
   for (const Entry& entry : entries_) runs.push_back(entry_json(entry));
   for (const Comparison& comparison : comparisons_)

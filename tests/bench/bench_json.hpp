@@ -115,8 +115,8 @@ class BenchReport {
   /// extremes over the repeats, paired in turn. Below 1: the method needs less than its peer.
   void compare(std::string method, std::string peer, std::string quantity = "seconds");
 
-  /// Runs everything that was added. @throws what a subject throws; InvalidInput when a repeat records other
-  /// quantities than the first one, or compare() finds nothing to compare.
+  /// Runs everything that was added, and says on stderr what is running. @throws what a subject throws; InvalidInput
+  /// when a repeat records other quantities than the first one, or compare() finds nothing to compare.
   void measure();
 
   /// What the page says of a promise, and the rows behind it; after measure().

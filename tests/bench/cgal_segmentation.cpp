@@ -7,7 +7,7 @@
 
 namespace papilla::bench {
 
-std::vector<std::uint32_t> cgal_segments(const TriangleMesh& mesh, std::size_t clusters) {
+std::vector<std::vector<std::uint32_t>> cgal_segments(const TriangleMesh& mesh, std::span<const std::size_t> clusters) {
   using Kernel = CGAL::Simple_cartesian<double>;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
   Mesh surface;
@@ -19,10 +19,13 @@ std::vector<std::uint32_t> cgal_segments(const TriangleMesh& mesh, std::size_t c
   auto segment = surface.add_property_map<Mesh::Face_index, std::size_t>("f:segment", 0).first;
   const auto [least, greatest] = CGAL::sdf_values(surface, diameter);
   if (!(greatest > least)) return {};
-  CGAL::segmentation_from_sdf_values(surface, diameter, segment, clusters);
-  std::vector<std::uint32_t> labels;
-  for (const auto f : surface.faces()) labels.push_back(static_cast<std::uint32_t>(segment[f]));
-  return labels;
+  std::vector<std::vector<std::uint32_t>> all;
+  for (const std::size_t count : clusters) {
+    CGAL::segmentation_from_sdf_values(surface, diameter, segment, count);
+    std::vector<std::uint32_t>& labels = all.emplace_back();
+    for (const auto f : surface.faces()) labels.push_back(static_cast<std::uint32_t>(segment[f]));
+  }
+  return all;
 }
 
 }  // namespace papilla::bench

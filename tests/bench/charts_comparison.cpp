@@ -12,6 +12,7 @@
 
 #include "bench/cgal_segmentation.hpp"
 #include "bench/model_files.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
@@ -59,6 +60,30 @@ std::vector<Piece> pieces_of(const TriangleMesh& mesh, const ChartSet& charts, i
   return pieces;
 }
 
+/// A flattened piece.
+struct Mapped {
+  std::uint32_t charts = 1;
+  double mean = 4, area = 0;
+};
+
+Mapped measured(const TriangleMesh& mesh, const Flattening& flattening) {
+  const DistortionReport report = measure_distortion(mesh, flattening.uv);
+  return {flattening.charts.count, report.measured_triangles > 0 ? report.symmetric_dirichlet.mean : 4,
+          report.area_mm2};
+}
+
+/// Of the map with the lowest energy; nothing when that is far above `most` or no map is valid.
+std::optional<Mapped> map_of(const TriangleMesh& mesh, const ChartSet& one, double most) {
+  BestOptions options;
+  options.energy_limit = 4 + 2 * (most - 4);
+  options.fall_back = false;
+  try {
+    return measured(mesh, flatten_best(mesh, one, options));
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 /// Flattens chart by chart; halves those that have no valid map or a mean distortion above `worst`.
 Quality flatten(const TriangleMesh& mesh, const ChartSet& charts, double worst) {
   Quality quality;
@@ -68,21 +93,21 @@ Quality flatten(const TriangleMesh& mesh, const ChartSet& charts, double worst) 
     const Piece piece = std::move(pending.back());
     pending.pop_back();
     const ChartSet one = test::one_chart(piece.mesh);
-    const Flattening flattening = flatten_best(piece.mesh, one);
-    const DistortionReport report = measure_distortion(piece.mesh, flattening.uv);
-    const double mean = report.measured_triangles > 0 ? report.symmetric_dirichlet.mean : 4;
-    const bool good = flattening.notes.empty() && mean <= worst * (1 + 1e-9);
-    if (!good && piece.mesh.triangles.size() > 1 && piece.halvings < k_max_halvings) {
+    const bool last = piece.mesh.triangles.size() == 1 || piece.halvings == k_max_halvings;
+    const double most = last ? std::numeric_limits<double>::infinity() : worst * (1 + 1e-9);
+    const std::optional<Mapped> mapped =
+        last ? measured(piece.mesh, flatten_best(piece.mesh, one)) : map_of(piece.mesh, one, most);
+    if (!mapped || mapped->mean > most) {
       const ChartSet halves = halve_charts(piece.mesh, one, std::vector<std::uint32_t>{0});
       seam += halves.seam_length_mm;
       ++quality.halvings;
       for (Piece& half : pieces_of(piece.mesh, halves, piece.halvings + 1)) pending.push_back(std::move(half));
       continue;
     }
-    quality.charts += flattening.charts.count;
-    quality.worst_chart = std::max(quality.worst_chart, mean);
-    area += report.area_mm2;
-    integral += report.area_mm2 * mean;
+    quality.charts += mapped->charts;
+    quality.worst_chart = std::max(quality.worst_chart, mapped->mean);
+    area += mapped->area;
+    integral += mapped->area * mapped->mean;
   }
   quality.mean = integral / area;
   quality.seam_over_root_area = seam / std::sqrt(area);
@@ -122,10 +147,12 @@ void record(const Quality& quality, Recorder& recorder) {
 /// What one input came to; the quality is the same in every repeat and found once.
 struct Comparison {
   Input input;
-  std::optional<Quality> ours, cgal, feature;
+  std::vector<std::vector<std::uint32_t>> segments = cgal_segments(input.mesh, k_clusters);
+  std::optional<Quality> ours = {}, cgal = {}, feature = {};
   double worst() { return own().worst_chart; }
   const Quality& own() {
-    if (!ours) ours = flatten(input.mesh, segment_charts(input.mesh, our_options()).charts, 1e300);
+    const SegmentationOptions options = our_options();
+    if (!ours) ours = flatten(input.mesh, segment_charts(input.mesh, options).charts, 4 + worth_halving(options));
     return *ours;
   }
 };
@@ -133,8 +160,7 @@ struct Comparison {
 /// The segments with the fewest charts at our distortion.
 Quality best_of_cgal(Comparison& comparison) {
   std::optional<Quality> best;
-  for (const std::size_t clusters : k_clusters) {
-    const auto labels = cgal_segments(comparison.input.mesh, clusters);
+  for (const auto& labels : comparison.segments) {
     const ChartSet charts = open_charts(comparison.input.mesh, as_charts(labels), false);
     const Quality quality = flatten(comparison.input.mesh, charts, comparison.worst());
     if (!best || quality.charts < best->charts) best = quality;
@@ -153,9 +179,9 @@ void add_comparison(Comparison& c, BenchReport& report) {
     if (!c.feature) c.feature = flatten(c.input.mesh, feature_split(c.input.mesh), c.worst());
     record(*c.feature, recorder);
   });
-  if (cgal_segments(c.input.mesh, k_clusters[0]).empty()) return;  // CGAL can't hold it
+  if (c.segments.empty()) return;  // CGAL can't hold it
   report.add({.method = "cgal_sdf", .input = c.input.name, .error_name = error}, [&](Recorder& recorder) {
-    recorder.time([&] { keep(cgal_segments(c.input.mesh, k_clusters[1]).size()); });
+    recorder.time([&] { keep(cgal_segments(c.input.mesh, std::span(k_clusters).last(1)).size()); });
     if (!c.cgal) c.cgal = best_of_cgal(c);
     record(*c.cgal, recorder);
   });
@@ -187,7 +213,7 @@ bool is_input(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::uintmax_t k_least = 50'000, k_most = 700'000;
+  constexpr std::uintmax_t k_least = 50'000, k_most = 4'000'000;
   const std::uintmax_t size = std::filesystem::file_size(file);
   return (extension == ".stl" || extension == ".obj" || extension == ".off") && size >= k_least && size <= k_most;
 }
@@ -225,7 +251,7 @@ struct ChartsComparison::State {
 
 ChartsComparison::ChartsComparison(BenchReport& report) : state_(std::make_unique<State>()) {
   for (Input& input : inputs(report.options())) {
-    state_->comparisons.push_back(std::make_unique<Comparison>(Comparison{std::move(input), {}, {}, {}}));
+    state_->comparisons.push_back(std::make_unique<Comparison>(Comparison{std::move(input)}));
     add_comparison(*state_->comparisons.back(), report);
   }
   state_->scaling = sizes(report.options());

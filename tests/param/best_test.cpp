@@ -204,6 +204,23 @@ TEST(Best, WhatIsNoDiskFallsBackOrIsRefused) {
   EXPECT_TRUE(flatten_best(pocket, test::one_chart(pocket)).notes.empty());
 }
 
+TEST(Best, ChartsBeyondTheEnergyLimitCountAsUnmapped) {
+  const TriangleMesh bowl = test::hemisphere_mesh(10, 24);
+  const double energy = flatten_best(bowl, test::one_chart(bowl)).trace.back().error;
+  EXPECT_GT(energy, 4.1);  // no isometry takes a hemisphere to the plane
+  BestOptions options;
+  options.fall_back = false;
+  options.energy_limit = 1.001 * energy;
+  EXPECT_EQ(flatten_best(bowl, test::one_chart(bowl), options).trace.back().error, energy);
+  options.energy_limit = 0.999 * energy;
+  EXPECT_THROW(flatten_best(bowl, test::one_chart(bowl), options), SolverFailure);
+  options.fall_back = true;
+  const Flattening anyway = flatten_best(bowl, test::one_chart(bowl), options);
+  ASSERT_EQ(anyway.notes.size(), 1u);
+  EXPECT_NE(anyway.notes.front().reason.find("energy"), std::string::npos);
+  EXPECT_EQ(anyway.charts.count, 1u);
+}
+
 TEST(Best, BadInputIsNamed) {
   EXPECT_TRUE(flatten_best({}, {}).uv.empty());
   TriangleMesh mesh = test::plane(2, 2, 2, 2);
@@ -212,6 +229,9 @@ TEST(Best, BadInputIsNamed) {
   EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh), options), InvalidInput);
   options = {};
   options.max_iterations = -1;
+  EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh), options), InvalidInput);
+  options = {};
+  options.energy_limit = 3.9;
   EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh), options), InvalidInput);
   mesh.positions[3].y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(flatten_best(mesh, test::one_chart(mesh)), InvalidInput);

@@ -72,14 +72,4 @@ std::string input_name(const EvaluationInput& input, const std::string& part) {
   return same ? input.name : input.name + ": " + part;
 }
 
-double bounding_diagonal_mm(const TriangleMesh& mesh) {
-  if (mesh.positions.empty()) return 0;
-  Vec3 low = mesh.positions.front(), high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
-}
-
 }  // namespace papilla::app

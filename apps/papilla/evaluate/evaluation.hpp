@@ -83,9 +83,6 @@ std::vector<std::uint32_t> largest_parts(const Scene& scene, std::size_t most);
 /// What reports call a part: "file: part", or the file alone when the part is named like it.
 std::string input_name(const EvaluationInput& input, const std::string& part);
 
-/// The bounding diagonal of a mesh's positions, mm.
-double bounding_diagonal_mm(const TriangleMesh& mesh);
-
 /// Runs a kind once, then again as long as the budget has time for it, at most `repeats` times.
 std::vector<EvaluationRun> run_repeatedly(const EvaluationKind& kind, const EvaluationInput& input, int repeats);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/simplify_ladder.hpp"

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "papilla/io/scene_file.hpp"
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "bounding_diagonal.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/param/components.hpp"
@@ -31,6 +31,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   };
   share(o.natural), share(o.maillot), share(o.levy), share(o.lscm), share(o.reference), share(o.best);
   o.natural.fall_back = true;
+  if (fall_back) o.best.energy_limit = 4 + worth_halving(o.segmentation);
   if (o.iterations) o.maillot.max_iterations = o.best.max_iterations = *o.iterations;
   if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
   if (o.tolerance)
@@ -79,7 +80,7 @@ SegmentationOptions segmentation_of(const MethodOptions& o, const PartContext& c
   return segmentation;
 }
 
-/// Halves charts that have no valid map, a few times, before another map takes their place.
+/// Halves charts that have no valid map, or none worth having, a few times; the last map stays whatever it is.
 Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, const MethodOptions& options,
                         std::vector<ChartChoice>& choices) {
   constexpr int k_max_halvings = 6;
@@ -168,21 +169,11 @@ bool takes_charts(UnwrapMethod method) {
   }
 }
 
-double bounding_diagonal(const TriangleMesh& mesh) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high = -low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return mesh.positions.empty() ? 0 : norm(high - low);
-}
-
 FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options) {
   MethodOptions o = prepare(mesh, options, context);
   FlattenedPart part;
   if (o.method == UnwrapMethod::automatic && o.charts == ChartSource::automatic) {
-    part.reason = reason_for_triplanar(bounding_diagonal(mesh), context);
+    part.reason = reason_for_triplanar(bounding_diagonal_mm(mesh), context);
     if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;
   }
   part.method = unwrap_method_name(o.method);

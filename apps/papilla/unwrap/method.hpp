@@ -95,13 +95,11 @@ struct FlattenedPart {
   double segment_seconds = 0;
 };
 
-/// Charts and maps one part. Equal positions must be one vertex. Charts that the method can't map are halved a few
-/// times before another map takes their place. Automatic takes triplanar for parts that are smaller than one repeat of
-/// the grain, and for small ones among many under fine grain; else a method for every chart.
+/// Charts and maps one part. Equal positions must be one vertex. Charts that the method can't map, or that best
+/// distorts beyond worth_halving(), are halved a few times before another map takes their place. Automatic takes
+/// triplanar for parts that are smaller than one repeat of the grain, and for small ones among many under fine grain;
+/// else a method for every chart.
 /// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
 FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options);
-
-/// The bounding diagonal of a mesh's positions.
-double bounding_diagonal(const TriangleMesh& mesh);
 
 }  // namespace papilla::app

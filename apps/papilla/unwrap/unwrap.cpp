@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 
+#include "bounding_diagonal.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/pack.hpp"
@@ -108,7 +109,7 @@ PartContext context_of(const Scene& scene, const UnwrapOptions& options) {
   TriangleMesh all;
   for (const Part& part : scene.parts)
     all.positions.insert(all.positions.end(), part.mesh.positions.begin(), part.mesh.positions.end());
-  context.scene_extent_mm = bounding_diagonal(all);
+  context.scene_extent_mm = bounding_diagonal_mm(all);
   return context;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "evaluate/stability/extreme_meshes.hpp"
 #include "evaluate/stability/stability.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "evaluate/stability/extreme_meshes.hpp"
 #include "evaluate/stability/stability.hpp"

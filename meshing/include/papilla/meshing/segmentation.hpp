@@ -27,6 +27,10 @@ struct SegmentationOptions {
   Progress progress = {};  ///< Told the fraction done; may be empty.
 };
 
+/// The distortion D, measured on the map of a chart, from which on the chart is better cut in two: 3 λ. A cut as long as
+/// the root of the area raises E by about λ A, and takes off half of A D or more.
+inline double worth_halving(const SegmentationOptions& options) { return 3 * options.seam_cost; }
+
 struct SegmentationResult {
   ChartSet charts;
   std::size_t feature_patches = 0;  ///< Pieces between feature edges.
@@ -51,8 +55,8 @@ struct SegmentationResult {
 /// Steps, each a header in src/: patches between feature edges, specks absorbed; handles opened and border loops joined
 /// along short hidden paths (tree and cotree, [Erickson, Whittlesey 2005]); cuts from where u is extreme, as long as E
 /// falls ([Sheffer, Hart 2002], "Seamster", with E to decide); patches that would overlap themselves in the plane
-/// halved; at last charts joined over stretches of seam where the union unfolds (angles add up to 2π, whatever the
-/// dihedral angle) or E falls, and the outline does not overlap itself. All measures are areas, angles and ratios of
+/// cut between the places that overlap; at last charts joined over stretches of seam where the union unfolds (angles add
+/// up to 2π, whatever the dihedral angle) or E falls, and the outline does not overlap itself. All measures are areas, angles and ratios of
 /// lengths, so the number of charts follows the shape, not the tessellation.
 ///
 /// Guarantees: every triangle in exactly one chart, chart numbers in the order of their first triangles, every chart
@@ -61,7 +65,7 @@ struct SegmentationResult {
 /// Good input is repaired: welded by index, manifold and oriented; edges that are not count as borders. D is an
 /// estimate: methods that don't reach the conformal optimum do worse, those that trade angles for areas better; on
 /// surfaces that are rough at the scale of their triangles it counts the roughness as distortion, too.
-/// Cost: O(n log n), about 5 µs a triangle and thread. Connectivity is kept in arrays of opposite half-edges; charts
+/// Cost: O(n log n), 5 to 50 µs a triangle and thread. Connectivity is kept in arrays of opposite half-edges; charts
 /// with handles or several loops go through OpenMesh. Deterministic, whatever the number of threads.
 /// @throws InvalidInput when an index is out of range, a position is not finite or an option is out of range.
 SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOptions& options = {});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -11,8 +13,10 @@ struct BestOptions {
   GrainUp up = GrainUp::z;
   /// Stop when an iteration lowers the energy by less than this fraction, and its slope promised no more; in (0, 1).
   double tolerance = 1e-3;
-  int max_iterations = 50;      ///< Newton iterations on the whole chart; at least 0.
-  double time_limit_s = 0;      ///< Per chart, for the iterations on the whole chart; 0: none.
+  int max_iterations = 50;  ///< Newton iterations on the whole chart; at least 0.
+  double time_limit_s = 0;  ///< Per chart, for the iterations on the whole chart; 0: none.
+  /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.
+  double energy_limit = std::numeric_limits<double>::infinity();
   bool fall_back = true;        ///< Project charts that are no disk, with a note; false: throw.
   TriplanarOptions projection;  ///< Of the fallback; its `up` is taken from here.
 };
