@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/param/reference_maps.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "chart_driver.hpp"
@@ -50,7 +51,9 @@ Flattening flatten_reference(const TriangleMesh& mesh, const ChartSet& charts, c
     normalise(chart, options.up, true, scaled);
     const std::vector<RestShape> rest = rest_shapes(chart.positions, chart.triangles);
     const SymmetricDirichlet energy(rest);
-    map.trace.push_back({seconds, total_energy({chart.triangles, &energy}, scaled)});
+    // Infinite where a triangle is flipped, also one without area in space.
+    const double reached = total_energy({chart.triangles, &energy}, scaled);
+    if (std::isfinite(reached)) map.trace.push_back({seconds, reached});
     return map;
   };
   return flatten_charts(mesh, charts, method, driver_options(k_function, options));

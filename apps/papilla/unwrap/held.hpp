@@ -13,7 +13,7 @@ namespace papilla::app {
 struct PlacedPin {
   Vec3 position;
   Vec2 uv;
-  std::string part;  ///< Pattern of names (* and ? match); empty: every part.
+  std::string part = {};  ///< Pattern of names (* and ? match); empty: every part.
 };
 
 /// The vertices along shortest paths of edges between those nearest to the points share their u, or their v.
