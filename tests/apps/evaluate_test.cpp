@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "evaluate/built_in.hpp"
 #include "evaluate/evaluation_files.hpp"
 #include "evaluate/pareto.hpp"
+#include "papilla/core/temporary_folder.hpp"
 
 namespace papilla::app {
 namespace {
@@ -67,6 +71,15 @@ TEST(Evaluation, QuotesAndEscapesNames) {
   EXPECT_EQ(html.find("<script>"), std::string::npos);
   EXPECT_NE(html.find("a&lt;b&gt;"), std::string::npos);
   EXPECT_EQ(runs_json(runs)[0]["repeats"][0][0]["seconds"], 0.25);
+}
+
+TEST(Evaluation, HasInputsOfItsOwnThatItCanRead) {
+  for (const EvaluationKind& kind : evaluation_kinds()) {
+    const TemporaryFolder folder("papilla-test");
+    const std::vector<std::string> files = write_built_in_inputs(std::string(kind.name), folder.path());
+    EXPECT_EQ(files.empty(), kind.name == "tessellation" || kind.name == "contact") << kind.name;
+    for (const std::string& file : files) EXPECT_GT(std::filesystem::file_size(file), 100U) << file;
+  }
 }
 
 TEST(Budget, SharesWhatIsLeft) {

@@ -11,6 +11,7 @@
 #include "bench/simplify_comparison.hpp"
 #include "bench/whole_process.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/temporary_folder.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/boundary_cycles.hpp"
 #include "papilla/meshing/deviation.hpp"
@@ -25,20 +26,6 @@ using namespace papilla;
 namespace fs = std::filesystem;
 using bench::Recorder;
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("papilla-bench-{}", ::getpid())) {
-    fs::create_directories(path_);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
 // --- speed and memory -----------------------------------------------------------------------------------------------
 
 struct Soup {
@@ -51,7 +38,7 @@ Soup cockpit_soup(const TemporaryFolder& folder, double chord_mm, double angle_d
   ReadOptions options;
   options.chord_mm = chord_mm;
   options.angle_deg = angle_deg;
-  const std::string file = folder / fmt::format("cockpit-{}.stl", chord_mm);
+  const std::string file = (folder / fmt::format("cockpit-{}.stl", chord_mm)).string();
   write_scene(read_scene(PAPILLA_COCKPIT, options), file);
   const std::size_t triangles = (fs::file_size(file) - 84) / 50;
   return {fmt::format("cockpit soup, {} k", triangles / 1000), file, triangles};
@@ -63,7 +50,7 @@ void repair_scene(Scene& scene) {
 
 void add_speed(bench::BenchReport& report, const Soup& soup, const TemporaryFolder& folder) {
   report.add({.method = "repair", .input = soup.name, .notes = "binary STL in, GLB out, within the process"},
-             [&soup, out = folder / "in-process.glb"](Recorder& recorder) {
+             [&soup, out = (folder / "in-process.glb").string()](Recorder& recorder) {
                const double before = bench::process_cpu_seconds();
                Scene scene = read_scene(soup.file);
                repair_scene(scene);
@@ -80,9 +67,9 @@ void add_speed(bench::BenchReport& report, const Soup& soup, const TemporaryFold
                       static_cast<double>(cost.peak_bytes) / static_cast<double>(soup.triangles));
     });
   };
-  add_process("papilla repair", {PAPILLA_PROGRAM, "repair", soup.file, "-o", folder / "papilla.glb"});
+  add_process("papilla repair", {PAPILLA_PROGRAM, "repair", soup.file, "-o", (folder / "papilla.glb").string()});
   if (bench::has_program("assimp"))
-    add_process("assimp export", {"assimp", "export", soup.file, folder / "assimp.glb", "-f", "glb2"});
+    add_process("assimp export", {"assimp", "export", soup.file, (folder / "assimp.glb").string(), "-f", "glb2"});
 }
 
 void report_speed(bench::BenchReport& report, const std::vector<Soup>& soups) {
@@ -259,7 +246,7 @@ void report_files(bench::BenchReport& report) {
 
 void body(bench::BenchReport& report) {
   const bool quick = report.options().quick;
-  const TemporaryFolder folder;
+  const TemporaryFolder folder("papilla-bench");
   std::vector<Soup> soups;
   soups.push_back(cockpit_soup(folder, 20, 60));
   if (!quick) {

@@ -11,11 +11,10 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/temporary_folder.hpp"
 #include "papilla/io/read_file.hpp"
 
 extern char** environ;
@@ -28,26 +27,6 @@ using Style = PlotSeries::Style;
 
 constexpr std::array k_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#6B6B00", "#000000"};
 constexpr std::array k_dashes{"1", "2", "3", "4"};
-
-/// A folder of its own, gone with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "papilla-plot-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw IoError(name + ": cannot be made a folder");
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// A string of gnuplot in which nothing is special.
 std::string quoted(const std::string& text) {
@@ -162,7 +141,7 @@ bool run_gnuplot(const fs::path& folder) {
 std::optional<std::string> plot_svg(const Plot& plot) {
   if (std::none_of(plot.series.begin(), plot.series.end(), [&](const PlotSeries& s) { return has_points(plot, s); }))
     return std::nullopt;
-  const TemporaryFolder folder;
+  const TemporaryFolder folder("papilla-plot");
   write_atomically(folder.path() / "plot.gp", script_of(plot));
   if (!run_gnuplot(folder.path())) return std::nullopt;
   return read_file(folder.path() / "plot.svg");

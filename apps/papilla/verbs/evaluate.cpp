@@ -6,13 +6,16 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "evaluate/built_in.hpp"
 #include "evaluate/evaluation_files.hpp"
 #include "evaluate/stability/stability_files.hpp"
 #include "exit_code.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/machine.hpp"
+#include "papilla/core/temporary_folder.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
@@ -96,8 +99,12 @@ std::string name_of(const std::string& file, const std::vector<std::string>& fil
   return alike > 1 ? file : name.string();
 }
 
-Json evaluate_files(VerbContext& context, const EvaluateOptions& options) {
-  if (options.files.empty()) throw UsageError("evaluate " + options.kind + ": a FILE is required");
+Json evaluate_files(VerbContext& context, EvaluateOptions options) {
+  std::optional<TemporaryFolder> own;
+  if (options.files.empty())
+    options.files = write_built_in_inputs(options.kind, own.emplace("papilla-evaluate").path());
+  if (options.files.empty())
+    throw UsageError("evaluate " + options.kind + ": has no input of its own, a FILE is required");
   Folder folder(options.folder, options.kind);
   Json json = heading(context, options);
   std::vector<EvaluationRun> runs;
@@ -160,7 +167,9 @@ void add_evaluate(CLI::App& program) {
   names.emplace_back(k_stability);
   help += " stability (every method on input made to break it; takes no file)";
   verb->add_option("kind", options->kind, help)->type_name("KIND")->check(CLI::IsMember(names))->required();
-  verb->add_option("file", options->files, "Files to read")->type_name("FILE");
+  verb->add_option("file", options->files,
+                   "Files to read; without, inputs of its own: disks, fractal surfaces, lattices, reliefs")
+      ->type_name("FILE");
   verb->add_option("-o,--output", options->folder, "Folder for evaluate-KIND.json, .csv, .html and pictures")
       ->type_name("DIR")
       ->required();
