@@ -10,6 +10,7 @@
 
 #include "bench/param_targets.hpp"
 #include "papilla/meshing/cut_open.hpp"
+#include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/param/automatic.hpp"
 #include "papilla/param/pack_unique.hpp"
@@ -98,7 +99,7 @@ Whole unwrap_whole(const TriangleMesh& mesh, double seam_cost) {
   return whole;
 }
 
-/// The parts that targets speak of.
+/// The parts that targets speak of; files are repaired first, as bake does.
 std::vector<NamedMesh> parts_of(const std::vector<Disk>& all, const BenchReport& report) {
   std::vector<NamedMesh> parts{{"panel 20k", test::panel_mesh(118, 42)},
                                {"torus 20k", test::torus_mesh(160, 64)},
@@ -107,7 +108,7 @@ std::vector<NamedMesh> parts_of(const std::vector<Disk>& all, const BenchReport&
     parts.push_back({name, mesh_of(all, name)});
   parts.push_back({"panel 200k", test::panel_mesh(374, 134)});
   for (NamedMesh& file : files_of(report))
-    if (!is_disk(file.mesh)) parts.push_back(std::move(file));
+    if (!is_disk(file.mesh)) parts.push_back({file.name, repair(std::move(file.mesh)).mesh});
   return parts;
 }
 
