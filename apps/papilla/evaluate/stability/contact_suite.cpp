@@ -94,11 +94,8 @@ StabilitySuite contact_stability(const StabilityRun& run) {
                        "speed of the handle once the hand should rest in m/s, rms",
                        "energy that the hand was given in J",
                        {}};
-  for (const Case& input : cases())
-    for (const Guard& guard : k_guards)
-      suite.cells.push_back(
-          measured_cell(run, guard.name, input.name, [&](StabilityCell& cell) { press(input, guard, cell); }));
-  if (run.progress) run.progress("stability: contact", 1);
+  fill_suite(suite, run, cases(), k_guards,
+             [](const Guard& guard, const Case& input, StabilityCell& cell) { press(input, guard, cell); });
   return suite;
 }
 

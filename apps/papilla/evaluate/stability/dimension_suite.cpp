@@ -42,11 +42,7 @@ void estimate(const Method& method, const NamedPicture& input, StabilityCell& ce
 StabilitySuite dimension_stability(const StabilityRun& run) {
   StabilitySuite suite{
       "dimension", "Fractal dimension", "distance to the true dimension", "half width of the 95 % interval", {}};
-  for (const NamedPicture& input : extreme_pictures())
-    for (const Method& method : k_methods)
-      suite.cells.push_back(
-          measured_cell(run, method.name, input.name, [&](StabilityCell& cell) { estimate(method, input, cell); }));
-  if (run.progress) run.progress("stability: dimension", 1);
+  fill_suite(suite, run, extreme_pictures(), k_methods, estimate);
   return suite;
 }
 

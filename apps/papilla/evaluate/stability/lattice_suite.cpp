@@ -48,11 +48,7 @@ void find(const Method& method, const NamedPicture& input, StabilityCell& cell) 
 StabilitySuite lattice_stability(const StabilityRun& run) {
   StabilitySuite suite{
       "lattice", "Lattice", "largest error of a lattice vector's length in pixels", "significance of the lattice", {}};
-  for (const NamedPicture& input : extreme_pictures())
-    for (const Method& method : k_methods)
-      suite.cells.push_back(
-          measured_cell(run, method.name, input.name, [&](StabilityCell& cell) { find(method, input, cell); }));
-  if (run.progress) run.progress("stability: lattice", 1);
+  fill_suite(suite, run, extreme_pictures(), k_methods, find);
   return suite;
 }
 

@@ -83,11 +83,7 @@ StabilitySuite shading_stability(const StabilityRun& run) {
                        "mean depth error over the range of the relief",
                        "rms of brightness − R, grey over albedo",
                        {}};
-  for (const Case& input : cases())
-    for (const Method& method : k_methods)
-      suite.cells.push_back(
-          measured_cell(run, method.name, input.name, [&](StabilityCell& cell) { solve(method, input, cell); }));
-  if (run.progress) run.progress("stability: shading", 1);
+  fill_suite(suite, run, cases(), k_methods, solve);
   return suite;
 }
 

@@ -64,4 +64,17 @@ double expected_seconds(double seconds, std::size_t few, std::size_t many);
 StabilityCell measured_cell(const StabilityRun& run, std::string method, std::string input,
                             const std::function<void(StabilityCell&)>& work, double expected_s = 0);
 
+/// Fills a suite: work(method, input, cell) for every input and every method. Both have a `name`.
+template <class Inputs, class Methods, class Work>
+void fill_suite(StabilitySuite& suite, const StabilityRun& run, const Inputs& inputs, const Methods& methods,
+                Work&& work) {
+  std::size_t done = 0;
+  for (const auto& input : inputs) {
+    for (const auto& method : methods)
+      suite.cells.push_back(
+          measured_cell(run, method.name, input.name, [&](StabilityCell& cell) { work(method, input, cell); }));
+    if (run.progress) run.progress(suite.title, static_cast<double>(++done) / static_cast<double>(inputs.size()));
+  }
+}
+
 }  // namespace papilla::app
