@@ -380,7 +380,8 @@ class FormulaCompiler {
     }
     if (!scope_.point) fail(start, in_quotes(name) + " depends on the place and is not known here");
     if (name == "normaldot") scope_.uses_normal = scope_.graph->uses_normal = true;
-    if (name.substr(0, 3) == "pos" || name == "sky") scope_.graph->uses_position = true;
+    if (name == "posx" || name == "posy" || name == "posz") scope_.graph->uses_position = true;
+    if (name == "sky") scope_.graph->uses_sky = true;
     if (const auto it = row_variables().find(name); it != row_variables().end()) return scalar({false, 0, it->second});
     if (name == "random")
       return scalar(apply("random", {{false, 0, block_operand(BlockRow::column)},

@@ -65,7 +65,8 @@ struct Graph {
   std::vector<std::unique_ptr<Node>> nodes;
   std::vector<double> constants;
   int root = 0;
-  bool uses_normal = false, uses_position = false, uses_time = false;
+  bool uses_normal = false, uses_position = false, uses_sky = false, uses_time = false;
+  std::set<std::array<double, 3>> dirt_directions;  ///< Of the textures that use the normal.
   std::set<std::string> recipes;
 };
 
