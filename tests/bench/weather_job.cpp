@@ -67,11 +67,14 @@ Scene two_materials() {
 
 }  // namespace
 
-WeatherJob run_weather_job(int size) {
+WeatherJob run_weather_job(int size, bool sky) {
   const Scene scene = two_materials();
   app::WeatherConfig config;
   config.size = size;
-  config.layers = {{"rust_in|scale=.3|fixtime=true|time=.84", {"*"}}, {"snow|scale=.3|fixtime=true|time=.84", {"*"}}};
+  const std::string snow = sky ? "snow|scale=.3|fixtime=true|time=.84"
+                               : "snow|scale=.3|fixtime=true|time=.84|alphafunction=smoothstep(.9-time,1.1-time,main)"
+                                 "*clampunit(normaldot*4-.6)";
+  config.layers = {{"rust_in|scale=.3|fixtime=true|time=.84", {"*"}}, {snow, {"*"}}};
   const double before = process_cpu_seconds();
   const app::WeatherResult result = app::weather(scene, config, 1);
   WeatherJob job;
@@ -80,7 +83,7 @@ WeatherJob run_weather_job(int size) {
     job.faces += static_cast<int>(part.mesh.triangles.size());
     job.normals += unlike_normals(part.mesh);
   }
-  job.maps = 2 * (job.normals + static_cast<int>(scene.materials.size()) / 2);
+  job.maps = 2 * job.normals + static_cast<int>(scene.materials.size());
   for (const auto& material : result.materials) {
     job.charts += material["atlas"]["charts"].get<int>();
     job.tiles += material["atlas"]["tiles"].get<int>();

@@ -11,7 +11,7 @@
 namespace papilla::app {
 namespace {
 
-constexpr int k_block = 4;
+constexpr int k_block = 8;
 
 /// The covered texel of a block that is nearest to its middle, or -1.
 std::ptrdiff_t middle_of(const SurfaceTexels& texels, int column, int row) {

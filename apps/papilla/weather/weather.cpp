@@ -49,8 +49,8 @@ struct Job {
 
 /// Evaluates the recipe at the covered texels of a window; the others get the material's middle.
 /// @param charts  how often the window is shown, for the means.
-Painted paint(const ProceduralTexture& texture, const SurfaceTexels& texels, const std::vector<float>& sky,
-              const OwnColour& own, double scale, double charts, Felt& felt) {
+Painted paint(const ProceduralTexture& texture, const SurfaceReading& reading, const SurfaceTexels& texels,
+              const std::vector<float>& sky, const OwnColour& own, double scale, double charts, Felt& felt) {
   std::vector<double> x, y;
   std::vector<float> normals, positions, skies, colours;
   std::vector<std::size_t> place;
@@ -60,10 +60,11 @@ Painted paint(const ProceduralTexture& texture, const SurfaceTexels& texels, con
       if (!texels.covered[at]) continue;
       place.push_back(at);
       x.push_back((texels.left + i + 0.5) / scale), y.push_back((texels.top + j + 0.5) / scale);
-      for (std::size_t k = 0; k < 3; ++k) {
-        normals.push_back(texels.normals[3 * at + k]);
-        positions.push_back(texels.positions[3 * at + k]);
-      }
+      const auto from = static_cast<std::ptrdiff_t>(3 * at);
+      if (!reading.directions.empty())
+        normals.insert(normals.end(), texels.normals.begin() + from, texels.normals.begin() + from + 3);
+      if (reading.position)
+        positions.insert(positions.end(), texels.positions.begin() + from, texels.positions.begin() + from + 3);
       const std::array<float, 3> colour = own.at(x.back(), y.back());
       colours.insert(colours.end(), colour.begin(), colour.end());
       if (!sky.empty()) skies.push_back(sky[at]);
@@ -138,12 +139,12 @@ void put(const Painted& tile, std::pair<int, int> corner, Painted& picture) {
 }
 
 Painted paint_atlas(const SurfaceAtlas& atlas, std::span<const SurfaceTriangle> surface,
-                    const ProceduralTexture& texture, const OwnColour& own, Felt& felt, std::vector<NewUv>& uv,
-                    Json& json) {
+                    const ProceduralTexture& texture, const SurfaceReading& reading, const OwnColour& own, Felt& felt,
+                    std::vector<NewUv>& uv, Json& json) {
   std::vector<Painted> painted, unlike;
   for (const AtlasTile& tile : atlas.tiles)
-    painted.push_back(
-        paint(texture, tile.texels, tile.sky, own, atlas.texels_per_repeat, static_cast<double>(tile.charts), felt));
+    painted.push_back(paint(texture, reading, tile.texels, tile.sky, own, atlas.texels_per_repeat,
+                            static_cast<double>(tile.charts), felt));
   const std::vector<std::uint32_t> number = unlike_tiles(std::move(painted), unlike);
   std::vector<std::pair<int, int>> sizes;
   for (const Painted& p : unlike) sizes.emplace_back(p.width, p.height);
@@ -218,11 +219,11 @@ bool age(WeatherResult& result, std::uint32_t index, Job& job, Pictures& picture
   const std::optional<SurfaceTexels> plain = one_repeat(surface, reading, job.config.size);
   if (plain) {
     const std::vector<float> sky = reads_sky ? sky_texels(*plain, *job.sky) : std::vector<float>();
-    picture = paint(texture, *plain, sky, own, scale, 1, felt);
+    picture = paint(texture, reading, *plain, sky, own, scale, 1, felt);
   } else {
     const SurfaceAtlas atlas = cut_surface(surface, job.config.size, reading, reads_sky ? &*job.sky : nullptr);
     scale = atlas.texels_per_repeat;
-    picture = paint_atlas(atlas, surface, texture, own, felt, uv, json);
+    picture = paint_atlas(atlas, surface, texture, reading, own, felt, uv, json);
   }
   const double pitch = mm / scale;
   HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, plain.has_value()};
