@@ -82,12 +82,24 @@ void read_texel(const AtlasTile& tile, const SurfaceReading& reading, std::size_
   if (!tile.sky.empty()) out.push_back(stepped(static_cast<double>(tile.sky[at]), 1.0 / 256));
 }
 
+/// Whether the texel is known as exactly as the one before it.
+bool same_as_before(const AtlasTile& tile, const SurfaceReading& reading, std::size_t at) {
+  const SurfaceTexels& t = tile.texels;
+  if (at == 0 || t.covered[at] != t.covered[at - 1]) return false;
+  const auto equal = [at](const std::vector<float>& v) {
+    return v[3 * at] == v[3 * at - 3] && v[3 * at + 1] == v[3 * at - 2] && v[3 * at + 2] == v[3 * at - 1];
+  };
+  return equal(t.normals) && (!reading.position || equal(t.positions)) &&
+         (tile.sky.empty() || tile.sky[at] == tile.sky[at - 1]);
+}
+
 /// Hash of all that a recipe sees of a tile; runs of equal texels count as one, so that flat faces are read quickly.
 std::string look_of(const AtlasTile& tile, const SurfaceReading& reading) {
   const SurfaceTexels& t = tile.texels;
   std::vector<std::int32_t> all{t.left, t.top, t.width, t.height}, texel, last;
   std::int32_t run = 0;
   for (std::size_t at = 0; at < t.count(); ++at, ++run) {
+    if (same_as_before(tile, reading, at)) continue;
     read_texel(tile, reading, at, texel);
     if (texel == last) continue;
     all.push_back(run);

@@ -47,6 +47,29 @@ void copy_texel(SurfaceTexels& texels, std::size_t from, std::size_t to) {
   texels.covered[to] = 1;
 }
 
+/// Shares of the corners along a row of texels, linear in x.
+struct Shares {
+  std::array<double, 3> first, step;  ///< At x = 0.5, and per texel.
+  std::array<double, 3> at(int x) const {
+    return {first[0] + step[0] * x, first[1] + step[1] * x, first[2] + step[2] * x};
+  }
+  /// The part of [left, right] that may have no share below 0, a texel wider on either side.
+  std::pair<int, int> inside(int left, int right) const {
+    double low = left, high = right;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (step[k] > 0) low = std::max(low, -first[k] / step[k] - 1);
+      if (step[k] < 0) high = std::min(high, -first[k] / step[k] + 1);
+    }
+    return low <= high ? std::pair{static_cast<int>(low), static_cast<int>(high)} : std::pair{0, -1};
+  }
+};
+
+Shares shares_of(const std::array<Vec2, 3>& p, double area, int y) {
+  const Vec2 q{0.5, y + 0.5}, u = p[1] - p[0], v = p[2] - p[0];
+  const double b = cross(q - p[0], v) / area, c = cross(u, q - p[0]) / area, db = v.y / area, dc = -u.y / area;
+  return {{1 - b - c, b, c}, {-db - dc, db, dc}};
+}
+
 }  // namespace
 
 SurfaceTexels::SurfaceTexels(int left_, int top_, int width_, int height_, bool repeats_)
@@ -121,16 +144,17 @@ std::size_t draw(SurfaceTexels& texels, const SurfaceTriangle& triangle, double 
   const auto [left, right] = range(x0, x1, texels.left, texels.width);
   const auto [top, bottom] = range(y0, y1, texels.top, texels.height);
   std::size_t unlike = 0;
-  for (int y = top; y <= bottom; ++y)
-    for (int x = left; x <= right; ++x) {
-      const Vec2 q{x + 0.5, y + 0.5};
-      const double b = cross(q - p[0], p[2] - p[0]) / area, c = cross(p[1] - p[0], q - p[0]) / area, a = 1 - b - c;
-      const double least = std::min({a, b, c});
+  for (int y = top; y <= bottom; ++y) {
+    const Shares row = shares_of(p, area, y);
+    const auto [begin, end] = row.inside(left, right);
+    for (int x = begin; x <= end; ++x) {
+      const std::array<double, 3> share = row.at(x);
+      const double least = std::min({share[0], share[1], share[2]});
       if (least < -1e-9) continue;
       const std::size_t at = texels.at(x, y);
       const bool taken = texels.covered[at] != 0;
       if (taken && least < 1e-6) continue;
-      const Known known = known_at(triangle, {a, b, c});
+      const Known known = known_at(triangle, share);
       if (taken) {
         unlike += !look_alike(texels, at, known, reading);
         continue;
@@ -139,6 +163,7 @@ std::size_t draw(SurfaceTexels& texels, const SurfaceTriangle& triangle, double 
       std::copy_n(known.normal.begin(), 3, texels.normals.begin() + static_cast<std::ptrdiff_t>(3 * at));
       std::copy_n(known.position.begin(), 3, texels.positions.begin() + static_cast<std::ptrdiff_t>(3 * at));
     }
+  }
   return unlike;
 }
 
