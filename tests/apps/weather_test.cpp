@@ -10,6 +10,8 @@
 #include "bake/grain_material.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
+#include "weather/follow_files.hpp"
+#include "weather/weather_page.hpp"
 
 namespace papilla::app {
 namespace {
@@ -140,6 +142,63 @@ TEST(Weather, TheTexelsOfAPictureRunDownItsRows) {
   const WeatherResult result = weather(scene_of(mesh), config, 1);
   EXPECT_EQ(red_at(result.scene, 0.5, 0.1), 255) << "the top row is v = 1, y = 1 m";
   EXPECT_LT(red_at(result.scene, 0.5, 0.9), 60);
+}
+
+TEST(Weather, PaintsOnlyWhatChanged) {
+  Scene scene = two_sides();
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].name = "wood";
+  scene.parts.push_back(scene.parts[0]);
+  scene.parts[1].materials = {1};
+  Node node;
+  node.part = 1;
+  scene.nodes.push_back(node), scene.roots.push_back(1);
+  WeatherConfig config;
+  config.size = 16;
+  config.layers = {{"dust", {"wood"}}, {"rust_on", {"paint"}}};
+  WeatherCache cache;
+  EXPECT_EQ(weather(scene, config, 0.5, cache).painted, 2);
+  EXPECT_EQ(weather(scene, config, 0.5, cache).painted, 0);
+  EXPECT_EQ(weather(scene, config, 0.6, cache).painted, 2);
+  config.layers[0].recipe = "dust|scale=.1";
+  const WeatherResult cached = weather(scene, config, 0.5, cache);
+  EXPECT_EQ(cached.painted, 1);
+  const WeatherResult fresh = weather(scene, config, 0.5);
+  ASSERT_EQ(cached.scene.images.size(), fresh.scene.images.size());
+  for (std::size_t i = 0; i < fresh.scene.images.size(); ++i)
+    EXPECT_EQ(cached.scene.images[i].bytes, fresh.scene.images[i].bytes);
+}
+
+TEST(Weather, ThePageHasAPictureATimeAndNothingFromOutside) {
+  const Scene scene = two_sides();
+  WeatherConfig config;
+  config.size = 16;
+  config.layers = {{"dust", {"*"}}};
+  const WeatherResult result = weather(scene, config, 1);
+  const ColorImage picture{2, 1, {0, 0, 0, 255, 255, 255}};
+  const std::string page =
+      weather_page("<a>", picture, {{0, picture}, {1, picture}}, result.materials, "{\"$comment\": \"</pre>\"}", false);
+  std::size_t steps = 0;
+  for (std::size_t at = 0; (at = page.find("class=\"step\"", at)) != std::string::npos; ++at) ++steps;
+  EXPECT_EQ(steps, 2U);
+  EXPECT_NE(page.find("max=\"1\""), std::string::npos);
+  EXPECT_EQ(page.find("http:"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"data:image/png") == std::string::npos, false);
+  EXPECT_NE(page.find("&lt;a&gt;"), std::string::npos);
+  EXPECT_EQ(page.find("\"</pre>\""), std::string::npos) << "the configuration is text, not markup";
+}
+
+TEST(FollowFiles, TellsOfAFileThatChangedAndStops) {
+  const auto path = std::filesystem::temp_directory_path() / ("papilla-follow-" + std::to_string(::getpid()));
+  std::ofstream(path) << "a";
+  int looks = 0, changes = 0;
+  follow_files([&] { return std::vector<std::filesystem::path>{path}; }, [&] { ++changes; },
+               [&] {
+                 if (++looks == 2) std::ofstream(path) << "longer";
+                 return looks > 4;
+               });
+  EXPECT_EQ(changes, 1);
+  std::filesystem::remove(path);
 }
 
 TEST(Weather, LeavesAloneWhatNoLayerFits) {

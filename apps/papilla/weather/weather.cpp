@@ -88,15 +88,14 @@ Painted paint(const ProceduralTexture& texture, const SurfaceReading& reading, c
 class Pictures {
  public:
   explicit Pictures(WeatherResult& result) : result_(result) {}
-  TextureReference add(const std::string& name, const ColorImage& image) {
-    std::vector<std::byte> png = encode_png(image);
+  TextureReference add(const std::string& name, const std::vector<std::byte>& png) {
     ++result_.images;
     TextureReference reference;
     const auto [it, is_new] = known_.try_emplace(sha256_hex(png), 0);
     if (is_new) {
       Scene& scene = result_.scene;
       EncodedImage encoded;
-      encoded.name = name, encoded.mime_type = "image/png", encoded.bytes = std::move(png);
+      encoded.name = name, encoded.mime_type = "image/png", encoded.bytes = png;
       scene.images.push_back(std::move(encoded));
       Texture texture;
       texture.image = static_cast<std::uint32_t>(scene.images.size() - 1), texture.name = name;
@@ -190,29 +189,30 @@ void feel(Material& material, MaterialTag tag, double friction, double factor) {
   material.extras_json = with_material_tag(material.extras_json, tag);
 }
 
-/// Ages one material. @returns whether it got new texture coordinates.
-bool age(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures, std::vector<NewUv>& uv, Json& json) {
-  const Scene& scene = job.scene;
-  const Material& before = scene.materials[index];
-  std::vector<HapticWarning> warnings;
-  const std::optional<MaterialTag> tag = material_tag_of_extras(before.extras_json, warnings);
-  const std::string recipe = layered_recipe(job.config, before.name, tag ? tag->dynamic_friction : k_common_friction);
-  json = {{"name", before.name}, {"recipe", recipe}};
-  if (recipe.empty()) return false;
-  CompileOptions options = recipe_options(job.config.folder);
-  options.time = job.time, options.source = "weather, material '" + before.name + "'";
-  const ProceduralTexture texture = compile_texture(recipe, job.library, options);
+/// Everything that a material's look depends on apart from the scene.
+std::string key_of(const Job& job, std::uint32_t index, const std::string& recipe, const ProceduralTexture& texture) {
+  std::string key = std::to_string(index) + '\n' + std::to_string(job.config.size) + '\n' +
+                    std::to_string(job.config.depth_mm) + '\n' + std::to_string(job.config.sky_rays) + '\n' +
+                    std::to_string(texture.depends_on_time() ? job.time : 0) + '\n' + recipe;
+  for (const std::string& name : texture.recipes_used()) key += '\n' + name + ' ' + *job.library.find(name);
+  return key;
+}
+
+/// Paints one material anew.
+AgedMaterial paint_material(Job& job, std::uint32_t index, const ProceduralTexture& texture) {
+  const Material& before = job.scene.materials[index];
+  AgedMaterial aged;
   const std::vector<SurfaceTriangle> surface =
-      surface_of(scene, job.all, index, before.base_color_texture ? &*before.base_color_texture : nullptr);
+      surface_of(job.scene, job.all, index, before.base_color_texture ? &*before.base_color_texture : nullptr);
   const double mm = mm_per_repeat(surface);
   if (!(mm > 0)) {
-    json["skipped"] = "no surface with uv shows it";
-    return false;
+    aged.json["skipped"] = "no surface with uv shows it";
+    return aged;
   }
   const bool reads_sky = texture.depends_on_sky();
-  if (reads_sky && !job.sky) job.sky = sky_of(scene, job.all, job.config.sky_rays);
+  if (reads_sky && !job.sky) job.sky = sky_of(job.scene, job.all, job.config.sky_rays);
   const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), reads_sky};
-  const OwnColour own(scene, before);
+  const OwnColour own(job.scene, before);
   Felt felt;
   Painted picture;
   double scale = job.config.size;
@@ -223,35 +223,67 @@ bool age(WeatherResult& result, std::uint32_t index, Job& job, Pictures& picture
   } else {
     const SurfaceAtlas atlas = cut_surface(surface, job.config.size, reading, reads_sky ? &*job.sky : nullptr);
     scale = atlas.texels_per_repeat;
-    picture = paint_atlas(atlas, surface, texture, reading, own, felt, uv, json);
+    picture = paint_atlas(atlas, surface, texture, reading, own, felt, aged.uv, aged.json);
   }
   const double pitch = mm / scale;
   HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, plain.has_value()};
   for (float& h : relief.mm) h *= static_cast<float>(job.config.depth_mm);
-  Material& material = result.scene.materials[index];
-  const std::optional<TextureTransform> transform =
-      plain && before.base_color_texture ? before.base_color_texture->transform : std::nullopt;
-  const int tex_coord = plain && before.base_color_texture ? before.base_color_texture->tex_coord : 0;
-  material.base_color_texture =
-      pictures.add("color." + material.name, {picture.width, picture.height, std::move(picture.rgb)});
-  material.normal_texture = pictures.add("normal." + material.name, normal_map(relief));
-  for (auto* reference : {&material.base_color_texture, &material.normal_texture})
-    (*reference)->transform = transform, (*reference)->tex_coord = tex_coord;
-  material.base_color = {1, 1, 1, material.base_color[3]};
-  const double friction = felt.friction / felt.texels, stiffness = felt.stiffness / felt.texels;
-  if (tag) feel(material, *tag, friction, stiffness);
-  json["depends_on"] = {
+  aged.color_png = encode_png({picture.width, picture.height, std::move(picture.rgb)});
+  aged.normal_png = encode_png(normal_map(relief));
+  aged.friction = felt.friction / felt.texels, aged.stiffness = felt.stiffness / felt.texels;
+  aged.json["depends_on"] = {
       {"normal", texture.depends_on_normal()}, {"position", texture.depends_on_position()}, {"sky", reads_sky}};
-  json["uses"] = texture.recipes_used();
-  json["mm_per_texel"] = pitch;
-  json["friction"] = friction;
-  json["stiffness"] = stiffness;
-  return !plain;
+  aged.json["uses"] = texture.recipes_used();
+  aged.json["mm_per_texel"] = pitch;
+  aged.json["friction"] = aged.friction;
+  aged.json["stiffness"] = aged.stiffness;
+  return aged;
+}
+
+/// Puts what was painted onto the material.
+void apply(const AgedMaterial& aged, const std::optional<MaterialTag>& tag, Material& material, Pictures& pictures) {
+  TextureReference place;
+  if (aged.uv.empty() && material.base_color_texture) place = *material.base_color_texture;
+  for (auto* reference : {&material.base_color_texture, &material.normal_texture}) {
+    const bool colour = reference == &material.base_color_texture;
+    *reference =
+        pictures.add((colour ? "color." : "normal.") + material.name, colour ? aged.color_png : aged.normal_png);
+    (*reference)->transform = place.transform, (*reference)->tex_coord = place.tex_coord;
+  }
+  material.base_color = {1, 1, 1, material.base_color[3]};
+  if (tag) feel(material, *tag, aged.friction, aged.stiffness);
+}
+
+/// Ages one material. @returns what to tell of it.
+Json age(WeatherResult& result, std::uint32_t index, Job& job, WeatherCache& cache, Pictures& pictures,
+         std::vector<NewUv>& uv, std::vector<std::uint32_t>& with_atlas) {
+  const Material& before = job.scene.materials[index];
+  std::vector<HapticWarning> warnings;
+  const std::optional<MaterialTag> tag = material_tag_of_extras(before.extras_json, warnings);
+  const std::string recipe = layered_recipe(job.config, before.name, tag ? tag->dynamic_friction : k_common_friction);
+  Json json{{"name", before.name}, {"recipe", recipe}};
+  if (recipe.empty()) return json;
+  CompileOptions options = recipe_options(job.config.folder);
+  options.time = job.time, options.source = "weather, material '" + before.name + "'";
+  const ProceduralTexture texture = compile_texture(recipe, job.library, options);
+  const std::string key = key_of(job, index, recipe, texture);
+  auto it = cache.find(key);
+  if (it == cache.end()) {
+    it = cache.emplace(key, paint_material(job, index, texture)).first;
+    ++result.painted;
+  }
+  const AgedMaterial& aged = it->second;
+  json.update(aged.json);
+  if (aged.color_png.empty()) return json;
+  apply(aged, tag, result.scene.materials[index], pictures);
+  uv.insert(uv.end(), aged.uv.begin(), aged.uv.end());
+  if (!aged.uv.empty()) with_atlas.push_back(index);
+  return json;
 }
 
 }  // namespace
 
-WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time) {
+WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache) {
   RecipeLibrary library = RecipeLibrary::builtin();
   for (const std::string& file : config.libraries) library.read_file(config.folder / file);
   WeatherResult result;
@@ -260,13 +292,15 @@ WeatherResult weather(const Scene& scene, const WeatherConfig& config, double ti
   Job job{scene, config, library, time, instances(scene), {}};
   std::vector<NewUv> uv;
   std::vector<std::uint32_t> with_atlas;
-  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
-    Json json;
-    if (age(result, m, job, pictures, uv, json)) with_atlas.push_back(m);
-    result.materials.push_back(std::move(json));
-  }
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m)
+    result.materials.push_back(age(result, m, job, cache, pictures, uv, with_atlas));
   if (!with_atlas.empty()) set_atlas_uv(result.scene, job.all, std::move(uv), with_atlas);
   return result;
+}
+
+WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time) {
+  WeatherCache cache;
+  return weather(scene, config, time, cache);
 }
 
 }  // namespace papilla::app

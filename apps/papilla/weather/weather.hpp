@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "papilla/io/scene.hpp"
 #include "verb.hpp"
+#include "weather/atlas_uv.hpp"
 #include "weather/weather_config.hpp"
 
 namespace papilla::app {
@@ -11,7 +17,19 @@ struct WeatherResult {
   Scene scene;
   Json materials = Json::array();
   int images = 0, duplicates_removed = 0;
+  int painted = 0;  ///< Materials that were computed; the others came out of the cache.
 };
+
+/// A material as it was painted.
+struct AgedMaterial {
+  std::vector<std::byte> color_png, normal_png;  ///< Empty when nothing was painted.
+  std::vector<NewUv> uv;                         ///< Empty when it keeps its coordinates.
+  double friction = 0, stiffness = 1;
+  Json json = Json::object();
+};
+
+/// What was painted for one scene, by all that it depends on but the scene.
+using WeatherCache = std::map<std::string, AgedMaterial>;
 
 /// Lays the layers over the materials' own colour at one time; each material gets a base colour and a normal map, and
 /// the friction and stiffness of its haptic tag follow the means of the layers' channels.
@@ -23,5 +41,9 @@ struct WeatherResult {
 /// second ones. Materials without uv, or that no layer fits, stay as they are and are named in the result.
 /// @throws InvalidInput for a recipe that is none, naming it.
 WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time);
+
+/// The same, and materials that have been painted with the same recipes before are taken from `cache`, which belongs to
+/// this scene. Pictures within recipes count by their names.
+WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache);
 
 }  // namespace papilla::app
