@@ -7,7 +7,6 @@
 #include <numeric>
 #include <optional>
 #include <string>
-#include <unordered_map>
 
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/sha256.hpp"
@@ -19,30 +18,45 @@ namespace {
 
 constexpr double k_most_side = 8192, k_most_texels = 1 << 26;
 
-/// A number a triangle: which are connected by their uv within an instance.
-std::vector<std::uint32_t> connected(std::span<const SurfaceTriangle> surface, std::uint32_t& count) {
-  std::vector<std::uint32_t> parent(surface.size());
+/// A corner of an instance with its coordinates; for flat pieces also the direction its triangle looks in.
+using Corner = std::array<std::uint64_t, 4>;
+
+Corner corner_of(const SurfaceTriangle& t, std::size_t k, bool flat) {
+  Corner corner{t.instance, static_cast<std::uint64_t>(t.uv_index[k]) << 32 | t.position_index[k], 0, 0};
+  if (!flat) return corner;
+  const Vec3 n = normalized(cross(t.position[1] - t.position[0], t.position[2] - t.position[0]));
+  const auto step = [](double v) { return static_cast<std::uint64_t>(std::lround(1e3 * v) + 2000); };
+  corner[2] = step(n.x), corner[3] = step(n.y) << 32 | step(n.z);
+  return corner;
+}
+
+using Triangles = std::vector<std::uint32_t>;
+
+/// The pieces that hang together at corners with the same place and coordinates.
+/// @param flat  and that look in the same direction.
+std::vector<Triangles> connected(std::span<const SurfaceTriangle> surface, const Triangles& triangles, bool flat) {
+  std::vector<std::uint32_t> parent(triangles.size());
   std::iota(parent.begin(), parent.end(), 0U);
   const auto root = [&](std::uint32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  std::unordered_map<std::uint64_t, std::uint32_t> first;
-  for (std::uint32_t t = 0; t < surface.size(); ++t)
-    for (const Index index : surface[t].uv_index) {
-      const auto [it, is_new] = first.try_emplace(static_cast<std::uint64_t>(surface[t].instance) << 32 | index, t);
+  std::map<Corner, std::uint32_t> first;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [it, is_new] = first.try_emplace(corner_of(surface[triangles[i]], k, flat), i);
       if (is_new) continue;
-      const std::uint32_t a = root(it->second), b = root(t);
+      const std::uint32_t a = root(it->second), b = root(i);
       parent[std::max(a, b)] = std::min(a, b);
     }
-  std::vector<std::uint32_t> chart(surface.size()), number(surface.size());
-  count = 0;
-  for (std::uint32_t t = 0; t < surface.size(); ++t) {
-    const std::uint32_t r = root(t);
-    if (r == t) number[t] = count++;
-    chart[t] = number[r];
+  std::vector<Triangles> pieces;
+  std::vector<std::size_t> number(triangles.size());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const std::uint32_t r = root(i);
+    if (r == i) number[i] = pieces.size(), pieces.emplace_back();
+    pieces[number[r]].push_back(triangles[i]);
   }
-  return chart;
+  return pieces;
 }
 
 struct Window {
@@ -119,17 +133,21 @@ class Cutter {
     atlas_.chart_of.resize(surface.size());
   }
 
-  std::optional<SurfaceAtlas> cut(const std::vector<std::vector<std::uint32_t>>& charts) {
-    for (const auto& chart : charts)
-      if (!add(chart))
-        for (const std::uint32_t triangle : chart) add({triangle});
+  std::optional<SurfaceAtlas> cut(const std::vector<Triangles>& charts) {
+    for (const Triangles& chart : charts) {
+      if (add(chart)) continue;
+      for (const Triangles& piece : connected(surface_, chart, true)) {
+        if (add(piece)) continue;
+        for (const std::uint32_t triangle : piece) add({triangle});
+      }
+    }
     if (texels_ > k_most_texels) return std::nullopt;
     return std::move(atlas_);
   }
 
  private:
   /// @returns whether the chart lies flat: no texel belongs to two unlike places of it.
-  bool add(const std::vector<std::uint32_t>& triangles) {
+  bool add(const Triangles& triangles) {
     if (texels_ > k_most_texels) return true;
     Window window;
     for (const std::uint32_t t : triangles) window.add(surface_[t]);
@@ -163,12 +181,11 @@ class Cutter {
 
 SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels_per_repeat,
                          const SurfaceReading& reading, const SkyView* sky) {
-  std::uint32_t count = 0;
-  const std::vector<std::uint32_t> chart_of = connected(surface, count);
-  std::vector<std::vector<std::uint32_t>> charts(count);
-  for (std::uint32_t t = 0; t < surface.size(); ++t) charts[chart_of[t]].push_back(t);
+  Triangles all(surface.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const std::vector<Triangles> charts = connected(surface, all, false);
   double longest = 0, farthest = 0;
-  for (const auto& chart : charts) {
+  for (const Triangles& chart : charts) {
     Window window;
     for (const std::uint32_t t : chart) window.add(surface[t]);
     for (const int k : {0, 1}) {
@@ -181,7 +198,7 @@ SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels
                            1e9 / std::max(farthest, 1e-300)});
   for (int attempt = 0; attempt < 24; ++attempt, scale *= 0.7)
     if (auto atlas = Cutter(surface, reading, sky, scale).cut(charts)) return std::move(*atlas);
-  throw InvalidInput("weather: " + std::to_string(count) + " charts do not fit into a picture");
+  throw InvalidInput("weather: " + std::to_string(charts.size()) + " charts do not fit into a picture");
 }
 
 TilePlaces place_tiles(std::span<const std::pair<int, int>> sizes) {

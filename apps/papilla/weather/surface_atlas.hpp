@@ -26,7 +26,8 @@ struct AtlasChart {
   std::uint32_t tile = 0;
 };
 
-/// A material's surface, cut into charts: connected by their uv, and none with a texel that two places share.
+/// A material's surface, cut into charts, none with a texel that two unlike places share: pieces connected by position
+/// and uv; those that overlap, into their flat pieces; and those of them that still do, into triangles.
 struct SurfaceAtlas {
   double texels_per_repeat = 0;
   std::vector<AtlasTile> tiles;  ///< Charts that look the same to the recipe share one.

@@ -103,7 +103,7 @@ std::vector<SurfaceTriangle> surface_of(const Scene& scene, std::span<const Inst
       const std::uint32_t slot = mesh.material.empty() ? 0 : mesh.material[t];
       if (slot >= part.materials.size() || part.materials[slot] != material || !uv.has_value(t)) continue;
       SurfaceTriangle s;
-      s.instance = i, s.triangle = t, s.uv_index = uv.indices[t];
+      s.instance = i, s.triangle = t, s.uv_index = uv.indices[t], s.position_index = mesh.triangles[t];
       for (std::size_t k = 0; k < 3; ++k) {
         Vec2 place = uv.values[s.uv_index[k]];
         if (colour && colour->transform) place = transform_uv(*colour->transform, place);

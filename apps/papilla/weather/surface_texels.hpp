@@ -15,7 +15,7 @@ struct SurfaceTriangle {
   std::array<Vec2, 3> uv;                ///< In repeats of the picture, v down its rows.
   std::array<Vec3, 3> position, normal;  ///< Metres, y up; normals of any length.
   std::size_t instance = 0, triangle = 0;
-  Triangle uv_index{};  ///< Into the part's uv values.
+  Triangle uv_index{}, position_index{};  ///< Into the part's uv values and positions.
 };
 
 /// All triangles of a material that have texture coordinates.
