@@ -534,6 +534,7 @@ int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Herita
   node->pattern = make_pattern(type.name, arguments);
   formulas(*node, arguments);
   node->uses_normal = arguments.scope().uses_normal;
+  node->uses_infos = arguments.scope().uses_infos;
   if (node->uses_normal) graph_->dirt_directions.insert(node->dirt);
   if (type.name == "checker3d") graph_->uses_position = true;
   node->evaluations = (node->seamless && type.seamless == Seamless::four_corner ? 4 : 1) * (1 + arguments.scope().cost);

@@ -58,7 +58,8 @@ struct Node {
   std::array<double, k_channels> channel_scale{};
   double range = 1, fade = 1;  ///< Of this texture within texmap.
   bool uses_normal = false;
-  double evaluations = 1;  ///< A point's cost in textures, those within included.
+  bool uses_infos = false;  ///< A formula reads the information numbers; else nobody clears them.
+  double evaluations = 1;   ///< A point's cost in textures, those within included.
 };
 
 struct Graph {
