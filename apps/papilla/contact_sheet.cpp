@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "html_text.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::app {
@@ -35,13 +36,6 @@ double seam_of(const std::vector<float>& height, int width, int rows) {
   if (within.empty()) return 1;
   const auto largest = *std::max_element(within.begin(), within.end());
   return largest > 0 ? static_cast<double>(across / largest) : (across > 0 ? 1e6 : 1);
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-  return out;
 }
 
 }  // namespace
@@ -118,12 +112,12 @@ std::string sheet_page(const ContactSheet& sheet, const std::string& picture_fil
   for (const SheetEntry& e : sheet.entries) {
     std::string uses;
     for (const std::string& name : e.uses) uses += (uses.empty() ? "" : ", ") + name;
-    page += fmt::format("<tr><td>{}<td>{}<td><code>{}</code>", ++number, escaped(e.name), escaped(e.recipe));
+    page += fmt::format("<tr><td>{}<td>{}<td><code>{}</code>", ++number, html_text(e.name), html_text(e.recipe));
     if (e.error.empty())
-      page += fmt::format("<td>{}<td>{:.3f} to {:.3f}<td>{:.3f}<td>{:.2f}</tr>\n", escaped(uses), e.low, e.high, e.mean,
-                          e.seam);
+      page += fmt::format("<td>{}<td>{:.3f} to {:.3f}<td>{:.3f}<td>{:.2f}</tr>\n", html_text(uses), e.low, e.high,
+                          e.mean, e.seam);
     else
-      page += fmt::format("<td colspan=4>{}</tr>\n", escaped(e.error));
+      page += fmt::format("<td colspan=4>{}</tr>\n", html_text(e.error));
   }
   return page +
          "</table>\n<p>Seam: largest step of the height across the border over the largest step within; not above 1 "

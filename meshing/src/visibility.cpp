@@ -7,40 +7,13 @@
 #include <cmath>
 #include <string>
 
-#include "check_distance_input.hpp"
 #include "convex_piece.hpp"
 #include "papilla/core/error.hpp"
 #include "triangle_bvh.hpp"
+#include "world_scene.hpp"
 
 namespace papilla {
 namespace {
-
-Vec3 transformed(const std::array<double, 16>& m, const Vec3& p) noexcept {
-  return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
-          m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
-}
-
-/// The parts' triangles in the scene's space, one part after the other.
-struct WorldScene {
-  std::vector<TriangleMesh> parts;
-  detail::Bounds bounds;
-};
-
-WorldScene place(std::span<const PlacedMesh> parts, const std::string& function) {
-  WorldScene scene;
-  scene.parts.resize(parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string name = function + ": parts[" + std::to_string(i) + "]";
-    if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
-    detail::Bounds own;
-    detail::check_distance_input(*parts[i].mesh, name + ".mesh", own);
-    TriangleMesh& world = scene.parts[i];
-    world.triangles = parts[i].mesh->triangles;
-    for (const Vec3& p : parts[i].mesh->positions) world.positions.push_back(transformed(parts[i].world, p));
-    detail::check_distance_input(world, name + ", placed", scene.bounds);
-  }
-  return scene;
-}
 
 void check(const Volume& volume, const std::string& function) {
   if (const auto* box = std::get_if<BoxVolume>(&volume)) {
@@ -157,17 +130,9 @@ std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts
   check(eyes, "measure_visibility");
   if (options.samples_per_part == 0 || options.eyes_per_sample == 0)
     throw InvalidInput("measure_visibility: samples_per_part and eyes_per_sample must be positive");
-  const WorldScene scene = place(parts, "measure_visibility");
-  TriangleMesh opaque;
-  std::vector<Index> first(parts.size(), k_no_value);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!parts[i].opaque) continue;
-    first[i] = static_cast<Index>(opaque.triangles.size());
-    const auto offset = static_cast<Index>(opaque.positions.size());
-    opaque.positions.insert(opaque.positions.end(), scene.parts[i].positions.begin(), scene.parts[i].positions.end());
-    for (const Triangle& t : scene.parts[i].triangles)
-      opaque.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-  }
+  const detail::WorldScene scene = detail::place(parts, "measure_visibility");
+  std::vector<Index> first;
+  const TriangleMesh opaque = detail::opaque_triangles(scene, parts, first);
   const detail::TriangleBvh bvh(opaque.positions, opaque.triangles);
   const double start = 1e-6 * scene.bounds.diagonal();
 
@@ -195,7 +160,7 @@ std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts
 
 std::vector<PartReach> measure_reach(std::span<const PlacedMesh> parts, const Volume& reach) {
   check(reach, "measure_reach");
-  const WorldScene scene = place(parts, "measure_reach");
+  const detail::WorldScene scene = detail::place(parts, "measure_reach");
   std::vector<PartReach> result(parts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
     const TriangleMesh& mesh = scene.parts[i];

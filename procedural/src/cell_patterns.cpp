@@ -9,6 +9,11 @@
 #include "patterns.hpp"
 
 namespace papilla::procedural_detail {
+
+PAPILLA_WIDE static void root_row(double* row, int n) {
+  for (int i = 0; i < n; ++i) row[i] = std::sqrt(row[i] > 0 ? row[i] : 0);
+}
+
 namespace {
 
 constexpr int k_most_distances = 4;
@@ -48,13 +53,12 @@ class Combination {
   }
 
   void apply(const PatternRow& row, double (*distance)[k_row], int wanted) const {
-    for (int k = 0; k < wanted; ++k)
-      for (int i = 0; i < row.n; ++i) {
-        double d = std::min(distance[k][i], k_infinite);
-        if (rooted_) d = std::sqrt(std::max(0.0, d));
-        if (inverse_) d = 1 / (1 + std::max(0.0, d));
-        distance[k][i] = d;
-      }
+    for (int k = 0; k < wanted; ++k) {
+      for (int i = 0; i < row.n; ++i) distance[k][i] = std::min(distance[k][i], k_infinite);
+      if (rooted_) root_row(distance[k], row.n);
+      if (!inverse_) continue;
+      for (int i = 0; i < row.n; ++i) distance[k][i] = 1 / (1 + std::max(0.0, distance[k][i]));
+    }
     if (random_) {
       for (int i = 0; i < row.n; ++i) {
         row.out[i] = 0;
@@ -112,10 +116,11 @@ class Voronoi final : public Pattern {
   }
 
   void evaluate(const PatternRow& row) const override {
-    double sum[k_most_distances][k_row] = {}, distance[k_most_distances][k_row], x[k_row], y[k_row];
+    double sum[k_most_distances][k_row], distance[k_most_distances][k_row], x[k_row], y[k_row];
     double* rows[k_most_distances] = {distance[0], distance[1], distance[2], distance[3]};
     std::vector<CellHit> hits(needs_points_ ? static_cast<std::size_t>(cells_.wanted * row.n) : 0);
     CellOptions cells = cells_;
+    for (int k = 0; k < cells.wanted; ++k) std::fill_n(sum[k], row.n, 0.0);
     for (int octave = 0; octave < octaves_; ++octave) {
       const double wanted = k_cells * std::pow(lacunarity_, octave);
       const double fx = fitted(wanted, row.period_x), fy = fitted(wanted, row.period_y);

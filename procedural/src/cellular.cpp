@@ -9,7 +9,7 @@
 namespace papilla::procedural_detail {
 namespace {
 
-constexpr double k_far = 1e9;
+constexpr double k_far = 1e9, k_beyond = 1e300;
 
 double tame(double v) noexcept { return v > -k_far ? (v < k_far ? v : k_far) : -k_far; }
 
@@ -66,14 +66,17 @@ inline double distance_of(double dx, double dy, double a, double b) noexcept {
 /// Only for squared distances: a feature farther from the run's box than the wanted-th nearest can be is left out.
 int prune(Feature* features, int count, double x0, double x1, double y0, double y1, int wanted) {
   if (count <= wanted) return count;
-  std::array<double, 25 * k_most_cell_points> farthest;
+  double nearest[4] = {k_beyond, k_beyond, k_beyond, k_beyond};
   for (int k = 0; k < count; ++k) {
     const double dx = std::max(std::abs(features[k].x - x0), std::abs(features[k].x - x1));
     const double dy = std::max(std::abs(features[k].y - y0), std::abs(features[k].y - y1));
-    farthest[static_cast<std::size_t>(k)] = dx * dx + dy * dy;
+    const double farthest = dx * dx + dy * dy;
+    if (farthest >= nearest[wanted - 1]) continue;
+    int place = wanted - 1;
+    for (; place > 0 && farthest < nearest[place - 1]; --place) nearest[place] = nearest[place - 1];
+    nearest[place] = farthest;
   }
-  std::nth_element(farthest.begin(), farthest.begin() + (wanted - 1), farthest.begin() + count);
-  const double reach = farthest[static_cast<std::size_t>(wanted - 1)];
+  const double reach = nearest[wanted - 1];
   int kept = 0;
   for (int k = 0; k < count; ++k) {
     const double dx = std::max({x0 - features[k].x, features[k].x - x1, 0.0});
@@ -159,6 +162,49 @@ void visit_run(const double* x, const double* y, int first, int last, int n, con
   }
 }
 
+/// The points of the cells around one, five columns of five cells. Along a row only the next column is new.
+class CellColumns {
+ public:
+  explicit CellColumns(const CellOptions& options) : options_(options) {}
+
+  void move_to(double cx, double cy) {
+    if (filled_ && cx == cx_ && cy == cy_) return;
+    const bool next = filled_ && cx == cx_ + 1 && cy == cy_;
+    cx_ = cx, cy_ = cy, filled_ = true;
+    if (next) {
+      first_ = (first_ + 1) % 5;
+      fill(4);
+    } else {
+      for (int column = 0; column < 5; ++column) fill(column);
+    }
+  }
+
+  int collect(Feature* out) const {
+    int count = 0;
+    for (std::size_t k = 0; k < 5; ++k) {
+      std::copy_n(points_[k].begin(), counts_[k], out + count);
+      count += counts_[k];
+    }
+    return count;
+  }
+
+ private:
+  void fill(int column) {
+    const auto slot = static_cast<std::size_t>((first_ + column) % 5);
+    int count = 0;
+    for (int row = -2; row <= 2; ++row)
+      count += add_features(options_, cx_ + column - 2, cy_ + row, points_[slot].data() + count);
+    counts_[slot] = count;
+  }
+
+  const CellOptions& options_;
+  std::array<std::array<Feature, 5 * k_most_cell_points>, 5> points_;
+  std::array<int, 5> counts_{};
+  int first_ = 0;  ///< The slot of the leftmost column.
+  double cx_ = 0, cy_ = 0;
+  bool filled_ = false;
+};
+
 }  // namespace
 
 void cell_row(const double* raw_x, const double* raw_y, int n, const CellOptions& o, double* const* distance,
@@ -167,19 +213,13 @@ void cell_row(const double* raw_x, const double* raw_y, int n, const CellOptions
   double* const x = tamed.data();
   double* const y = x + n;
   for (int i = 0; i < n; ++i) x[i] = tame(raw_x[i]), y[i] = tame(raw_y[i]);
-  std::array<Feature, 25 * k_most_cell_points> around, features;
-  int count = 0;
-  double near_x = 0.5, near_y = 0.5;  // No cell yet.
+  CellColumns columns(o);
+  std::array<Feature, 25 * k_most_cell_points> features;
   for (int first = 0, last = 0; first < n; first = last) {
     const double cx = std::floor(x[first]), cy = std::floor(y[first]);
     for (last = first + 1; last < n && x[last] >= cx && x[last] < cx + 1 && y[last] >= cy && y[last] < cy + 1;) ++last;
-    if (cx != near_x || cy != near_y) {
-      count = 0;
-      for (int j = -2; j <= 2; ++j)
-        for (int i = -2; i <= 2; ++i) count += add_features(o, cx + i, cy + j, around.data() + count);
-      near_x = cx, near_y = cy;
-    }
-    std::copy_n(around.begin(), count, features.begin());
+    columns.move_to(cx, cy);
+    const int count = columns.collect(features.data());
     visit_run(x, y, first, last, n, o, features.data(), count, distance, hits);
   }
 }

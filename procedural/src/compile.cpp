@@ -534,6 +534,9 @@ int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Herita
   node->pattern = make_pattern(type.name, arguments);
   formulas(*node, arguments);
   node->uses_normal = arguments.scope().uses_normal;
+  node->uses_infos = arguments.scope().uses_infos;
+  if (node->uses_normal) graph_->dirt_directions.insert(node->dirt);
+  if (type.name == "checker3d") graph_->uses_position = true;
   node->evaluations = (node->seamless && type.seamless == Seamless::four_corner ? 4 : 1) * (1 + arguments.scope().cost);
   if (node->evaluations > k_most_evaluations)
     fail_at(origin, position, "the recipe evaluates more than 100000 textures a point");
@@ -577,7 +580,11 @@ ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& 
 
 bool ProceduralTexture::depends_on_normal() const noexcept { return graph_->uses_normal; }
 bool ProceduralTexture::depends_on_position() const noexcept { return graph_->uses_position; }
+bool ProceduralTexture::depends_on_sky() const noexcept { return graph_->uses_sky; }
 bool ProceduralTexture::depends_on_time() const noexcept { return graph_->uses_time; }
+std::vector<std::array<double, 3>> ProceduralTexture::dirt_directions() const {
+  return {graph_->dirt_directions.begin(), graph_->dirt_directions.end()};
+}
 std::vector<std::string> ProceduralTexture::recipes_used() const {
   return {graph_->recipes.begin(), graph_->recipes.end()};
 }

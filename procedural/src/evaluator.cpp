@@ -205,7 +205,8 @@ void Evaluator::prepare(int index, Frame& frame, const Block& block) {
     tidy(u, n);
     tidy(v, n);
   }
-  std::fill(frame.rows.begin() + static_cast<std::ptrdiff_t>(FrameRow::info0) * k_row, frame.rows.end(), 0.0);
+  if (node.uses_infos)
+    std::fill(frame.rows.begin() + static_cast<std::ptrdiff_t>(FrameRow::info0) * k_row, frame.rows.end(), 0.0);
   std::fill_n(frame.row(FrameRow::id), n, 0.0);
   if (node.uses_normal) {
     double* dot = frame.row(FrameRow::normaldot);

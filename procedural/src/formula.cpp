@@ -380,7 +380,9 @@ class FormulaCompiler {
     }
     if (!scope_.point) fail(start, in_quotes(name) + " depends on the place and is not known here");
     if (name == "normaldot") scope_.uses_normal = scope_.graph->uses_normal = true;
-    if (name.substr(0, 3) == "pos" || name == "sky") scope_.graph->uses_position = true;
+    if (name == "posx" || name == "posy" || name == "posz") scope_.graph->uses_position = true;
+    if (name == "sky") scope_.graph->uses_sky = true;
+    if (name == "get0" || name == "get1") scope_.uses_infos = true;
     if (const auto it = row_variables().find(name); it != row_variables().end()) return scalar({false, 0, it->second});
     if (name == "random")
       return scalar(apply("random", {{false, 0, block_operand(BlockRow::column)},
@@ -469,10 +471,12 @@ class FormulaCompiler {
           apply("coldist", {part(0, 0), part(0, 1), part(0, 2), current.part[0], current.part[1], current.part[2]}));
     if (name == "huedist")
       return scalar(apply("huedist", {function_value("gethsvhue", {current}, start).part[0], part(0)}));
-    if (name == "get")
+    if (name == "get") {
+      scope_.uses_infos = true;
       return scalar(
           {false, 0,
            frame_operand(FrameRow::info0, fixed_integer(in[0], k_infos - 1, "the number of an information", start))});
+    }
     if (name == "set") {
       Instruction& code = add(Action::set_info, {part(1)}, 1);
       code.index = fixed_integer(in[0], k_infos - 1, "the number of an information", start);

@@ -24,7 +24,7 @@ struct FormulaScope {
   std::function<std::optional<Rgb>(std::string_view)> colour;
   std::function<std::vector<std::string_view>()> known_names;  ///< For suggestions.
   double cost = 0;                                             ///< Evaluations of textures within the formulas so far.
-  bool uses_normal = false;
+  bool uses_normal = false, uses_infos = false;
 };
 
 /// Compiles a formula to bytecode with constants folded.

@@ -58,14 +58,16 @@ struct Node {
   std::array<double, k_channels> channel_scale{};
   double range = 1, fade = 1;  ///< Of this texture within texmap.
   bool uses_normal = false;
-  double evaluations = 1;  ///< A point's cost in textures, those within included.
+  bool uses_infos = false;  ///< A formula reads the information numbers; else nobody clears them.
+  double evaluations = 1;   ///< A point's cost in textures, those within included.
 };
 
 struct Graph {
   std::vector<std::unique_ptr<Node>> nodes;
   std::vector<double> constants;
   int root = 0;
-  bool uses_normal = false, uses_position = false, uses_time = false;
+  bool uses_normal = false, uses_position = false, uses_sky = false, uses_time = false;
+  std::set<std::array<double, 3>> dirt_directions;  ///< Of the textures that use the normal.
   std::set<std::string> recipes;
 };
 

@@ -43,12 +43,11 @@ void fill_known(Workspace& w, Block& block, const Raster& raster, std::int64_t f
   const int n = block.n;
   for (std::size_t k = 0; k < 10; ++k) block.rows[k] = w.known[k];
   const auto row = [&](BlockRow r) { return w.known[static_cast<std::size_t>(r)]; };
-  const auto width = static_cast<std::int64_t>(raster.columns);
-  for (int i = 0; i < n; ++i) {
-    const std::int64_t index = first + i;
-    row(BlockRow::column)[i] = static_cast<double>(width > 0 ? index % width : index % (1 << 20));
-    row(BlockRow::row)[i] = static_cast<double>(width > 0 ? index / width : index >> 20);
-  }
+  // A block lies within one row of the raster; points without one are numbered in rows of 2^20.
+  const auto width = raster.columns > 0 ? static_cast<std::int64_t>(raster.columns) : std::int64_t{1} << 20;
+  const auto column = static_cast<double>(first % width), line = static_cast<double>(first / width);
+  for (int i = 0; i < n; ++i) row(BlockRow::column)[i] = column + i;
+  std::fill_n(row(BlockRow::row), n, line);
   std::fill_n(row(BlockRow::columns), n, raster.columns);
   std::fill_n(row(BlockRow::rows), n, raster.rows);
   std::fill_n(row(BlockRow::shorter), n, std::min(raster.columns, raster.rows));

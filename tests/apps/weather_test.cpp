@@ -10,6 +10,8 @@
 #include "bake/grain_material.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
+#include "weather/follow_files.hpp"
+#include "weather/weather_page.hpp"
 
 namespace papilla::app {
 namespace {
@@ -46,8 +48,157 @@ TEST(Weather, SnowLiesOnTopAndNotBelow) {
   const WeatherResult result = weather(two_sides(), config, 1);
   EXPECT_EQ(red_at(result.scene, 0.25, 0.5), 255);
   EXPECT_LT(red_at(result.scene, 0.75, 0.5), 60);
-  EXPECT_TRUE(result.materials[0]["normal_dependent"]);
+  EXPECT_TRUE(result.materials[0]["depends_on"]["normal"]);
+  EXPECT_FALSE(result.materials[0].contains("atlas"));
   EXPECT_EQ(result.images, 2);
+}
+
+/// Adds a horizontal metre square that looks up (or down) and fills the unit square of uv.
+void add_square(TriangleMesh& mesh, double x, double z, bool up) {
+  const auto p = static_cast<Index>(mesh.positions.size()), q = static_cast<Index>(mesh.uv.values.size());
+  mesh.positions.insert(mesh.positions.end(), {{x, 0, z}, {x + 1000, 0, z}, {x + 1000, 1000, z}, {x, 1000, z}});
+  mesh.uv.values.insert(mesh.uv.values.end(), {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  for (const Triangle& t : {up ? Triangle{0, 1, 2} : Triangle{0, 2, 1}, up ? Triangle{0, 2, 3} : Triangle{0, 3, 2}}) {
+    mesh.triangles.push_back({t[0] + p, t[1] + p, t[2] + p});
+    mesh.uv.indices.push_back({t[0] + q, t[1] + q, t[2] + q});
+  }
+}
+
+Scene scene_of(TriangleMesh mesh) {
+  Scene scene = two_sides();
+  scene.parts[0].mesh = std::move(mesh);
+  return scene;
+}
+
+/// Red where the middle of a triangle lies.
+int red_of(const Scene& scene, std::size_t part, std::size_t triangle) {
+  const CornerAttribute<Vec2>& uv = scene.parts[part].mesh.uv;
+  const Vec2 a = uv.values[uv.indices[triangle][0]], b = uv.values[uv.indices[triangle][1]],
+             c = uv.values[uv.indices[triangle][2]];
+  const Vec2 middle = (1.0 / 3) * (a + b + c);
+  return red_at(scene, middle.x, 1 - middle.y);
+}
+
+TEST(Weather, FacesThatShareTheirTexelsGetAnAtlas) {
+  TriangleMesh mesh;
+  add_square(mesh, 0, 0, true), add_square(mesh, 2000, 0, false);
+  add_square(mesh, 4000, 0, true), add_square(mesh, 6000, 0, true);
+  WeatherConfig config;
+  config.size = 64;
+  config.layers.push_back({"base|colorfunction=white|alphafunction=clampunit(normaldot)", {"*"}});
+  const WeatherResult result = weather(scene_of(mesh), config, 1);
+  EXPECT_EQ(red_of(result.scene, 0, 0), 255);
+  EXPECT_LT(red_of(result.scene, 0, 2), 60);
+  EXPECT_EQ(red_of(result.scene, 0, 4), 255);
+  EXPECT_EQ(result.materials[0]["atlas"]["charts"], 4);
+  EXPECT_EQ(result.materials[0]["atlas"]["tiles"], 2) << "three look the same";
+  const TriangleMesh& out = result.scene.parts[0].mesh;
+  EXPECT_EQ(out.uv1.values.size(), mesh.uv.values.size()) << "the old coordinates are kept";
+  for (const Vec2& uv : out.uv.values) EXPECT_TRUE(uv.x >= 0 && uv.y >= 0);
+}
+
+TEST(Weather, InstancesOfAPartAreWrittenApartWhenTheyLookUnlike) {
+  TriangleMesh mesh;
+  add_square(mesh, 0, 0, true);
+  Scene scene = scene_of(mesh);
+  Node turned;
+  turned.part = 0;
+  turned.local = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+  scene.nodes.push_back(turned), scene.roots.push_back(1);
+  Node again;
+  again.part = 0;
+  again.local[3] = 5000;
+  scene.nodes.push_back(again), scene.roots.push_back(2);
+  WeatherConfig config;
+  config.size = 32;
+  config.layers.push_back({"base|colorfunction=white|alphafunction=clampunit(normaldot)", {"*"}});
+  const WeatherResult result = weather(scene, config, 1);
+  ASSERT_EQ(result.scene.parts.size(), 2U);
+  EXPECT_EQ(red_of(result.scene, *result.scene.nodes[0].part, 0), 255);
+  EXPECT_LT(red_of(result.scene, *result.scene.nodes[1].part, 0), 60);
+  EXPECT_EQ(result.scene.nodes[2].part, result.scene.nodes[0].part);
+}
+
+TEST(Weather, NoSnowBelowARoof) {
+  TriangleMesh mesh;  // A table, a roof 300 mm above it, and a table in the open.
+  add_square(mesh, 0, 0, true), add_square(mesh, 0, 300, true), add_square(mesh, 20000, 0, true);
+  WeatherConfig config;
+  config.size = 32;
+  config.layers.push_back({"base|colorfunction=white|alphafunction=sky", {"*"}});
+  const WeatherResult result = weather(scene_of(mesh), config, 1);
+  EXPECT_TRUE(result.materials[0]["depends_on"]["sky"]);
+  EXPECT_LT(red_of(result.scene, 0, 0), 120);
+  EXPECT_EQ(red_of(result.scene, 0, 2), 255);
+  EXPECT_GT(red_of(result.scene, 0, 4), 250);
+}
+
+TEST(Weather, TheTexelsOfAPictureRunDownItsRows) {
+  TriangleMesh mesh;
+  add_square(mesh, 0, 0, true);
+  WeatherConfig config;
+  config.size = 32;
+  // Scene (x, y, z up) is (x, z, -y) in the recipe's axes.
+  config.layers.push_back({"base|colorfunction=white|alphafunction=step(-posz,.5)", {"*"}});
+  const WeatherResult result = weather(scene_of(mesh), config, 1);
+  EXPECT_EQ(red_at(result.scene, 0.5, 0.1), 255) << "the top row is v = 1, y = 1 m";
+  EXPECT_LT(red_at(result.scene, 0.5, 0.9), 60);
+}
+
+TEST(Weather, PaintsOnlyWhatChanged) {
+  Scene scene = two_sides();
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].name = "wood";
+  scene.parts.push_back(scene.parts[0]);
+  scene.parts[1].materials = {1};
+  Node node;
+  node.part = 1;
+  scene.nodes.push_back(node), scene.roots.push_back(1);
+  WeatherConfig config;
+  config.size = 16;
+  config.layers = {{"dust", {"wood"}}, {"rust_on", {"paint"}}};
+  WeatherCache cache;
+  EXPECT_EQ(weather(scene, config, 0.5, cache).painted, 2);
+  EXPECT_EQ(weather(scene, config, 0.5, cache).painted, 0);
+  EXPECT_EQ(weather(scene, config, 0.6, cache).painted, 2);
+  config.layers[0].recipe = "dust|scale=.1";
+  const WeatherResult cached = weather(scene, config, 0.5, cache);
+  EXPECT_EQ(cached.painted, 1);
+  const WeatherResult fresh = weather(scene, config, 0.5);
+  ASSERT_EQ(cached.scene.images.size(), fresh.scene.images.size());
+  for (std::size_t i = 0; i < fresh.scene.images.size(); ++i)
+    EXPECT_EQ(cached.scene.images[i].bytes, fresh.scene.images[i].bytes);
+}
+
+TEST(Weather, ThePageHasAPictureATimeAndNothingFromOutside) {
+  const Scene scene = two_sides();
+  WeatherConfig config;
+  config.size = 16;
+  config.layers = {{"dust", {"*"}}};
+  const WeatherResult result = weather(scene, config, 1);
+  const ColorImage picture{2, 1, {0, 0, 0, 255, 255, 255}};
+  const std::string page =
+      weather_page("<a>", picture, {{0, picture}, {1, picture}}, result.materials, "{\"$comment\": \"</pre>\"}", false);
+  std::size_t steps = 0;
+  for (std::size_t at = 0; (at = page.find("class=\"step\"", at)) != std::string::npos; ++at) ++steps;
+  EXPECT_EQ(steps, 2U);
+  EXPECT_NE(page.find("max=\"1\""), std::string::npos);
+  EXPECT_EQ(page.find("http:"), std::string::npos);
+  EXPECT_EQ(page.find("src=\"data:image/png") == std::string::npos, false);
+  EXPECT_NE(page.find("&lt;a&gt;"), std::string::npos);
+  EXPECT_EQ(page.find("\"</pre>\""), std::string::npos) << "the configuration is text, not markup";
+}
+
+TEST(FollowFiles, TellsOfAFileThatChangedAndStops) {
+  const auto path = std::filesystem::temp_directory_path() / ("papilla-follow-" + std::to_string(::getpid()));
+  std::ofstream(path) << "a";
+  int looks = 0, changes = 0;
+  follow_files([&] { return std::vector<std::filesystem::path>{path}; }, [&] { ++changes; },
+               [&] {
+                 if (++looks == 2) std::ofstream(path) << "longer";
+                 return looks > 4;
+               });
+  EXPECT_EQ(changes, 1);
+  std::filesystem::remove(path);
 }
 
 TEST(Weather, LeavesAloneWhatNoLayerFits) {

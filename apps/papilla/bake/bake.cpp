@@ -139,7 +139,7 @@ class SceneMaterials {
       else
         attach_to_new_uv(material, relief);
     }
-    apply_constants(rule, tag);
+    apply_constants(rule, tag, grain ? result_.grains.at(rule.name).stiffness_factor : 1);
     if (felt) material.extras_json = with_material_tag(material.extras_json, tag);
     note_origin(material, rule, original_name);
     scene_.materials.push_back(std::move(material));
@@ -292,14 +292,14 @@ void drop_unused_textures(Scene& scene) {
 }
 
 /// Makes the grains that the surfaces use.
-std::map<std::string, Grain> make_grains(const std::vector<Surface>& surfaces, const Progress& progress) {
+std::map<std::string, Grain> make_grains(const std::vector<Surface>& surfaces, const RecipeLibrary& library, const Progress& progress) {
   std::map<std::string, const MaterialRule*> rules;
   for (const Surface& surface : surfaces)
     if (runs(surface, Stage::height)) rules[surface.rule->name] = surface.rule;
   std::map<std::string, Grain> grains;
   for (const auto& [name, rule] : rules) {
     if (progress) progress("grain " + name, static_cast<double>(grains.size()) / static_cast<double>(rules.size()));
-    grains.emplace(name, make_grain(*rule));
+    grains.emplace(name, make_grain(*rule, library));
   }
   return grains;
 }
@@ -323,10 +323,10 @@ void reassemble(Scene& scene, const std::vector<Surface>& surfaces, std::vector<
 
 }  // namespace
 
-BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress) {
+BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress, const RecipeLibrary& library) {
   BakeResult result;
   result.scene = std::move(scene);
-  result.grains = make_grains(surfaces, progress);
+  result.grains = make_grains(surfaces, library, progress);
   for (const auto& [name, grain] : result.grains) {
     result.seconds["analyze"] += grain.seconds.analyze;
     result.seconds["height"] += grain.seconds.height;

@@ -37,6 +37,8 @@ struct BakeResult {
 /// Does for every surface what its plan says, and nothing else.
 /// Surfaces are independent and run in parallel; the result does not depend on the number of threads.
 /// @throws InvalidInput, IoError, SolverFailure naming the part or picture.
-BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress);
+/// @param library  what the rules' recipes may name.
+BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress,
+                const RecipeLibrary& library = RecipeLibrary::builtin());
 
 }  // namespace papilla::app

@@ -95,32 +95,36 @@ struct Source {
   GreyImage grey;            ///< Of a recipe: the height channel.
   ColorImage color;
   bool recipe = false;
-  double friction = 0;       ///< Of a recipe: mean of the friction channel.
+  double friction = 0, stiffness = 1;  ///< Of a recipe: means of the channels.
 };
+
+double mean_of(const std::vector<float>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
   CompileOptions options = recipe_options(rule.texture.parent_path());
   options.source = "material '" + rule.name + "', texture";
   options.seamless = true;
+  options.time = rule.time;
   RenderOptions render;
   render.width = render.height = k_recipe_samples;
-  for (const Channel c : {Channel::bump, Channel::color, Channel::friction}) render.channels |= 1U << static_cast<unsigned>(c);
+  for (const Channel c : {Channel::bump, Channel::color, Channel::friction, Channel::stiffness}) render.channels |= 1U << static_cast<unsigned>(c);
   RenderedTexture texture = render_texture(compile_texture(rule.recipe, library, options), render);
-  const auto& friction = texture.values[Channel::friction];
   Source source;
   source.recipe = true;
-  source.friction = std::accumulate(friction.begin(), friction.end(), 0.0) / static_cast<double>(friction.size());
+  source.friction = mean_of(texture.values[Channel::friction]);
+  source.stiffness = mean_of(texture.values[Channel::stiffness]);
   source.color = to_color_image(texture.values[Channel::color], texture.width, texture.height);
   source.grey = {texture.width, texture.height, texture.values[Channel::bump], 0, 32};
   return source;
 }
 
 /// A file of that name wins over a recipe of that name.
-Source read_source(const MaterialRule& rule) {
+Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   std::error_code error;
-  const RecipeLibrary library = RecipeLibrary::builtin();
   if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library)) return computed_source(rule, library);
-  return {read_grey_image(rule.texture), read_color_image(rule.texture), false, 0};
+  return {read_grey_image(rule.texture), read_color_image(rule.texture)};
 }
 
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.
@@ -173,14 +177,15 @@ void analyze(const MaterialRule& rule, const GreyImage& image, const ColorImage&
 
 }  // namespace
 
-Grain make_grain(const MaterialRule& rule) {
+Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   Grain grain;
   const Stopwatch analyze_clock;
-  const Source source = read_source(rule);
+  const Source source = read_source(rule, library);
   find_size(rule, source.grey, grain.size_mm);
   analyze(rule, source.grey, source.color, grain);
   if (source.recipe) {
     grain.tag.static_friction = grain.tag.dynamic_friction = source.friction;
+    grain.stiffness_factor = source.stiffness;
     grain.report["picture"]["file"] = rule.recipe;
   }
   grain.seconds.analyze = analyze_clock.seconds();
@@ -205,8 +210,8 @@ Grain make_grain(const MaterialRule& rule) {
   return grain;
 }
 
-void apply_constants(const MaterialRule& rule, MaterialTag& tag) {
-  if (rule.stiffness) tag.stiffness = *rule.stiffness;
+void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor) {
+  tag.stiffness = stiffness_factor * rule.stiffness.value_or(tag.stiffness);
   if (rule.damping) tag.damping = *rule.damping;
   tag.static_friction = rule.static_friction.value_or(rule.dynamic_friction.value_or(tag.static_friction));
   tag.dynamic_friction = rule.dynamic_friction.value_or(rule.static_friction.value_or(tag.dynamic_friction));

@@ -108,7 +108,7 @@ HeightRule read_height(const Value& value) {
 }
 
 MaterialRule read_material(const Value& value, const std::string& name, const std::filesystem::path& folder) {
-  value.expect_keys({"texture", "size_mm", "stiffness", "damping", "staticFriction", "dynamicFriction", "stribeckVelocity",
+  value.expect_keys({"texture", "time", "size_mm", "stiffness", "damping", "staticFriction", "dynamicFriction", "stribeckVelocity",
                      "height", "unwrap", "show", "color", "roughness", "metallic", "$comment"});
   MaterialRule rule;
   rule.name = name;
@@ -118,6 +118,7 @@ MaterialRule read_material(const Value& value, const std::string& name, const st
     rule.texture = folder / texture;
     rule.recipe = texture;
   }
+  if (const auto v = value.get("time")) rule.time = v->number(0, 1);
   if (const auto v = value.get("size_mm")) {
     if (!v->json().is_array() || v->json().size() != 2) v->fail("must be [width, height]");
     for (std::size_t k = 0; k < 2; ++k) rule.size_mm[k] = v->at(k).number(1e-3, 1e5);

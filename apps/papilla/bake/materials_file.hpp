@@ -22,6 +22,7 @@ struct MaterialRule {
   std::string name;
   std::filesystem::path texture;       ///< Picture of the grain; empty: no grain. Absolute or relative to the working folder.
   std::string recipe;                  ///< What the file has as texture, in case it is a recipe.
+  double time = 0;                     ///< Of a recipe: 0 new to 1 worn.
   double size_mm[2] = {0, 0};          ///< Width and height that the picture shows; 0: from the picture's own resolution.
   std::optional<double> stiffness;     ///< N/m
   std::optional<double> damping;       ///< N·s/m

@@ -15,6 +15,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/glb_writer.hpp"
+#include "recipe_source.hpp"
 #include "scene_budget.hpp"
 #include "scene_options.hpp"
 #include "verb.hpp"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string input, materials, output, report;
+  std::vector<std::string> libraries;
   bool pictures = false;
   std::optional<std::size_t> budget;
   LeaveOutOptions leave_out;
@@ -72,7 +74,7 @@ Json run_bake(const Options& options, VerbContext& context) {
   seconds["simplify"] = prepare_clock.seconds() - seconds["leave_out"];
   const std::vector<Surface> surfaces = plan_surfaces(scene, rules, perception.parts);
   leave_out(scene, perception);
-  BakeResult result = bake(std::move(scene), surfaces, context.progress);
+  BakeResult result = bake(std::move(scene), surfaces, context.progress, load_recipes(options.libraries));
   result.seconds.merge(seconds);
   const Stopwatch write_clock;
   for (const std::string& loss : write_glb(result.scene, options.output, {})) result.scene.losses.push_back(loss);
@@ -123,6 +125,8 @@ void add_bake(CLI::App& program) {
   verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")
       ->required();
   verb->add_option("-o,--output", options->output, "GLB to write")->required();
+  verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones")
+      ->type_name("FILE");
   verb->add_option("--budget", options->budget,
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")

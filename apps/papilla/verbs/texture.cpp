@@ -112,7 +112,8 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
     json["uses"] = texture.recipes_used();
     json["depends_on"] = {{"time", texture.depends_on_time()},
                           {"normal", texture.depends_on_normal()},
-                          {"position", texture.depends_on_position()}};
+                          {"position", texture.depends_on_position()},
+                          {"sky", texture.depends_on_sky()}};
     if (context.progress) context.progress("texture", (step + 1.0) / a.steps);
   }
   json["seconds"] = seconds;

@@ -1,44 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "papilla/io/scene.hpp"
 #include "verb.hpp"
+#include "weather/atlas_uv.hpp"
+#include "weather/weather_config.hpp"
 
 namespace papilla::app {
-
-/// A recipe that is laid over the materials whose names fit one of the shell patterns.
-struct WeatherLayer {
-  std::string recipe;
-  std::vector<std::string> materials{"*"};
-};
-
-/// CONFIG of the verb weather.
-struct WeatherConfig {
-  int size = 512;                      ///< Texels a side of a material's maps.
-  std::vector<double> times{1};        ///< A scene for each.
-  double depth_mm = 0.3;               ///< Relief of a height of 1.
-  std::vector<std::string> libraries;  ///< Files of recipes.
-  std::vector<WeatherLayer> layers;    ///< From the lowest to the highest.
-  std::filesystem::path folder;        ///< Where the names within are looked for.
-};
-
-/// @throws IoError, InvalidInput naming file and key.
-WeatherConfig read_weather_config(const std::filesystem::path& path);
 
 struct WeatherResult {
   Scene scene;
   Json materials = Json::array();
   int images = 0, duplicates_removed = 0;
+  int painted = 0;  ///< Materials that were computed; the others came out of the cache.
 };
 
-/// Lays the layers over the materials' own colour at one time. Every material keeps its uv; its maps cover one repeat
-/// of it, and each texel knows the interpolated normal and the position of the surface that shows it (the first one
-/// where several do). Materials without uv, or that no layer fits, stay as they are and are named in the result.
+/// A material as it was painted.
+struct AgedMaterial {
+  std::vector<std::byte> color_png, normal_png;  ///< Empty when nothing was painted.
+  std::vector<NewUv> uv;                         ///< Empty when it keeps its coordinates.
+  double friction = 0, stiffness = 1;
+  Json json = Json::object();
+};
+
+/// What was painted for one scene, by all that it depends on but the scene.
+using WeatherCache = std::map<std::string, AgedMaterial>;
+
+/// Lays the layers over the materials' own colour at one time; each material gets a base colour and a normal map, and
+/// the friction and stiffness of its haptic tag follow the means of the layers' channels.
+///
+/// Every texel knows the interpolated normal, the position and the sky of the surface that shows it. A material whose
+/// recipe reads none of them, or whose uv show no texel twice, keeps its uv; its maps cover one repeat. The others are
+/// cut into charts that get an atlas of their own, with new texture coordinates: charts that look the same to the
+/// recipe share their texels. What else lies on the old coordinates (other pictures, the haptic height map) goes to the
+/// second ones. Materials without uv, or that no layer fits, stay as they are and are named in the result.
 /// @throws InvalidInput for a recipe that is none, naming it.
 WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time);
+
+/// The same, and materials that have been painted with the same recipes before are taken from `cache`, which belongs to
+/// this scene. Pictures within recipes count by their names.
+WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache);
 
 }  // namespace papilla::app

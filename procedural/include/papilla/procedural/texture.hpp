@@ -61,9 +61,12 @@ class ProceduralTexture {
   explicit ProceduralTexture(std::shared_ptr<const procedural_detail::Graph> graph) : graph_(std::move(graph)) {}
   const procedural_detail::Graph& graph() const noexcept { return *graph_; }
   bool depends_on_normal() const noexcept;    ///< normaldot is used somewhere.
-  bool depends_on_position() const noexcept;  ///< posx, posy, posz or sky is used somewhere.
+  bool depends_on_position() const noexcept;  ///< posx, posy, posz or checker3d is used somewhere.
+  bool depends_on_sky() const noexcept;       ///< sky is used somewhere.
   bool depends_on_time() const noexcept;      ///< time is used somewhere.
-  /// Where every point is the same: the recipe that is compiled gives constants only.
+  /// The dirt directions of all that use normaldot, each once: two normals with the same product with each of them look
+  /// the same to the recipe.
+  std::vector<std::array<double, 3>> dirt_directions() const;
   std::vector<std::string> recipes_used() const;  ///< Names from the library, sorted.
 
  private:
