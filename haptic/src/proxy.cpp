@@ -15,6 +15,8 @@ constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
 constexpr double k_needed_travels = 0.6, k_wanted_travels = 1.2;
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
+constexpr double k_drop = 8;         // Of the shortest step: twice as far as a resting proxy can be off.
+constexpr double k_memory_s = 1e-2;  // Of friction; see proxy.hpp.
 
 }  // namespace
 
@@ -89,13 +91,19 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   Planes planes;
   Vec3 x{}, slid{};
   bool free = false;
+  // What friction holds is pressed back along the normal: on the straight way to the probe it would creep along.
+  Vec3 normal = state_.normal;
+  double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (;;) {
     const ConstrainedPoint aim = closest_point(goal, planes.plane, planes.count, shortest);
     if (!aim.found) break;
     Vec3 step = aim.point - x;
     const double wanted = norm(step);
-    if (aim.count > 0) {
+    const bool drops = aim.count == 0 && drop > 0;
+    if (drops) {
+      step = -drop * normal;
+    } else if (aim.count > 0) {
       hold(aim, planes, goal, next);
       const double held = friction(surface_->material(next.material)) * next.load_m;
       if (wanted - held <= shortest) break;
@@ -110,12 +118,16 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     ++next.sweeps;
     look_around(start + x, std::min(travel, norm(step)));
     const auto hit = surface_->sweep(start + x, start + x + step, near_);
+    drop = 0;
+    if (drops && !hit) continue;
     step = (hit ? hit->t : 1) * step;
     x = x + step;
     if (aim.count > 0) slid = slid + step;
     free = !hit && planes.count == 0;
     if (free) break;
     if (!hit) {
+      if (friction(surface_->material(next.material)) > 0) drop = norm(step) + k_drop * shortest;
+      normal = next.normal;
       planes.count = 0;
       continue;
     }
@@ -129,7 +141,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   if (free) next = ProxyState{};
   const double distance = norm(slid);
   next.sliding = next.in_contact && distance > surface_->tolerance_m();
-  slide_speed_ = next.sliding && period_s > 0 ? distance / period_s : 0;
+  if (period_s > 0) slide_speed_ += (1 - std::exp(-period_s / k_memory_s)) * (distance / period_s - slide_speed_);
   next.proxy = start + x;
   state_ = next;
   return state_;

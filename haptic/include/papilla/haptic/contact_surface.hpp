@@ -131,6 +131,7 @@ class ContactSurface {
   struct Foot;
   struct Approach;
   struct Clearance;
+  struct Nearest;
 
   bool has_relief(std::uint32_t place) const noexcept { return (material_[place] & k_relief_bit) != 0; }
   std::uint32_t material_of(std::uint32_t place) const noexcept { return material_[place] & ~unsigned{k_relief_bit}; }
@@ -155,7 +156,8 @@ class ContactSurface {
   void sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                     std::optional<SweepHit>& best) const noexcept;
   template <class Accept>
-  std::optional<SurfacePoint> nearest(Vec3 p, double radius, Accept&& accept) const noexcept;
+  std::optional<Nearest> nearest(Vec3 x, double radius, Accept&& accept) const noexcept;
+  std::optional<SurfacePoint> surface_point(const std::optional<Nearest>& near) const noexcept;
 
   std::vector<ContactMaterial> materials_;
   std::vector<HeightField> heights_;
