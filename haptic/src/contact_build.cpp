@@ -111,6 +111,18 @@ struct ContactSurface::Weld {
   }
 };
 
+/// Those of the mesh where they are on the face's side, else the face's.
+std::array<ContactSurface::PackedNormal, 3> ContactSurface::corner_normals(const ContactMesh& mesh, std::size_t t) {
+  const auto at = [&](std::size_t k) { return mesh.positions[mesh.triangles[t][k]]; };
+  const Vec3 face = normalized(cross(at(1) - at(0), at(2) - at(0)));
+  std::array<PackedNormal, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 given = mesh.corner_normals[3 * t + k];
+    result[k] = packed(is_finite(given) && dot(given, face) > 0 ? given : face);
+  }
+  return result;
+}
+
 ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMaterial> materials,
                                std::vector<HeightField> heights, double probe_radius_m)
     : materials_(std::move(materials)), heights_(std::move(heights)), radius_(probe_radius_m) {
@@ -170,6 +182,9 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   triangles_.reserve(kept.size());
   material_.reserve(kept.size());
   source_.reserve(kept.size());
+  const bool any_shading = !mesh.corner_normals.empty() &&
+                           std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m.shading; });
+  if (any_shading) normals_.reserve(kept.size());
   Weld weld(kept.size(), any_relief, vertices_, reliefs_);
   for (const std::uint32_t item : bvh_.take_leaf_order()) {
     const std::uint32_t t = kept[item];
@@ -183,6 +198,7 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
     triangles_.push_back(named);
     material_.push_back(static_cast<std::uint16_t>(material_of(t) | (has_relief(t) ? k_relief_bit : 0U)));
     source_.push_back(t);
+    if (any_shading) normals_.push_back(corner_normals(mesh, t));
   }
   vertices_.shrink_to_fit();
   reliefs_.shrink_to_fit();

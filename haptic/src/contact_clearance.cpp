@@ -7,6 +7,7 @@ namespace papilla {
 namespace {
 
 constexpr double k_above = 1 - 1e-6;  // Cosine of less than 1.5 mrad off a triangle's normal.
+constexpr double k_level = 1e-6;      // Square of a slope that moves the nearest point by a thousandth of the skin.
 
 }  // namespace
 
@@ -16,6 +17,15 @@ double ContactSurface::top_of(std::uint32_t place) const noexcept {
   const auto& height = materials_[material_of(place)].height;
   const float lowest = std::min({relief(place, 0).shift, relief(place, 1).shift, relief(place, 2).shift});
   return std::max(0.0, (height ? heights_[*height].max_m() : 0.0) - static_cast<double>(lowest));
+}
+
+/// Weights of b and c of a way within the triangle's plane; zero on a needle.
+Vec2 ContactSurface::weights_of(const Corners& t, Vec3 way) noexcept {
+  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
+  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
+  if (!(det > 0)) return {};
+  const double p = dot(way, ab), q = dot(way, ac);
+  return {(p * bb - q * c) / det, (q * aa - p * c) / det};
 }
 
 /// ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane; zero on a needle.
@@ -46,6 +56,21 @@ double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Fo
   return height;
 }
 
+/// The relief with the skin on it along its normal, less the skin: how much farther than over the base a probe above
+/// the foot stands. Touched there is the point c + s·∇h/√(1 + |∇h|²) of a relief with a slope ∇h. By the height alone
+/// the nearest point of a curved relief would move by the slope times the skin.
+double ContactSurface::lift_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* slope) const noexcept {
+  const double height = relief_at(place, t, foot, slope);
+  const double steep = dot(*slope, *slope);
+  if (!(steep > k_level)) return height;
+  const Vec2 way = weights_of(t, (skin_ / std::sqrt(1 + steep)) * *slope);
+  Foot touched = foot;
+  touched.v += way.x;
+  touched.w += way.y;
+  const double there = relief_at(place, t, touched, slope);
+  return std::max(0.0, there + skin_ / std::sqrt(1 + dot(*slope, *slope)) - skin_);
+}
+
 ContactSurface::Clearance ContactSurface::clearance_of(std::uint32_t place, const Corners& t, Vec3 x) const noexcept {
   const Foot f = foot(t, x);
   const Vec3 d = x - f.point;
@@ -67,7 +92,7 @@ ContactSurface::Clearance ContactSurface::clearance_of(std::uint32_t place, cons
   if (cosine <= 0) return result;
   cosine = f.on == Foot::On::face ? 1 : std::min(1.0, cosine / norm(area));
   Vec3 slope;
-  result.value -= cosine * relief_at(place, t, f, &slope);
+  result.value -= cosine * lift_at(place, t, f, &slope);
   // Beside the triangle the foot moves along its edge only, or not at all. Right above the edge it moves both ways:
   // there a neighbour goes on.
   const bool above = f.on == Foot::On::face || cosine > k_above;

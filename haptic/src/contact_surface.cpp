@@ -23,7 +23,8 @@ struct ContactSurface::Nearest {
 
 std::size_t ContactSurface::bytes() const noexcept {
   return triangles_.size() * (sizeof(triangles_[0]) + sizeof(material_[0]) + sizeof(source_[0])) +
-         vertices_.size() * sizeof(Corner) + reliefs_.size() * sizeof(Relief) + bvh_.bytes();
+         vertices_.size() * sizeof(Corner) + reliefs_.size() * sizeof(Relief) + normals_.size() * sizeof(normals_[0]) +
+         bvh_.bytes();
 }
 
 /// The tree's boxes are grown by the relief, which only makes them visited earlier.

@@ -19,14 +19,11 @@ constexpr int k_bisections = 24;
 double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept {
   const auto& height = materials_[material_of(place)].height;
   if (!height) return 0;
-  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
-  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
-  if (!(det > 0)) return 0;
-  const double p = dot(way, ab), q = dot(way, ac), v = (p * bb - q * c) / det, w = (q * aa - p * c) / det;
+  const Vec2 weights = weights_of(t, way);
   const auto along = [&](float Relief::*axis) {
     const double u0 = static_cast<double>(relief(place, 0).*axis);
-    return v * (static_cast<double>(relief(place, 1).*axis) - u0) +
-           w * (static_cast<double>(relief(place, 2).*axis) - u0);
+    return weights.x * (static_cast<double>(relief(place, 1).*axis) - u0) +
+           weights.y * (static_cast<double>(relief(place, 2).*axis) - u0);
   };
   const std::array<Vec2, 2> per_uv = heights_[*height].texels_per_uv();
   return norm(along(&Relief::u) * per_uv[0] + along(&Relief::v) * per_uv[1]);
@@ -122,10 +119,7 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
     (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
   }
   const Clearance there = clearance_of(place, t, from + outside * way);
-  // The relief carries the skin on top of its height; along the normal that is less by the slope's cosine.
-  const double slope = norm(there.gradient);
-  const SweepHit hit{outside,        normalized(there.gradient), -there.value, slope > 1 ? skin_ / slope : skin_,
-                     source_[place], material_of(place)};
+  const SweepHit hit{outside, normalized(there.gradient), -there.value, skin_, source_[place], material_of(place)};
   if (!best || comes_before(hit, *best)) best = hit;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "constraint_set.hpp"
+#include "papilla/haptic/friction.hpp"
 
 namespace papilla {
 namespace {
@@ -16,7 +17,6 @@ constexpr double k_least_gain = 0.02;
 constexpr double k_needed_travels = 0.6, k_wanted_travels = 1.2;
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_drop = 8;         // Of the shortest step: twice as far as a resting proxy can be off.
-constexpr double k_memory_s = 1e-2;  // Of friction; see proxy.hpp.
 
 }  // namespace
 
@@ -43,10 +43,7 @@ void Proxy::reset(Vec3 position) noexcept {
 }
 
 double Proxy::friction(const ContactMaterial& m) const noexcept {
-  if (m.static_friction == 0 && m.dynamic_friction == 0) return 0;
-  if (!(slide_speed_ > 0)) return m.static_friction;
-  const double ratio = m.stribeck_velocity > 0 ? slide_speed_ / m.stribeck_velocity : 1e3;
-  return m.dynamic_friction + (m.static_friction - m.dynamic_friction) * std::exp(-ratio * ratio);
+  return m.friction == FrictionModel::coulomb ? friction_coefficient(m, slide_speed_) : 0;
 }
 
 /// Says what holds the proxy when it wants to go to `aim` and would like to be at `goal`.
@@ -139,9 +136,12 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     next.in_contact = true;
   }
   if (free) next = ProxyState{};
+  next.felt_normal = next.normal;
+  if (next.in_contact && surface_->material(next.material).shading)
+    next.felt_normal = surface_->shaded_normal(start + x, next.normal);
   const double distance = norm(slid);
   next.sliding = next.in_contact && distance > surface_->tolerance_m();
-  if (period_s > 0) slide_speed_ += (1 - std::exp(-period_s / k_memory_s)) * (distance / period_s - slide_speed_);
+  if (period_s > 0) slide_speed_ += friction_memory_share(period_s) * (distance / period_s - slide_speed_);
   next.proxy = start + x;
   state_ = next;
   return state_;

@@ -14,6 +14,7 @@ struct ConstrainedPoint;
 struct ProxyState {
   Vec3 proxy;                  ///< Centre of the probe as the surface allows it.
   Vec3 normal;                 ///< Unit direction in which the surfaces hold it; zero when free.
+  Vec3 felt_normal;            ///< `normal`, smoothed over facets where the material asks for that.
   double load_m = 0;           ///< Depth along `normal`: distance of the probe behind the surfaces, without the skin.
   bool in_contact = false;     ///< At least one constraint acts.
   bool sliding = false;        ///< The proxy was moved along the surface in this tick.
