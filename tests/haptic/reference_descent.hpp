@@ -108,8 +108,10 @@ class ReferenceDescent {
   Vec3 closest(std::uint32_t t, Vec3 p) const {
     const auto& corner = mesh_->triangles[t];
     const Vec3 a = mesh_->positions[corner[0]], b = mesh_->positions[corner[1]], c = mesh_->positions[corner[2]];
+    // Slivers with no inside to speak of are their edges.
     const Vec3 n = cross(b - a, c - a);
-    if (dot(n, n) > 0 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
+    const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+    if (norm(n) > 1e-9 * longest2 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
         dot(cross(a - c, p - c), n) >= 0)
       return p - (dot(p - a, n) / dot(n, n)) * n;
     Vec3 best = a;
