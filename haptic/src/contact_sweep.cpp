@@ -82,7 +82,7 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
     if (dot(normal, way) > 0) normal = -normal;
   }
   if (dot(normal, way) >= 0) return;
-  const SweepHit hit{touch.t, normal, contact - touch.distance, skin_, source_[place], material_of(place)};
+  const SweepHit hit{touch.t, normal, contact - touch.distance, source_[place], material_of(place)};
   if (best && !comes_before(hit, *best)) return;
   if (approach(t, from, way, contact - tolerance_m(), 1, touch)) best = hit;
 }
@@ -119,7 +119,7 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
     (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
   }
   const Clearance there = clearance_of(place, t, from + outside * way);
-  const SweepHit hit{outside, normalized(there.gradient), -there.value, skin_, source_[place], material_of(place)};
+  const SweepHit hit{outside, normalized(there.gradient), -there.value, source_[place], material_of(place)};
   if (!best || comes_before(hit, *best)) best = hit;
 }
 

@@ -55,7 +55,7 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
   next.in_contact = true;
   next.constraints = aim.count;
   next.normal = depth > 0 ? (1 / depth) * behind : planes.plane[loaded].normal;
-  next.load_m = std::max(0.0, depth - planes.plane[loaded].skin_m);
+  next.load_m = std::max(0.0, depth - surface_->skin_m());
   next.material = planes.plane[loaded].material;
 }
 
@@ -132,7 +132,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     if (planes.count == k_planes) break;
     // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
     x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
-    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material, hit->skin_m};
+    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material};
     next.in_contact = true;
   }
   if (free) next = ProxyState{};

@@ -18,7 +18,6 @@ struct SweepHit {
   double t = 0;                ///< Place on the way in [0, 1] where the probe touches.
   Vec3 normal;                 ///< Unit, out of the obstacle: the gradient of the clearance there.
   double penetration_m = 0;    ///< Minus the clearance at t: positive when the probe was too deep at the start already.
-  double skin_m = 0;           ///< How thick the skin is along `normal`: less than skin_m() on a sloping relief.
   std::uint32_t triangle = 0;  ///< Number in the ContactMesh.
   std::uint32_t material = 0;
 };
@@ -49,11 +48,11 @@ struct StimulusSample {
 ///
 /// A ball of radius r at x touches triangle T when its clearance
 ///     f_T(x) = |x − c| − (r + s) − h(c)·max(0, cos∠(n_T, x − c)),   c = nearest point of T to x,
-/// is 0. h is the height of the relief above the base of T, dilated by r; s is the skin, a few micrometres that close
-/// the gaps of CAD meshes and keep the arithmetic away from 0; forces are computed without it. Free space is where
-/// every f_T ≥ 0: no adjacency, no watertightness, and no edge rules are needed, so slivers, duplicated vertices, gaps
-/// up to 2s and open sheets are ordinary input. Both sides of a triangle are solid walls; the relief is on its front,
-/// the back feels the smooth base.
+/// is 0. h is the height of the relief above the base of T, dilated by r, with the skin lying on it along its normal; s
+/// is the skin, a few micrometres that close the gaps of CAD meshes and keep the arithmetic away from 0; forces are
+/// computed without it. Free space is where every f_T ≥ 0: no adjacency, no watertightness, and no edge rules are
+/// needed, so slivers, duplicated vertices, gaps up to 2s and open sheets are ordinary input. Both sides of a triangle
+/// are solid walls; the relief is on its front, the back feels the smooth base.
 ///
 /// The base of a relief that reaches below the triangles (offset < 0) is the mesh moved inwards to the lowest height
 /// along the interpolated vertex normals, so that h ≥ 0. Where that would turn a triangle over (a fillet tighter than
