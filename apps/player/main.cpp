@@ -11,6 +11,7 @@
 
 #include "device_choice.hpp"
 #include "exit_code.hpp"
+#include "file_watch.hpp"
 #include "live_publisher.hpp"
 #include "live_socket.hpp"
 #include "live_view.hpp"
@@ -118,6 +119,7 @@ int run(const Options& options) {
   report.rate_hz = options.rate_hz;
 
   const Stopwatch clock;
+  const FileStamp stamp = stamp_of(options.file);
   HapticScene scene;
   {
     const Scene read = read_gltf(options.file);
@@ -166,12 +168,15 @@ int run(const Options& options) {
   loop.watchdog_s = 1e-3 * options.watchdog_ms;
   LoopStatus status;
   loop.status = &status;
+  bool file_changed = false;
   {
+    const FileWatch watch(options.file, stamp, g_stop);
     std::optional<LivePublisher> publisher;
     if (options.live) publisher.emplace(*options.live, live_greeting(report, options));
     if (publisher) loop.latest = &publisher->slot();
     const std::optional<LiveView> view = options.quiet ? std::nullopt : std::optional<LiveView>(std::in_place, status);
     report.loop = run_haptic_loop(device, surface, loop);
+    file_changed = watch.changed();
   }
 
   if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
@@ -190,6 +195,7 @@ int run(const Options& options) {
     throw DeviceError(report.device + ": no fresh position, forces are off");
   if (report.loop.fault == ForceGuard::Fault::not_finite)
     throw DeviceError(report.device + ": a position or force was not finite, forces are off");
+  if (file_changed) throw DeviceError(options.file + ": changed while it was played, forces are off");
   if (g_signal != 0)
     throw DeviceError(report.device + ": stopped by signal " + std::to_string(g_signal) + ", forces are off");
   return app::k_exit_done;

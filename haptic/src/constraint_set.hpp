@@ -12,7 +12,6 @@ struct HalfSpace {
   Vec3 normal;
   double offset = 0;
   std::uint32_t material = 0;
-  double skin_m = 0;  ///< Of what set it up.
 };
 
 /// The closest point of a few half-spaces to a goal.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/haptic/friction.hpp"
 #include "papilla/haptic/stimulus.hpp"
 
 namespace papilla {
@@ -198,6 +199,20 @@ std::optional<ForceModelTag> read_force_model(const Json& json, const std::strin
   return model;
 }
 
+std::optional<FrictionTag> read_friction_model(const Json& json, const std::string& place,
+                                               std::vector<HapticWarning>& warnings) {
+  constexpr const char* k_code = "tag_friction_model";
+  const Members in(json, place, warnings);
+  FrictionTag friction;
+  in.text("name", k_code, friction.name);
+  if (!friction_model(friction.name)) {
+    warnings.push_back({k_code, place + ".name: is no friction model, coulomb is used"});
+    return std::nullopt;
+  }
+  in.number("stiffness", k_code, 0, 1e7, friction.stiffness);
+  return friction;
+}
+
 std::optional<SymmetryTag> read_symmetry(const Json& json, const std::string& place,
                                          std::vector<HapticWarning>& warnings) {
   const Members in(json, place, warnings);
@@ -251,6 +266,14 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   in.number("damping", "tag_damping", 0, 1e5, tag.damping);
   read_friction(in, tag);
   in.number("stribeckVelocity", "tag_stribeck", 1e-9, 1e3, tag.stribeck_velocity);
+  if (const Json* friction = in.object("frictionModel", "tag_friction_model"))
+    tag.friction_model = read_friction_model(*friction, place + ".frictionModel", warnings);
+  if (in.has("forceShading")) {
+    if (in.at("forceShading").is_boolean())
+      tag.force_shading = in.at("forceShading").get<bool>();
+    else
+      in.warn("tag_force_shading", "forceShading", "is neither true nor false, false is used");
+  }
   if (const Json* height = in.object("height", "tag_height"))
     tag.height = read_height(*height, place + ".height", warnings);
   if (const Json* roughness = in.object("roughness", "tag_roughness"))
@@ -294,6 +317,9 @@ Json tag_json(const MaterialTag& tag) {
                {"staticFriction", tag.static_friction},
                {"dynamicFriction", tag.dynamic_friction},
                {"stribeckVelocity", tag.stribeck_velocity}};
+  if (tag.friction_model)
+    json["frictionModel"] = {{"name", tag.friction_model->name}, {"stiffness", tag.friction_model->stiffness}};
+  if (tag.force_shading) json["forceShading"] = true;
   if (tag.height) json["height"] = height_json(*tag.height);
   if (tag.roughness)
     json["roughness"] = {{"fractalDimension", tag.roughness->fractal_dimension},

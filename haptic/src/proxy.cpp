@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "constraint_set.hpp"
+#include "papilla/haptic/friction.hpp"
 
 namespace papilla {
 namespace {
@@ -15,6 +16,7 @@ constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
 constexpr double k_needed_travels = 0.6, k_wanted_travels = 1.2;
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
+constexpr double k_drop = 8;         // Of the shortest step: twice as far as a resting proxy can be off.
 
 }  // namespace
 
@@ -41,10 +43,7 @@ void Proxy::reset(Vec3 position) noexcept {
 }
 
 double Proxy::friction(const ContactMaterial& m) const noexcept {
-  if (m.static_friction == 0 && m.dynamic_friction == 0) return 0;
-  if (!(slide_speed_ > 0)) return m.static_friction;
-  const double ratio = m.stribeck_velocity > 0 ? slide_speed_ / m.stribeck_velocity : 1e3;
-  return m.dynamic_friction + (m.static_friction - m.dynamic_friction) * std::exp(-ratio * ratio);
+  return m.friction == FrictionModel::coulomb ? friction_coefficient(m, slide_speed_) : 0;
 }
 
 /// Says what holds the proxy when it wants to go to `aim` and would like to be at `goal`.
@@ -56,7 +55,7 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
   next.in_contact = true;
   next.constraints = aim.count;
   next.normal = depth > 0 ? (1 / depth) * behind : planes.plane[loaded].normal;
-  next.load_m = std::max(0.0, depth - planes.plane[loaded].skin_m);
+  next.load_m = std::max(0.0, depth - surface_->skin_m());
   next.material = planes.plane[loaded].material;
 }
 
@@ -89,13 +88,19 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   Planes planes;
   Vec3 x{}, slid{};
   bool free = false;
+  // What friction holds is pressed back along the normal: on the straight way to the probe it would creep along.
+  Vec3 normal = state_.normal;
+  double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (;;) {
     const ConstrainedPoint aim = closest_point(goal, planes.plane, planes.count, shortest);
     if (!aim.found) break;
     Vec3 step = aim.point - x;
     const double wanted = norm(step);
-    if (aim.count > 0) {
+    const bool drops = aim.count == 0 && drop > 0;
+    if (drops) {
+      step = -drop * normal;
+    } else if (aim.count > 0) {
       hold(aim, planes, goal, next);
       const double held = friction(surface_->material(next.material)) * next.load_m;
       if (wanted - held <= shortest) break;
@@ -110,12 +115,16 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     ++next.sweeps;
     look_around(start + x, std::min(travel, norm(step)));
     const auto hit = surface_->sweep(start + x, start + x + step, near_);
+    drop = 0;
+    if (drops && !hit) continue;
     step = (hit ? hit->t : 1) * step;
     x = x + step;
     if (aim.count > 0) slid = slid + step;
     free = !hit && planes.count == 0;
     if (free) break;
     if (!hit) {
+      if (friction(surface_->material(next.material)) > 0) drop = norm(step) + k_drop * shortest;
+      normal = next.normal;
       planes.count = 0;
       continue;
     }
@@ -123,13 +132,16 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     if (planes.count == k_planes) break;
     // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
     x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
-    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material, hit->skin_m};
+    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material};
     next.in_contact = true;
   }
   if (free) next = ProxyState{};
+  next.felt_normal = next.normal;
+  if (next.in_contact && surface_->material(next.material).shading)
+    next.felt_normal = surface_->shaded_normal(start + x, next.normal);
   const double distance = norm(slid);
   next.sliding = next.in_contact && distance > surface_->tolerance_m();
-  slide_speed_ = next.sliding && period_s > 0 ? distance / period_s : 0;
+  if (period_s > 0) slide_speed_ += friction_memory_share(period_s) * (distance / period_s - slide_speed_);
   next.proxy = start + x;
   state_ = next;
   return state_;

@@ -6,6 +6,7 @@
 
 #include "bench/bench_json.hpp"
 #include "papilla/haptic/contact_surface.hpp"
+#include "papilla/io/scene.hpp"
 
 namespace papilla::bench {
 
@@ -15,14 +16,27 @@ struct LongRun {
   long ticks = 0, contact = 0, lost = 0, allocations = 0, locks = 0;
   double worst_gap_m = 0;  ///< Largest distance of the proxy from the reference, beyond one tick of travel.
   long gaps = 0;           ///< Ticks on which that was more than 0.1 mm.
+  long compared = 0;       ///< Ticks with a reference.
 };
 
-/// 400 000 slivers of 0.02 × 10 mm under a point that presses 1 to 3 mm deep; the reference is the global closest point.
+/// A stroke over a CAD part, beside a descent and, where the surface is less curved than the probe is deep, beside the
+/// global closest point.
+struct CadRun {
+  LongRun descent;
+  long flat_compared = 0, flat_gaps = 0;
+  double worst_flat_gap_m = 0;
+};
+
+/// 400 000 slivers of 0.02 × 10 mm under a point that presses 1 to 3 mm deep; the reference is the global closest
+/// point.
 LongRun sliver_run(long ticks, int seeds);
 
-/// A relief over `size` metres of about `triangles`; the reference, in every hundredth tick, is a descent on the analytic
-/// surface in double precision from the proxy of the tick before.
-LongRun relief_run(double size, long triangles, double radius_m, long ticks, int seeds);
+/// A relief over `size` metres of about `triangles`; the reference, in every hundredth tick, is a converged descent in
+/// double precision from the proxy of the tick before (testing::ReferenceDescent).
+LongRun relief_run(double size, long triangles, long ticks, int seeds);
+
+/// A random slide over a part in millimetres, 1 mm deep; references in every tenth tick.
+CadRun cad_run(const Part& part, long ticks, int seeds);
 
 /// A sphere of 0.1 m; the reference is the global closest point.
 LongRun sphere_run(long triangles, long ticks, int seeds);

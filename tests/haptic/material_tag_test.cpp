@@ -116,6 +116,9 @@ INSTANTIATE_TEST_SUITE_P(
         Odd{R"({"version":1,"height":{"scale":1e-4,"uvTransform":7}})", "tag_height_uv"},
         Odd{R"({"version":1,"stiffness":1,"roughness":{"rmsHeight":1e-5,"fractalDimension":7}})", "tag_roughness"},
         Odd{R"({"version":1,"stiffness":1,"forceModel":{"name":"spoon"}})", "tag_force_model"},
+        Odd{R"({"version":1,"stiffness":1,"frictionModel":{"name":"glue"}})", "tag_friction_model"},
+        Odd{R"({"version":1,"stiffness":1,"frictionModel":{"name":"bristle","stiffness":-1}})", "tag_friction_model"},
+        Odd{R"({"version":1,"stiffness":1,"forceShading":1})", "tag_force_shading"},
         Odd{R"({"version":1,"stiffness":1,"forceModel":{"name":"lateral","amplitude":-1}})", "tag_force_model"},
         Odd{R"({"version":1,"stiffness":1,"symmetry":{"period":[1,2]}})", "tag_symmetry"},
         Odd{R"({"version":1,"stiffness":1,"provenance":{"tool":3}})", "tag_provenance"}));

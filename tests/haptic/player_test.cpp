@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -66,6 +68,24 @@ class Player : public ::testing::Test {
   }
   Outcome play_glb(const Json& extras, const std::string& image, const std::string& more = "") const {
     return play("'" + write("a b.glb", testing::plate_glb(extras, image)) + "' --seconds 0.6 --json - " + more);
+  }
+  /// Plays for long, does something to it after a moment. @returns the exit code.
+  int play_while(const std::string& glb, const std::function<void(pid_t)>& act) const {
+    const std::string json = (folder_ / "r.json").string(), error = (folder_ / "error").string();
+    const pid_t child = ::fork();
+    if (child == 0) {
+      if (std::freopen(error.c_str(), "w", stderr) == nullptr) ::_exit(126);
+      ::execl(PAPILLA_PLAYER, PAPILLA_PLAYER, glb.c_str(), "-q", "--seconds", "100", "--json", json.c_str(), nullptr);
+      ::_exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    act(child);
+    int status = 0;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    const Json report = Json::parse(slurp(json));
+    EXPECT_GT(report["ticks"], 10);
+    EXPECT_LT(report["ticks"], 50000);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   static void expect_warning(const Json& report, const std::string& code) {
     bool found = false;
@@ -176,21 +196,21 @@ TEST_F(Player, RecordingPlayedAgainGivesTheSameFile) {
 
 TEST_F(Player, SignalEndsItWithAReport) {
   const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
-  const std::string json = (folder_ / "r.json").string();
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::execl(PAPILLA_PLAYER, PAPILLA_PLAYER, glb.c_str(), "-q", "--seconds", "100", "--json", json.c_str(), nullptr);
-    ::_exit(127);
+  EXPECT_EQ(play_while(glb, [](pid_t child) { ::kill(child, SIGTERM); }), 5);
+}
+
+TEST_F(Player, FileThatChangesUnderItEndsItWithAReport) {
+  const std::string whole = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
+  const std::string glb = (folder_ / "p.glb").string();
+  const auto truncate = [&](pid_t) { fs::resize_file(glb, whole.size() / 2); };
+  const auto replace = [&](pid_t) { fs::rename(write("q.glb", whole), glb); };
+  const auto remove = [&](pid_t) { fs::remove(glb); };
+  for (const std::function<void(pid_t)>& change :
+       std::initializer_list<std::function<void(pid_t)>>{truncate, replace, remove}) {
+    write("p.glb", whole);
+    EXPECT_EQ(play_while(glb, change), 5);
+    EXPECT_NE(slurp(folder_ / "error").find("p.glb: changed while it was played, forces are off"), std::string::npos);
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
-  ::kill(child, SIGTERM);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 5);
-  const Json report = Json::parse(slurp(json));
-  EXPECT_GT(report["ticks"], 10);
-  EXPECT_LT(report["ticks"], 50000);
 }
 
 TEST_F(Player, ListsDevices) {

@@ -111,6 +111,43 @@ TEST(Proxy, StribeckFadesFromStaticToDynamic) {
   }
 }
 
+TEST(Proxy, FrictionIsTheSameAtEveryRate) {
+  // On a wave, static and dynamic friction apart: the force after the same stroke, at 1 kHz and at finer ticks.
+  const auto wave = [](double x, double) { return 2e-4 * std::sin(2 * std::numbers::pi * x / 0.01); };
+  const ContactSurface surface(height_grid(400, 2, 0.1, 0.02, wave), {spring(500, 0.5, 0.3)}, {}, 0);
+  const auto stroke = [&](int ticks_per_ms) {
+    Proxy proxy(surface);
+    proxy.reset({0.01, 0.01, 0.01});
+    const double tick = k_tick / ticks_per_ms;
+    std::vector<Vec3> forces;
+    for (int i = 0; i <= 400 * ticks_per_ms; ++i) {
+      const Vec3 probe{0.01 + 0.1 * i * tick, 0.01, -1e-3};
+      const ProxyState& state = proxy.update(probe, tick);
+      if (i % (20 * ticks_per_ms) == 0) forces.push_back(heightfield_force(surface, state, probe, {}));
+    }
+    return forces;
+  };
+  const auto finest = stroke(32), fine = stroke(8), coarse = stroke(1);
+  for (std::size_t i = 0; i < finest.size(); ++i) {
+    EXPECT_LT(norm(coarse[i] - finest[i]), 0.05 * norm(finest[i])) << i;
+    EXPECT_LT(norm(fine[i] - finest[i]), 0.01 * norm(finest[i])) << i;
+  }
+}
+
+TEST(Proxy, FrictionHoldsWithoutCreeping) {
+  // A tenth of a millimetre aside on a slope, at 32 kHz for a second.
+  const auto slope = [](double x, double) { return 0.2 * x; };
+  const ContactSurface surface(height_grid(50, 2, 0.1, 0.02, slope), {spring(500, 0.6, 0.6)}, {}, 0);
+  Proxy proxy(surface);
+  proxy.reset({0.05, 0.01, 0.02});
+  Vec3 first;
+  for (int i = 0; i < 32000; ++i) {
+    const ProxyState& state = proxy.update({0.0501, 0.01, 0.009}, k_tick / 32);
+    if (i == 0) first = state.proxy;
+  }
+  EXPECT_LT(norm(proxy.state().proxy - first), 2 * surface.tolerance_m());
+}
+
 TEST(Proxy, CornerHoldsWithThreeConstraints) {
   ContactMesh inside = box({0, 0, 0}, {0.1, 0.1, 0.1});  // Felt from within.
   const ContactSurface surface(inside, {spring(500)}, {}, 0);

@@ -9,6 +9,7 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/haptic/friction.hpp"
 #include "papilla/haptic/roughness_field.hpp"
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/io/gltf_reader.hpp"
@@ -46,6 +47,7 @@ class Builder {
         result.names.push_back(scene_.materials[i].name.empty() ? "material " + std::to_string(i)
                                                                 : scene_.materials[i].name);
         result.materials.push_back(contact_material(*tag, i, warnings));
+        any_shading_ = any_shading_ || tag->force_shading;
       }
       for (HapticWarning& warning : warnings) result.warnings.push_back({scene_.materials[i].name, std::move(warning)});
     }
@@ -75,6 +77,7 @@ class Builder {
       const bool has_uv = uv.has_value(t);
       for (std::size_t k = 0; k < 3; ++k)
         result.mesh.corner_uv.push_back(has_uv ? gltf_uv(uv.values[uv.indices[t][k]]) : Vec2{});
+      if (any_shading_) add_normals(instance.world, mesh, t, result.materials[*felt_[source]].shading);
       if (result.materials[*felt_[source]].height || result.materials[*felt_[source]].stimulus)
         check_uv(source, !has_uv);
     }
@@ -85,8 +88,22 @@ class Builder {
       for (std::size_t t = felt_triangles_; t < result.mesh.triangles.size(); ++t) {
         std::swap(result.mesh.triangles[t][1], result.mesh.triangles[t][2]);
         std::swap(result.mesh.corner_uv[3 * t + 1], result.mesh.corner_uv[3 * t + 2]);
+        if (any_shading_) std::swap(result.mesh.corner_normals[3 * t + 1], result.mesh.corner_normals[3 * t + 2]);
       }
     felt_triangles_ = result.mesh.triangles.size();
+  }
+
+  /// Of a triangle's corners in the frame of the scene; zero, which stands for the face's, where there are none.
+  void add_normals(const Transform& world, const TriangleMesh& mesh, std::size_t t, bool shaded) {
+    const Vec3 x{world[0], world[4], world[8]}, y{world[1], world[5], world[9]}, z{world[2], world[6], world[10]};
+    const double side = mirrors(world) ? -1 : 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec3 n;
+      if (shaded && mesh.normals.has_value(t)) n = mesh.normals.values[mesh.normals.indices[t][k]];
+      // Normals turn by the cofactors of the matrix.
+      result.mesh.corner_normals.push_back(side *
+                                           normalized(n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y)));
+    }
   }
 
   void finish() {
@@ -116,6 +133,11 @@ class Builder {
     made.static_friction = tag.static_friction;
     made.dynamic_friction = tag.dynamic_friction;
     made.stribeck_velocity = tag.stribeck_velocity;
+    if (tag.friction_model) {
+      made.friction = friction_model(tag.friction_model->name).value_or(FrictionModel::coulomb);
+      made.bristle_stiffness = tag.friction_model->stiffness;
+    }
+    made.shading = tag.force_shading;
     made.height = relief_of(tag, material, warnings);
     if (!tag.force_model) return made;
     made.model = force_model(tag.force_model->name).value_or(ForceModel::heightfield);
@@ -204,6 +226,7 @@ class Builder {
   std::vector<int> tex_coord_;
   std::map<std::uint32_t, std::size_t> without_uv_;
   std::size_t felt_triangles_ = 0;
+  bool any_shading_ = false;
 };
 
 }  // namespace

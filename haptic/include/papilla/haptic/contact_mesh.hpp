@@ -22,13 +22,19 @@ enum class ForceModel {
   textured_normal,
 };
 
+/// How a surface holds what slides on it; see friction.hpp.
+enum class FrictionModel { coulomb, bristle };
+
 /// What a surface does to a probe; the numbers of the material tag that the tick needs.
 struct ContactMaterial {
-  double stiffness = 500;               ///< N/m.
-  double damping = 0;                   ///< N·s/m, of the wall; acts along the contact normal.
-  double static_friction = 0;           ///< Coulomb, dimensionless.
-  double dynamic_friction = 0;          ///< Coulomb, dimensionless, at most static_friction.
-  double stribeck_velocity = 0.01;      ///< m/s, the speed over which static friction fades into dynamic.
+  double stiffness = 500;           ///< N/m.
+  double damping = 0;               ///< N·s/m, of the wall; acts along the contact normal.
+  double static_friction = 0;       ///< Coulomb, dimensionless.
+  double dynamic_friction = 0;      ///< Coulomb, dimensionless, at most static_friction.
+  double stribeck_velocity = 0.01;  ///< m/s, the speed over which static friction fades into dynamic.
+  FrictionModel friction = FrictionModel::coulomb;
+  double bristle_stiffness = 0;         ///< N/m, of bristle friction; 0, and at most: as `stiffness`.
+  bool shading = false;                 ///< Forces follow the corner normals; see ContactSurface::shaded_normal().
   std::optional<std::uint32_t> height;  ///< Index of the relief in the surface's height fields.
   ForceModel model = ForceModel::heightfield;
   std::optional<std::uint32_t> stimulus;  ///< Index of the relief that a stimulus reads; it displaces nothing.

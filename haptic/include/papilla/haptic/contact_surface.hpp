@@ -18,7 +18,6 @@ struct SweepHit {
   double t = 0;                ///< Place on the way in [0, 1] where the probe touches.
   Vec3 normal;                 ///< Unit, out of the obstacle: the gradient of the clearance there.
   double penetration_m = 0;    ///< Minus the clearance at t: positive when the probe was too deep at the start already.
-  double skin_m = 0;           ///< How thick the skin is along `normal`: less than skin_m() on a sloping relief.
   std::uint32_t triangle = 0;  ///< Number in the ContactMesh.
   std::uint32_t material = 0;
 };
@@ -49,11 +48,11 @@ struct StimulusSample {
 ///
 /// A ball of radius r at x touches triangle T when its clearance
 ///     f_T(x) = |x − c| − (r + s) − h(c)·max(0, cos∠(n_T, x − c)),   c = nearest point of T to x,
-/// is 0. h is the height of the relief above the base of T, dilated by r; s is the skin, a few micrometres that close
-/// the gaps of CAD meshes and keep the arithmetic away from 0; forces are computed without it. Free space is where
-/// every f_T ≥ 0: no adjacency, no watertightness, and no edge rules are needed, so slivers, duplicated vertices, gaps
-/// up to 2s and open sheets are ordinary input. Both sides of a triangle are solid walls; the relief is on its front,
-/// the back feels the smooth base.
+/// is 0. h is the height of the relief above the base of T, dilated by r, with the skin lying on it along its normal; s
+/// is the skin, a few micrometres that close the gaps of CAD meshes and keep the arithmetic away from 0; forces are
+/// computed without it. Free space is where every f_T ≥ 0: no adjacency, no watertightness, and no edge rules are
+/// needed, so slivers, duplicated vertices, gaps up to 2s and open sheets are ordinary input. Both sides of a triangle
+/// are solid walls; the relief is on its front, the back feels the smooth base.
 ///
 /// The base of a relief that reaches below the triangles (offset < 0) is the mesh moved inwards to the lowest height
 /// along the interpolated vertex normals, so that h ≥ 0. Where that would turn a triangle over (a fillet tighter than
@@ -61,8 +60,9 @@ struct StimulusSample {
 /// in a fillet of the size of their difference: no hole.
 ///
 /// Build: O(n log n); about 1 µs a triangle. Memory: 18 bytes a triangle, 12 a vertex (24 where there is relief), and
-/// the tree, about 18 bytes a triangle. Vertices are rounded to single precision around the centre of the scene (0.5 µm
-/// at 10 m). Queries are noexcept and allocate nothing; the same input gives the same bits.
+/// the tree, about 18 bytes a triangle; 12 bytes a triangle more in a scene with shaded materials. Vertices are rounded
+/// to single precision around the centre of the scene (0.5 µm at 10 m). Queries are noexcept and allocate nothing; the
+/// same input gives the same bits.
 class ContactSurface {
  public:
   /// @param mesh triangles with zero area or non-finite vertices are left out (see skipped_triangles()).
@@ -85,6 +85,15 @@ class ContactSurface {
 
   /// The same hit, from what was gathered; from the tree as soon as the way leaves that.
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept;
+
+  /// Shaded normals at a resting probe: with f_i the face normals of the triangles that it touches at `proxy` and s_i
+  /// their corner normals, interpolated at the nearest points, writes the normal as Σ λ_i f_i with λ_i ≥ 0 and returns
+  /// Σ λ_i s_i, of unit length. So a force that jumps by the angle between two facets turns steadily over both instead
+  /// [Morgenbesser and Srinivasan 1996; Ruspini, Kolarov and Khatib 1997]; across edges whose corner normals differ it
+  /// stays as it is, as it does where a touched triangle has relief or its material no shading. Off the mesh's real
+  /// normal forces are not conservative: the error is that of the shading, at most half the angle between facets. Cost:
+  /// one search of the tree.
+  Vec3 shaded_normal(Vec3 proxy, Vec3 normal) const noexcept;
 
   /// Nearest point of the base within `radius_m`, by brute nearest-first search.
   std::optional<SurfacePoint> closest_point(Vec3 p, double radius_m) const noexcept;
@@ -126,22 +135,30 @@ class ContactSurface {
     float u, v;
     float shift;  ///< How far the base was moved, ≤ 0.
   };
+  /// A unit vector on the octahedron |x| + |y| + |z| = 1, unfolded to a square; 0.003 degrees.
+  using PackedNormal = std::array<std::int16_t, 2>;
   static constexpr std::uint16_t k_relief_bit = 0x8000;
   struct Weld;
   struct Foot;
   struct Approach;
   struct Clearance;
+  struct Nearest;
 
   bool has_relief(std::uint32_t place) const noexcept { return (material_[place] & k_relief_bit) != 0; }
   std::uint32_t material_of(std::uint32_t place) const noexcept { return material_[place] & ~unsigned{k_relief_bit}; }
   const Relief& relief(std::uint32_t place, std::size_t corner) const noexcept {
     return reliefs_[triangles_[place][corner]];
   }
+  static PackedNormal packed(Vec3 normal) noexcept;
+  static std::array<PackedNormal, 3> corner_normals(const ContactMesh& mesh, std::size_t t);
+  static Vec3 unpacked(PackedNormal normal) noexcept;
   double top_of(std::uint32_t place) const noexcept;
   Corners corners(std::uint32_t place) const noexcept;
   static Foot foot(const Corners& t, Vec3 x) noexcept;
   Clearance clearance_of(std::uint32_t place, const Corners& t, Vec3 x) const noexcept;
   double relief_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* gradient) const noexcept;
+  double lift_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* slope) const noexcept;
+  static Vec2 weights_of(const Corners& t, Vec3 way) noexcept;
   static Vec3 in_plane(const Corners& t, double by_v, double by_w) noexcept;
   double texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept;
   static void look(const Corners& t, Vec3 from, Vec3 way, double at, Approach& state) noexcept;
@@ -155,7 +172,8 @@ class ContactSurface {
   void sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                     std::optional<SweepHit>& best) const noexcept;
   template <class Accept>
-  std::optional<SurfacePoint> nearest(Vec3 p, double radius, Accept&& accept) const noexcept;
+  std::optional<Nearest> nearest(Vec3 x, double radius, Accept&& accept) const noexcept;
+  std::optional<SurfacePoint> surface_point(const std::optional<Nearest>& near) const noexcept;
 
   std::vector<ContactMaterial> materials_;
   std::vector<HeightField> heights_;
@@ -164,7 +182,8 @@ class ContactSurface {
   LargeArray<std::uint16_t> material_;  // With k_relief_bit where there is relief.
   LargeArray<std::uint32_t> source_;    // Number in the ContactMesh.
   LargeArray<Corner> vertices_;
-  LargeArray<Relief> reliefs_;  // Per vertex; empty when nothing has relief.
+  LargeArray<Relief> reliefs_;                       // Per vertex; empty when nothing has relief.
+  LargeArray<std::array<PackedNormal, 3>> normals_;  // Of the corners; empty when nothing is shaded.
   Bvh bvh_;
   Vec3 origin_, low_, high_;
   double radius_ = 0, skin_ = 0, tallest_ = 0;

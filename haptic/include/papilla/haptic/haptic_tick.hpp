@@ -7,6 +7,7 @@
 #include "papilla/haptic/contact_surface.hpp"
 #include "papilla/haptic/device.hpp"
 #include "papilla/haptic/force_model.hpp"
+#include "papilla/haptic/friction.hpp"
 #include "papilla/haptic/proxy.hpp"
 #include "papilla/haptic/safety.hpp"
 #include "papilla/haptic/stability.hpp"
@@ -39,6 +40,7 @@ class HapticTick {
     lost_ = audit_.lost(probe, state.in_contact);
     // A probe that is no number gives no force, not the one of the tick before.
     Vec3 force = is_finite(probe) ? heightfield_force(*surface_, state, probe, velocity_) : probe;
+    if (is_finite(probe)) force = force + bristles(state, moved);
     if (is_finite(probe) && stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
     if (passivity_ && is_finite(probe)) force = passivity_->apply(force, moved, period_);
     return guard_.apply(force, period_, device.age_s);
@@ -49,6 +51,7 @@ class HapticTick {
     proxy_.reset(position);
     audit_ = ContactAudit(*surface_);
     guard_.resume();
+    bristles_.release();
     velocity_ = {};
     last_ = position;
     started_ = true;
@@ -60,12 +63,23 @@ class HapticTick {
   ForceGuard& guard() noexcept { return guard_; }
 
  private:
+  /// Bristle friction where the material has it; the proxy brings Coulomb's with it.
+  Vec3 bristles(const ProxyState& state, Vec3 moved) noexcept {
+    if (!state.in_contact || surface_->material(state.material).friction != FrictionModel::bristle) {
+      bristles_.release();
+      return {};
+    }
+    const ContactMaterial& material = surface_->material(state.material);
+    return bristles_.force(material, state.normal, material.stiffness * state.load_m, moved, period_);
+  }
+
   static constexpr double k_smoothing_s = 1e-3;
   const ContactSurface* surface_;
   double period_;
   Proxy proxy_;
   ContactAudit audit_;
   Stimulus stimulus_;
+  BristleFriction bristles_;
   ForceGuard guard_;
   std::optional<PassivityController> passivity_;
   Vec3 last_, velocity_;

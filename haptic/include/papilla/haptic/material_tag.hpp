@@ -54,6 +54,13 @@ struct ForceModelTag {
   friend bool operator==(const ForceModelTag&, const ForceModelTag&) = default;
 };
 
+/// How the surface holds what slides on it, when not as Coulomb has it.
+struct FrictionTag {
+  std::string name = "coulomb";  ///< A name of friction_model().
+  double stiffness = 0;          ///< N/m, of bristles, ≥ 0; 0: that of the material.
+  friend bool operator==(const FrictionTag&, const FrictionTag&) = default;
+};
+
 struct SymmetryTag {
   std::string group;               ///< Wallpaper group, for example "pmm".
   std::array<Vec2, 2> period_m{};  ///< The two lattice vectors.
@@ -74,6 +81,8 @@ struct MaterialTag {
   double static_friction = 0;       ///< ≥ 0. Defaults to dynamic_friction when only that is given.
   double dynamic_friction = 0;      ///< In [0, static_friction]. Defaults to static_friction when only that is given.
   double stribeck_velocity = 0.01;  ///< m/s, > 0.
+  std::optional<FrictionTag> friction_model;
+  bool force_shading = false;  ///< Forces follow the mesh's normals where there is no relief.
   std::optional<HeightTag> height;
   std::optional<RoughnessTag> roughness;
   std::optional<ForceModelTag> force_model;
@@ -85,7 +94,7 @@ struct MaterialTag {
 /// Reads one tag. Unknown members are ignored. A value of the wrong type or range is replaced by its default and
 /// reported: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (the relief is dropped when its
 /// scale or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness,
-/// tag_force_model, tag_symmetry, tag_provenance.
+/// tag_force_model, tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance.
 /// @param json the object itself, not the extras around it.
 /// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);

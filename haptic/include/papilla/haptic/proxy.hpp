@@ -14,6 +14,7 @@ struct ConstrainedPoint;
 struct ProxyState {
   Vec3 proxy;                  ///< Centre of the probe as the surface allows it.
   Vec3 normal;                 ///< Unit direction in which the surfaces hold it; zero when free.
+  Vec3 felt_normal;            ///< `normal`, smoothed over facets where the material asks for that.
   double load_m = 0;           ///< Depth along `normal`: distance of the probe behind the surfaces, without the skin.
   bool in_contact = false;     ///< At least one constraint acts.
   bool sliding = false;        ///< The proxy was moved along the surface in this tick.
@@ -34,7 +35,12 @@ struct ProxyState {
 ///
 /// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
 /// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
-/// [Stribeck].
+/// [Stribeck]. v is the way along the surface smoothed over the memory of friction, 10 ms (1 to 50 ms are measured
+/// [Armstrong-Hélouvry, Dupont and Canudas de Wit 1994]): without it a proxy without mass would stick and slip at the
+/// rate of the loop; with it sliding is steady as long as depth·|dμ/dv| stays below the memory. A proxy that friction
+/// holds and that has lost touch by a rounding or a bulge is pressed back along the normal, not towards the probe, so
+/// that it doesn't creep by a little in every tick. Where a relief holds it in a notch until it springs out, the place
+/// where it lands depends on the rate all the same.
 ///
 /// Guarantees: noexcept, no allocation, no lock; never passes a triangle; deterministic.
 /// Limits: relief is stepped at half a texel, so a spike of one texel can be missed by a sweep that goes across it far

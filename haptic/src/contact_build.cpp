@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/contact_surface.hpp"
+#include "relief_base.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr double k_skin_m = 2e-5;      // Closes gaps of 40 µm; a tenth of what a fingertip resolves as roughness edge.
+constexpr double k_skin_share = 1e-3;  // Of the extent, for scenes smaller than 20 mm.
+constexpr double k_least_skin_share = 2e-6;  // Of the extent: thirty times the rounding of single precision.
+constexpr std::size_t k_most_materials = 32767;
+
+void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
+           const std::vector<HeightField>& heights, double radius) {
+  const auto fail = [](const std::string& what) { throw InvalidInput("ContactSurface: " + what); };
+  const std::size_t n = mesh.triangles.size();
+  if (!(radius >= 0) || !std::isfinite(radius)) fail("the probe radius " + std::to_string(radius) + " is not >= 0");
+  if (materials.empty()) fail("no material");
+  if (materials.size() > k_most_materials) fail("more than 32767 materials");
+  if (!mesh.material.empty() && mesh.material.size() != n) fail("material needs one entry per triangle");
+  if (!mesh.corner_uv.empty() && mesh.corner_uv.size() != 3 * n) fail("corner_uv needs three entries per triangle");
+  if (!mesh.corner_normals.empty() && mesh.corner_normals.size() != 3 * n)
+    fail("corner_normals needs three entries per triangle");
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const ContactMaterial& m = materials[i];
+    for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.stribeck_velocity})
+      if (!(value >= 0) || !std::isfinite(value))
+        fail("material " + std::to_string(i) + " has a number that is not >= 0");
+    if (!std::isfinite(m.amplitude)) fail("material " + std::to_string(i) + " has an amplitude that is not finite");
+    if (m.stimulus && *m.stimulus >= heights.size())
+      fail("material " + std::to_string(i) + " names a missing height field");
+    if (m.stimulus && mesh.corner_uv.empty())
+      fail("material " + std::to_string(i) + " has a stimulus but the mesh has no uv");
+    if (m.height && *m.height >= heights.size())
+      fail("material " + std::to_string(i) + " names a missing height field");
+    if (m.height && mesh.corner_uv.empty())
+      fail("material " + std::to_string(i) + " has a relief but the mesh has no uv");
+  }
+  for (std::size_t t = 0; t < n; ++t) {
+    for (const std::uint32_t v : mesh.triangles[t])
+      if (v >= mesh.positions.size()) fail("triangle " + std::to_string(t) + " names a missing vertex");
+    if (!mesh.material.empty() && mesh.material[t] >= materials.size())
+      fail("triangle " + std::to_string(t) + " names a missing material");
+  }
+}
+
+/// A box of the float just below low − grow and just above high + grow.
+Box3f box_of(const std::array<std::array<float, 3>, 3>& v, double grow) noexcept {
+  Box3f box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float low = std::min({v[0][i], v[1][i], v[2][i]}), high = std::max({v[0][i], v[1][i], v[2][i]});
+    const float infinity = std::numeric_limits<float>::infinity();
+    box.low[i] = grow > 0 ? std::nextafter(static_cast<float>(static_cast<double>(low) - grow), -infinity) : low;
+    box.high[i] = grow > 0 ? std::nextafter(static_cast<float>(static_cast<double>(high) + grow), infinity) : high;
+  }
+  return box;
+}
+
+}  // namespace
+
+/// Gives corners that are the same in place and relief one vertex, by a hash table of open addressing.
+struct ContactSurface::Weld {
+  LargeArray<Corner>& vertices;
+  LargeArray<Relief>& reliefs;
+  bool any_relief;
+  std::vector<std::uint32_t> slots;
+
+  Weld(std::size_t count, bool relief, LargeArray<Corner>& to, LargeArray<Relief>& to_reliefs)
+      : vertices(to), reliefs(to_reliefs), any_relief(relief), slots(std::bit_ceil(2 * count + 16), k_nothing) {}
+
+  std::uint32_t add(const Corner& corner, const Relief& relief) {
+    std::array<float, 6> key = {corner[0], corner[1], corner[2], relief.u, relief.v, relief.shift};
+    std::uint64_t hash = 0;
+    for (float& value : key) {
+      value += 0.0F;  // One zero.
+      hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15U;
+      hash ^= hash >> 29;
+    }
+    if (2 * vertices.size() >= slots.size()) grow();
+    for (std::size_t at = hash & (slots.size() - 1);; at = (at + 1) & (slots.size() - 1)) {
+      const std::uint32_t known = slots[at];
+      if (known == k_nothing) {
+        slots[at] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back({key[0], key[1], key[2]});
+        if (any_relief) reliefs.push_back({key[3], key[4], key[5]});
+        hashes.push_back(hash);
+        return slots[at];
+      }
+      if (hashes[known] == hash && vertices[known] == Corner{key[0], key[1], key[2]} &&
+          (!any_relief || (reliefs[known].u == key[3] && reliefs[known].v == key[4] && reliefs[known].shift == key[5])))
+        return known;
+    }
+  }
+
+ private:
+  std::vector<std::uint64_t> hashes;
+
+  void grow() {
+    slots.assign(2 * slots.size(), k_nothing);
+    for (std::uint32_t v = 0; v < hashes.size(); ++v) {
+      std::size_t at = hashes[v] & (slots.size() - 1);
+      while (slots[at] != k_nothing) at = (at + 1) & (slots.size() - 1);
+      slots[at] = v;
+    }
+  }
+};
+
+/// Those of the mesh where they are on the face's side, else the face's.
+std::array<ContactSurface::PackedNormal, 3> ContactSurface::corner_normals(const ContactMesh& mesh, std::size_t t) {
+  const auto at = [&](std::size_t k) { return mesh.positions[mesh.triangles[t][k]]; };
+  const Vec3 face = normalized(cross(at(1) - at(0), at(2) - at(0)));
+  std::array<PackedNormal, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 given = mesh.corner_normals[3 * t + k];
+    result[k] = packed(is_finite(given) && dot(given, face) > 0 ? given : face);
+  }
+  return result;
+}
+
+ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMaterial> materials,
+                               std::vector<HeightField> heights, double probe_radius_m)
+    : materials_(std::move(materials)), heights_(std::move(heights)), radius_(probe_radius_m) {
+  check(mesh, materials_, heights_, radius_);
+  const ReliefBase base = relief_base(mesh, materials_, heights_);
+
+  const std::size_t n = mesh.triangles.size();
+  std::vector<std::uint32_t> kept;
+  kept.reserve(n);
+  low_ = {1e300, 1e300, 1e300};
+  high_ = {-1e300, -1e300, -1e300};
+  for (std::size_t t = 0; t < n; ++t) {
+    const Vec3* c = &base.corners[3 * t];
+    const bool usable = is_finite(c[0]) && is_finite(c[1]) && is_finite(c[2]) &&
+                        std::isfinite(norm(c[0]) + norm(c[1]) + norm(c[2])) &&
+                        norm(cross(c[1] - c[0], c[2] - c[0])) > 0;
+    if (!usable) continue;
+    kept.push_back(static_cast<std::uint32_t>(t));
+    for (int k = 0; k < 3; ++k) {
+      low_ = {std::min(low_.x, c[k].x), std::min(low_.y, c[k].y), std::min(low_.z, c[k].z)};
+      high_ = {std::max(high_.x, c[k].x), std::max(high_.y, c[k].y), std::max(high_.z, c[k].z)};
+    }
+  }
+  skipped_ = n - kept.size();
+  if (kept.empty()) throw InvalidInput("ContactSurface: no triangle with an area");
+  origin_ = 0.5 * (low_ + high_);
+  const double extent = norm(high_ - low_);
+  if (!(extent < 1e6)) throw InvalidInput("ContactSurface: the scene is larger than 1000 km");
+  skin_ = std::max(std::min(k_skin_m, k_skin_share * extent), k_least_skin_share * extent);
+
+  const auto material_of = [&](std::uint32_t t) { return mesh.material.empty() ? 0U : mesh.material[t]; };
+  const auto has_relief = [&](std::uint32_t t) {
+    const double* s = &base.shifts[3 * t];
+    return s[0] < 0 || s[1] < 0 || s[2] < 0 || materials_[material_of(t)].height.has_value();
+  };
+  const auto has_uv = [&](std::uint32_t t) { return has_relief(t) || materials_[material_of(t)].stimulus.has_value(); };
+  const auto highest = [&](std::uint32_t t) {
+    const double* s = &base.shifts[3 * t];
+    const auto& height = materials_[material_of(t)].height;
+    return std::max(0.0, (height ? heights_[*height].max_m() : 0.0) - std::min({s[0], s[1], s[2]}));
+  };
+  const auto rounded = [&](std::uint32_t t, std::size_t k) {
+    const Vec3 p = base.corners[3 * t + k] - origin_;
+    return Corner{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  };
+  std::vector<Box3f> boxes(kept.size());
+  bool any_relief = false;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const double tall = highest(kept[i]);
+    tallest_ = std::max(tallest_, tall);
+    any_relief = any_relief || has_uv(kept[i]);
+    boxes[i] = box_of({rounded(kept[i], 0), rounded(kept[i], 1), rounded(kept[i], 2)}, tall);
+  }
+  bvh_ = Bvh(boxes);
+  boxes = {};
+
+  triangles_.reserve(kept.size());
+  material_.reserve(kept.size());
+  source_.reserve(kept.size());
+  const bool any_shading = !mesh.corner_normals.empty() &&
+                           std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m.shading; });
+  if (any_shading) normals_.reserve(kept.size());
+  Weld weld(kept.size(), any_relief, vertices_, reliefs_);
+  for (const std::uint32_t item : bvh_.take_leaf_order()) {
+    const std::uint32_t t = kept[item];
+    std::array<std::uint32_t, 3> named{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 uv = has_uv(t) && !mesh.corner_uv.empty() ? mesh.corner_uv[3 * t + k] : Vec2{};
+      named[k] = weld.add(rounded(t, k),
+                          {static_cast<float>(is_finite(uv) ? uv.x : 0), static_cast<float>(is_finite(uv) ? uv.y : 0),
+                           static_cast<float>(base.shifts[3 * t + k])});
+    }
+    triangles_.push_back(named);
+    material_.push_back(static_cast<std::uint16_t>(material_of(t) | (has_relief(t) ? k_relief_bit : 0U)));
+    source_.push_back(t);
+    if (any_shading) normals_.push_back(corner_normals(mesh, t));
+  }
+  vertices_.shrink_to_fit();
+  reliefs_.shrink_to_fit();
+}
+
+}  // namespace papilla

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "papilla/haptic/contact_surface.hpp"
+
+namespace papilla {
+namespace contact_detail {
+
+inline Vec3 point_of(const std::array<float, 3>& v) noexcept {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+}  // namespace contact_detail
+
+/// Nearest point of a triangle: barycentric weights of b and c, and what part of the triangle it lies on.
+struct ContactSurface::Foot {
+  Vec3 point;
+  double v = 0, w = 0;
+  enum class On { face, edge, corner } on = On::face;
+  Vec3 edge;  ///< Direction, when on an edge; not normalised.
+};
+
+/// A moving probe at t, and where it stands to a triangle.
+struct ContactSurface::Approach {
+  double t = 0, distance = 0;
+  Vec3 d;  ///< From the nearest point.
+};
+
+/// f_T and its gradient (not normalised).
+struct ContactSurface::Clearance {
+  double value = 0;
+  double distance = 0;
+  Vec3 gradient;
+};
+
+inline ContactSurface::Corners ContactSurface::corners(std::uint32_t place) const noexcept {
+  const auto& t = triangles_[place];
+  return {contact_detail::point_of(vertices_[t[0]]), contact_detail::point_of(vertices_[t[1]]),
+          contact_detail::point_of(vertices_[t[2]])};
+}
+
+/// Ericson, Real-Time Collision Detection (2005), 5.1.5: by the Voronoi region that x lies in.
+[[gnu::always_inline]] inline ContactSurface::Foot ContactSurface::foot(const Corners& t, Vec3 x) noexcept {
+  const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = x - t.a;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return {t.a, 0, 0, Foot::On::corner, {}};
+  const Vec3 bp = x - t.b;
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return {t.b, 1, 0, Foot::On::corner, {}};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const double v = d1 / (d1 - d3);
+    return {t.a + v * ab, v, 0, Foot::On::edge, ab};
+  }
+  const Vec3 cp = x - t.c;
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return {t.c, 0, 1, Foot::On::corner, {}};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const double w = d2 / (d2 - d6);
+    return {t.a + w * ac, 0, w, Foot::On::edge, ac};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {t.b + w * (t.c - t.b), 1 - w, w, Foot::On::edge, t.c - t.b};
+  }
+  const double scale = 1 / (va + vb + vc), v = vb * scale, w = vc * scale;
+  return {t.a + v * ab + w * ac, v, w, Foot::On::face, {}};
+}
+
+}  // namespace papilla

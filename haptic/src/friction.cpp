@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace papilla {
+namespace {
+
+constexpr double k_memory_s = 1e-2;
+
+Vec3 along(Vec3 v, Vec3 normal) noexcept { return v - dot(v, normal) * normal; }
+
+}  // namespace
+
+std::string_view name_of(FrictionModel model) noexcept {
+  return model == FrictionModel::bristle ? "bristle" : "coulomb";
+}
+
+std::optional<FrictionModel> friction_model(std::string_view name) noexcept {
+  for (const FrictionModel model : {FrictionModel::coulomb, FrictionModel::bristle})
+    if (name_of(model) == name) return model;
+  return std::nullopt;
+}
+
+double friction_coefficient(const ContactMaterial& material, double speed) noexcept {
+  if (!(speed > 0)) return material.static_friction;
+  const double ratio = material.stribeck_velocity > 0 ? speed / material.stribeck_velocity : 1e3;
+  return material.dynamic_friction + (material.static_friction - material.dynamic_friction) * std::exp(-ratio * ratio);
+}
+
+double friction_memory_share(double period_s) noexcept { return -std::expm1(-period_s / k_memory_s); }
+
+Vec3 BristleFriction::force(const ContactMaterial& material, Vec3 normal, double load_n, Vec3 moved,
+                            double period_s) noexcept {
+  const double stiffness =
+      material.bristle_stiffness > 0 ? std::min(material.bristle_stiffness, material.stiffness) : material.stiffness;
+  const Vec3 way = along(moved, normal);
+  const double length = norm(way);
+  if (period_s > 0) speed_ += friction_memory_share(period_s) * (length / period_s - speed_);
+  const double most = material.static_friction * load_n;
+  if (!(stiffness > 0) || !(most > 0)) {
+    bend_ = {};
+    return {};
+  }
+  bend_ = along(bend_, normal);
+  if (length > 0) {
+    const double steady = friction_coefficient(material, speed_) * load_n / stiffness;
+    const double left = steady > 0 ? std::exp(-length / steady) : 0;
+    const Vec3 end = (steady / length) * way;
+    bend_ = end + left * (bend_ - end);
+  }
+  if (const double bent = norm(bend_); stiffness * bent > most) bend_ = (most / (stiffness * bent)) * bend_;
+  return -stiffness * bend_;
+}
+
+}  // namespace papilla

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/friction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "haptic/contact_shapes.hpp"
+#include "papilla/haptic/haptic_tick.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr Vec3 k_up{0, 0, 1};
+
+ContactMaterial bristles(double mu_static, double mu_dynamic, double stiffness) {
+  ContactMaterial m;
+  m.stiffness = 1e4;
+  m.friction = FrictionModel::bristle;
+  m.bristle_stiffness = stiffness;
+  m.static_friction = mu_static;
+  m.dynamic_friction = mu_dynamic;
+  return m;
+}
+
+TEST(FrictionModels, HaveNames) {
+  for (const FrictionModel model : {FrictionModel::coulomb, FrictionModel::bristle})
+    EXPECT_EQ(friction_model(name_of(model)), model);
+  EXPECT_EQ(friction_model("glue"), std::nullopt);
+}
+
+TEST(BristleFriction, BendsAsDahlSays) {
+  // F(x) = −μN(1 − exp(−σx/μN)), whatever the length of a tick.
+  const ContactMaterial material = bristles(0.4, 0.4, 2000);
+  for (const double step : {1e-6, 1e-5, 1.5e-4}) {
+    BristleFriction friction;
+    for (int i = 1; i * step <= 3e-3; ++i) {
+      const double limit = 0.4 * 3, x = i * step;
+      const Vec3 force = friction.force(material, k_up, 3, {step, 0, 0}, 1e-3);
+      ASSERT_NEAR(force.x, -limit * (1 - std::exp(-2000 * x / limit)), 1e-9) << x;
+      ASSERT_EQ(force.y, 0);
+      ASSERT_EQ(force.z, 0);
+    }
+  }
+}
+
+TEST(BristleFriction, StartsAsASpring) {
+  BristleFriction friction;
+  const double x = 1e-8;
+  EXPECT_NEAR(friction.force(bristles(0.5, 0.3, 2000), k_up, 3, {0, x, 0}, 1e-3).y / x, -2000, 0.1);
+}
+
+TEST(BristleFriction, BreaksAwayAtStaticFrictionAndSlidesAtStribecks) {
+  const ContactMaterial material = bristles(0.6, 0.2, 5000);
+  const double load = 2;
+  for (const double speed : {1e-4, 0.01, 0.02, 0.2}) {
+    BristleFriction friction;
+    double largest = 0, last = 0;
+    for (int i = 0; i < 60000; ++i) {
+      last = -friction.force(material, k_up, load, {speed * 1e-3, 0, 0}, 1e-3).x;
+      largest = std::max(largest, last);
+    }
+    const double ratio = speed / material.stribeck_velocity;
+    EXPECT_NEAR(last, load * (0.2 + 0.4 * std::exp(-ratio * ratio)), 1e-6) << speed;
+    EXPECT_LE(largest, 0.6 * load + 1e-12);
+    if (speed < 1e-3) {
+      EXPECT_GT(largest, 0.999 * 0.6 * load);
+    }
+  }
+}
+
+TEST(BristleFriction, IsTheSameAtEveryRate) {
+  const ContactMaterial material = bristles(0.6, 0.3, 3000);
+  const auto after = [&](int ticks) {
+    BristleFriction friction;
+    Vec3 force;
+    for (int i = 0; i < ticks; ++i)
+      force = friction.force(material, k_up, 1, {0.02 * 0.05 / ticks, 0, 0}, 0.05 / ticks);
+    return force.x;
+  };
+  const double finest = after(64000);
+  EXPECT_NEAR(after(2000), finest, 1e-3 * std::abs(finest));
+  EXPECT_NEAR(after(50), finest, 0.03 * std::abs(finest));
+}
+
+TEST(BristleFriction, LetsGoWithTheLoadAndIsNeverStifferThanTheMaterial) {
+  const ContactMaterial material = bristles(0.5, 0.5, 1e9);
+  BristleFriction friction;
+  EXPECT_NEAR(friction.force(material, k_up, 2, {1e-9, 0, 0}, 1e-3).x, -1e4 * 1e-9, 1e-9);
+  for (int i = 0; i < 100; ++i) friction.force(material, k_up, 2, {1e-4, 0, 0}, 1e-3);
+  EXPECT_NEAR(norm(friction.force(material, k_up, 0.5, {}, 1e-3)), 0.25, 1e-12);
+  EXPECT_EQ(norm(friction.force(material, k_up, 0, {1e-4, 0, 0}, 1e-3)), 0);
+  EXPECT_EQ(norm(friction.force(material, k_up, 1, {}, 1e-3)), 0);
+}
+
+TEST(BristleFriction, StrokeOfAPlateFeelsIt) {
+  // The tick: 1 mm deep at 500 N/m, 0.5 N of load; pulled by 20 µm, then far.
+  ContactMaterial material = bristles(0.4, 0.4, 500);
+  material.stiffness = 500;
+  const ContactSurface surface(testing::plate(10, 10, 0.1, 0.1), {material}, {}, 0);
+  SafetyLimits limits = safety_limits(10);
+  limits.soft_start_s = 0;
+  HapticTick tick(surface, limits, 1e-3);
+  tick.reset({0.02, 0.05, 0.001});
+  const auto at = [&](double x, double z) {
+    DeviceState device;
+    device.position = {x, 0.05, z};
+    return tick(device);
+  };
+  for (int i = 0; i < 20; ++i) at(0.02, -1e-3);
+  const double limit = 0.4 * 0.5;
+  EXPECT_NEAR(at(0.02002, -1e-3).x, -limit * (1 - std::exp(-500 * 2e-5 / limit)), 1e-4);
+  for (int i = 0; i < 200; ++i) at(0.02002 + 1e-4 * i, -1e-3);
+  EXPECT_NEAR(at(0.0401, -1e-3).x, -limit, 0.01 * limit);
+}
+
+}  // namespace
+}  // namespace papilla
