@@ -16,8 +16,8 @@ std::optional<FrictionModel> friction_model(std::string_view name) noexcept;
 /// μ(v) = μd + (μs − μd)·exp(−(v/vs)²), μs at rest [Stribeck].
 double friction_coefficient(const ContactMaterial& material, double speed) noexcept;
 
-/// By what share a smoothed sliding speed follows the newest in a tick: 1 − exp(−T/10 ms). The memory of friction, of
-/// which 1 to 50 ms are measured [Armstrong-Hélouvry, Dupont and Canudas de Wit 1994]; the same at every rate.
+/// By what share a smoothed sliding speed follows the newest in a tick: 1 − exp(−T/10 ms). The memory of friction
+/// (frictional lag: Armstrong-Hélouvry, Dupont and Canudas de Wit 1994), the same at every rate; 10 ms is assumed.
 double friction_memory_share(double period_s) noexcept;
 
 /// Friction by the bristles between two surfaces [Dahl 1968; Canudas de Wit, Olsson, Åström and Lischinsky 1995,
