@@ -35,7 +35,7 @@ struct ProxyState {
 ///
 /// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
 /// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
-/// [Stribeck]. v is the way along the surface smoothed over the memory of friction, 10 ms (1 to 50 ms are measured
+/// [Stribeck]. v is the way along the surface smoothed over the memory of friction, 10 ms (assumed; frictional lag:
 /// [Armstrong-Hélouvry, Dupont and Canudas de Wit 1994]): without it a proxy without mass would stick and slip at the
 /// rate of the loop; with it sliding is steady as long as depth·|dμ/dv| stays below the memory. A proxy that friction
 /// holds and that has lost touch by a rounding or a bulge is pressed back along the normal, not towards the probe, so
