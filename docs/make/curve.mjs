@@ -42,12 +42,6 @@ function errorToShow(runs, method) {
 
 const nameOf = (run) => run.solver ? `${run.method} (${run.solver})` : run.method;
 
-/** With the last of the notes where names repeat: what the runs differ in. */
-function titleOf(run, runs) {
-  const alone = runs.filter((o) => nameOf(o) === nameOf(run)).length < 2;
-  return alone ? nameOf(run) : `${nameOf(run)}, ${(run.notes ?? '').split('; ').at(-1)}`;
-}
-
 /**
  * The curves of a method in front of all others, from the JSON of `papilla evaluate`.
  * @param variant part of the solver's name, to show only these in front
@@ -57,10 +51,12 @@ export function drawEvaluation(json, file, method, variant = '') {
   if (!error) throw new Error(`${json}: holds no method ${method}`);
   const input = runs.find((r) => r.method === method && r.error_name === error).input;
   const series = runs.filter((r) => r.error_name === error && r.input === input).map((r) => ({
-    title: titleOf(r, runs.filter((o) => o.error_name === error && o.input === input)), quiet: r.method !== method || !r.solver.includes(variant),
+    title: nameOf(r), quiet: r.method !== method || !r.solver.includes(variant),
     points: r.trace.filter((s) => s.seconds > 0 && s.error > 0).map((s) => [s.seconds, s.error]) })).filter((s) => s.points.length);
   draw(file, { x: 'run time [s]', y: error, log: true, series });
-  return { error, input: basename(input), others: series.some((s) => s.quiet) };
+  const shown = series.filter((s) => !s.quiet);
+  if (!shown.length) throw new Error(`${json}: ${method} ${variant} has nothing to draw`);
+  return { error, input: basename(input), others: series.some((s) => s.quiet), dots: shown.every((s) => s.points.length === 1) };
 }
 
 const size = (row, name) => Math.hypot(...['x', 'y', 'z'].map((c) => Number(row[`${name}_${c}`])));
@@ -72,8 +68,12 @@ const STROKES = {
   },
 };
 
-/** A recording of the player over its time. @param what force, depth or travel */
-export function drawStroke(csv, file, what) {
-  const rows = readCsv(csv), { y, series } = STROKES[what];
-  draw(file, { x: 'time [s]', y, log: false, series: Object.entries(series).map(([title, of]) => ({ title, points: rows.map((r) => [r.t, of(r, rows[0])]) })) });
+/** Recordings of the player over their time. @param what force, depth or travel */
+export function drawStroke(csvs, file, what) {
+  const { y, series } = STROKES[what];
+  const curves = csvs.flatMap((csv) => {
+    const rows = readCsv(csv), name = csvs.length > 1 ? `${basename(csv, '.csv')}: ` : '';
+    return Object.entries(series).map(([title, of]) => ({ title: name + title, points: rows.map((r) => [r.t, of(r, rows[0])]) }));
+  });
+  draw(file, { x: 'time [s]', y, log: false, series: curves });
 }

@@ -2,9 +2,10 @@
 // Copies the pages of the project for mkdocs, with pictures and curves where the pages ask for them:
 //   node pages.mjs PROJECT RUNS OUT
 //   <!-- picture FILE, CAPTION -->          a picture of the runs
-//   <!-- curve CSV METHOD -->               error over run time of a method, all others of the file behind it
-//   <!-- stroke CSV force|depth|travel -->  a recording of the player
+//   <!-- curve JSON METHOD [VARIANT] -->    error over run time of a method, all others of the file behind it
+//   <!-- stroke CSV,… force|depth|travel, CAPTION -->  recordings of the player
 //   <!-- table CSV -->                      the whole file
+// A page below methods/ that lacks its formula, a picture, a curve, its limits or its source is an error.
 import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, extname, join, relative } from 'node:path';
 import { drawEvaluation, drawStroke } from './curve.mjs';
@@ -32,15 +33,15 @@ class PageMaker {
   }
 
   curve(text) {
-    const [file, method, variant] = text.split(' '), name = this.place('.svg');
-    const { error, input, others } = drawEvaluation(join(runs, file), join(this.folder, name), method, variant);
-    return `![Error over run time](${name})\n\n*${error} over run time on ${input}${others ? '; grey: all others of the same run' : ''}.*`;
+    const [file, method, ...variant] = text.split(' '), name = this.place('.svg');
+    const { error, input, others, dots } = drawEvaluation(join(runs, file), join(this.folder, name), method, variant.join(' '));
+    return `![Error over run time](${name})\n\n*${error} over run time on ${input}${dots ? '; a direct method is a dot' : ''}${others ? '; grey: all others of the same run' : ''}.*`;
   }
 
   stroke(text) {
-    const [file, what] = text.split(' '), name = this.place('.svg');
-    drawStroke(join(runs, file), join(this.folder, name), what);
-    return `![A stroke over the sample cockpit](${name})\n\n*Two seconds of the player's own stroke over the sample cockpit: 1 mm deep, 0.1 m/s, simulated device.*`;
+    const [, files, what, caption] = /^(\S+) (\w+), (.*)$/.exec(text), name = this.place('.svg');
+    drawStroke(files.split(',').map((file) => join(runs, file)), join(this.folder, name), what);
+    return `![${caption}](${name})\n\n*${caption}*`;
   }
 
   table(text) {
@@ -64,10 +65,19 @@ function linksOf(text, page) {
   }).replace(/\[([^\]]*)\]\(\)/g, '$1');
 }
 
+/** What a method page has to have and has not. */
+function missing(text) {
+  const asks = (...kinds) => kinds.some((kind) => text.includes(`\n<!-- ${kind} `));
+  return [...['Formula', 'Limits', 'Source'].filter((title) => !text.includes(`\n## ${title}\n`)),
+    ...(asks('picture', 'stroke') ? [] : ['a picture']), ...(asks('curve') ? [] : ['a curve'])];
+}
+
 rmSync(out, { recursive: true, force: true });
 for (const folder of ['.', 'methods', 'evidence']) {
   for (const name of readdirSync(join(project, 'docs', folder)).filter((n) => n.endsWith('.md'))) {
     const page = join(folder, name), text = readFileSync(join(project, 'docs', page), 'utf8');
+    const lacks = folder === 'methods' && name !== 'README.md' ? missing(text) : [];
+    if (lacks.length) throw new Error(`docs/${page}: lacks ${lacks.join(', ')}`);
     const maker = new PageMaker(page);
     writeFileSync(join(out, page), linksOf(maker.filled(text), page));
   }

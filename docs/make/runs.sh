@@ -5,7 +5,7 @@ set -euo pipefail
 bin=$1 data=$2 out=$3
 make=$(dirname "${BASH_SOURCE[0]}")
 papilla() { "$bin/papilla" "$@" --quiet; }
-evaluate() { papilla evaluate "$@" --seconds 20; }
+evaluate() { papilla evaluate "$@" --seconds 60; }
 mkdir -p "$out"/{unwrap,texture,meshing,contact}
 
 # Maps of one chart.
@@ -20,12 +20,15 @@ papilla tessellate "$data/cockpit.step" -o "$out/cockpit.glb" --chord 1
 papilla unwrap "$data/cockpit.step" --chord 1 --method natural -o "$out/unwrap/natural.glb" --picture "$out/unwrap/natural.png"
 papilla unwrap "$out/cockpit.glb" -o "$out/meshing/charts.glb" --picture "$out/meshing/charts.png" --trace "$out/meshing/charts.csv"
 evaluate param "$out/sheet.obj" -o "$out/param"
+evaluate charts "$out/cockpit.glb" -o "$out/charts"
 
 # Surfaces of known dimension, a lit grain with its true relief.
-papilla synthesize fractal --dimension 2.5 --size 1025 -o "$out/texture/fractal.png"
+for dimension in 2.2 2.5 2.8; do
+  papilla synthesize fractal --dimension "$dimension" --size 1025 -o "$out/texture/fractal-$dimension.png"
+done
 papilla synthesize grain --kind quads6 --size 256 -o "$out/texture/grain.png" --relief "$out/texture/grain.exr"
 papilla synthesize grain --kind spheres6 --size 512 -o "$out/texture/lattice.png"
-evaluate fractal "$out/texture/fractal.png" -o "$out/fractal"
+evaluate fractal "$out/texture/fractal-2.5.png" -o "$out/fractal"
 evaluate symmetry "$out/texture/lattice.png" -o "$out/symmetry"
 evaluate height "$out/texture/grain.exr" -o "$out/height"
 papilla analyze "$out/texture/grain.png" --pitch 0.1 --pictures "$out/texture/grain"
@@ -38,6 +41,14 @@ evaluate tessellation "$data/cockpit.step" -o "$out/tessellation"
 awk -f "$make/soup.awk" "$out/sheet.obj" >"$out/soup.obj"
 evaluate weld "$out/soup.obj" -o "$out/weld"
 evaluate simplification "$out/sheet.obj" -o "$out/simplification"
+papilla repair "$out/soup.obj" -o "$out/meshing/repaired.obj" --weld 1
+papilla simplify "$out/sheet.obj" -o "$out/meshing/simplified.obj" --tolerance 0.5
+for chord in 10 1; do papilla tessellate "$data/cockpit.step" -o "$out/meshing/chord-$chord.glb" --chord "$chord"; done
+papilla inspect "$out/sheet.obj" --picture "$out/meshing/sheet.png"
+papilla inspect "$out/soup.obj" --picture "$out/meshing/soup.png"
+for mesh in repaired.obj simplified.obj chord-10.glb chord-1.glb; do
+  papilla inspect "$out/meshing/$mesh" --picture "$out/meshing/${mesh%.*}.png"
+done
 
 # A stroke over leather.
 for kind in $(sed -n 's/.*"grain\/\([a-z0-9]*\)\.png".*/\1/p' "$data/cockpit.materials.json" | sort -u); do
@@ -52,8 +63,8 @@ play --seconds 2 --record "$out/contact/stroke.csv"
 reports=() controlled=()
 for device in $("$bin/papilla-player" --list-devices --json - | sed -n 's/.*"device": "\(sim:[^"]*\)".*/\1/p'); do
   report=$out/contact/${device#sim:}
-  play --seconds 1 --device "$device" --json "$report.json"
-  play --seconds 1 --device "$device" --passivity-control --json "$report-controlled.json"
+  play --seconds 1 --device "$device" --motion tap --json "$report.json" --record "$report.csv"
+  play --seconds 1 --device "$device" --motion tap --passivity-control --json "$report-controlled.json" --record "$report-controlled.csv"
   reports+=("$report.json") controlled+=("$report-controlled.json")
 done
 node "$make/devices_csv.mjs" "$out/contact/devices.csv" "${reports[@]}"

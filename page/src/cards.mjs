@@ -4,6 +4,7 @@ import uPlot from 'uplot';
 import { number } from './colour.mjs';
 import { element } from './dom.mjs';
 import { surfaceOf } from './force.mjs';
+import { axis, logSplits } from './plot_look.mjs';
 import { drawRelief } from './relief_picture.mjs';
 
 /** Root mean square difference of heights over lags of 2^k samples, along x and y: straight in log-log when fractal. */
@@ -56,9 +57,9 @@ function drawPrimitive(canvas, image, vectors, size) {
   const corners = [[0, 0], px[0], [px[0][0] + px[1][0], px[0][1] + px[1][1]], px[1]];
   const low = [0, 1].map((k) => Math.min(...corners.map((c) => c[k]))), high = [0, 1].map((k) => Math.max(...corners.map((c) => c[k])));
   const scale = 0.96 * canvas.width / Math.max(high[0] - low[0], high[1] - low[1]);
-  context.translate(4, 4);
+  context.translate(canvas.width / 2, canvas.height / 2);
   context.scale(scale, scale);
-  context.translate(-low[0], -low[1]);
+  context.translate(-(low[0] + high[0]) / 2, -(low[1] + high[1]) / 2);
   context.beginPath();
   corners.forEach((c) => context.lineTo(...c));
   context.closePath();
@@ -72,12 +73,11 @@ const plots = [];
 export function repaintCards() { for (const plot of plots) plot.redraw(); }
 
 function fractalPlot(host, relief, size) {
-  const ink = () => getComputedStyle(document.body).color, line = () => getComputedStyle(document.body).getPropertyValue('--line');
-  const axis = (label) => ({ label, stroke: ink, grid: { stroke: line }, ticks: { stroke: line }, size: 52, values: (_, ticks) => ticks.map((t) => t === null ? '' : number(t)) });
+  const log = { size: 52, splits: (_, __, low, high) => logSplits(low, high), filter: (_, splits) => splits, values: (_, ticks) => ticks.map(number) };
   plots.push(new uPlot({
     width: 300, height: 180, legend: { show: false }, cursor: { show: false },
     scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
-    series: [{}, { stroke: '#1b7fd6', width: 2, points: { show: true, size: 6 } }], axes: [axis('lag [mm]'), axis('rms [mm]')],
+    series: [{}, { stroke: '#1b7fd6', width: 2, points: { show: true, size: 6 } }], axes: [axis('lag [mm]', { ...log, size: 30 }), axis('rms [mm]', log)],
   }, structureFunction(relief, size[0] / relief.width), host));
 }
 
@@ -88,6 +88,9 @@ async function imageOf(bytes) {
   return image;
 }
 
+/** In millimetres; what is below a thousandth of the length is no part of it. */
+const vectorText = (v) => `(${v.map((c) => number(Math.abs(c) < 1e-3 * Math.hypot(...v) ? 0 : c)).join(', ')}) mm`;
+
 function constants(material, about) {
   const tag = material?.haptic, rows = [];
   const add = (name, value) => { if (value !== undefined && value !== null && value !== '') rows.push([name, value]); };
@@ -97,7 +100,7 @@ function constants(material, about) {
   add('relief', tag?.height && `rms ${number(1000 * tag.height.rms)} mm, range ${number(1000 * tag.height.scale)} mm`);
   add('fractal dimension', about?.roughness?.fractal_dimension === undefined ? tag?.roughness && number(tag.roughness.fractalDimension) : about.roughness.fractal_dimension === null ? 'none: no power law' : number(about.roughness.fractal_dimension));
   add('class', about?.class?.name?.replaceAll('_', ' '));
-  add('lattice', about && (about.lattice ? about.period_mm.map((v) => `(${v.map(number).join(', ')}) mm`).join(' and ') : 'none found'));
+  add('lattice', about && (about.lattice ? about.period_mm.map((v) => vectorText(v)).join(' and ') : 'none found'));
   add('height from', about?.height && `${about.height.method}: ${about.height.reason}`);
   add('picture', about?.picture && `${about.picture.file.split(/[\\/]/).pop()}, ${about.picture.size_mm.map(number).join(' x ')} mm${about.picture.tiles ? ', tiles' : ', does not tile'}`);
   add('made by', tag?.provenance?.tool);

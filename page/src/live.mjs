@@ -3,6 +3,7 @@
 import uPlot from 'uplot';
 import { number } from './colour.mjs';
 import { LiveMarks } from './live_marks.mjs';
+import { axis, legend } from './plot_look.mjs';
 
 const $ = (id) => document.getElementById(id);
 const SHOWN_S = 10;
@@ -71,10 +72,8 @@ export class Live {
   }
 
   makePlot() {
-    const ink = () => getComputedStyle(document.body).color, line = () => getComputedStyle(document.body).getPropertyValue('--line');
-    const axis = (label) => ({ label, stroke: ink, grid: { stroke: line }, ticks: { stroke: line } });
     this.plot = new uPlot({
-      width: Math.max($('live-plot').clientWidth, 200), height: 230, scales: { x: { time: false }, y: { range: (_, low, high) => [0, Math.max(high ?? 0, 0.1) * 1.05] } },
+      width: Math.max($('live-plot').clientWidth, 200), height: 230, legend, scales: { x: { time: false }, y: { range: (_, low, high) => [0, Math.max(high ?? 0, 0.1) * 1.05] } },
       series: [{ label: 'seconds' }, { label: 'force [N]', stroke: '#1b7fd6', width: 2 }, { label: 'in contact', stroke: '#d9730d', width: 6 }],
       axes: [axis('seconds'), axis('newtons')],
     }, this.samples, $('live-plot'));

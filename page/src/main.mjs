@@ -3,7 +3,7 @@
 import { fillCards, repaintCards } from './cards.mjs';
 import { number, viridis } from './colour.mjs';
 import { load } from './data.mjs';
-import { element } from './dom.mjs';
+import { count, element } from './dom.mjs';
 import { Live } from './live.mjs';
 import { SceneView } from './scene_view.mjs';
 import { fillTables } from './tables.mjs';
@@ -32,7 +32,7 @@ class Page {
     document.title = `${data.title} · Papilla`;
     $('title').textContent = data.title;
     const fewer = scene.triangles_shown < scene.triangles;
-    $('summary').textContent = `${scene.triangles.toLocaleString('en')} triangles in ${scene.parts.length} parts; `
+    $('summary').textContent = `${count(scene.triangles, 'triangle')} in ${count(scene.parts.length, 'part')}; `
       + (fewer ? `${scene.triangles_shown.toLocaleString('en')} shown, simplified for this page by about ${number(scene.error_mm)} mm at most` : 'all of them shown');
     $('footer').textContent = data.live ? `Served by ${data.program}, on this machine only. The samples come from its player; nothing is loaded from anywhere else.`
       : `Written by ${data.program}. Everything is in this file; nothing is loaded from anywhere.`;
@@ -176,7 +176,7 @@ class Page {
   describe(use, hit) {
     const part = this.scene.parts[this.scene.instances[use].part];
     const names = [...new Set(part.meshes.map((m) => this.scene.materials[m.material]?.name ?? 'no material'))];
-    let text = `${this.nameOf(use)}: ${part.triangles.toLocaleString('en')} triangles, ${names.slice(0, 3).join(', ')}`;
+    let text = `${this.nameOf(use)}: ${count(part.triangles, 'triangle')}, ${names.slice(0, 3).join(', ')}`;
     if (hit) text += `; ${this.readout(hit)}`;
     $('picked').textContent = text;
   }

@@ -169,7 +169,7 @@ export class SceneView {
     if (box.isEmpty()) return;
     this.outline.box.copy(box);
     this.selected = box;
-    if (frame) this.frame(box, 1.6);
+    if (frame) this.frame(box, 1.25);
     this.invalidate();
   }
 
@@ -182,14 +182,26 @@ export class SceneView {
 
   frameAll() {
     this.camera.position.copy(new THREE.Vector3(0.7, 0.55, 0.9));
-    this.frame(this.box, 0.72);
+    this.resize();
+    this.frame(this.box, 1.03);
+  }
+
+  /** How far from its centre the camera must be, on the way that it is, to see the whole box. */
+  distanceTo(box, direction) {
+    const half = box.getSize(new THREE.Vector3()).multiplyScalar(0.5), tangent = Math.tan(this.camera.fov * Math.PI / 360);
+    const right = new THREE.Vector3().crossVectors(this.camera.up, direction).normalize(), up = new THREE.Vector3().crossVectors(direction, right);
+    let distance = this.size * 1e-4;
+    for (const x of [-1, 1]) for (const y of [-1, 1]) for (const z of [-1, 1]) {
+      const corner = new THREE.Vector3(x, y, z).multiply(half);
+      distance = Math.max(distance, corner.dot(direction) + Math.max(Math.abs(corner.dot(up)), Math.abs(corner.dot(right)) / this.camera.aspect) / tangent);
+    }
+    return distance;
   }
 
   frame(box, margin) {
-    const centre = box.getCenter(new THREE.Vector3()), radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, this.size * 1e-4);
-    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    const centre = box.getCenter(new THREE.Vector3()), direction = this.camera.position.clone().sub(this.controls.target).normalize();
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(direction, margin * radius / Math.sin(this.camera.fov * Math.PI / 360));
+    this.camera.position.copy(centre).addScaledVector(direction, margin * this.distanceTo(box, direction));
     this.camera.near = this.size / 2000;
     this.camera.far = this.size * 20;
     this.camera.updateProjectionMatrix();
@@ -230,7 +242,7 @@ export class SceneView {
       sphere.theta += turn[0] * 0.1;
       sphere.phi = Math.min(Math.max(sphere.phi + turn[1] * 0.1, 0.05), Math.PI - 0.05);
     } else if (event.key === '+' || event.key === '-') sphere.radius *= event.key === '+' ? 0.85 : 1.18;
-    else if (event.key === 'f' || event.key === 'F') return this.frame(this.selected ?? this.box, 1.6);
+    else if (event.key === 'f' || event.key === 'F') return this.frame(this.selected ?? this.box, 1.25);
     else if (event.key === 'Home') return this.frameAll();
     else return;
     event.preventDefault();

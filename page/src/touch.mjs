@@ -3,6 +3,7 @@
 import uPlot from 'uplot';
 import { number } from './colour.mjs';
 import { forceAt, surfaceOf } from './force.mjs';
+import { axis, legend } from './plot_look.mjs';
 import { drawRelief } from './relief_picture.mjs';
 import { Sound } from './sound.mjs';
 
@@ -34,10 +35,8 @@ export class Touch {
   }
 
   makePlot() {
-    const ink = () => getComputedStyle(document.body).color, line = () => getComputedStyle(document.body).getPropertyValue('--line');
-    const axis = (label) => ({ label, stroke: ink, grid: { stroke: line }, ticks: { stroke: line } });
     this.plot = new uPlot({
-      width: Math.max($('force-plot').clientWidth, 200), height: 260, scales: { x: { time: false } },
+      width: Math.max($('force-plot').clientWidth, 200), height: 260, legend, scales: { x: { time: false } },
       series: [{ label: 'seconds' }, { label: 'normal force [N]', stroke: '#1b7fd6', width: 2 }, { label: 'friction [N]', stroke: '#d9730d', width: 2, dash: [6, 4] }],
       axes: [axis('seconds'), axis('newtons')],
     }, [[], [], []], $('force-plot'));

@@ -4,9 +4,14 @@
 #include <filesystem>
 
 #include "evaluate/built_in.hpp"
+#include "evaluate/environment.hpp"
 #include "evaluate/evaluation_files.hpp"
 #include "evaluate/pareto.hpp"
+#include "evaluate/wall_press.hpp"
 #include "papilla/core/temporary_folder.hpp"
+#include "papilla/haptic/sim_device.hpp"
+#include "papilla/haptic/stability.hpp"
+#include "papilla/io/scene_file.hpp"
 
 namespace papilla::app {
 namespace {
@@ -80,6 +85,12 @@ TEST(Evaluation, HasInputsOfItsOwnThatItCanRead) {
     EXPECT_EQ(files.empty(), kind.name == "tessellation" || kind.name == "contact") << kind.name;
     for (const std::string& file : files) EXPECT_GT(std::filesystem::file_size(file), 100U) << file;
   }
+  const TemporaryFolder folder("papilla-test");
+  for (const std::string& file : write_built_in_inputs("charts", folder.path())) {
+    const Scene scene = read_scene(file);
+    ASSERT_EQ(scene.parts.size(), 1U) << file;
+    EXPECT_GT(scene.parts[0].mesh.triangles.size(), 100U) << file;
+  }
 }
 
 TEST(Budget, SharesWhatIsLeft) {
@@ -90,6 +101,68 @@ TEST(Budget, SharesWhatIsLeft) {
   EXPECT_FALSE(minute.allows(61));
   EXPECT_NEAR(minute.share(4).seconds(), 15, 0.1);
   EXPECT_TRUE(Budget(0).spent());
+}
+
+TEST(Rungs, EndWhenTheNextOneIsTooLong) {
+  const Budget endless, none(0), short_one(1e-4);
+  Rungs always(endless, 1e9), never(none, 1), once(short_one, 1e9);
+  EXPECT_TRUE(always.next());
+  EXPECT_TRUE(always.next());
+  EXPECT_FALSE(never.next());
+  once.next();
+  EXPECT_FALSE(once.next());
+}
+
+/// A dome over the unit square, of 2 n² triangles.
+TriangleMesh dome(int n, double height) {
+  TriangleMesh mesh;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double x = 1.0 * i / n, y = 1.0 * j / n;
+      mesh.positions.push_back({x, y, height * x * (1 - x) * y * (1 - y)});
+    }
+  const auto at = [n](int i, int j) { return static_cast<Index>(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return mesh;
+}
+
+TEST(EvaluateEnvironment, ErrsLessOnFinerMeshes) {
+  const auto last = [](int n) { return environment_run(dome(n, 4), "dome", Budget()).trace.back().error; };
+  const double coarse = last(8), fine = last(32);
+  EXPECT_GT(coarse, 0);
+  EXPECT_NEAR(coarse / fine, 4, 1.5);  // by the length of the edges
+}
+
+TEST(EvaluateCharts, SeamsOfASheetAreNotWorthIt) {
+  const TemporaryFolder folder("papilla-test");
+  Part part;
+  part.mesh = dome(10, 0);
+  const std::string file = (folder.path() / "sheet.ply").string();
+  write_scene(single_part_scene(std::move(part), "PLY"), file);
+  const std::vector<EvaluationRun> runs = evaluate_charts({file, "sheet.ply", {}, {}});
+  ASSERT_EQ(runs.size(), 2U);
+  for (const TraceSample& s : runs[0].trace) EXPECT_NEAR(s.error, 0, 1e-9);
+  for (const TraceSample& s : runs[1].trace) EXPECT_EQ(s.error, 0);
+  EXPECT_EQ(runs[1].trace.size(), 6U);
+}
+
+TEST(PressWall, HoldsWhatIsSoftAndShakesWhatIsStiff) {
+  const DeviceCaps touch = device_preset("touch").caps();
+  const WallFelt soft = press_wall(touch, {.stiffness = 100}), stiff = press_wall(touch, {.stiffness = 1e5});
+  EXPECT_LT(soft.rest_speed_m_per_s, k_still_m_per_s);
+  EXPECT_EQ(soft.given_j.back(), 0);
+  EXPECT_EQ(soft.given_j.size(), 3000U);
+  EXPECT_NEAR(soft.largest_force_n, 300 * 1e-2 * 100 / 400,
+              1.2);  // two springs in a row, and what the hand brings along
+  EXPECT_GT(stiff.rest_speed_m_per_s, k_still_m_per_s);
+  EXPECT_GT(stiff.given_j.back(), 0.1);
+  const WallFelt clamped = press_wall(touch, {.stiffness = 1e5, .clamp = true});
+  EXPECT_DOUBLE_EQ(clamped.stiffness, stiffness_limit(touch.dynamics, 1e-3, 0));
+  EXPECT_LT(clamped.rest_speed_m_per_s, k_still_m_per_s);
 }
 
 }  // namespace

@@ -45,18 +45,35 @@ TEST_F(EvaluateTexture, SymmetryLeavesLittleOfARegularGrain) {
 TEST_F(EvaluateTexture, HeightKnowsTheErrorOfAReliefAndTheResidualOfAPicture) {
   write_height_float(file("grain.exr"), grain_.relief);
   const std::vector<EvaluationRun> known = evaluate_height({file("grain.exr"), "grain.exr", {}, {}});
-  ASSERT_EQ(known.size(), 9U);
+  ASSERT_EQ(known.size(), 12U);
   const auto least = [](const EvaluationRun& run) {
     return std::min_element(run.trace.begin(), run.trace.end(),
                             [](const TraceSample& a, const TraceSample& b) { return a.error < b.error; })
         ->error;
   };
-  EXPECT_EQ(known[0].method, "variational");
-  EXPECT_LT(least(known[2]), 0.2);
+  EXPECT_EQ(known[8].method, "variational");
+  EXPECT_LT(least(known[8]), 0.2);
+  EXPECT_EQ(known[3].method, "intensity");
+  EXPECT_EQ(known[3].trace.size(), 3U);  // 64, 128 and 144 pixels
   write_grey_image(file("grain.png"), grain_.picture, 8);
   const std::vector<EvaluationRun> unknown = evaluate_height({file("grain.png"), "grain.png", {}, {}});
   ASSERT_EQ(unknown.size(), 3U);
   EXPECT_NE(unknown[0].error_name, known[0].error_name);
+}
+
+TEST_F(EvaluateTexture, NothingBeginsWhenTheTimeIsSpentAndAllIsNamed) {
+  write_height_float(file("grain.exr"), grain_.relief);
+  write_grey_image(file("grain.png"), grain_.picture, 8);
+  const auto expect_named = [](const std::vector<EvaluationRun>& runs) {
+    EXPECT_FALSE(runs.empty());
+    for (const EvaluationRun& run : runs) {
+      EXPECT_TRUE(run.trace.empty()) << run.name();
+      EXPECT_EQ(run.stop, k_time_spent) << run.name();
+    }
+  };
+  expect_named(evaluate_height({file("grain.exr"), "grain.exr", {}, {}, Budget(0)}));
+  expect_named(evaluate_fractal({file("grain.png"), "grain.png", {}, {}, Budget(0)}));
+  expect_named(evaluate_symmetry({file("grain.png"), "grain.png", {}, {}, Budget(0)}));
 }
 
 }  // namespace

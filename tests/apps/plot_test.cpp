@@ -36,10 +36,14 @@ TEST(Plot, DrawsTheSameBytesAgain) {
 TEST(Plot, TakesNamesAsData) {
   if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
   const std::string name = "it's <b>x_1</b> `touch /tmp/never` \"$d0\"\nset output";
-  const auto svg = plot_svg({.title = name, .x_name = name, .y_name = name, .series = {{name, {{0, 1}, {1, 2}}}}});
+  const auto svg = plot_svg({.title = name,
+                             .x_name = name,
+                             .y_name = name,
+                             .series = {{name, {{0, 1}, {1, 2}}}},
+                             .labels = {{name, {1, 1}}}});
   ASSERT_TRUE(svg);
   EXPECT_EQ(svg->find("<b>"), std::string::npos);
-  EXPECT_GE(count(*svg, "it's &lt;b>x_1&lt;/b> `touch /tmp/never`"), 4U);  // title, both axes, legend
+  EXPECT_GE(count(*svg, "it's &lt;b>x_1&lt;/b> `touch /tmp/never`"), 5U);  // title, both axes, legend, label
 }
 
 TEST(Plot, LeavesOutWhatALogarithmicAxisHasNoPlaceFor) {

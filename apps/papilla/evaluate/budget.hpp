@@ -30,4 +30,28 @@ class Budget {
   Stopwatch clock_;
 };
 
+/// A ladder of work whose rungs grow.
+class Rungs {
+ public:
+  /// @param growth a rung is expected to take this many times what the one before took.
+  Rungs(const Budget& budget, double growth) : budget_(budget), growth_(growth) {}
+
+  /// Whether the next rung may begin: the first one while there is time, each further one when it is expected to end.
+  bool next() {
+    const bool allowed = !budget_.spent() && budget_.allows(begun_ ? growth_ * clock_.seconds() : 0);
+    begun_ = true;
+    clock_ = Stopwatch();
+    return allowed;
+  }
+
+ private:
+  const Budget& budget_;
+  double growth_;
+  bool begun_ = false;
+  Stopwatch clock_;
+};
+
+/// Why a method has no sample.
+inline constexpr const char* k_time_spent = "not run: the time was spent";
+
 }  // namespace papilla::app

@@ -28,12 +28,11 @@ std::vector<std::string> meshes(const fs::path& folder) {
   std::vector<std::string> files;
   for (NamedMesh& input : extreme_meshes()) {
     if (!wanted.contains(input.name)) continue;
-    Scene scene;
-    scene.parts.emplace_back();
-    scene.parts[0].name = input.name;
-    scene.parts[0].mesh = std::move(input.mesh);
+    Part part;
+    part.name = input.name;
+    part.mesh = std::move(input.mesh);
     files.push_back((folder / file_name(input.name, ".ply")).string());
-    write_scene(scene, files.back());
+    write_scene(single_part_scene(std::move(part), "PLY"), files.back());
   }
   return files;
 }
@@ -61,7 +60,7 @@ std::vector<std::string> reliefs(const fs::path& folder) {
 }  // namespace
 
 std::vector<std::string> write_built_in_inputs(const std::string& kind, const fs::path& folder) {
-  if (kind == "param" || kind == "weld" || kind == "simplification") return meshes(folder);
+  if (kind == "param" || kind == "charts" || kind == "weld" || kind == "simplification") return meshes(folder);
   if (kind == "fractal" || kind == "symmetry") return pictures(folder, kind == "symmetry");
   if (kind == "height") return reliefs(folder);
   return {};

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "evaluate/evaluation.hpp"
+#include "evaluate/wall.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
 #include "papilla/haptic/stroke.hpp"
@@ -21,7 +22,9 @@ constexpr std::array k_rates_hz = {1000.0, 2000.0, 4000.0, 8000.0, 16000.0};
 constexpr double k_reference_hz = 64000;
 /// Shortest waves that are left of the relief, mm.
 constexpr std::array k_waves_mm = {4.0, 2.0, 1.0, 0.5, 0.2, 0.1};
-constexpr double k_seconds = 1, k_ball_m = 1e-3;
+constexpr std::size_t k_walls_share = 4;  ///< Of the time, for the walls.
+constexpr const char* k_rate_error = "rms force error against the same stroke at 64 kHz [N]";
+constexpr double k_seconds = 1, k_ball_m = 1e-3, k_growth = 2;
 
 struct Felt {
   std::vector<Vec3> force;  ///< At k_base_hz.
@@ -77,8 +80,10 @@ struct Touch {
     return text;
   }
 };
-constexpr std::array<Touch, 6> k_touches = {{{0, true, true},
+constexpr std::array<Touch, 8> k_touches = {{{0, true, true},
                                              {k_ball_m, true, true},
+                                             {0, true, false},
+                                             {k_ball_m, true, false},
                                              {0, false, true},
                                              {k_ball_m, false, true},
                                              {0, false, false},
@@ -99,11 +104,12 @@ Stage stage_of(const Scene& scene, const std::string& file, const Touch& touch, 
 }
 
 EvaluationRun over_rates(const EvaluationInput& input, const Touch& touch, const Stage& stage, const Trajectory& hand) {
-  EvaluationRun run{"proxy", touch.name(), input.name, "rms force error against the same stroke at 64 kHz [N]",
-                    {},      "direct"};
+  EvaluationRun run{"proxy", touch.name(), input.name, k_rate_error, {}, "direct"};
   const Felt reference = feel(stage.surface, hand, k_reference_hz);
   run.notes = fmt::format("rms force {:.3g} N; ", rms(reference));
+  Rungs rungs(input.budget, k_growth);
   for (const double rate : k_rates_hz) {
+    if (!rungs.next()) break;
     const Felt felt = feel(stage.surface, hand, rate);
     run.trace.push_back({felt.tick_seconds, rms_difference(felt, reference)});
     run.notes += fmt::format("{:g} kHz: {:.2g} µs a tick, {} contacts lost; ", rate / 1000,
@@ -120,8 +126,9 @@ EvaluationRun over_detail(const EvaluationInput& input, const Scene& scene, cons
                           const Felt& whole) {
   EvaluationRun run{"relief", touch.name(), input.name, "rms force error against the whole relief, 1 kHz [N]",
                     {},       "direct"};
+  Rungs rungs(input.budget, k_growth);
   for (const double wave : k_waves_mm) {
-    if (input.budget.spent()) break;
+    if (!rungs.next()) break;
     const Stage stage = stage_of(scene, input.file, touch, 1e-3 * wave);
     const Felt felt = feel(stage.surface, hand, k_base_hz);
     run.trace.push_back({felt.tick_seconds, rms_difference(felt, whole)});
@@ -135,15 +142,26 @@ EvaluationRun over_detail(const EvaluationInput& input, const Scene& scene, cons
 std::vector<EvaluationRun> evaluate_contact(const EvaluationInput& input) {
   const Scene scene = read_gltf(input.file);
   std::vector<EvaluationRun> runs;
+  std::vector<EvaluationRun> walls;
   for (const Touch& touch : k_touches) {
+    if (input.budget.spent()) {
+      runs.push_back({"proxy", touch.name(), input.name, k_rate_error, {}, k_time_spent});
+      continue;
+    }
     const Stage stage = stage_of(scene, input.file, touch, 0);
+    if (walls.empty()) {
+      EvaluationInput of_walls = input;
+      of_walls.budget = input.budget.share(k_walls_share);
+      walls = wall_runs(of_walls, stage.surface.material(stage.material).damping);
+    }
     const Trajectory hand = press_and_stroke(stage.surface, stage.material, stage.centre, {.seconds = k_seconds});
     runs.push_back(over_rates(input, touch, stage, hand));
     if (touch.relief) runs.push_back(over_detail(input, scene, touch, hand, feel(stage.surface, hand, k_base_hz)));
     if (input.progress)
       input.progress("contact",
-                     static_cast<double>(&touch - k_touches.data() + 1) / static_cast<double>(k_touches.size()));
+                     static_cast<double>(&touch - k_touches.data() + 1) / static_cast<double>(k_touches.size() + 1));
   }
+  std::move(walls.begin(), walls.end(), std::back_inserter(runs));
   return runs;
 }
 

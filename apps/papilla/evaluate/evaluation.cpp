@@ -9,15 +9,17 @@
 namespace papilla::app {
 namespace {
 
-constexpr std::array<EvaluationKind, 8> k_kinds = {{
+constexpr std::array<EvaluationKind, 9> k_kinds = {{
     {"param", "every method of unwrap on one chart: distortion against run time", evaluate_param},
     {"weld", "tolerance of the weld against boundary edges left and deviation", evaluate_weld},
+    {"charts", "cost of seams against distortion of the charts and length of the seams", evaluate_charts},
     {"simplification", "tolerance of simplify against triangles left and deviation", evaluate_simplification},
     {"tessellation", "chord of CAD tessellation against deviation", evaluate_tessellation},
     {"fractal", "size of the picture against the interval of every fractal dimension", evaluate_fractal},
     {"symmetry", "size of the picture against what the lattice leaves unexplained", evaluate_symmetry},
-    {"height", "steps of shape from shading against depth error or residual", evaluate_height},
-    {"contact", "rate of the loop against the error of the force, on a tagged glTF file", evaluate_contact},
+    {"height", "steps of shape from shading, or size of the picture, against depth error or residual", evaluate_height},
+    {"contact", "rate of the loop against the error of the force, and where walls shake, on a tagged glTF file",
+     evaluate_contact},
 }};
 
 /// The time of every sample: the median over the repeats that have it.

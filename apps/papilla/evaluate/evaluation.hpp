@@ -55,8 +55,11 @@ struct EvaluationKind {
 std::vector<EvaluationRun> evaluate_weld(const EvaluationInput& input);
 /// simplify(): triangles and deviation for a ladder of tolerances.
 std::vector<EvaluationRun> evaluate_simplification(const EvaluationInput& input);
-/// read_cad(): deviation for a ladder of chords. Takes CAD files only.
+/// read_cad(): deviation for a ladder of chords, and the distortion of the surfaces' own u and v. Takes CAD files only.
 std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input);
+
+/// segment_charts(): distortion and seams for a ladder of seam costs.
+std::vector<EvaluationRun> evaluate_charts(const EvaluationInput& input);
 
 /// All ways to map one chart: error for a ladder of iterations, and the methods' own traces.
 std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input);
@@ -64,12 +67,17 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input);
 std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input);
 /// Both ways to a lattice and both feature matrices on growing middle parts of a picture: what stays unexplained.
 std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input);
-/// All shape-from-shading methods: the depth error over growing numbers of steps for a relief in millimetres (a float
-/// picture, .exr or .tif, lit from three sides), the residual of each step for any other picture.
+/// All ways from a picture to heights: the depth error over growing numbers of steps, or over growing middle parts for
+/// methods without steps, for a relief in millimetres (a float picture, .exr or .tif, lit from three sides); the
+/// residual of each step of shape from shading for any other picture.
 std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input);
 /// The contact on a glTF file with haptic tags: a stroke felt at growing rates, against the same stroke at the
-/// highest one; the time is that of all ticks of a second.
+/// highest one; the time is that of all ticks of a second. Then a wall of its largest material on each simulated
+/// device: where it begins to shake, and what passivity control does there.
 std::vector<EvaluationRun> evaluate_contact(const EvaluationInput& input);
+
+/// What a method on a picture of twice the side is expected to take more.
+inline constexpr double k_growth_by_side = 4.5;
 
 /// 64, 128, … and the side itself, at most 4096.
 std::vector<int> rising_sides(int shorter_side);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "evaluate/evaluation_files.hpp"
+#include "evaluate/pareto.hpp"
 #include "pictures/plot.hpp"
 
 namespace papilla::app {
@@ -34,6 +35,33 @@ std::string legend_of(const EvaluationGroup& group, const EvaluationRun& run) {
   return on_front ? run.name() + " *" : run.name();
 }
 
+/// The names of those on the front at the places where each of them first is on it. Nothing lies left of and below the
+/// front, so that is where the names have room: the axes begin so much earlier that the first one fits.
+void name_front(const EvaluationGroup& group, double floor, Plot& plot) {
+  constexpr double k_room_x = 0.45, k_room_y = 0.15, k_line = 0.045;  // of what the points take
+  Vec2 low{INFINITY, INFINITY}, high{0, 0};
+  for (const PlotSeries& series : plot.series)
+    for (const Vec2 p : series.points) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  if (group.front.empty() || !std::isfinite(low.x)) return;
+  const double decades = std::max(std::log10(high.y / low.y), 0.3),
+               decades_x = std::max(std::log10(high.x / low.x), 1.0);
+  plot.low = {low.x * std::pow(10, -k_room_x * decades_x), low.y * std::pow(10, -k_room_y * decades)};
+  plot.high = {1.2 * high.x, high.y * std::pow(10, 0.04 * decades)};
+  std::vector<std::string> named;
+  double last_y = INFINITY;
+  for (const TraceSample& s : group.front)
+    for (const EvaluationRun* run : group.runs) {
+      if (!run->valid || !reaches_front(run->trace, {s})) continue;
+      if (std::find(named.begin(), named.end(), run->name()) != named.end()) continue;
+      named.push_back(run->name());
+      last_y = std::min(std::max(s.error, floor), last_y * std::pow(10, -k_line * decades));
+      plot.labels.push_back({run->name(), {std::max(s.seconds, 1e-9), last_y}});
+    }
+}
+
 Plot curves_of(const EvaluationGroup& group) {
   Plot plot{.title = group.input, .x_name = "run time [s]", .y_name = group.error_name, .log_x = true, .log_y = true};
   plot.height_px = std::max(520, 120 + 17 * static_cast<int>(group.runs.size()));
@@ -47,6 +75,7 @@ Plot curves_of(const EvaluationGroup& group) {
       if (run.repeats.size() > 1)
         plot.series.push_back({"", points_of(repeat, floor), Style::points, static_cast<int>(i)});
   }
+  name_front(group, floor, plot);
   return plot;
 }
 

@@ -2,34 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "evaluate/evaluation.hpp"
+#include "evaluate/picture_methods.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/texture/best_dimension.hpp"
-#include "papilla/texture/box_dimension.hpp"
 #include "papilla/texture/crop.hpp"
-#include "papilla/texture/fshot_dimension.hpp"
-#include "papilla/texture/probability_dimension.hpp"
 
 namespace papilla::app {
-namespace {
-
-struct Method {
-  const char* name;
-  int least_side;
-  FractalEstimate (*estimate)(const GreyImage&);
-};
-constexpr std::array<Method, 6> k_methods = {
-    {{"box", 32, box_dimension},
-     {"information", 32, information_dimension},
-     {"correlation", 32, correlation_dimension},
-     {"probability", 66, [](const GreyImage& image) { return probability_dimension(image); }},
-     {"fshot", 32, [](const GreyImage& image) { return fshot_dimension(image).estimate; }},
-     {"best", 32, [](const GreyImage& image) { return best_dimension(image).estimate; }}}};
-
-}  // namespace
-
 std::vector<int> rising_sides(int shorter_side) {
   constexpr int k_first = 64, k_last = 4096;
   std::vector<int> sides;
@@ -42,20 +21,24 @@ std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
   const GreyImage image = read_grey_image(input.file);
   const std::vector<int> sides = rising_sides(std::min(image.width, image.height));
   std::vector<EvaluationRun> runs;
-  for (const Method& method : k_methods) {
+  for (const FractalMethod& method : fractal_methods()) {
     EvaluationRun run{method.name, "analyze", input.name, "half width of the 95 % interval of the dimension",
                       {},          "direct",  ""};
+    Rungs rungs(input.budget, k_growth_by_side);
     for (const int side : sides) {
       if (side < method.least_side) continue;
+      if (!rungs.next()) break;
       const GreyImage part = middle_part(image, side);
       const Stopwatch clock;
       const FractalEstimate estimate = method.estimate(part);
       run.trace.push_back({clock.seconds(), (estimate.high - estimate.low) / 2});
       run.notes += fmt::format("middle {} pixels: D {:.4f}; ", side, estimate.dimension);
     }
+    if (run.trace.empty()) run.stop = k_time_spent;
     runs.push_back(std::move(run));
     if (input.progress)
-      input.progress("fractal dimension", static_cast<double>(runs.size()) / static_cast<double>(k_methods.size()));
+      input.progress("fractal dimension",
+                     static_cast<double>(runs.size()) / static_cast<double>(fractal_methods().size()));
   }
   return runs;
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "evaluate/environment.hpp"
 #include "evaluate/evaluation.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/scene_file.hpp"
@@ -26,7 +27,7 @@ constexpr std::array k_iterations = {1, 2, 5, 10, 20, 50, 100, 200, 500};
 /// Gauss-Seidel moves one vertex at a time: sweeps per iteration of the others.
 constexpr int k_sweeps = 20;
 
-/// A rung is expected to take this many times what the one before took.
+/// A rung is expected to take this many times what the one before took, its measurement included.
 constexpr double k_growth = 2.5;
 
 /// Edges of the shares of the symmetric Dirichlet energy above 4: two a decade.
@@ -71,7 +72,10 @@ Chart largest_chart(const TriangleMesh& mesh, const ChartSet& charts) {
       v = number[v];
     }
     chart.mesh.triangles.push_back(corners);
+    if (!open.face.empty()) chart.mesh.face.push_back(open.face[t]);
+    if (!open.cad_uv.empty()) chart.mesh.cad_uv.indices.push_back(open.cad_uv.indices[t]);
   }
+  chart.mesh.cad_uv.values = open.cad_uv.values;
   chart.charts = one_chart(chart.mesh);
   return chart;
 }
@@ -163,7 +167,7 @@ std::vector<Variant> levy_variants() {
           levy("gauss-seidel, smooth on a circle", descent, true)};
 }
 
-std::vector<Variant> variants() {
+std::vector<Variant> variants(bool has_cad_parameters) {
   std::vector<Variant> all{reference("tutte", ReferenceMap::tutte, false),
                            reference("mvc", ReferenceMap::mean_value, false), lscm(LscmSolver::cgal, "cgal"),
                            lscm(LscmSolver::hermitian, "hermitian"), reference("arap", ReferenceMap::arap, true)};
@@ -198,6 +202,9 @@ std::vector<Variant> variants() {
                  [](const TriangleMesh& mesh, int) { return flatten_triplanar(mesh).flattening; },
                  false,
                  {}});
+  if (has_cad_parameters)
+    all.push_back(
+        {"natural", "", false, [](const TriangleMesh& mesh, int) { return flatten_natural(mesh); }, false, {}});
   for (const auto& [name, shape] : {std::pair{"sphere", IntermediateShape::sphere},
                                     {"cylinder", IntermediateShape::cylinder},
                                     {"cone", IntermediateShape::cone},
@@ -246,51 +253,72 @@ std::string describe(const DistortionReport& r, const Flattening& f) {
   return text;
 }
 
-void add_runs(const Variant& variant, const Chart& chart, const std::string& input, const Budget& budget,
-              std::vector<EvaluationRun>& runs) {
-  EvaluationRun dirichlet{variant.method, variant.solver, input, "symmetric Dirichlet - 4", {}, {}};
-  EvaluationRun lengths = dirichlet;
-  lengths.error_name = "Maillot's length energy / sum of squared edges";
-  Trace own;
-  double expected_s = 0;
-  for (const int iterations : k_iterations) {
-    if (!budget.allows(expected_s)) {
-      if (dirichlet.stop.empty()) dirichlet.stop = lengths.stop = "not run: the time was spent";
-      break;
-    }
+/// The runs of a variant: the distortion, Maillot's lengths and, where it tells more, what the method itself minimises.
+class VariantRuns {
+ public:
+  VariantRuns(const Variant& variant, const Chart& chart, const std::string& input)
+      : variant_(variant),
+        chart_(chart),
+        input_(input),
+        dirichlet_{variant.method, variant.solver, input, "symmetric Dirichlet - 4", {}, {}},
+        lengths_(dirichlet_) {
+    lengths_.error_name = "Maillot's length energy / sum of squared edges";
+  }
+
+  /// Rung by rung, as long as the time is expected to do.
+  void climb(const Budget& budget) {
+    Rungs rungs(budget, k_growth);
+    for (const int iterations : k_iterations)
+      if (!rungs.next() || !step(iterations)) break;
+    if (dirichlet_.stop.empty()) say(k_time_spent, chart_.notes);
+  }
+
+  void move_to(std::vector<EvaluationRun>& runs) {
+    if (variant_.keeps_trace && own_.size() > 1)
+      runs.push_back(
+          {variant_.method, variant_.solver, input_, variant_.own_error, own_, dirichlet_.stop, dirichlet_.notes});
+    runs.push_back(std::move(dirichlet_));
+    runs.push_back(std::move(lengths_));
+  }
+
+ private:
+  void say(const std::string& stop, const std::string& notes) {
+    dirichlet_.stop = lengths_.stop = stop;
+    dirichlet_.notes = lengths_.notes = notes;
+  }
+
+  /// @returns whether more iterations may change anything.
+  bool step(int iterations) {
     Flattening flattening;
     const Stopwatch clock;
     try {
-      flattening = variant.run(chart.mesh, iterations);
+      flattening = variant_.run(chart_.mesh, iterations);
     } catch (const SolverFailure& error) {
-      dirichlet.notes = lengths.notes = fmt::format("{} iterations: {}; {}", iterations, error.what(), chart.notes);
-      dirichlet.stop = lengths.stop = "no result";
-      expected_s = k_growth * clock.seconds();
-      if (!variant.iterates) break;
-      continue;  // more iterations may undo the flips
+      say("no result", fmt::format("{} iterations: {}; {}", iterations, error.what(), chart_.notes));
+      return variant_.iterates;  // more iterations may undo the flips
     }
     const double seconds = clock.seconds();
-    expected_s = k_growth * seconds;
-    const DistortionReport report = measure_distortion(chart.mesh, flattening.uv);
+    const DistortionReport report = measure_distortion(chart_.mesh, flattening.uv);
     const double error = report.symmetric_dirichlet.mean - 4;
-    const bool same = !dirichlet.trace.empty() && dirichlet.trace.back().error == error;
+    const bool same = !dirichlet_.trace.empty() && dirichlet_.trace.back().error == error;
     if (!same) {
-      dirichlet.trace.push_back({seconds, error});
-      lengths.trace.push_back({seconds, report.maillot_length});
+      dirichlet_.trace.push_back({seconds, error});
+      lengths_.trace.push_back({seconds, report.maillot_length});
     }
-    dirichlet.stop = lengths.stop = to_string(flattening.stop);
-    dirichlet.notes = lengths.notes = describe(report, flattening) + "; " + chart.notes;
-    dirichlet.valid = lengths.valid = is_valid(report);
-    dirichlet.shares = shares_of(report);
-    if (flattening.charts.count > 1) dirichlet.input = lengths.input = input + ", in several pieces";
-    own = flattening.trace;
-    if (!variant.iterates || same) break;
+    say(std::string(to_string(flattening.stop)), describe(report, flattening) + "; " + chart_.notes);
+    dirichlet_.valid = lengths_.valid = is_valid(report);
+    dirichlet_.shares = shares_of(report);
+    if (flattening.charts.count > 1) dirichlet_.input = lengths_.input = input_ + ", in several pieces";
+    own_ = flattening.trace;
+    return variant_.iterates && !same;
   }
-  if (variant.keeps_trace && own.size() > 1)
-    runs.push_back({variant.method, variant.solver, input, variant.own_error, own, dirichlet.stop, dirichlet.notes});
-  runs.push_back(std::move(dirichlet));
-  runs.push_back(std::move(lengths));
-}
+
+  const Variant& variant_;
+  const Chart& chart_;
+  std::string input_;
+  EvaluationRun dirichlet_, lengths_;
+  Trace own_;
+};
 
 }  // namespace
 
@@ -301,12 +329,16 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input) {
     throw InvalidInput(input.file + ": no part has triangles to map");
   const Part& part = scene.parts[largest.front()];
   const Chart chart = chart_of(part.mesh);
-  const std::vector<Variant> all = variants();
+  const std::vector<Variant> all = variants(!chart.mesh.cad_uv.empty());
+  const std::string name = input_name(input, part.name);
   std::vector<EvaluationRun> runs;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (input.progress) input.progress("evaluate", static_cast<double>(i) / static_cast<double>(all.size()));
-    add_runs(all[i], chart, input_name(input, part.name), input.budget.share(all.size() - i), runs);
+    VariantRuns of_variant(all[i], chart, name);
+    of_variant.climb(input.budget.share(all.size() - i));
+    of_variant.move_to(runs);
   }
+  runs.push_back(environment_run(chart.mesh, name, input.budget));
   return runs;
 }
 

@@ -16,16 +16,22 @@ constexpr std::size_t k_most_parts = 5;
 constexpr std::array<double, 7> k_tolerances = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2};
 
 /// Two curves over the ladder, and one a tolerance over the passes.
-void add_runs(const std::string& name, const TriangleMesh& mesh, int passes, std::vector<EvaluationRun>& runs) {
+void add_runs(const std::string& name, const TriangleMesh& mesh, int passes, const Budget& budget,
+              std::vector<EvaluationRun>& runs) {
   const double diagonal = bounding_diagonal_mm(mesh);
   if (!(diagonal > 0)) return;
   std::vector<double> tolerances;
   for (const double relative : k_tolerances) tolerances.push_back(relative * diagonal);
   SimplifyOptions options;
   options.passes = passes;
-  const std::vector<SimplifyStep> steps = simplify_ladder(mesh, tolerances, options);
   const std::string solver = fmt::format("{} pass{}", passes, passes == 1 ? "" : "es");
   EvaluationRun triangles{"simplification", solver + ", tolerances", name, "triangles left / before", {}, "direct", ""};
+  if (budget.spent()) {
+    triangles.stop = k_time_spent;
+    runs.push_back(std::move(triangles));
+    return;
+  }
+  const std::vector<SimplifyStep> steps = simplify_ladder(mesh, tolerances, options);
   EvaluationRun deviation = triangles;
   deviation.error_name = "measured deviation [mm]";
   for (const SimplifyStep& step : steps) {
@@ -50,7 +56,7 @@ std::vector<EvaluationRun> evaluate_simplification(const EvaluationInput& input)
   std::vector<EvaluationRun> runs;
   for (const std::uint32_t number : largest_parts(scene, k_most_parts))
     for (const int passes : {1, 2, 4})
-      add_runs(input_name(input, scene.parts[number].name), scene.parts[number].mesh, passes, runs);
+      add_runs(input_name(input, scene.parts[number].name), scene.parts[number].mesh, passes, input.budget, runs);
   return runs;
 }
 

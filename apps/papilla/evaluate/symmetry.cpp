@@ -31,7 +31,9 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input) {
   for (const Variant& variant : k_variants) {
     EvaluationRun run{variant.name, "analyze", input.name, "share of the variance that the lattice does not explain",
                       {},           "direct",  ""};
+    Rungs rungs(input.budget, k_growth_by_side);
     for (const int side : rising_sides(std::min({image.width, image.height, variant.most_side}))) {
+      if (!rungs.next()) break;
       const GreyImage part = middle_part(image, side);
       const Stopwatch clock;
       const SymmetryAnalysis analysis = analyze_symmetry(part, {.method = variant.method}, variant.feature);
@@ -45,6 +47,7 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input) {
       run.notes += fmt::format("({:.3f}, {:.3f}), ({:.3f}, {:.3f}) {}; ", a.x, a.y, b.x, b.y,
                                to_string(find_wallpaper_group(*analysis.part, analysis.lattice.vectors_px).group));
     }
+    if (run.trace.empty()) run.stop = k_time_spent;
     runs.push_back(std::move(run));
     if (input.progress)
       input.progress("symmetry", static_cast<double>(runs.size()) / static_cast<double>(k_variants.size()));

@@ -84,6 +84,11 @@ std::string axes_of(const Plot& plot) {
            "unset border\nunset xtics\nunset ytics\nset rtics\n" +
            (plot.radius > 0 ? fmt::format("set rrange [0:{}]\n", plot.radius) : std::string());
   script += "set grid lc rgb '#dddddd'\nset mytics\nset autoscale xfix\n";
+  if (plot.low.x < plot.high.x) script += fmt::format("set xrange [{:.9g}:{:.9g}]\n", plot.low.x, plot.high.x);
+  if (plot.low.y < plot.high.y) script += fmt::format("set yrange [{:.9g}:{:.9g}]\n", plot.low.y, plot.high.y);
+  for (const PlotLabel& label : plot.labels)
+    script += fmt::format("set label {} at {:.9g},{:.9g} right offset -0.3,-0.7 noenhanced front\n", quoted(label.text),
+                          label.at.x, label.at.y);
   if (plot.x_labels.empty()) return script;
   script += "set xtics rotate by -40 noenhanced (";
   for (std::size_t i = 0; i < plot.x_labels.size(); ++i)
@@ -96,7 +101,7 @@ std::string script_of(const Plot& plot) {
   std::string script = fmt::format(
       "set terminal svg size {},{} dynamic enhanced background 'white' font 'sans-serif,12'\nset encoding utf8\n"
       "set output 'plot.svg'\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n"
-      "set key outside right top noenhanced\n",
+      "set key outside right top Left reverse noenhanced\n",
       plot.width_px, plot.height_px, quoted(plot.title), quoted(plot.x_name), quoted(plot.y_name));
   script += axes_of(plot);
   std::string command;

@@ -21,6 +21,12 @@ struct PlotSeries {
                  ///< vision [Okabe and Ito 2008], then the same ones dashed.
 };
 
+/// Words in a plot, which end at a point in the axes' units, below it.
+struct PlotLabel {
+  std::string text;
+  Vec2 at;
+};
+
 /// A plot of any number of series. In polar plots x is the angle in degrees, clockwise from
 /// the right, and y the radius.
 struct Plot {
@@ -30,6 +36,8 @@ struct Plot {
   double radius = 0;                       ///< Of a polar plot; 0: as the points need it.
   std::vector<std::string> x_labels = {};  ///< In place of numbers: label i stands at x = i.
   std::vector<PlotSeries> series = {};
+  std::vector<PlotLabel> labels = {};
+  Vec2 low = {}, high = {};  ///< Ends of both axes; where they are equal the points decide.
   int width_px = 960, height_px = 520;
 };
 

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -11,11 +12,13 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
+#include "pictures/border_edges.hpp"
 #include "pictures/mip_pyramid.hpp"
 
 namespace papilla::app {
 namespace {
 
+constexpr Vec3 k_clay{0.42, 0.44, 0.47};
 constexpr double k_field_of_view = 0.6;  // radians, vertical: about the perspective of a 50 mm lens
 
 struct Camera {
@@ -28,10 +31,10 @@ struct Camera {
 struct Surface {
   Vec3 color{1, 1, 1};
   double roughness = 0.8, metallic = 0;
-  std::shared_ptr<const MipPyramid> color_map, normal_map;
-  TextureTransform color_transform, normal_transform;
+  std::shared_ptr<const MipPyramid> color_map = {}, normal_map = {};
+  TextureTransform color_transform = {}, normal_transform = {};
   double normal_scale = 1;
-  Vec2 mm_per_uv;
+  Vec2 mm_per_uv = {};
 };
 
 struct Vertex {
@@ -53,6 +56,7 @@ struct TriangleSetup {
   Vec3 tangent, bitangent;
   bool has_uv = false;
   double uv_area_per_sample = 0;
+  std::array<bool, 3> border{};  ///< From corner k to the next one; of RenderMode::triangles.
 };
 
 class Pyramids {
@@ -89,7 +93,8 @@ Surface make_surface(const Scene& scene, std::size_t index, const RenderOptions&
   surface.roughness = material.roughness;
   surface.metallic = material.metallic;
   if (index < options.mm_per_uv.size()) surface.mm_per_uv = options.mm_per_uv[index];
-  if (options.mode == RenderMode::checker) return surface;
+  if (options.mode == RenderMode::triangles) return {.color = k_clay};
+  if (options.mode != RenderMode::material) return surface;
   surface.color_map = pyramids.get(material.base_color_texture, true);
   surface.normal_map = pyramids.get(material.normal_texture, false);
   if (material.base_color_texture && material.base_color_texture->transform)
@@ -225,6 +230,20 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
   return (diffuse * (1 - 0.4 * surface.metallic)) * color + highlight * Vec3{1, 1, 1};
 }
 
+/// What the edges of the triangle make of the colour of a sample, whose barycentric coordinates on the screen these are.
+Vec3 with_edges(const TriangleSetup& t, const double (&screen)[3], Vec3 color, int samples) {
+  constexpr double k_border_px = 1.6, k_edge_px = 0.6, k_edge_share = 0.55;
+  constexpr Vec3 k_border{0.75, 0.06, 0.02}, k_edge{0.02, 0.03, 0.05};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vertex &a = t.v[k], &b = t.v[(k + 1) % 3];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double distance_px = screen[(k + 2) % 3] * std::abs(t.doubled_area) / std::max(length, 1e-9) / samples;
+    if (t.border[k] && distance_px < k_border_px) return k_border;
+    if (distance_px < k_edge_px) color = (1 - k_edge_share) * color + k_edge_share * k_edge;
+  }
+  return color;
+}
+
 /// Fills the samples of the rows [row_begin, row_end) that the triangle covers and nothing nearer does.
 void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions& options, int width, int row_begin,
                int row_end, std::vector<Sample>& samples) {
@@ -252,14 +271,16 @@ void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions
       if (static_cast<float>(inverse_depth) <= sample.inverse_depth) continue;
       double weight[3];
       for (int k = 0; k < 3; ++k) weight[k] = screen[k] * t.v[k].inverse_depth / inverse_depth;
-      const Vec3 color = shade(t, weight, camera, options);
+      Vec3 color = shade(t, weight, camera, options);
+      if (options.mode == RenderMode::triangles) color = with_edges(t, screen, color, options.samples);
       sample = {static_cast<float>(inverse_depth), static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
     }
   }
 }
 
 std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vector<Instance>& uses,
-                                            const std::vector<Surface>& surfaces, const Surface& plain) {
+                                            const std::vector<Surface>& surfaces, const Surface& plain,
+                                            bool with_borders) {
   std::vector<TriangleSetup> triangles;
   const Transform turn = to_y_up(scene.up);
   for (const Instance& use : uses) {
@@ -267,6 +288,7 @@ std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vecto
     const TriangleMesh& mesh = part.mesh;
     const Transform world = multiply(turn, use.world);
     const Vec3 origin = transform_point(world, {});
+    const auto borders = with_borders ? border_edges(mesh.triangles) : std::vector<std::array<bool, 3>>();
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       TriangleSetup t;
       const std::uint32_t slot = mesh.material.empty() ? 0 : mesh.material[i];
@@ -282,6 +304,7 @@ std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vecto
         if (mesh.normals.has_value(i))
           t.v[k].normal = normalized(transform_point(world, mesh.normals.values[mesh.normals.indices[i][k]]) - origin);
       }
+      if (with_borders) t.border = borders[i];
       tangent_frame(t);
       triangles.push_back(t);
     }
@@ -323,8 +346,9 @@ ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
   Pyramids pyramids(scene);
   std::vector<Surface> surfaces;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) surfaces.push_back(make_surface(scene, m, options, pyramids));
-  const Surface plain;
-  std::vector<TriangleSetup> triangles = set_up_triangles(scene, instances(scene), surfaces, plain);
+  const Surface plain{.color = options.mode == RenderMode::triangles ? k_clay : Vec3{1, 1, 1}};
+  std::vector<TriangleSetup> triangles = set_up_triangles(
+      scene, instances(scene), surfaces, plain, options.mode == RenderMode::triangles);
   if (triangles.empty()) throw InvalidInput("render_scene: the scene has no triangle");
 
   const Camera camera = place_camera(scene, triangles, options);

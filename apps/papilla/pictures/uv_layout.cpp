@@ -6,15 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <string_view>
+
+#include "pictures/border_edges.hpp"
+#include "pictures/pixel_text.hpp"
 
 namespace papilla::app {
 namespace {
 
 constexpr Rgb k_ink = {0, 0, 0}, k_wrong = {220, 30, 30};
-constexpr int k_margin = 16, k_legend_height = 64, k_bar_height = 18;
+constexpr int k_margin = 16, k_legend_height = 64, k_bar_height = 18, k_letters_scale = 2;
 
 /// Viridis at nine even steps (S. van der Walt, N. Smith, 2015, CC0).
 constexpr std::array<Rgb, 9> k_viridis = {{{68, 1, 84},
@@ -79,58 +80,6 @@ void draw_line(Canvas& canvas, Vec2 a, Vec2 b, double width, const Rgb& colour) 
   fill_triangle(canvas, {a - side, b + side, a + side}, colour);
 }
 
-/// Corner k of triangle t to the next one is an edge of one triangle in uv.
-std::vector<std::array<Index, 2>> border_edges(const CornerAttribute<Vec2>& uv) {
-  std::vector<std::array<Index, 4>> edges;  // low, high, from, to
-  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
-    if (!uv.has_value(t)) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index a = uv.indices[t][k], b = uv.indices[t][(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), a, b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  std::vector<std::array<Index, 2>> borders;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto same = [&](std::size_t j) { return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1]; };
-    if ((i > 0 && same(i - 1)) || (i + 1 < edges.size() && same(i + 1))) continue;
-    borders.push_back({edges[i][2], edges[i][3]});
-  }
-  return borders;
-}
-
-/// 3 × 5 pixels a character, a row in the low three bits.
-std::array<std::uint8_t, 5> glyph(char c) {
-  switch (c) {
-    case '0': return {7, 5, 5, 5, 7};
-    case '1': return {2, 6, 2, 2, 7};
-    case '2': return {7, 1, 7, 4, 7};
-    case '3': return {7, 1, 7, 1, 7};
-    case '4': return {5, 5, 7, 1, 1};
-    case '5': return {7, 4, 7, 1, 7};
-    case '6': return {7, 4, 7, 5, 7};
-    case '7': return {7, 1, 2, 2, 2};
-    case '8': return {7, 5, 7, 5, 7};
-    case '9': return {7, 5, 7, 1, 7};
-    case '.': return {0, 0, 0, 0, 2};
-    case '+': return {0, 2, 7, 2, 0};
-    case '-': return {0, 0, 7, 0, 0};
-    default: return {0, 0, 0, 0, 0};
-  }
-}
-
-void draw_text(Canvas& canvas, int centre, int top, std::string_view text) {
-  constexpr int scale = 2, advance = 4 * scale;
-  int left = centre - static_cast<int>(text.size()) * advance / 2;
-  for (const char c : text) {
-    const auto rows = glyph(c);
-    for (int y = 0; y < 5 * scale; ++y)
-      for (int x = 0; x < 3 * scale; ++x)
-        if (rows[static_cast<std::size_t>(y / scale)] >> (2 - x / scale) & 1) canvas.set(left + x, top + y, k_ink);
-    left += advance;
-  }
-}
-
 void draw_legend(Canvas& canvas, int top, double worst) {
   const int left = 2 * k_margin, right = canvas.image.width - 2 * k_margin;
   for (int x = left; x < right; ++x)
@@ -140,8 +89,8 @@ void draw_legend(Canvas& canvas, int top, double worst) {
     const double part = static_cast<double>(i) / ticks;
     const int x = left + static_cast<int>(std::lround(part * (right - 1 - left)));
     for (int y = 0; y < 5; ++y) canvas.set(x, top + k_bar_height + y, k_ink);
-    draw_text(canvas, x, top + k_bar_height + 8,
-              fmt::format("{:.2f}{}", 4 + part * (worst - 4), i == ticks ? "+" : ""));
+    draw_text(fmt::format("{:.2f}{}", 4 + part * (worst - 4), i == ticks ? "+" : ""), x, top + k_bar_height + 8,
+              k_letters_scale, [&](int px, int py) { canvas.set(px, py, k_ink); });
   }
 }
 
@@ -203,7 +152,11 @@ ColorImage draw_uv_layout(const CornerAttribute<Vec2>& uv, const DistortionRepor
     fill_triangle(fine, {place(uv.indices[t][0]), place(uv.indices[t][1]), place(uv.indices[t][2])},
                   distortion_colour(report.per_triangle[t], options.worst));
   }
-  for (const auto& [from, to] : border_edges(uv)) draw_line(fine, place(from), place(to), options.samples, k_ink);
+  const std::vector<std::array<bool, 3>> borders = border_edges(uv.indices);
+  for (std::size_t t = 0; t < borders.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (borders[t][k])
+        draw_line(fine, place(uv.indices[t][k]), place(uv.indices[t][(k + 1) % 3]), options.samples, k_ink);
   Canvas canvas(width, height + k_legend_height);
   shrink(fine, options.samples, canvas);
   draw_legend(canvas, height + k_margin / 2, options.worst);

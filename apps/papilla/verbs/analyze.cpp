@@ -14,6 +14,7 @@
 #include "papilla/texture/analysis_pictures.hpp"
 #include "papilla/texture/frieze_group.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
+#include "pictures/pixel_text.hpp"
 #include "pictures/texture_plots.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -217,7 +218,9 @@ void write_pictures(const Arguments& arguments, const TextureSurvey& survey, con
     console.print(fmt::format("written    {}\n", file));
   };
   json["pictures"] = Json::array();
-  write_color_image(path("symmetry.png"), symmetry_strip(*survey.symmetry));
+  std::vector<std::string> captions = {"picture", "feature matrix", "no lattice", "", ""};
+  if (survey.symmetry->part) captions = {"lattice", "feature matrix", "primitive", "synthesis", "rest"};
+  write_color_image(path("symmetry.png"), with_captions(symmetry_strip(*survey.symmetry), captions));
   written("symmetry", path("symmetry.png"));
   console.print(
       "           from the left: picture with lattice, feature matrix with minima, primitive, synthesis, rest\n");

@@ -24,13 +24,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* k_stability = "stability";
+constexpr double k_file_seconds = 60;
 
 struct EvaluateOptions {
   std::string kind, folder;
   std::vector<std::string> files;
   SceneOptions read;
   int repeats = 3;
-  double seconds = 60;
+  std::optional<double> given_seconds;
+
+  double seconds() const { return given_seconds.value_or(kind == k_stability ? k_stability_seconds : k_file_seconds); }
 };
 
 const EvaluationKind& kind_of(const std::string& name) {
@@ -74,7 +77,7 @@ Json heading(const VerbContext& context, const EvaluateOptions& options) {
           {"options",
            {{"files", options.files},
             {"repeats", options.repeats},
-            {"seconds", options.seconds},
+            {"seconds", options.seconds()},
             {"threads", context.threads},
             {"seed", context.seed},
             {"chord_mm", options.read.chord_mm},
@@ -109,9 +112,10 @@ Json evaluate_files(VerbContext& context, EvaluateOptions options) {
   Json json = heading(context, options);
   std::vector<EvaluationRun> runs;
   for (const std::string& file : options.files) {
-    std::vector<EvaluationRun> more = run_repeatedly(
-        kind_of(options.kind),
-        {file, name_of(file, options.files), options.read, context.progress, Budget(options.seconds)}, options.repeats);
+    std::vector<EvaluationRun> more =
+        run_repeatedly(kind_of(options.kind),
+                       {file, name_of(file, options.files), options.read, context.progress, Budget(options.seconds())},
+                       options.repeats);
     std::move(more.begin(), more.end(), std::back_inserter(runs));
   }
   const std::vector<EvaluationGroup> groups = runs_groups(runs);
@@ -136,7 +140,7 @@ Json evaluate_stability(VerbContext& context, const EvaluateOptions& options) {
   if (!options.files.empty()) throw UsageError("evaluate stability: has its own inputs and takes no FILE");
   Folder folder(options.folder, options.kind);
   Json json = heading(context, options);
-  const StabilityTables tables = run_stability_suites(context.progress, Budget(options.seconds));
+  const StabilityTables tables = run_stability_suites(context.progress, Budget(options.seconds()));
   json["suites"] = stability_json(tables);
   context.console.print(stability_summary(tables));
   folder.write(".json", json);
@@ -176,11 +180,12 @@ void add_evaluate(CLI::App& program) {
   verb->add_option("--repeats", options->repeats, "Measure this often when the time allows it; medians are drawn")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  verb->add_option("--seconds", options->seconds,
-                   "Time for each file: nothing begins that is not expected to end in time. What stability leaves out "
-                   "for it is named")
-      ->check(CLI::Range(1e-3, 1e6))
-      ->capture_default_str();
+  verb->add_option(
+          "--seconds", options->given_seconds,
+          fmt::format("Time for each file, {:g} when not given, {:g} for stability: nothing begins that is not "
+                      "expected to end in time, and what is left out for it is named",
+                      k_file_seconds, k_stability_seconds))
+      ->check(CLI::Range(1e-3, 1e6));
   options->read.add_to(*verb);
 }
 

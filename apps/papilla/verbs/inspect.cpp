@@ -7,7 +7,9 @@
 
 #include "leave_out.hpp"
 #include "mesh_report.hpp"
+#include "papilla/io/image_file.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "pictures/scene_render.hpp"
 #include "scene_budget.hpp"
 #include "scene_options.hpp"
 #include "verb.hpp"
@@ -17,7 +19,7 @@ namespace papilla::app {
 namespace {
 
 struct InspectOptions {
-  std::string file;
+  std::string file, picture;
   LeaveOutOptions perception;
   SceneOptions read;
 };
@@ -124,6 +126,11 @@ Json inspect(VerbContext& context, const InspectOptions& options) {
     result["perception"] = perception_json(scene, measure_perception(scene, options.perception, context.progress));
   result["totals"]["drawn_triangles"] = drawn_triangles(scene);
   print_for_people(context.console, result, scene, statistics);
+  if (!options.picture.empty()) {
+    write_color_image(options.picture, render_scene(scene, {.mode = RenderMode::triangles}));
+    result["picture"] = options.picture;
+    context.console.print("written " + options.picture + "\n");
+  }
   return result;
 }
 
@@ -136,6 +143,8 @@ void add_inspect(CLI::App& program) {
                              "papilla inspect seat.obj --json -"},
                             [options](VerbContext& context) { return inspect(context, *options); });
   verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("FILE")->required();
+  verb->add_option("--picture", options->picture, "Picture of the scene with its triangles; red: edges of one triangle")
+      ->type_name("PNG");
   options->perception.add_to(*verb, false);
   options->read.add_to(*verb);
 }

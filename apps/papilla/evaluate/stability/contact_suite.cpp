@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <memory>
 
 #include "evaluate/stability/stability.hpp"
-#include "papilla/haptic/haptic_tick.hpp"
+#include "evaluate/wall_press.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stability.hpp"
 
@@ -41,49 +39,18 @@ std::vector<Case> cases() {
   return all;
 }
 
-ContactMesh square(double side_m) {
-  ContactMesh mesh;
-  mesh.positions = {{0, 0, 0}, {side_m, 0, 0}, {side_m, side_m, 0}, {0, side_m, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
-}
-
-/// A light hand comes down on the wall at half a metre a second and rests there for three seconds.
 void press(const Case& input, const Guard& guard, StabilityCell& cell) {
-  constexpr double side = 0.2, seconds = 3, last_s = 0.3, still_m_per_s = 1e-2;
-  const double period = 1 / input.rate_hz;
   DeviceCaps caps = device_preset("touch").caps();
   if (input.delay_s > 0) caps.dynamics.delay_s = input.delay_s;
-  ContactMaterial wall;
-  wall.stiffness = input.stiffness;
-  wall.damping = input.damping;
-  ContactSurface surface(square(side), {wall}, {}, 0);
-  const double limit = stiffness_limit(caps.dynamics, period, std::min(input.damping, caps.dynamics.damping / 2));
-  if (guard.clamp) clamp_to_stable(surface, caps.dynamics, period);
-  const Trajectory hand(
-      std::vector<Trajectory::Sample>{{0, {side / 2, side / 2, 5e-3}}, {0.03, {side / 2, side / 2, -1e-2}}});
-  SimDevice device(caps, hand, period, {.stiffness = 300, .damping = 0});
-  SafetyLimits limits = safety_limits(1e6);
-  limits.soft_start_s = 0;
-  const auto tick = std::make_unique<HapticTick>(surface, limits, period);
-  if (guard.control) tick->control_passivity(caps.dynamics);
-  const auto ticks = static_cast<long>(seconds * input.rate_hz),
-             from = static_cast<long>((seconds - last_s) * input.rate_hz);
-  double sum = 0, least_j = 0, largest_n = 0;
-  for (long i = 0; i < ticks; ++i) {
-    DeviceState state;
-    device.read(state);
-    const Vec3 force = (*tick)(state);
-    largest_n = std::max(largest_n, norm(force));
-    device.write(force);
-    least_j = std::min(least_j, device.hand_work_j());
-    if (i >= from) sum += dot(device.velocity(), device.velocity());
-  }
-  cell.error = std::sqrt(sum / static_cast<double>(ticks - from));
-  cell.residual = -least_j;
+  const double limit =
+      stiffness_limit(caps.dynamics, 1 / input.rate_hz, std::min(input.damping, caps.dynamics.damping / 2));
+  const WallFelt felt = press_wall(
+      caps, {input.stiffness, input.damping, input.rate_hz, WallPress{}.seconds, guard.clamp, guard.control});
+  cell.error = felt.rest_speed_m_per_s;
+  cell.residual = felt.given_j.back();
   cell.note = fmt::format("passive up to {:.4g} N/m; felt {:.4g} N/m, {:.3g} N·s/m; largest force {:.3g} N", limit,
-                          surface.material(0).stiffness, surface.material(0).damping, largest_n);
-  if (*cell.error > still_m_per_s) cell.outcome = Outcome::breaks;
+                          felt.stiffness, felt.damping, felt.largest_force_n);
+  if (*cell.error > k_still_m_per_s) cell.outcome = Outcome::breaks;
 }
 
 }  // namespace

@@ -93,16 +93,10 @@ constexpr std::array<Method, 4> k_methods = {
 StabilitySuite mesh_stability(const StabilityRun& run) {
   StabilitySuite suite{
       "mesh", "Meshing", "largest deviation over the diagonal", "defects left by repair, charts that are no disks", {}};
-  const std::vector<NamedMesh> inputs = extreme_meshes();
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const TriangleMesh& mesh = inputs[i].mesh;
-    for (std::size_t k = 0; k < k_methods.size(); ++k)
-      suite.cells.push_back(measured_cell(
-          run, k_methods[k].name, inputs[i].name, [&](StabilityCell& cell) { k_methods[k].run(mesh, cell); },
-          i == 0 ? 0
-                 : expected_seconds(suite.cells[k].seconds, inputs[0].mesh.triangles.size(), mesh.triangles.size())));
-    if (run.progress) run.progress("stability: mesh", static_cast<double>(i + 1) / static_cast<double>(inputs.size()));
-  }
+  fill_suite(
+      suite, run, extreme_meshes(), k_methods,
+      [](const Method& method, const NamedMesh& input, StabilityCell& cell) { method.run(input.mesh, cell); },
+      triangles_of);
   return suite;
 }
 

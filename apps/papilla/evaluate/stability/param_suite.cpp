@@ -82,18 +82,11 @@ StabilitySuite param_stability(const StabilityRun& run) {
                        "what the method minimises at its end, in its own unit",
                        {}};
   std::vector<NamedMesh> inputs = extreme_meshes();
-  const std::vector<Variant> methods = variants();
-  std::size_t first_triangles = 0;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const TriangleMesh mesh = weld_equal(std::move(inputs[i].mesh)).mesh;
-    const std::size_t triangles = mesh.triangles.size();
-    if (i == 0) first_triangles = triangles;
-    for (std::size_t k = 0; k < methods.size(); ++k)
-      suite.cells.push_back(measured_cell(
-          run, methods[k].name, inputs[i].name, [&](StabilityCell& cell) { map(mesh, methods[k].options, cell); },
-          i == 0 ? 0 : expected_seconds(suite.cells[k].seconds, first_triangles, triangles)));
-    if (run.progress) run.progress("stability: param", static_cast<double>(i + 1) / static_cast<double>(inputs.size()));
-  }
+  for (NamedMesh& input : inputs) input.mesh = weld_equal(std::move(input.mesh)).mesh;
+  fill_suite(
+      suite, run, inputs, variants(),
+      [](const Variant& method, const NamedMesh& input, StabilityCell& cell) { map(input.mesh, method.options, cell); },
+      triangles_of);
   return suite;
 }
 

@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluate/picture_methods.hpp"
 #include "evaluate/stability/extreme_pictures.hpp"
 #include "evaluate/stability/stability.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/relief_error.hpp"
 #include "papilla/texture/shading.hpp"
-#include "papilla/texture/shape_from_shading.hpp"
 
 namespace papilla::app {
 namespace {
-
-struct Method {
-  const char* name;
-  ShadingResult (*solve)(const GreyImage&, const ShadingOptions&);
-};
-constexpr std::array<Method, 3> k_methods = {{{"variational", shape_from_shading_variational},
-                                              {"pentland", shape_from_shading_pentland},
-                                              {"tsai-shah", shape_from_shading_tsai_shah}}};
 
 struct Case {
   std::string name;
@@ -61,7 +52,7 @@ std::vector<Case> cases() {
 /// Worse than half the range is worse than a flat answer.
 constexpr double k_unusable = 0.5;
 
-void solve(const Method& method, const Case& input, StabilityCell& cell) {
+void solve(const ShadingMethod& method, const Case& input, StabilityCell& cell) {
   const ShadingResult result = method.solve(input.picture, input.options);
   if (!result.trace.empty()) {
     cell.residual = result.trace.back().error;
@@ -83,7 +74,7 @@ StabilitySuite shading_stability(const StabilityRun& run) {
                        "mean depth error over the range of the relief",
                        "rms of brightness − R, grey over albedo",
                        {}};
-  fill_suite(suite, run, cases(), k_methods, solve);
+  fill_suite(suite, run, cases(), shading_methods(), solve);
   return suite;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,16 +65,31 @@ double expected_seconds(double seconds, std::size_t few, std::size_t many);
 StabilityCell measured_cell(const StabilityRun& run, std::string method, std::string input,
                             const std::function<void(StabilityCell&)>& work, double expected_s = 0);
 
+/// For inputs that all cost alike.
+struct OneSize {
+  template <class Input>
+  std::size_t operator()(const Input&) const {
+    return 1;
+  }
+};
+
 /// Fills a suite: work(method, input, cell) for every input and every method. Both have a `name`.
-template <class Inputs, class Methods, class Work>
+/// @param size_of of an input: what a method took on the first one tells what it is expected to take on the others.
+template <class Inputs, class Methods, class Work, class SizeOf = OneSize>
 void fill_suite(StabilitySuite& suite, const StabilityRun& run, const Inputs& inputs, const Methods& methods,
-                Work&& work) {
+                Work&& work, SizeOf size_of = {}) {
   std::size_t done = 0;
   for (const auto& input : inputs) {
-    for (const auto& method : methods)
-      suite.cells.push_back(
-          measured_cell(run, method.name, input.name, [&](StabilityCell& cell) { work(method, input, cell); }));
-    if (run.progress) run.progress(suite.title, static_cast<double>(++done) / static_cast<double>(inputs.size()));
+    std::size_t number = 0;
+    for (const auto& method : methods) {
+      const double on_first_s = done == 0 ? 0 : suite.cells[number++].seconds;
+      suite.cells.push_back(measured_cell(
+          run, method.name, input.name, [&](StabilityCell& cell) { work(method, input, cell); },
+          expected_seconds(on_first_s, size_of(*std::begin(inputs)), size_of(input))));
+    }
+    ++done;
+    if (run.progress)
+      run.progress("stability: " + suite.name, static_cast<double>(done) / static_cast<double>(std::size(inputs)));
   }
 }
 

@@ -12,6 +12,7 @@
 namespace papilla::app {
 namespace {
 
+/// In the order of the tables, the dearest first.
 constexpr std::array k_suites = {param_stability,   mesh_stability,    dimension_stability,
                                  lattice_stability, shading_stability, contact_stability};
 constexpr std::array k_outcomes = {Outcome::holds, Outcome::falls_back, Outcome::refuses,
@@ -78,8 +79,9 @@ std::string outcome_class(Outcome outcome) {
 
 StabilityTables run_stability_suites(const Progress& progress, const Budget& budget) {
   StabilityTables tables;
-  for (std::size_t i = 0; i < k_suites.size(); ++i)
-    tables.push_back(k_suites[i]({progress, budget.share(k_suites.size() - i)}));
+  for (std::size_t left = k_suites.size(); left > 0; --left)  // the dearest last: they get what the others leave
+    tables.push_back(k_suites[left - 1]({progress, budget.share(left)}));
+  std::reverse(tables.begin(), tables.end());
   return tables;
 }
 

@@ -11,6 +11,9 @@ namespace papilla::app {
 
 using StabilityTables = std::vector<StabilitySuite>;
 
+/// What all suites need with some room to spare: a million triangles under every method take nearly all of it.
+inline constexpr double k_stability_seconds = 3600;
+
 /// All suites. Deterministic but for times and what the budget leaves out.
 StabilityTables run_stability_suites(const Progress& progress, const Budget& budget);
 
