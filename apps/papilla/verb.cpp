@@ -54,7 +54,7 @@ class ProgressPrinter {
     const double spent = stage_clock_.seconds();
     std::string line = fmt::format("{} {:3.0f} %", stage, 100 * fraction);
     if (fraction > 0.01 && fraction < 1)
-      line += fmt::format("  {:.0f} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3), spent * (1 - fraction) / fraction);
+      line += fmt::format("  {:.2g} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3), spent * (1 - fraction) / fraction);
     fmt::print(stderr, "\r\033[K{}", line);
     std::fflush(stderr);
     drawn_ = true;

@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { readCsv } from './csv.mjs';
 
-const COLOURS = ['#0a5fb4', '#c1440e', '#2f7d32', '#7b3fa0', '#8a6d00', '#00707a'];
+const COLOURS = ['#0a5fb4', '#c1440e', '#2f7d32', '#7b3fa0', '#8a6d00', '#00707a', '#b0306a'];
 const quote = (text) => `'${text.replaceAll("'", "''").replaceAll('\n', ' ')}'`;
 
 /**
@@ -20,6 +20,7 @@ function draw(file, { x, y, log, series }) {
 set output ${quote(file)}
 set termoption noenhanced
 set key below left maxcols 1
+set bmargin ${2.8 + 0.85 * loud.length}
 set grid lc rgb '#d8dde2'
 set xlabel ${quote(x)}
 set ylabel ${quote(y)}

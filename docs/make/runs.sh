@@ -20,7 +20,7 @@ papilla tessellate "$data/cockpit.step" -o "$out/cockpit.glb" --chord 1
 papilla unwrap "$data/cockpit.step" --chord 1 --method natural -o "$out/unwrap/natural.glb" --picture "$out/unwrap/natural.png"
 papilla unwrap "$out/cockpit.glb" -o "$out/meshing/charts.glb" --picture "$out/meshing/charts.png" --trace "$out/meshing/charts.csv"
 evaluate param "$out/sheet.obj" -o "$out/param"
-evaluate charts "$out/cockpit.glb" -o "$out/charts"
+evaluate charts "$out/sheet.obj" -o "$out/charts"
 
 # Surfaces of known dimension, a lit grain with its true relief.
 for dimension in 2.2 2.5 2.8; do

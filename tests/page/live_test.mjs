@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { request } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -83,6 +83,7 @@ async function follows(page) {
 const browser = await launch();
 try {
   const first = play();
+  while (!existsSync(socket)) await sleep(100);  // it reads the file before it listens
   const viewer = start(papilla, 'view', '--follow', socket, '--no-open');
   const url = await addressOf(viewer);
 

@@ -22,7 +22,6 @@ constexpr std::array k_rates_hz = {1000.0, 2000.0, 4000.0, 8000.0, 16000.0};
 constexpr double k_reference_hz = 64000;
 /// Shortest waves that are left of the relief, mm.
 constexpr std::array k_waves_mm = {4.0, 2.0, 1.0, 0.5, 0.2, 0.1};
-constexpr std::size_t k_walls_share = 4;  ///< Of the time, for the walls.
 constexpr const char* k_rate_error = "rms force error against the same stroke at 64 kHz [N]";
 constexpr double k_seconds = 1, k_ball_m = 1e-3, k_growth = 2;
 
@@ -115,6 +114,7 @@ EvaluationRun over_rates(const EvaluationInput& input, const Touch& touch, const
     run.notes += fmt::format("{:g} kHz: {:.2g} µs a tick, {} contacts lost; ", rate / 1000,
                              1e6 * felt.tick_seconds / rate, felt.lost);
   }
+  if (run.trace.empty()) run.stop = k_time_spent;
   if (touch.relief)
     run.notes +=
         "a proxy on a relief can come to rest in one valley or the next, and friction decides where: there the "
@@ -134,6 +134,7 @@ EvaluationRun over_detail(const EvaluationInput& input, const Scene& scene, cons
     run.trace.push_back({felt.tick_seconds, rms_difference(felt, whole)});
     run.notes += fmt::format("waves from {:g} mm: {:.3g} million samples; ", wave, 1e-6 * stage.samples);
   }
+  if (run.trace.empty()) run.stop = k_time_spent;
   return run;
 }
 
@@ -143,23 +144,21 @@ std::vector<EvaluationRun> evaluate_contact(const EvaluationInput& input) {
   const Scene scene = read_gltf(input.file);
   std::vector<EvaluationRun> runs;
   std::vector<EvaluationRun> walls;
-  for (const Touch& touch : k_touches) {
+  for (std::size_t i = 0; i < k_touches.size(); ++i) {
+    const Touch& touch = k_touches[i];
     if (input.budget.spent()) {
       runs.push_back({"proxy", touch.name(), input.name, k_rate_error, {}, k_time_spent});
       continue;
     }
     const Stage stage = stage_of(scene, input.file, touch, 0);
-    if (walls.empty()) {
-      EvaluationInput of_walls = input;
-      of_walls.budget = input.budget.share(k_walls_share);
-      walls = wall_runs(of_walls, stage.surface.material(stage.material).damping);
-    }
+    EvaluationInput own = input;
+    own.budget = input.budget.share(k_touches.size() + 1 - i);
+    if (walls.empty()) walls = wall_runs(own, stage.surface.material(stage.material).damping);
+    own.budget = input.budget.share(k_touches.size() - i);
     const Trajectory hand = press_and_stroke(stage.surface, stage.material, stage.centre, {.seconds = k_seconds});
-    runs.push_back(over_rates(input, touch, stage, hand));
-    if (touch.relief) runs.push_back(over_detail(input, scene, touch, hand, feel(stage.surface, hand, k_base_hz)));
-    if (input.progress)
-      input.progress("contact",
-                     static_cast<double>(&touch - k_touches.data() + 1) / static_cast<double>(k_touches.size() + 1));
+    runs.push_back(over_rates(own, touch, stage, hand));
+    if (touch.relief) runs.push_back(over_detail(own, scene, touch, hand, feel(stage.surface, hand, k_base_hz)));
+    if (input.progress) input.progress("contact", static_cast<double>(i + 1) / static_cast<double>(k_touches.size()));
   }
   std::move(walls.begin(), walls.end(), std::back_inserter(runs));
   return runs;

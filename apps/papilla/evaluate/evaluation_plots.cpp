@@ -60,6 +60,7 @@ void name_front(const EvaluationGroup& group, double floor, Plot& plot) {
       last_y = std::min(std::max(s.error, floor), last_y * std::pow(10, -k_line * decades));
       plot.labels.push_back({run->name(), {std::max(s.seconds, 1e-9), last_y}});
     }
+  plot.low.y = std::min(plot.low.y, last_y * std::pow(10, -2 * k_line * decades));
 }
 
 Plot curves_of(const EvaluationGroup& group) {

@@ -25,7 +25,7 @@ CadReadOptions cad_options(const ReadOptions& read) {
 
 /// The map that the surfaces bring along, of all parts at each of the coarser chords.
 EvaluationRun natural_run(const EvaluationInput& input, const std::vector<double>& chords, CadReadOptions options) {
-  EvaluationRun run{"natural", "",      input.name, "symmetric Dirichlet - 4 of the CAD surfaces' own u and v",
+  EvaluationRun run{"natural", "",      input.name, "mean angle error of the CAD surfaces' own u and v [°]",
                     {},        "direct"};
   Rungs rungs(input.budget, k_growth);
   for (const double chord : chords) {
@@ -40,7 +40,7 @@ EvaluationRun natural_run(const EvaluationInput& input, const std::vector<double
       const Flattening flattening = flatten_natural(part.mesh);
       seconds += clock.seconds();
       const DistortionReport report = measure_distortion(part.mesh, flattening.uv);
-      sum += report.area_mm2 * (report.symmetric_dirichlet.mean - 4);
+      sum += report.area_mm2 * report.angle_error_deg.mean;
       area += report.area_mm2;
       triangles += part.mesh.triangles.size();
     }
@@ -65,7 +65,8 @@ std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input) {
                           "direct",
                           ""};
   std::vector<double> chords = chord_ladder(k_coarsest_mm, k_finest_mm, k_steps);
-  Rungs rungs(input.budget, k_growth);
+  const Budget half = input.budget.share(2);
+  Rungs rungs(half, k_growth);
   for (const double chord : chords) {
     if (!rungs.next()) break;
     const TessellationSample sample =

@@ -21,7 +21,7 @@ constexpr double k_most_times = 4096;
 constexpr int k_steps = 8;
 constexpr double k_press_s = 1.5;
 /// Walls this many times as stiff as the limit, pressed for so long.
-constexpr double k_too_stiff = 4, k_seconds = 4;
+constexpr double k_too_stiff = 8, k_seconds = 4;
 constexpr std::array k_told_at_s = {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0};
 
 struct Guard {

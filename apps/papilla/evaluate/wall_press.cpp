@@ -48,7 +48,7 @@ WallFelt press_wall(const DeviceCaps& caps, const WallPress& press) {
     felt.largest_force_n = std::max(felt.largest_force_n, norm(force));
     device.write(force);
     least_j = std::min(least_j, device.hand_work_j());
-    felt.given_j.push_back(-least_j);
+    felt.given_j.push_back(std::abs(least_j));
     if (i >= from) sum += dot(device.velocity(), device.velocity());
   }
   felt.rest_speed_m_per_s = ticks > from ? std::sqrt(sum / static_cast<double>(ticks - from)) : 0;

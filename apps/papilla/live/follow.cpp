@@ -14,7 +14,7 @@
 namespace papilla::app {
 namespace {
 
-constexpr std::chrono::milliseconds k_patience{2000}, k_look{50};
+constexpr std::chrono::milliseconds k_patience{5000}, k_look{50};
 
 std::atomic<bool> g_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
