@@ -20,7 +20,7 @@ function draw(file, { x, y, log, series }) {
 set output ${quote(file)}
 set termoption noenhanced
 set key below left maxcols 1
-set bmargin ${2.8 + 0.85 * loud.length}
+set bmargin ${4 + 0.9 * loud.length}
 set grid lc rgb '#d8dde2'
 set xlabel ${quote(x)}
 set ylabel ${quote(y)}
