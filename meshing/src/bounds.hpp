@@ -22,6 +22,11 @@ struct Bounds {
   /// Length of the diagonal; 0 when nothing was added.
   double diagonal() const noexcept { return low.x <= high.x ? norm(high - low) : 0; }
 
+  bool overlaps(const Bounds& other, double margin) const noexcept {
+    return low.x - margin <= other.high.x && low.y - margin <= other.high.y && low.z - margin <= other.high.z &&
+           high.x + margin >= other.low.x && high.y + margin >= other.low.y && high.z + margin >= other.low.z;
+  }
+
   /// True when `other` lies within, by more than `margin` on every side.
   bool contains(const Bounds& other, double margin = 0) const noexcept {
     return low.x + margin < other.low.x && low.y + margin < other.low.y && low.z + margin < other.low.z &&

@@ -12,13 +12,12 @@
 #include <string>
 #include <utility>
 
-#include "bounds.hpp"
 #include "check_mesh.hpp"
+#include "components.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "repair_piece.hpp"
 #include "triangle_shape.hpp"
-#include "union_find.hpp"
 
 namespace papilla {
 namespace {
@@ -55,59 +54,23 @@ void add(RepairResult& all, const RepairResult& piece) {
   all.settled = all.settled && piece.settled;
 }
 
-/// Triangles that hang together by vertices.
-struct Components {
-  std::vector<Index> begin;      ///< Of each one in `triangles`, and the end of the last.
-  std::vector<Index> triangles;  ///< Ascending within each; components in the order of their smallest vertices.
-
-  std::size_t size() const noexcept { return begin.size() - 1; }
-  std::span<const Index> of(std::size_t c) const noexcept {
-    return std::span(triangles).subspan(begin[c], begin[c + 1] - begin[c]);
-  }
-};
-
-Components connected_triangles(const TriangleMesh& mesh) {
-  UnionFind sets(mesh.positions.size());
-  for (const Triangle& t : mesh.triangles) {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[0], t[2]);
-  }
-  Index count = 0;
-  const std::vector<Index> label = sets.labels(count);
-  Components result;
-  result.begin.assign(count + 1, 0);
-  for (const Triangle& t : mesh.triangles) ++result.begin[label[t[0]] + 1];
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  std::vector<Index> next(result.begin.begin(), result.begin.end() - 1);
-  result.triangles.resize(mesh.triangles.size());
-  for (Index t = 0; t < mesh.triangles.size(); ++t) result.triangles[next[label[mesh.triangles[t][0]]]++] = t;
-  return result;
-}
-
-Bounds bounds_of(const TriangleMesh& mesh, std::span<const Index> triangles) {
-  Bounds bounds;
-  for (const Index t : triangles)
-    for (const Index v : mesh.triangles[t]) bounds.add(mesh.positions[v]);
-  return bounds;
-}
-
-/// Tells the caller how many triangles are done, one call at a time.
+/// Tells the caller which fraction of all triangles is done, one call at a time.
 class SharedProgress {
  public:
   SharedProgress(const Progress& progress, std::size_t all) : progress_(progress), all_(static_cast<double>(all)) {}
 
-  void done(std::size_t triangles) {
-    if (!progress_) return;
+  void done(double triangles) {
+    if (!progress_ || !(triangles > 0)) return;
     const std::lock_guard lock(mutex_);
-    done_ += static_cast<double>(triangles);
-    progress_("repair", done_ / all_);
+    done_ += triangles;
+    progress_("repair", std::min(1.0, done_ / all_));
   }
 
-  /// For the last piece, which tells fractions of itself.
-  Progress rest() const {
-    if (!progress_) return {};
-    return [this](std::string_view stage, double fraction) {
-      progress_(stage, (done_ + fraction * (all_ - done_)) / all_);
+  /// For a piece that tells fractions of itself, several times where it takes several passes.
+  Progress of_piece(std::size_t triangles) {
+    return [this, size = static_cast<double>(triangles), told = 0.0](std::string_view, double fraction) mutable {
+      done((fraction - told) * size);
+      told = std::max(told, fraction);
     };
   }
 
@@ -117,30 +80,25 @@ class SharedProgress {
   std::mutex mutex_;
 };
 
-/// Repairs solids one by one, in caches and in parallel, and then everything else at once: only surfaces with borders,
-/// or inside out, depend on what lies around them.
+/// Repairs what does not depend on each other one by one, in caches and in parallel: closed solids, and then sets of
+/// surfaces with borders, or inside out, that lie apart.
 class SoupRepair {
  public:
   SoupRepair(TriangleMesh mesh, const RepairScale& scale, const Progress& progress)
-      : mesh_(std::move(mesh)), scale_(scale), progress_(progress, mesh_.triangles.size()) {}
+      : mesh_(std::move(mesh)),
+        scale_(scale),
+        margin_(scale.weld.tolerance_mm + scale.stitch_mm),
+        progress_(progress, mesh_.triangles.size()),
+        components_(connected_triangles(mesh_)) {}
 
   RepairResult run() {
-    components_ = connected_triangles(mesh_);
-    solids_.resize(components_.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, components_.size(), [&](std::size_t c) {
-      const auto triangles = components_.of(c);
-      if (triangles.size() < k_least_solid) return;
-      solids_[c] = repair_solid(piece(triangles), scale_);
-      if (solids_[c]) progress_.done(triangles.size());
-    });
-    return_shells_around_others();
+    repair_solids();
+    repair_others();
     RepairResult all;
     all.settled = true;
-    for (const auto& solid : solids_)
-      if (solid) add(all, *solid);
-    RepairResult rest = repair_rest();
-    add(all, rest);
-    all.mesh = all.counts == RepairCounts{} ? std::move(mesh_) : put_together(std::move(rest.mesh));
+    for (const auto& piece : pieces_)
+      if (piece) add(all, *piece);
+    all.mesh = all.counts == RepairCounts{} ? std::move(mesh_) : put_together();
     return all;
   }
 
@@ -152,51 +110,72 @@ class SoupRepair {
     return result;
   }
 
-  /// A surface that is inside out may be meant so when it lies in a solid: such solids are repaired together with it.
-  void return_shells_around_others() {
-    std::vector<Bounds> others;
-    for (std::size_t c = 0; c < components_.size(); ++c)
-      if (!solids_[c]) others.push_back(bounds_of(mesh_, components_.of(c)));
-    for (std::size_t c = 0; c < components_.size(); ++c) {
-      if (!solids_[c]) continue;
-      const Bounds solid = bounds_of(mesh_, components_.of(c));
-      const double margin = -(scale_.weld.tolerance_mm + scale_.stitch_mm);
-      if (std::any_of(others.begin(), others.end(), [&](const Bounds& b) { return solid.contains(b, margin); }))
-        solids_[c].reset();
-    }
+  void repair_solids() {
+    pieces_.resize(components_.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, components_.size(), [&](std::size_t c) {
+      const auto triangles = components_.of(c);
+      if (triangles.size() < k_least_solid) return;
+      pieces_[c] = repair_solid(piece(triangles), scale_);
+      if (pieces_[c]) progress_.done(static_cast<double>(triangles.size()));
+    });
   }
 
-  RepairResult repair_rest() {
-    std::vector<Index> rest;
+  /// Those without a result so far, and solids around one of them: what is inside out may be a cavity.
+  std::vector<std::pair<std::size_t, Bounds>> others() {
+    std::vector<std::pair<std::size_t, Bounds>> result;
     for (std::size_t c = 0; c < components_.size(); ++c)
-      if (!solids_[c]) rest.insert(rest.end(), components_.of(c).begin(), components_.of(c).end());
-    std::sort(rest.begin(), rest.end());
-    return repair_piece(piece(rest), scale_, progress_.rest());
+      if (!pieces_[c]) result.emplace_back(c, bounds_of(mesh_, components_.of(c)));
+    const std::size_t open = result.size();
+    for (std::size_t c = 0; c < components_.size() && open > 0; ++c) {
+      if (!pieces_[c]) continue;
+      const Bounds solid = bounds_of(mesh_, components_.of(c));
+      if (std::none_of(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(open),
+                       [&](const auto& other) { return solid.contains(other.second, -margin_); }))
+        continue;
+      result.emplace_back(c, solid);
+      pieces_[c].reset();
+    }
+    return result;
+  }
+
+  void repair_others() {
+    const std::vector<std::vector<std::size_t>> sets = parted_by_boxes(others(), margin_);
+    const std::size_t before = pieces_.size();
+    pieces_.resize(before + sets.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
+      std::vector<Index> triangles;
+      for (const std::size_t c : sets[s])
+        triangles.insert(triangles.end(), components_.of(c).begin(), components_.of(c).end());
+      std::sort(triangles.begin(), triangles.end());
+      pieces_[before + s] =
+          std::make_unique<RepairResult>(repair_piece(piece(triangles), scale_, progress_.of_piece(triangles.size())));
+    });
   }
 
   /// All triangles in the order of those they come from.
-  TriangleMesh put_together(TriangleMesh all) {
-    for (auto& solid : solids_) {
-      if (!solid) continue;
-      append_mesh(all, solid->mesh);
-      solid->mesh = {};
+  TriangleMesh put_together() {
+    const std::vector<std::uint32_t> face = std::move(mesh_.face);
+    mesh_ = {};
+    TriangleMesh all;
+    for (auto& piece : pieces_) {
+      if (piece) append_mesh(all, piece->mesh);
+      piece.reset();
     }
     std::vector<Index> order(all.triangles.size());
     std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return all.face[a] < all.face[b]; });
     TriangleMesh result = extract_triangles(all, order);
-    if (mesh_.face.empty())
-      result.face.clear();
-    else
-      for (std::uint32_t& face : result.face) face = mesh_.face[face];
+    if (face.empty()) result.face.clear();
+    for (std::uint32_t& f : result.face) f = face[f];
     return result;
   }
 
   TriangleMesh mesh_;
   const RepairScale& scale_;
+  double margin_;  ///< Boxes that lie further apart have nothing to do with each other.
   SharedProgress progress_;
   Components components_;
-  std::vector<std::unique_ptr<RepairResult>> solids_;  ///< Per component; null for the rest.
+  std::vector<std::unique_ptr<RepairResult>> pieces_;  ///< Per component, then per set of others; null where in none.
 };
 
 void check_options(const RepairOptions& options) {

@@ -26,13 +26,15 @@ class Repair {
       const RepairCounts before = all_.counts;
       if (all_.passes > 0) join_touching();
       clean();
+      report(0.6);
       turn();
       part();
+      report(0.8);
       close_gaps();
       ++all_.passes;
       all_.settled = !changed_surface(before, all_.counts) || is_clean();
-      report(1);
     }
+    report(1);
   }
 
   RepairResult take() {
@@ -86,7 +88,6 @@ class Repair {
       drop_degenerate();
       found_t_junctions = close_t_junctions();
     }
-    report(0.6);
   }
 
   void weld_cracks() {
@@ -94,7 +95,6 @@ class Repair {
     forget_edges_if(weld_borders(all_.mesh, edges(), scale_.weld, step));
     all_.counts.welded_near += step.merged_near;
     note(&RepairDeviations::weld, step.max_deviation_mm);
-    report(0.2);
   }
 
   void drop_doubles() {
@@ -103,7 +103,6 @@ class Repair {
     all_.counts.duplicates += step.same;
     all_.counts.opposites += step.opposite;
     all_.counts.walls += step.walls;
-    report(0.3);
   }
 
   void drop_degenerate() {
@@ -114,7 +113,6 @@ class Repair {
     all_.counts.flipped_caps += step.flipped;
     all_.counts.pushed_apexes += step.pushed;
     note(&RepairDeviations::degenerate, step.max_deviation_mm);
-    report(0.4);
   }
 
   bool close_t_junctions() {
@@ -125,7 +123,6 @@ class Repair {
     all_.counts.t_junctions += step.inserted_vertices;
     all_.counts.border_slivers += step.slivers;
     note(&RepairDeviations::t_junctions, step.max_deviation_mm);
-    report(0.5);
     return changed;
   }
 
@@ -133,7 +130,6 @@ class Repair {
     OrientResult step;
     forget_edges_if(turn_over(all_.mesh, edges(), step));
     all_.counts.reversed += step.reversed;
-    report(0.7);
   }
 
   /// Sheets that were linked may be closed once parted, or free to turn, which can leave new edges to part.
@@ -148,7 +144,6 @@ class Repair {
       turn();
       if (!has_bad_edges(all_.mesh.triangles, edges())) break;
     }
-    report(0.8);
   }
 
   void close_gaps() {
@@ -159,7 +154,6 @@ class Repair {
     all_.counts.filled_holes += step.holes;
     all_.counts.added_triangles += step.triangles;
     note(&RepairDeviations::stitches, step.max_slit_width_mm);
-    report(0.9);
   }
 
   /// Would another pass find nothing to do? Equal positions are those of fans that touch in a point, which it would
@@ -199,8 +193,8 @@ double enclosed_volume(const TriangleMesh& mesh) {
 
 }  // namespace
 
-RepairResult repair_piece(TriangleMesh mesh, const RepairScale& scale, const Progress& progress) {
-  Repair repair(std::move(mesh), scale, progress);
+RepairResult repair_piece(TriangleMesh mesh, const RepairScale& scale, Progress progress) {
+  Repair repair(std::move(mesh), scale, std::move(progress));
   repair.run();
   return repair.take();
 }
