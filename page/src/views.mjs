@@ -75,7 +75,7 @@ export function rangeOf(view, scene) {
 export function legendText(view, range, checker) {
   if (view.id === 'textured') return 'as it is seen';
   if (view.id === 'checker') return checker;
-  return `${view.what}: ${number(range[0])} to ${number(range[1])} ${view.unit}; a line every tenth of the scale, hatched where there is no value`;
+  return `${view.what}: ${`${number(range[0])} to ${number(range[1])} ${view.unit}`.trim()}; a line every tenth of the scale, hatched where there is no value`;
 }
 
 export const checkerText = (scene) => scene.materials.some(mmPerUv) ? 'squares of 10 mm; of an eighth of a repeat where the file gives no size' : 'squares of an eighth of a repeat; the file gives no size in mm';
