@@ -33,6 +33,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   o.natural.fall_back = true;
   if (fall_back) o.best.energy_limit = 4 + worth_halving(o.segmentation);
   if (o.iterations) o.maillot.max_iterations = o.best.max_iterations = *o.iterations;
+  if (o.iterations) o.levy.length_rounds = *o.iterations;
   if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
   if (o.tolerance)
     o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
