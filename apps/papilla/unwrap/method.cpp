@@ -11,6 +11,7 @@
 #include "papilla/param/components.hpp"
 #include "papilla/param/grain_direction.hpp"
 #include "papilla/param/grain_frame.hpp"
+#include "papilla/param/seam_choice.hpp"
 
 namespace papilla::app {
 namespace {
@@ -113,6 +114,31 @@ std::string reason_for_triplanar(double extent_mm, const PartContext& context) {
   return {};
 }
 
+Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                         FlattenedPart& part) {
+  const Stopwatch clock;
+  const ChartSet charts = segment_charts(mesh, segmentation_of(o, context)).charts;
+  part.segment_seconds += clock.seconds();
+  part.choices.clear();
+  return map_or_halve(mesh, charts, o, part.choices);
+}
+
+/// As choose_seam_cost() does.
+Flattening chart_twice(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                       FlattenedPart& part) {
+  std::vector<std::vector<ChartChoice>> choices;
+  SeamChoice choice = choose_seam_cost(mesh, [&](double seam_cost) {
+    MethodOptions own = o;
+    own.segmentation.seam_cost = seam_cost;
+    own.best.energy_limit = own.automatic.best.energy_limit = 4 + worth_halving(own.segmentation);
+    Flattening flattening = chart_and_map(mesh, own, context, part);
+    choices.push_back(std::move(part.choices));
+    return flattening;
+  });
+  part.choices = std::move(choices[choice.chosen]);
+  return std::move(choice.flattening);
+}
+
 Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context, FlattenedPart& part) {
   switch (o.method) {
     case UnwrapMethod::natural: return flatten_natural(mesh, o.natural);
@@ -127,12 +153,14 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
     }
     default: break;
   }
-  const Stopwatch clock;
-  if (o.charts == ChartSource::keep) require_manifold(mesh);
-  const ChartSet charts = o.charts == ChartSource::keep ? components_as_charts(mesh)
-                                                        : segment_charts(mesh, segmentation_of(o, context)).charts;
-  part.segment_seconds = clock.seconds();
-  return map_or_halve(mesh, charts, o, part.choices);
+  if (o.charts == ChartSource::keep) {
+    require_manifold(mesh);
+    return map_or_halve(mesh, components_as_charts(mesh), o, part.choices);
+  }
+  // Twice the time is no matter on parts of this size.
+  constexpr std::size_t k_most_triangles = 50'000;
+  if (o.choose_seam_cost && mesh.triangles.size() <= k_most_triangles) return chart_twice(mesh, o, context, part);
+  return chart_and_map(mesh, o, context, part);
 }
 
 }  // namespace
