@@ -32,7 +32,10 @@ constexpr double k_relax_tolerance = 3e-3;
 /// their minimum, for steps are cheaper on a coarse level than on a fine one that starts far off.
 constexpr double k_deep_energy = 15;
 constexpr std::size_t k_deep_growth = 2;
-constexpr double k_deep_tolerance = 3e-3;
+constexpr double k_deep_tolerance = 1.5e-3;
+
+/// Their last steps are many and small: what counts as small is halved.
+constexpr double k_deep_share = 0.5;
 constexpr int k_relax_sweeps = 10;
 
 /// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
@@ -152,7 +155,8 @@ class Multilevel {
     const double start = clock_.seconds();
     DescentOptions descent;
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
-    descent.tolerance = last ? options_.tolerance : is_deep() ? k_deep_tolerance : k_coarse_tolerance;
+    descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
+    if (is_deep()) descent.tolerance = last ? k_deep_share * options_.tolerance : k_deep_tolerance;
     descent.foresee = last;
     descent.time_limit_s = options_.time_limit_s;
     const DescentResult result =
