@@ -10,6 +10,7 @@
 
 #include "chart_driver.hpp"
 #include "levy_conformal.hpp"
+#include "levy_lengths.hpp"
 #include "levy_system.hpp"
 #include "lscm_solvers.hpp"
 #include "papilla/core/error.hpp"
@@ -64,6 +65,8 @@ void check(const LevyOptions& options, std::size_t vertices) {
   if (!(options.tolerance > 0 && options.tolerance < 1))
     refuse("tolerance is " + std::to_string(options.tolerance) + ", it must lie between 0 and 1");
   if (options.max_rounds < 1) refuse("max_rounds is " + std::to_string(options.max_rounds) + ", it must be at least 1");
+  if (options.length_rounds < 0)
+    refuse("length_rounds is " + std::to_string(options.length_rounds) + ", it must not be negative");
   if (options.max_sweeps < 1) refuse("max_sweeps is " + std::to_string(options.max_sweeps) + ", it must be at least 1");
   check_pins(options, vertices);
 }
@@ -238,7 +241,10 @@ class LevyMap {
     ChartMap map;
     if (is_conformal()) {
       map.failure = solve_conformal();
-      map.trace.push_back({clock_.seconds(), total()});
+      if (map.failure.empty() && options_.length > 0 && options_.length_rounds > 0)
+        map.stop = even_then_long(map.trace);
+      else
+        map.trace.push_back({clock_.seconds(), total()});
     } else if (options_.border == LevyBorder::convex) {
       map.failure = start_convex();
       if (map.failure.empty()) map.stop = is_linear() ? linear(map.trace) : alternate(map.trace);
@@ -262,6 +268,24 @@ class LevyMap {
   std::string solve_conformal() {
     const ConformalTerms terms{options_.smoothness, options_.orthogonality, options_.length, &smoothness_, &length_};
     return solve_conformal_terms(chart_, terms, held_.points, uv_) ? std::string() : "the Hermitian system is singular";
+  }
+
+  /// Lengths along the directions of the map that is even.
+  StopReason even_then_long(Trace& trace) {
+    LengthRounds rounds(chart_, options_.smoothness, smoothness_, held_.points, uv_);
+    trace.push_back({clock_.seconds(), rounds.length_error()});
+    StopReason stop = StopReason::iteration_limit;
+    for (int round = 0; round < options_.length_rounds && stop == StopReason::iteration_limit; ++round) {
+      if (options_.time_limit_s > 0 && clock_.seconds() > options_.time_limit_s)
+        stop = StopReason::time_limit;
+      else if (!rounds.advance())
+        stop = StopReason::converged;
+      else
+        trace.push_back({clock_.seconds(), rounds.length_error()});
+    }
+    uv_ = rounds.uv();
+    total();
+    return stop;
   }
 
   std::string start_convex() {

@@ -32,7 +32,17 @@ constexpr double k_good_step = 0.3;
 /// A small gain means convergence only where the slope did not promise this many times as much.
 constexpr double k_promise = 10;
 
+/// Of the gains of a full Newton step and the one before, while there is no other to go by; 0.04 to 0.3 were seen.
+constexpr double k_first_ratio = 0.2;
+
 constexpr int k_halvings = 40;
+
+/// A step that could be this much longer is tried so; by how much at once at most.
+constexpr double k_longer = 1.5;
+constexpr double k_longest = 4;
+
+/// A lengthened step goes this part of its way at most: near a flip the next one would be short.
+constexpr double k_room = 0.5;
 
 /// Bisections between the longest step that is accepted and the shortest that is refused.
 constexpr int k_refinements = 2;
@@ -144,8 +154,8 @@ std::vector<Vec2> energy_gradient(const DescentProblem& problem, std::span<const
 }
 
 double step_to_first_flip(std::span<const Triangle> triangles, std::span<const Vec2> uv,
-                          std::span<const Vec2> direction, double most) {
-  double step = most;
+                          std::span<const Vec2> direction) {
+  double step = std::numeric_limits<double>::infinity();
   for (const Triangle& t : triangles) {
     const Vec2 m = uv[t[1]] - uv[t[0]], n = uv[t[2]] - uv[t[0]];
     const Vec2 dm = direction[t[1]] - direction[t[0]], dn = direction[t[2]] - direction[t[0]];
@@ -168,45 +178,93 @@ struct Step {
   bool refused = false;  ///< A longer one lowers the energy, but was not accepted.
 };
 
-/// Goes along `direction` as far as the energy falls (Armijo), no triangle turns over and nobody refuses.
-/// @param slope derivative of the energy along the direction, negative.
-/// @param energy of uv on entry, of the new uv on return.
-Step line_search(const DescentProblem& problem, std::span<const Vec2> direction, double slope, double first_length,
-                 bool allow_flips, std::vector<Vec2>& uv, double& energy) {
-  Step step;
-  double length = first_length;
-  if (!allow_flips) {
-    const double flip = step_to_first_flip(problem.triangles, uv, direction, first_length / k_before_flip);
-    length = std::min(first_length, k_before_flip * flip);
-  }
-  const double start = energy + barrier_value(problem, uv);
-  std::vector<Vec2> trial(uv.size()), best;
-  double shortening = 0;  // once a refused length is known: how much of it the next trial goes further or less far
-  for (int i = 0, tries = k_halvings; i < tries; ++i) {
-    for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + length * direction[v];
-    const bool simple = !problem.barrier || problem.barrier->is_simple(trial);
-    const double value = simple ? total_energy(problem, trial) : std::numeric_limits<double>::infinity();
-    const bool lower = simple && value + barrier_value(problem, trial) <= start + k_armijo * length * slope;
-    const bool good = lower && (!problem.accept || problem.accept(trial));
-    if (lower && !good) step.refused = true;
-    if (good) {
-      std::swap(best, trial);
-      trial.resize(uv.size());
-      energy = value;
-      step.length = length;
-      if (!step.refused) break;
-      if (shortening == 0) shortening = 0.5 * length, tries = i + 1 + k_refinements;
-      length += shortening;
-    } else if (shortening == 0) {
-      length *= 0.5;
-      continue;
-    } else {
-      length -= shortening;
+/// The energy, barrier and all, along a direction from a state.
+class LineSearch {
+ public:
+  /// @param slope derivative of the energy along the direction, negative.
+  /// @param most the longest step that turns no triangle over.
+  LineSearch(const DescentProblem& problem, std::span<const Vec2> direction, double slope, double most,
+             std::vector<Vec2>& uv, double energy)
+      : problem_(problem),
+        direction_(direction),
+        slope_(slope),
+        most_(most),
+        uv_(uv),
+        start_(energy + barrier_value(problem, uv)),
+        trial_(uv.size()) {}
+
+  /// Goes as far as the energy falls (Armijo) and nobody refuses.
+  /// @param energy of uv on entry, of the new uv on return.
+  Step run(double first_length, double& energy) {
+    double length = std::min(first_length, most_);
+    double shortening = 0;  // once a refused length is known: how much of it the next trial goes further or less far
+    for (int i = 0, tries = k_halvings; i < tries; ++i) {
+      const bool good = is_good(length, start_ + k_armijo * length * slope_);
+      if (good) {
+        take(length);
+        if (!step_.refused) break;
+        if (shortening == 0) shortening = 0.5 * length, tries = i + 1 + k_refinements;
+        length += shortening;
+      } else if (shortening == 0) {
+        length *= 0.5;
+        continue;
+      } else {
+        length -= shortening;
+      }
+      shortening *= 0.5;
     }
-    shortening *= 0.5;
+    if (step_.length > 0 && !problem_.accept) lengthen();
+    if (step_.length > 0) std::swap(uv_, best_), energy = energy_;
+    return step_;
   }
-  if (step.length > 0) std::swap(uv, best);
-  return step;
+
+ private:
+  bool is_good(double length, double limit) {
+    for (std::size_t v = 0; v < uv_.size(); ++v) trial_[v] = uv_[v] + length * direction_[v];
+    if (problem_.barrier && !problem_.barrier->is_simple(trial_)) return false;
+    trial_energy_ = total_energy(problem_, trial_);
+    trial_total_ = trial_energy_ + barrier_value(problem_, trial_);
+    if (!(trial_total_ <= limit)) return false;
+    const bool accepted = !problem_.accept || problem_.accept(trial_);
+    step_.refused = step_.refused || !accepted;
+    return accepted;
+  }
+
+  void take(double length) {
+    std::swap(best_, trial_);
+    trial_.resize(uv_.size());
+    energy_ = trial_energy_;
+    total_ = trial_total_;
+    step_.length = length;
+  }
+
+  /// Further, to where a parabola through start, slope and the last value has its minimum, while that is much further:
+  /// the projected Hessian bends more than an energy that is not convex.
+  void lengthen() {
+    for (;;) {
+      const double length = step_.length, bend = (total_ - start_ - slope_ * length) / (length * length);
+      double longer = std::min(k_room * most_, k_longest * length);
+      if (bend > 0) longer = std::min(longer, -0.5 * slope_ / bend);
+      if (!(longer > k_longer * length) || !is_good(longer, total_)) return;
+      take(longer);
+    }
+  }
+
+  const DescentProblem& problem_;
+  std::span<const Vec2> direction_;
+  double slope_, most_;
+  std::vector<Vec2>& uv_;
+  double start_, energy_ = 0, total_ = 0;
+  double trial_energy_ = 0, trial_total_ = 0;
+  std::vector<Vec2> trial_, best_;
+  Step step_;
+};
+
+/// What full Newton steps have still to gain after one that gained `gain`, as a geometric series by how the slopes went
+/// down. @param slope_before 0: there was no step before.
+double left_after(double gain, double slope, double slope_before) {
+  const double ratio = slope_before < 0 ? slope / slope_before : k_first_ratio;
+  return ratio < 1 ? gain * ratio / (1 - ratio) : std::numeric_limits<double>::infinity();
 }
 
 /// The iteration that both methods share: `direct(gradient, uv, pairs, good)` says where to go, `good` whether the last
@@ -218,7 +276,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
   DescentResult result;
   result.energy = total_energy(problem, uv);
   result.trace.push_back({clock.seconds(), result.energy});
-  double step = 1;
+  double step = 1, slope_before = 0;
   bool good = false;
   while (result.iterations < options.max_iterations) {
     if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
@@ -240,7 +298,11 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     const double slope = dot(gradient, direction), before = result.energy;
     ++result.iterations;
     Step taken;
-    if (slope < 0) taken = line_search(problem, direction, slope, step, options.allow_flips, uv, result.energy);
+    if (slope < 0) {
+      const double most = options.allow_flips ? std::numeric_limits<double>::infinity()
+                                              : k_before_flip * step_to_first_flip(problem.triangles, uv, direction);
+      taken = LineSearch(problem, direction, slope, most, uv, result.energy).run(step, result.energy);
+    }
     if (taken.length == 0) {
       // Near the minimum rounding hides how far the energy falls.
       result.stop =
@@ -248,16 +310,19 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
       break;
     }
     result.trace.push_back({clock.seconds(), result.energy});
-    if (std::abs(before - result.energy) <= options.tolerance * result.energy &&
-        (problem.barrier || -slope <= k_promise * options.tolerance * result.energy)) {
+    const double gain = before - result.energy, small = options.tolerance * result.energy;
+    const bool stands = std::abs(gain) <= small && (problem.barrier || -slope <= k_promise * small);
+    const bool was_last = options.foresee && taken.length >= step && left_after(gain, slope, slope_before) <= small;
+    if (stands || was_last) {
       result.stop = StopReason::converged;
       break;
     }
+    slope_before = slope;
     if (taken.refused) {
       result.stop = StopReason::line_search_stalled;
       break;
     }
-    good = taken.length == step && before - result.energy > -k_good_step * step * slope;
+    good = taken.length >= step && gain > -k_good_step * step * slope;
     step = growth > 1 ? growth * taken.length : 1;
   }
   return result;

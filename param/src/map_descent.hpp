@@ -17,6 +17,7 @@ struct DescentOptions {
   double time_limit_s = 0;    ///< 0: none.
   bool allow_flips = false;   ///< Let triangles turn over; the energy must then be finite for such.
   bool reuse_factor = false;  ///< Factor again only when a step disappoints: for energies that are nearly quadratic.
+  bool foresee = false;       ///< Stop also when what full steps have still to gain is below the tolerance.
 };
 
 struct DescentResult {
@@ -38,9 +39,9 @@ struct DescentProblem {
 double total_energy(const DescentProblem& problem, std::span<const Vec2> uv);
 std::vector<Vec2> energy_gradient(const DescentProblem& problem, std::span<const Vec2> uv);
 
-/// The largest step along `direction`, at most `most`, before the first triangle turns over.
+/// The step along `direction` with which the first triangle turns over; infinity when none does.
 double step_to_first_flip(std::span<const Triangle> triangles, std::span<const Vec2> uv,
-                          std::span<const Vec2> direction, double most);
+                          std::span<const Vec2> direction);
 
 /// Steepest descent with line search; each search begins at twice the step that the last one took.
 DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options);

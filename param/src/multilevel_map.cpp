@@ -27,6 +27,15 @@ constexpr double k_coarse_area = 1e-3;
 constexpr double k_coarse_tolerance = 1e-2;
 constexpr int k_coarse_iterations = 100;
 constexpr double k_relax_tolerance = 3e-3;
+
+/// From this mean energy on a chart counts as deep: fingers, arms. There levels grow slowly and are brought nearer to
+/// their minimum, for steps are cheaper on a coarse level than on a fine one that starts far off.
+constexpr double k_deep_energy = 15;
+constexpr std::size_t k_deep_growth = 2;
+constexpr double k_deep_tolerance = 1.5e-3;
+
+/// Their last steps are many and small: what counts as small is halved.
+constexpr double k_deep_share = 0.5;
 constexpr int k_relax_sweeps = 10;
 
 /// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
@@ -125,6 +134,8 @@ class Multilevel {
     return total_energy({level.triangles, &energy, nullptr}, level.uv);
   }
 
+  bool is_deep() const { return mean_energy_ > k_deep_energy; }
+
   static BorderBarrier make_barrier(const MapLevel& level) {
     return {level.border, level.uv, k_push * level.area / static_cast<double>(level.triangles.size())};
   }
@@ -145,6 +156,8 @@ class Multilevel {
     DescentOptions descent;
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
     descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
+    if (is_deep()) descent.tolerance = last ? k_deep_share * options_.tolerance : k_deep_tolerance;
+    descent.foresee = last;
     descent.time_limit_s = options_.time_limit_s;
     const DescentResult result =
         descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
@@ -166,7 +179,7 @@ class Multilevel {
   /// Brings vertices back until there are k_growth times as many, or all, or the next one finds no place.
   bool refine(MapLevel& level) {
     const std::size_t before = hierarchy_.removed_count();
-    const std::size_t growth = guarded_ ? k_guarded_growth : k_growth;
+    const std::size_t growth = guarded_ ? k_guarded_growth : is_deep() ? k_deep_growth : k_growth;
     const std::size_t enough = growth * hierarchy_.vertex_count();
     const std::size_t all = hierarchy_.removed_count() + hierarchy_.vertex_count();
     // A rest that is smaller than a level of its own joins this one.

@@ -55,6 +55,38 @@ TEST(Levy, LengthConditionEvensOutScale) {
   EXPECT_GT(r.length, 0);
 }
 
+TEST(Levy, LengthsAlongTheirDirectionsBeatEvenOnes) {
+  const TriangleMesh mesh = test::grid_mesh(12, 60, test::grab_handle, 0.15);
+  LevyOptions options;
+  const auto energy = [&](int rounds) {
+    options.length_rounds = rounds;
+    const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), options);
+    EXPECT_TRUE(r.flattening.notes.empty());
+    const Trace& trace = r.flattening.trace;
+    EXPECT_EQ(trace.size(), static_cast<std::size_t>(rounds) + 1);
+    for (std::size_t i = 1; i < trace.size(); ++i) EXPECT_LT(trace[i].error, trace[i - 1].error);
+    return measure_distortion(mesh, r.flattening.uv).symmetric_dirichlet.mean;
+  };
+  const double even = energy(0), once = energy(1);
+  EXPECT_GT(even, 5);
+  EXPECT_LT(once - 4, 0.2 * (even - 4));
+  EXPECT_LT(energy(3), once);
+}
+
+TEST(Levy, RoundsOfLengthsEndWhereArapDoes) {
+  const TriangleMesh mesh = test::dashboard_mesh(30, 12);
+  LevyOptions options;
+  options.length_rounds = 200;
+  ReferenceOptions reference;
+  reference.map = ReferenceMap::arap;
+  reference.arap_iterations = 500;
+  const auto energy = [&](const CornerAttribute<Vec2>& uv) {
+    return measure_distortion(mesh, uv).symmetric_dirichlet.mean;
+  };
+  const double arap = energy(flatten_reference(mesh, test::one_chart(mesh), reference).uv);
+  EXPECT_NEAR(energy(flatten_levy(mesh, test::one_chart(mesh), options).flattening.uv), arap, 0.01 * (arap - 4));
+}
+
 TEST(Levy, InteriorVerticesAreTheMeanOfTheirNeighbours) {
   const TriangleMesh mesh = test::saddle(10, 20, 4, 11);
   const LevyResult r = flatten_levy(mesh, test::one_chart(mesh), convex(LevyWeights::uniform));
@@ -221,6 +253,9 @@ TEST(Levy, BadInputIsNamed) {
   options = {};
   options.length = -1;
   refused(options, "length");
+  options = {};
+  options.length_rounds = -1;
+  refused(options, "length_rounds");
   EXPECT_TRUE(flatten_levy({}, {}).flattening.uv.empty());
 }
 

@@ -111,11 +111,50 @@ TEST(Energies, FlippedTrianglesAreInfinite) {
 TEST(Descent, StepEndsAtTheFirstFlip) {
   const std::vector<Triangle> triangles{{0, 1, 2}};
   const std::vector<Vec2> uv{{0, 0}, {1, 0}, {0, 1}}, down{{0, 0}, {0, 0}, {0, -4}}, up{{0, 0}, {0, 0}, {0, 4}};
-  EXPECT_NEAR(step_to_first_flip(triangles, uv, down, 1), 0.25, 1e-12);
-  EXPECT_EQ(step_to_first_flip(triangles, uv, up, 1), 1);
+  EXPECT_NEAR(step_to_first_flip(triangles, uv, down), 0.25, 1e-12);
+  EXPECT_TRUE(std::isinf(step_to_first_flip(triangles, uv, up)));
   // Two corners that change places collapse the triangle half way.
   const std::vector<Vec2> turn{{0, 0}, {-1, 1}, {1, -1}};
-  EXPECT_NEAR(step_to_first_flip(triangles, uv, turn, 1), 0.5, 1e-12);
+  EXPECT_NEAR(step_to_first_flip(triangles, uv, turn), 0.5, 1e-12);
+}
+
+/// Half the squares of the distances to three places, with a Hessian that is ten times too large.
+class StiffModel final : public MapEnergy {
+ public:
+  static constexpr std::array<Vec2, 3> k_places{{{1, 2}, {5, 2}, {1, 6}}};
+  double value(std::size_t, Vec2 a, Vec2 b, Vec2 c) const override {
+    const CornerGradient g = gradient(0, a, b, c);
+    return 0.5 * (dot(g[0], g[0]) + dot(g[1], g[1]) + dot(g[2], g[2])) + 1;
+  }
+  CornerGradient gradient(std::size_t, Vec2 a, Vec2 b, Vec2 c) const override {
+    return {a - k_places[0], b - k_places[1], c - k_places[2]};
+  }
+  void hessian(std::size_t, Vec2, Vec2, Vec2, double* matrix) const override {
+    for (std::size_t i = 0; i < 36; ++i) matrix[i] = i % 7 == 0 ? 10 : 0;
+  }
+};
+
+TEST(Descent, GoesFurtherWhereTheModelBendsTooMuch) {
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  const StiffModel energy;
+  std::vector<Vec2> uv{{0, 0}, {3, 0}, {0, 3}};
+  const DescentResult result = descend({triangles, &energy}, uv, {.tolerance = 1e-9});
+  for (std::size_t v = 0; v < 3; ++v) EXPECT_LT(norm(uv[v] - StiffModel::k_places[v]), 1e-3);
+  EXPECT_NEAR(result.energy, 1, 1e-6);
+  EXPECT_LT(result.iterations, 10);  // steps as long as the model says gain a fifth each
+}
+
+TEST(Descent, ForeseesTheEnd) {
+  const Sample s;
+  const SymmetricDirichlet energy(s.rest);
+  const auto run = [&](bool foresee) {
+    std::vector<Vec2> uv = s.uv;
+    return descend({s.mesh.triangles, &energy}, uv, {.tolerance = 1e-3, .foresee = foresee});
+  };
+  const DescentResult to_the_end = run(false), foreseen = run(true);
+  EXPECT_EQ(foreseen.stop, StopReason::converged);
+  EXPECT_LT(foreseen.iterations, to_the_end.iterations);
+  EXPECT_LT(foreseen.energy, (1 + 1e-3) * to_the_end.energy);
 }
 
 template <class Scalar>

@@ -11,6 +11,7 @@
 #include "papilla/param/components.hpp"
 #include "papilla/param/grain_direction.hpp"
 #include "papilla/param/grain_frame.hpp"
+#include "papilla/param/seam_choice.hpp"
 
 namespace papilla::app {
 namespace {
@@ -33,6 +34,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   o.natural.fall_back = true;
   if (fall_back) o.best.energy_limit = 4 + worth_halving(o.segmentation);
   if (o.iterations) o.maillot.max_iterations = o.best.max_iterations = *o.iterations;
+  if (o.iterations) o.levy.length_rounds = *o.iterations;
   if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
   if (o.tolerance)
     o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
@@ -112,6 +114,31 @@ std::string reason_for_triplanar(double extent_mm, const PartContext& context) {
   return {};
 }
 
+Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                         FlattenedPart& part) {
+  const Stopwatch clock;
+  const ChartSet charts = segment_charts(mesh, segmentation_of(o, context)).charts;
+  part.segment_seconds += clock.seconds();
+  part.choices.clear();
+  return map_or_halve(mesh, charts, o, part.choices);
+}
+
+/// As choose_seam_cost() does.
+Flattening chart_twice(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                       FlattenedPart& part) {
+  std::vector<std::vector<ChartChoice>> choices;
+  SeamChoice choice = choose_seam_cost(mesh, [&](double seam_cost) {
+    MethodOptions own = o;
+    own.segmentation.seam_cost = seam_cost;
+    own.best.energy_limit = own.automatic.best.energy_limit = 4 + worth_halving(own.segmentation);
+    Flattening flattening = chart_and_map(mesh, own, context, part);
+    choices.push_back(std::move(part.choices));
+    return flattening;
+  });
+  part.choices = std::move(choices[choice.chosen]);
+  return std::move(choice.flattening);
+}
+
 Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context, FlattenedPart& part) {
   switch (o.method) {
     case UnwrapMethod::natural: return flatten_natural(mesh, o.natural);
@@ -126,12 +153,14 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
     }
     default: break;
   }
-  const Stopwatch clock;
-  if (o.charts == ChartSource::keep) require_manifold(mesh);
-  const ChartSet charts = o.charts == ChartSource::keep ? components_as_charts(mesh)
-                                                        : segment_charts(mesh, segmentation_of(o, context)).charts;
-  part.segment_seconds = clock.seconds();
-  return map_or_halve(mesh, charts, o, part.choices);
+  if (o.charts == ChartSource::keep) {
+    require_manifold(mesh);
+    return map_or_halve(mesh, components_as_charts(mesh), o, part.choices);
+  }
+  // Twice the time is no matter on parts of this size.
+  constexpr std::size_t k_most_triangles = 50'000;
+  if (o.choose_seam_cost && mesh.triangles.size() <= k_most_triangles) return chart_twice(mesh, o, context, part);
+  return chart_and_map(mesh, o, context, part);
 }
 
 }  // namespace

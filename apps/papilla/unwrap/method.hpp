@@ -70,6 +70,7 @@ struct MethodOptions {
   Vec3 grain_direction{0, 0, 1};  ///< Of GrainSource::direction.
   ChartSource charts = ChartSource::automatic;
   SegmentationOptions segmentation;
+  bool choose_seam_cost = false;  ///< choose_seam_cost() instead of the segmentation's, for parts that are not large.
   NaturalOptions natural;
   IntermediateOptions intermediate;
   PlanarOptions planar;

@@ -11,7 +11,8 @@ namespace papilla {
 /// Options of flatten_best(). All are dimensionless, so one set of values serves every size of chart.
 struct BestOptions {
   GrainUp up = GrainUp::z;
-  /// Stop when an iteration lowers the energy by less than this fraction, and its slope promised no more; in (0, 1).
+  /// Stop when an iteration lowers the energy by less than this fraction, and its slope promised no more, or when full
+  /// steps have less than it still to gain, by how the last one's gain and the slopes go down; in (0, 1).
   double tolerance = 1e-3;
   int max_iterations = 50;  ///< Newton iterations on the whole chart; at least 0.
   double time_limit_s = 0;  ///< Per chart, for the iterations on the whole chart; 0: none.
@@ -38,14 +39,14 @@ struct BestOptions {
 /// Method: the chart is coarsened vertex by vertex to a few triangles, these are mapped by Tutte's method, and the
 /// vertices come back in order, each into the kernel of its ring; every level is relaxed, first vertex by vertex, then
 /// (up to 200,000 vertices) by projected Newton steps on a nested-dissection factorization, with a line search that
-/// crosses no flip. From the first level on whose border runs into itself, a barrier between the edges of the border
-/// keeps it apart; where vertices find no room then, the map begins again from an earlier level or a finer base.
-/// Cost: O(n) for coarsening and relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the
-/// factorization and sums run in parallel; the result does not depend on the number of threads.
-/// Trace: error = E / ΣA, from the first map of the whole chart on.
-/// Papers: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M. Rabinovich et al., Scalable
-/// locally injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith et al., Analytic
-/// eigensystems for isotropic distortion energies, 2019.
+/// crosses no flip and goes further than the model says where the energy bends less. From the first level on whose
+/// border runs into itself, a barrier between the edges of the border keeps it apart; where vertices find no room then,
+/// the map begins again from an earlier level or a finer base. Cost: O(n) for coarsening and relaxing, O(n^1.5) per
+/// Newton step; about 2 kB per vertex. Charts, branches of the factorization and sums run in parallel; the result does
+/// not depend on the number of threads. Trace: error = E / ΣA, from the first map of the whole chart on. Papers: J.
+/// Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M. Rabinovich et al., Scalable locally
+/// injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith et al., Analytic eigensystems for
+/// isotropic distortion energies, 2019.
 ///
 /// @param charts one number below charts.count for every triangle.
 /// @throws InvalidInput for a mesh, chart set or option that breaks these preconditions; without fall_back also for a

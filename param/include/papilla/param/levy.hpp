@@ -56,8 +56,11 @@ struct LevyOptions {
   double length = 1;         ///< Weight of the length condition; not negative.
   double tolerance = 1e-3;   ///< Stop when a round lowers the sum by less than this fraction; in (0, 1).
   int max_rounds = 10;       ///< Alternations between u and v; at least 1.
-  int max_sweeps = 1000;     ///< Of gauss_seidel, per round; at least 1.
-  double time_limit_s = 0;   ///< Per chart; 0: none.
+  /// Rounds that ask for lengths anew, along the directions just found, where `length` counts and the border is free,
+  /// the coupling conformal, the solver direct; at least 0: evenness of lengths is all.
+  int length_rounds = 1;
+  int max_sweeps = 1000;    ///< Of gauss_seidel, per round; at least 1.
+  double time_limit_s = 0;  ///< Per chart; 0: none.
   /// With pins the chart keeps the place and scale that they give. Pins on a free border must differ in u and in v.
   std::vector<LevyPin> pins;
   std::vector<LevyIsoLine> iso_lines;
@@ -66,8 +69,11 @@ struct LevyOptions {
 };
 
 struct LevyResult {
-  Flattening flattening;  ///< Trace: error = the sum F in mm², over all charts, after each round or sweep.
-  /// The parts of F at the end, without their weights, in mm²; 0 where the weight is 0 (smoothness: and the border free).
+  /// Trace: error = the sum F in mm², over all charts, after each round or sweep; with rounds of lengths the sum
+  /// Σ_T A |∇m - λ R_T|², of the first map and after each round.
+  Flattening flattening;
+  /// The parts of F at the end, without their weights, in mm²; 0 where the weight is 0 (smoothness: and the border
+  /// free).
   double smoothness = 0, orthogonality = 0, length = 0;
 };
 
@@ -83,6 +89,11 @@ struct LevyResult {
 ///
 /// Free border, conformal, direct, no iso lines: one Hermitian system. All terms are homogeneous, so without pins the
 /// map is the one of least F among those of given inertia about their middle (inverse iteration, three solves).
+/// F makes lengths even, not right. Then each of `length_rounds` asks for lengths along the directions that it finds:
+///     Σ_T A |∇m - λ R_T|² + smoothness R  ->  least,
+/// R_T the rotation nearest to ∇m before the round, λ the mean length of the first map's gradients. This is linear, one
+/// real factorization serves u and v of all rounds, and its limit is the map as rigid as possible. A round that would
+/// raise the symmetric Dirichlet energy is not taken, and is the last.
 /// Convex border without coupling and length, no pins: the minimum is R = 0, found from one linear system.
 /// Else: u is found with v held, then v with u held, in rounds, O being (∇u·∇v)². Rounds on a free border start from
 /// the least squares conformal map; without pins the vertices that are farthest out keep the coordinate they are
@@ -92,7 +103,8 @@ struct LevyResult {
 /// sphere, where conformal starts flip or shrink without bound; large `length` on strongly curved charts, which have no
 /// map of constant gradient; uniform weights with a free border on uneven meshes. Gauss-Seidel needs O(n) sweeps; it is
 /// there to be compared with. Cost: O(n^1.5) per round. Result independent of the number of threads. Papers: B. Lévy,
-/// J.-L. Mallet, Non-distorted texture mapping for sheared triangulated meshes, SIGGRAPH 1998; M. Floater, Mean value
+/// J.-L. Mallet, Non-distorted texture mapping for sheared triangulated meshes, SIGGRAPH 1998; L. Liu et al., A
+/// local/global approach to mesh parameterization, 2008 (the rounds of lengths); M. Floater, Mean value
 /// coordinates, 2003.
 ///
 /// @param charts one number below charts.count for every triangle.
