@@ -14,7 +14,8 @@ namespace {
 /// Of the shortest step. Near the end a step of s brings only s²/2·depth.
 constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
-constexpr double k_needed_travels = 0.6, k_wanted_travels = 1.2;
+constexpr double k_needed_travels = 0.6, k_wanted_travels = 2;
+constexpr double k_focus_skins = 2;  // How far the proxy goes before distances are noted anew.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_drop = 8;         // Of the shortest step: twice as far as a resting proxy can be off.
 
@@ -61,16 +62,19 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
 
 /// Sees to it that what the proxy can meet around `from` is gathered, unless that is too much.
 void Proxy::look_around(Vec3 from, double travel) noexcept {
-  if (surface_->probe_radius_m() == 0) return;  // A point meets so few triangles that the tree is as fast.
   const double needed = k_needed_travels * travel + surface_->skin_m();
-  if (surface_->margin(from, near_) >= needed) return;
+  if (surface_->margin(from, near_) < needed) gather(from, needed, travel);
+  if (surface_->off_focus(from, near_) > k_focus_skins * surface_->skin_m()) surface_->focus(from, near_);
+}
+
+void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
   const double radius = std::min(k_wanted_travels * travel + 4 * surface_->skin_m(), widest_m_);
   if (radius < needed) {
     near_.clear();
     widest_m_ *= k_regrowth;
   } else if (!surface_->gather(from, radius, near_)) {
     widest_m_ = 0.5 * radius;
-  } else if (near_.count() < Neighbourhood::k_capacity / 8) {
+  } else if (near_.triangles() < Neighbourhood::k_capacity / 8) {
     widest_m_ = std::max(widest_m_, 2 * radius);
   }
 }

@@ -67,6 +67,7 @@ class Proxy {
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   double friction(const ContactMaterial& material) const noexcept;
   void look_around(Vec3 from, double travel) noexcept;
+  void gather(Vec3 from, double needed, double travel) noexcept;
 
   const ContactSurface* surface_;
   ProxyState state_;
