@@ -50,8 +50,9 @@ bool ContactSurface::comes_before(const SweepHit& a, const SweepHit& b) noexcept
 
 /// Goes on from `state` to the first t up to t_max where from + t·way is within `radius` of the triangle. The distance
 /// to a convex set is convex on a line, so Newton's steps from outside end at or before the contact: nothing is passed
-/// over. @returns false when there is none.
-bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radius, double t_max,
+/// over, and the tangent tells early that t = 1 isn't within `least`. @returns false when there is none, or never less
+/// than `least`.
+bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
                               Approach& state) const noexcept {
   const double close = k_close * tolerance_m();
   for (int step = 0; step < k_newton_steps; ++step) {
@@ -60,6 +61,7 @@ bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radi
     if (descent <= 0) return false;
     const double way_there = (state.distance - radius) * state.distance;
     if (way_there > (t_max - state.t) * descent) return false;
+    if ((state.distance - least - close) * state.distance > (1 - state.t) * descent) return false;
     look(t, from, way, state.t + way_there / descent, state);
   }
   return true;
@@ -80,7 +82,7 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
   const double contact = contact_radius_m();
   Approach touch;
   look(t, from, way, 0, touch);
-  if (!approach(t, from, way, contact, t_max, touch)) return;
+  if (!approach(t, from, way, contact, contact - tolerance_m(), t_max, touch)) return;
   Vec3 normal = (1 / touch.distance) * touch.d;
   if (!(touch.distance > 0)) {
     normal = normalized(cross(t.b - t.a, t.c - t.a));
@@ -89,7 +91,7 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
   if (dot(normal, way) >= 0) return;
   const SweepHit hit{touch.t, normal, contact - touch.distance, source_of(place), material_of(place)};
   if (best && !comes_before(hit, *best)) return;
-  if (approach(t, from, way, contact - tolerance_m(), 1, touch)) best = hit;
+  if (approach(t, from, way, contact - tolerance_m(), contact - tolerance_m(), 1, touch)) best = hit;
 }
 
 /// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
@@ -99,7 +101,7 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
   const double length = norm(way), contact = contact_radius_m(), top = top_of(place);
   Approach entry;
   look(t, from, way, 0, entry);
-  if (!approach(t, from, way, contact + top, t_max, entry)) return;
+  if (!approach(t, from, way, contact + top, contact + top - tolerance_m(), t_max, entry)) return;
   const double finest = std::max(0.5 / std::max(texels_on(place, t, way), 0.5), 1.0 / k_march_steps);
 
   // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
@@ -222,7 +224,7 @@ void ContactSurface::sweep_prisms(const Neighbourhood& near, Vec3 from, Vec3 way
     const std::uint32_t block_count = near.blocks(from, until * length + contact, blocks);
     for (std::uint32_t b = 0; b < block_count; ++b) {
       std::array<float, Neighbourhood::k_lanes> earliest;
-      near.near_way(blocks[b], from, way, contact, earliest);
+      near.near_way(blocks[b], from, way, contact, tolerance_m(), earliest);
       const std::uint32_t begin = blocks[b] * Neighbourhood::k_lanes;
       for (std::uint32_t i = 0; i < std::min(Neighbourhood::k_lanes, near.triangles() - begin); ++i)
         if (static_cast<double>(earliest[i]) <= until) open[count++] = {earliest[i], near.place(begin + i)};

@@ -17,6 +17,7 @@ namespace papilla {
 namespace {
 
 constexpr float k_margin = 2e-6F;  // Relative; a dozen roundings of single precision.
+constexpr float k_never = 2;
 constexpr float k_least = 1e-25F;  // Keeps a quotient finite.
 
 float size_of(Vec3 v) noexcept { return static_cast<float>(std::abs(v.x) + std::abs(v.y) + std::abs(v.z)); }
@@ -30,7 +31,7 @@ std::array<float, 3> floats_of(Vec3 v) noexcept {
 /// Whole blocks: what stands behind the last triangle is computed and not looked at.
 struct Neighbourhood::Loops {
   static void make_prisms(const Corners& t, Prisms& p) noexcept;
-  static void meet(const Prisms& t, const float* x, const float* w, float reach, float* earliest) noexcept;
+  static void meet(const Prisms& t, const float* x, const float* w, float reach, float least, float* earliest) noexcept;
   static void distances(const Prisms* prisms, std::uint32_t blocks, const float* x, float* least) noexcept;
 };
 
@@ -77,8 +78,8 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p)
 }
 
 /// With g the distance to the prism at x and p/g its slope along w, the distance at x + t·w is at least g + t·p/g:
-/// reach c is not met before t = (g − c)·g/−p.
-PAPILLA_WIDE void Neighbourhood::Loops::meet(const Prisms& t, const float* x, const float* w, float reach,
+/// reach c is not met before t = (g − c)·g/−p, and what lies below g + p/g not at all.
+PAPILLA_WIDE void Neighbourhood::Loops::meet(const Prisms& t, const float* x, const float* w, float reach, float least,
                                              float* earliest) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2];
 #pragma GCC ivdep
@@ -102,7 +103,8 @@ PAPILLA_WIDE void Neighbourhood::Loops::meet(const Prisms& t, const float* x, co
     const float dm = std::max(std::max(m01, m23), 0.0F), wm = m01 > m23 ? v01 : v23;
     const float g = std::sqrt(ds * ds + dm * dm);
     const float approach = std::max(-(ds * ws + dm * wm), k_least);
-    earliest[i] = std::max((g - reach) * g / approach * (1 - k_margin), 0.0F);
+    const float met = std::max((g - reach) * g / approach * (1 - k_margin), 0.0F);
+    earliest[i] = (g - least) * g > approach ? k_never : met;
   }
 }
 
@@ -185,13 +187,13 @@ std::uint32_t Neighbourhood::blocks(Vec3 from, double distance, Blocks& numbers)
   return count;
 }
 
-void Neighbourhood::near_way(std::uint32_t block, Vec3 from, Vec3 way, double contact,
+void Neighbourhood::near_way(std::uint32_t block, Vec3 from, Vec3 way, double contact, double deep,
                              std::array<float, k_lanes>& earliest) const noexcept {
   const Vec3 at = in_frame(from);
   const std::array<float, 3> x = floats_of(at), w = floats_of(way);
   const auto c = static_cast<float>(contact);
-  const float reach = c + 4 * k_margin * (c + size_of(at) + size_of(way));
-  Loops::meet(prisms_[block], x.data(), w.data(), reach, earliest.data());
+  const float error = 4 * k_margin * (c + size_of(at) + size_of(way));
+  Loops::meet(prisms_[block], x.data(), w.data(), c + error, c + error - static_cast<float>(deep), earliest.data());
 }
 
 }  // namespace papilla

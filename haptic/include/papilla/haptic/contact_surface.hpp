@@ -166,7 +166,8 @@ class ContactSurface {
   static Vec3 in_plane(const Corners& t, double by_v, double by_w) noexcept;
   double texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept;
   static void look(const Corners& t, Vec3 from, Vec3 way, double at, Approach& state) noexcept;
-  bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double t_max, Approach& state) const noexcept;
+  bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
+                Approach& state) const noexcept;
   static Box3f box_around(Vec3 a, Vec3 b, double reach) noexcept;
   bool beside(std::uint32_t place, const Box3f& box) const noexcept;
   static bool comes_before(const SweepHit& a, const SweepHit& b) noexcept;

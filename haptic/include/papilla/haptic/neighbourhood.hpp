@@ -56,8 +56,8 @@ class Neighbourhood {
   std::uint32_t blocks(Vec3 from, double distance, Blocks& numbers) const noexcept;
 
   /// For the triangles of a block, side by side: no t before earliest[i] brings from + t·way nearer than `contact` to
-  /// triangle i.
-  void near_way(std::uint32_t block, Vec3 from, Vec3 way, double contact,
+  /// triangle i; 2 when no t up to 1 brings it `deep` nearer than that.
+  void near_way(std::uint32_t block, Vec3 from, Vec3 way, double contact, double deep,
                 std::array<float, k_lanes>& earliest) const noexcept;
 
  private:

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <span>
 #include <utility>
@@ -75,19 +74,11 @@ class TriangleClusters {
   template <class Visit>
   void in_box(std::uint32_t cluster, const Box3f& box, Visit&& visit) const noexcept {
     const Cluster& c = clusters_[cluster];
-    std::array<std::uint8_t, k_groups> met{};
-    c.meet(box, met);
-    std::array<std::uint64_t, 2> words{};
-    std::memcpy(words.data(), met.data(), sizeof(met));
-    for (std::uint32_t half = 0; half < 2; ++half)
-      for (std::uint64_t word = words[half]; word != 0;) {
-        const auto byte = static_cast<std::uint32_t>(
-            std::endian::native == std::endian::little ? std::countr_zero(word) / 8 : std::countl_zero(word) / 8);
-        word &= ~(std::uint64_t{0xff} << (std::endian::native == std::endian::little ? 8 * byte : 56 - 8 * byte));
-        const std::uint32_t begin = k_group * (8 * half + byte),
-                            end = std::min(begin + k_group, std::uint32_t{c.count});
-        for (std::uint32_t i = begin; i < end; ++i) visit(cluster * k_most + i);
-      }
+    for (std::uint32_t groups = c.meet(box); groups != 0; groups &= groups - 1) {
+      const std::uint32_t begin = k_group * static_cast<std::uint32_t>(std::countr_zero(groups));
+      for (std::uint32_t i = begin; i < std::min(begin + k_group, std::uint32_t{c.count}); ++i)
+        visit(cluster * k_most + i);
+    }
   }
 
   /// Asks the processor to fetch the numbers of a cluster, or its triangles, ahead of their use.
@@ -110,12 +101,17 @@ class TriangleClusters {
       const float cells = std::bit_cast<float>(static_cast<std::uint32_t>(exponent[axis] + 127) << 23);
       return static_cast<std::uint8_t>(std::clamp((x - origin[axis]) * cells, 0.0F, 255.0F));
     }
-    void meet(const Box3f& box, std::array<std::uint8_t, k_groups>& met) const noexcept {
+    /// A bit for each group that reaches into the box.
+    std::uint32_t meet(const Box3f& box) const noexcept {
       std::array<std::uint8_t, 3> from{}, to{};
       for (std::size_t k = 0; k < 3; ++k) from[k] = cell(box.low[k], k), to[k] = cell(box.high[k], k);
+      std::array<std::uint8_t, k_groups> met{};
       for (std::size_t g = 0; g < k_groups; ++g)
         met[g] = static_cast<std::uint8_t>((low[0][g] <= to[0]) & (high[0][g] >= from[0]) & (low[1][g] <= to[1]) &
                                            (high[1][g] >= from[1]) & (low[2][g] <= to[2]) & (high[2][g] >= from[2]));
+      std::uint32_t groups = 0;
+      for (std::size_t g = 0; g < k_groups; ++g) groups |= std::uint32_t{met[g]} << g;
+      return groups;
     }
   };
   static_assert(sizeof(Cluster) == 128);
