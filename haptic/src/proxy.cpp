@@ -17,19 +17,29 @@ constexpr double k_least_gain = 0.02;
 constexpr double k_needed_travels = 0.6, k_wanted_travels = 2;
 constexpr double k_focus_skins = 2;  // How far the proxy goes before distances are noted anew.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
-constexpr double k_drop = 8;         // Of the shortest step: twice as far as a resting proxy can be off.
+constexpr double k_same_normal = 0.95;
+constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
 
 }  // namespace
 
 /// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
 struct Proxy::Planes {
   HalfSpace plane[k_planes];
+  Vec3 found_at[k_planes];
   int count = 0;
+
+  void add(const HalfSpace& found, Vec3 at) noexcept {
+    found_at[count] = at;
+    plane[count++] = found;
+  }
 
   void keep(std::uint32_t active) noexcept {
     int kept = 0;
     for (int i = 0; i < count; ++i)
-      if (active >> i & 1U) plane[kept++] = plane[i];
+      if (active >> i & 1U) {
+        found_at[kept] = found_at[i];
+        plane[kept++] = plane[i];
+      }
     count = kept;
   }
 };
@@ -79,6 +89,18 @@ void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
   }
 }
 
+/// Whether the planes that hold the proxy in a crease are still there: it may have slid past what one was found on.
+bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) const noexcept {
+  const double drop = 2 * surface_->tolerance_m();
+  for (int i = 0; i < planes.count; ++i) {
+    if (!(active >> i & 1U) || norm(x - planes.found_at[i]) <= drop || next.sweeps == k_steps) continue;
+    ++next.sweeps;
+    const auto hit = surface_->sweep(start + x, start + x - drop * planes.plane[i].normal, near_);
+    if (!hit || dot(hit->normal, planes.plane[i].normal) < k_same_normal) return false;
+  }
+  return true;
+}
+
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   if (!is_finite(probe)) return state_;
   if (!started_) reset(probe);
@@ -107,7 +129,11 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     } else if (aim.count > 0) {
       hold(aim, planes, goal, next);
       const double held = friction(surface_->material(next.material)) * next.load_m;
-      if (wanted - held <= shortest) break;
+      if (wanted - held <= shortest) {
+        if (aim.count == 1 || all_stand(planes, aim.active, start, x, next)) break;
+        planes.count = 0;
+        continue;
+      }
       step = (1 - held / wanted) * step;
     } else {
       free = wanted == 0;
@@ -136,7 +162,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     if (planes.count == k_planes) break;
     // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
     x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
-    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material};
+    planes.add({hit->normal, dot(hit->normal, x), hit->material}, x);
     next.in_contact = true;
   }
   if (free) next = ProxyState{};
