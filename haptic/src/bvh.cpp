@@ -8,7 +8,6 @@
 namespace papilla {
 namespace {
 
-constexpr std::uint32_t k_leaf_size = 4;
 constexpr int k_bins = 16;
 constexpr int k_sah_depth = 48;  // Halving from here on adds at most 31 levels: below the stack's 96.
 
@@ -86,7 +85,7 @@ std::size_t divide(std::span<const Box3f> boxes, std::span<std::uint32_t> items,
 
 }  // namespace
 
-Bvh::Bvh(std::span<const Box3f> boxes) : order_(boxes.size()) {
+Bvh::Bvh(std::span<const Box3f> boxes, std::uint32_t leaf_size) : order_(boxes.size()) {
   if (boxes.size() > (std::size_t{1} << 31)) throw InvalidInput("Bvh: more than 2^31 boxes");
   if (boxes.empty()) return;
   std::iota(order_.begin(), order_.end(), 0U);
@@ -94,7 +93,7 @@ Bvh::Bvh(std::span<const Box3f> boxes) : order_(boxes.size()) {
     std::uint32_t node, first, count;
     int depth;
   };
-  nodes_.reserve(boxes.size() + 2);
+  nodes_.reserve(4 * (boxes.size() / leaf_size) + 2);
   nodes_.resize(k_root + 1);
   std::vector<Task> tasks{{k_root, 0, static_cast<std::uint32_t>(boxes.size()), 0}};
   while (!tasks.empty()) {
@@ -104,7 +103,7 @@ Bvh::Bvh(std::span<const Box3f> boxes) : order_(boxes.size()) {
     Box3f box;
     for (const std::uint32_t item : items) box.add(boxes[item]);
     nodes_[task.node].box = box;
-    if (task.count <= k_leaf_size) {
+    if (task.count <= leaf_size) {
       nodes_[task.node].first = task.first;
       nodes_[task.node].count = task.count;
       continue;
@@ -117,6 +116,20 @@ Bvh::Bvh(std::span<const Box3f> boxes) : order_(boxes.size()) {
     tasks.push_back({child, task.first, left, task.depth + 1});
   }
   nodes_.shrink_to_fit();
+}
+
+std::vector<std::uint32_t> Bvh::number_leaves() {
+  std::vector<std::uint32_t> leaves, begins;
+  for (std::uint32_t i = k_root; i < nodes_.size(); ++i)
+    if (nodes_[i].count > 0) leaves.push_back(i);
+  std::sort(leaves.begin(), leaves.end(),
+            [this](std::uint32_t a, std::uint32_t b) { return nodes_[a].first < nodes_[b].first; });
+  for (const std::uint32_t leaf : leaves) {
+    begins.push_back(std::exchange(nodes_[leaf].first, static_cast<std::uint32_t>(begins.size())));
+    nodes_[leaf].count = 1;
+  }
+  begins.push_back(static_cast<std::uint32_t>(order_.size()));
+  return begins;
 }
 
 }  // namespace papilla

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 
@@ -63,53 +62,6 @@ Box3f box_of(const std::array<std::array<float, 3>, 3>& v, double grow) noexcept
 }
 
 }  // namespace
-
-/// Gives corners that are the same in place and relief one vertex, by a hash table of open addressing.
-struct ContactSurface::Weld {
-  LargeArray<Corner>& vertices;
-  LargeArray<Relief>& reliefs;
-  bool any_relief;
-  std::vector<std::uint32_t> slots;
-
-  Weld(std::size_t count, bool relief, LargeArray<Corner>& to, LargeArray<Relief>& to_reliefs)
-      : vertices(to), reliefs(to_reliefs), any_relief(relief), slots(std::bit_ceil(2 * count + 16), k_nothing) {}
-
-  std::uint32_t add(const Corner& corner, const Relief& relief) {
-    std::array<float, 6> key = {corner[0], corner[1], corner[2], relief.u, relief.v, relief.shift};
-    std::uint64_t hash = 0;
-    for (float& value : key) {
-      value += 0.0F;  // One zero.
-      hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 29;
-    }
-    if (2 * vertices.size() >= slots.size()) grow();
-    for (std::size_t at = hash & (slots.size() - 1);; at = (at + 1) & (slots.size() - 1)) {
-      const std::uint32_t known = slots[at];
-      if (known == k_nothing) {
-        slots[at] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back({key[0], key[1], key[2]});
-        if (any_relief) reliefs.push_back({key[3], key[4], key[5]});
-        hashes.push_back(hash);
-        return slots[at];
-      }
-      if (hashes[known] == hash && vertices[known] == Corner{key[0], key[1], key[2]} &&
-          (!any_relief || (reliefs[known].u == key[3] && reliefs[known].v == key[4] && reliefs[known].shift == key[5])))
-        return known;
-    }
-  }
-
- private:
-  std::vector<std::uint64_t> hashes;
-
-  void grow() {
-    slots.assign(2 * slots.size(), k_nothing);
-    for (std::uint32_t v = 0; v < hashes.size(); ++v) {
-      std::size_t at = hashes[v] & (slots.size() - 1);
-      while (slots[at] != k_nothing) at = (at + 1) & (slots.size() - 1);
-      slots[at] = v;
-    }
-  }
-};
 
 /// Those of the mesh where they are on the face's side, else the face's.
 std::array<ContactSurface::PackedNormal, 3> ContactSurface::corner_normals(const ContactMesh& mesh, std::size_t t) {
@@ -176,32 +128,27 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
     any_relief = any_relief || has_uv(kept[i]);
     boxes[i] = box_of({rounded(kept[i], 0), rounded(kept[i], 1), rounded(kept[i], 2)}, tall);
   }
-  bvh_ = Bvh(boxes);
-  boxes = {};
+  const auto vertex = [&](std::uint32_t item, std::size_t k) {
+    const std::uint32_t t = kept[item];
+    const Vec2 uv = has_uv(t) && !mesh.corner_uv.empty() ? mesh.corner_uv[3 * t + k] : Vec2{};
+    return TriangleClusters::Vertex{
+        rounded(t, k),
+        {static_cast<float>(is_finite(uv) ? uv.x : 0), static_cast<float>(is_finite(uv) ? uv.y : 0),
+         static_cast<float>(base.shifts[3 * t + k])}};
+  };
+  clusters_ = TriangleClusters(boxes, vertex, any_relief);
 
-  triangles_.reserve(kept.size());
   material_.reserve(kept.size());
   source_.reserve(kept.size());
   const bool any_shading = !mesh.corner_normals.empty() &&
                            std::any_of(materials_.begin(), materials_.end(), [](const auto& m) { return m.shading; });
   if (any_shading) normals_.reserve(kept.size());
-  Weld weld(kept.size(), any_relief, vertices_, reliefs_);
-  for (const std::uint32_t item : bvh_.take_leaf_order()) {
+  for (const std::uint32_t item : clusters_.take_order()) {
     const std::uint32_t t = kept[item];
-    std::array<std::uint32_t, 3> named{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 uv = has_uv(t) && !mesh.corner_uv.empty() ? mesh.corner_uv[3 * t + k] : Vec2{};
-      named[k] = weld.add(rounded(t, k),
-                          {static_cast<float>(is_finite(uv) ? uv.x : 0), static_cast<float>(is_finite(uv) ? uv.y : 0),
-                           static_cast<float>(base.shifts[3 * t + k])});
-    }
-    triangles_.push_back(named);
     material_.push_back(static_cast<std::uint16_t>(material_of(t) | (has_relief(t) ? k_relief_bit : 0U)));
     source_.push_back(t);
     if (any_shading) normals_.push_back(corner_normals(mesh, t));
   }
-  vertices_.shrink_to_fit();
-  reliefs_.shrink_to_fit();
 }
 
 }  // namespace papilla

@@ -53,19 +53,20 @@ Vec3 ContactSurface::shaded_normal(Vec3 proxy, Vec3 normal) const noexcept {
   int count = 0;
   bool plain = false;
   double reach = contact_radius_m() + 2 * tolerance_m();
-  bvh_.within(x, reach, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    for (std::uint32_t place = begin; place < end && count < k_most_faces; ++place) {
+  const Box3f box = box_around(x, x, reach);
+  clusters_.within(x, reach, [&](std::uint32_t cluster) noexcept {
+    clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {
       const Corners t = corners(place);
       const Foot f = foot(t, x);
-      if (norm(x - f.point) > reach) continue;
+      if (count == k_most_faces || norm(x - f.point) > reach) return;
       plain = plain || has_relief(place) || !materials_[material_of(place)].shading;
       const Vec3 face = normalized(cross(t.b - t.a, t.c - t.a));
       const double side = side_of(dot(face, normal));
       const auto at = static_cast<std::size_t>(count++);
-      const auto& n = normals_[place];
+      const auto& n = normals_[clusters_.slot(place)];
       faces[at] = side * face;
       shades[at] = side * normalized((1 - f.v - f.w) * unpacked(n[0]) + f.v * unpacked(n[1]) + f.w * unpacked(n[2]));
-    }
+    });
   });
   if (plain || count == 0) return normal;
   std::array<double, k_most_faces> weight{};

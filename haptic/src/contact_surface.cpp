@@ -22,22 +22,21 @@ struct ContactSurface::Nearest {
 };
 
 std::size_t ContactSurface::bytes() const noexcept {
-  return triangles_.size() * (sizeof(triangles_[0]) + sizeof(material_[0]) + sizeof(source_[0])) +
-         vertices_.size() * sizeof(Corner) + reliefs_.size() * sizeof(Relief) + normals_.size() * sizeof(normals_[0]) +
-         bvh_.bytes();
+  return clusters_.bytes() + material_.size() * (sizeof(material_[0]) + sizeof(source_[0])) +
+         normals_.size() * sizeof(normals_[0]);
 }
 
 /// The tree's boxes are grown by the relief, which only makes them visited earlier.
 template <class Accept>
 std::optional<ContactSurface::Nearest> ContactSurface::nearest(Vec3 x, double radius, Accept&& accept) const noexcept {
   Nearest best{k_nothing, {}, radius};
-  bvh_.within(x, best.distance, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    for (std::uint32_t place = begin; place < end; ++place) {
-      if (!accept(material_of(place))) continue;
+  clusters_.within(x, best.distance, [&](std::uint32_t cluster) noexcept {
+    clusters_.in_box(cluster, box_around(x, x, best.distance), [&](std::uint32_t place) noexcept {
+      if (!accept(material_of(place))) return;
       const Foot f = foot(corners(place), x);
       const double distance = norm(x - f.point);
       if (distance <= best.distance) best = {place, f, distance};
-    }
+    });
   });
   return best.place == k_nothing ? std::nullopt : std::optional(best);
 }
@@ -51,7 +50,7 @@ std::optional<SurfacePoint> ContactSurface::surface_point(const std::optional<Ne
   point.distance_m = near->distance;
   point.height_m = has_relief(near->place) ? relief_at(near->place, t, near->foot, nullptr) : 0;
   point.on_border = near->foot.on != Foot::On::face;
-  point.triangle = source_[near->place];
+  point.triangle = source_of(near->place);
   point.material = material_of(near->place);
   return point;
 }
@@ -101,19 +100,20 @@ int ContactSurface::crossings(Vec3 from, Vec3 to) const noexcept {
   double places[k_most];
   int count = 0;
   double t_max = 1;
-  bvh_.along(start, way, 0, t_max, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    for (std::uint32_t place = begin; place < end && count < k_most; ++place) {
+  const Box3f box = box_around(start, start + way, 0);
+  clusters_.along(start, way, 0, t_max, [&](std::uint32_t cluster) noexcept {
+    clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {
       const Corners t = corners(place);
       const Vec3 ab = t.b - t.a, ac = t.c - t.a, p = cross(way, ac);
       const double det = dot(ab, p);
-      if (det == 0) continue;
+      if (det == 0 || count == k_most) return;
       const Vec3 s = start - t.a, q = cross(s, ab);
       const double u = dot(s, p) / det, v = dot(way, q) / det, at = dot(ac, q) / det;
-      if (u < -k_edge || v < -k_edge || u + v > 1 + k_edge || at < 0 || at >= 1) continue;
+      if (u < -k_edge || v < -k_edge || u + v > 1 + k_edge || at < 0 || at >= 1) return;
       const bool known =
           std::any_of(places, places + count, [at](double other) noexcept { return std::abs(at - other) < k_edge; });
       if (!known) places[count++] = at;
-    }
+    });
   });
   return count;
 }
@@ -121,9 +121,10 @@ int ContactSurface::crossings(Vec3 from, Vec3 to) const noexcept {
 double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {
   const Vec3 y = x - origin_;
   double least = radius_m - contact_radius_m(), reach = radius_m;
-  bvh_.within(y, reach, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    for (std::uint32_t place = begin; place < end; ++place)
+  clusters_.within(y, reach, [&](std::uint32_t cluster) noexcept {
+    clusters_.in_box(cluster, box_around(y, y, reach), [&](std::uint32_t place) noexcept {
       least = std::min(least, clearance_of(place, corners(place), y).value);
+    });
     // Boxes hold the relief: what is farther than least + r + s from the box has more clearance than `least`.
     reach = std::min(reach, std::max(0.0, least + contact_radius_m()));
   });

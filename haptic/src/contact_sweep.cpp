@@ -9,9 +9,13 @@ namespace {
 // Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the
 // times must be finer than that, or the neighbour's tilted normal would be taken.
 constexpr double k_close = 1e-7;
+constexpr double k_first_piece = 1;  // Of the skin.
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
+
+/// A little after t: what is met at the same place must not be left out by a rounding.
+double not_before(double t) noexcept { return t + 1e-9 * t + 1e-12; }
 
 }  // namespace
 
@@ -30,9 +34,10 @@ double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way
 }
 
 /// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat,
-/// it is the one that x stands above.
+/// it is the one that x stands above. Of equals the first of the mesh, so that the order of looking doesn't matter.
 bool ContactSurface::comes_before(const SweepHit& a, const SweepHit& b) noexcept {
-  return a.t != b.t ? a.t < b.t : a.penetration_m > b.penetration_m;
+  if (a.t != b.t) return a.t < b.t;
+  return a.penetration_m != b.penetration_m ? a.penetration_m > b.penetration_m : a.triangle < b.triangle;
 }
 
 [[gnu::always_inline]] inline void ContactSurface::look(const Corners& t, Vec3 from, Vec3 way, double at,
@@ -45,8 +50,9 @@ bool ContactSurface::comes_before(const SweepHit& a, const SweepHit& b) noexcept
 
 /// Goes on from `state` to the first t up to t_max where from + t·way is within `radius` of the triangle. The distance
 /// to a convex set is convex on a line, so Newton's steps from outside end at or before the contact: nothing is passed
-/// over. @returns false when there is none.
-bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radius, double t_max,
+/// over, and the tangent tells early that t = 1 isn't within `least`. @returns false when there is none, or never less
+/// than `least`.
+bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
                               Approach& state) const noexcept {
   const double close = k_close * tolerance_m();
   for (int step = 0; step < k_newton_steps; ++step) {
@@ -55,6 +61,7 @@ bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radi
     if (descent <= 0) return false;
     const double way_there = (state.distance - radius) * state.distance;
     if (way_there > (t_max - state.t) * descent) return false;
+    if ((state.distance - least - close) * state.distance > (1 - state.t) * descent) return false;
     look(t, from, way, state.t + way_there / descent, state);
   }
   return true;
@@ -62,7 +69,7 @@ bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radi
 
 void ContactSurface::sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                                std::optional<SweepHit>& best) const noexcept {
-  if (best) t_max = best->t;
+  if (best) t_max = std::min(t_max, not_before(best->t));
   if (has_relief(place))
     sweep_relief(place, from, way, t_max, best);
   else
@@ -75,16 +82,16 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
   const double contact = contact_radius_m();
   Approach touch;
   look(t, from, way, 0, touch);
-  if (!approach(t, from, way, contact, t_max, touch)) return;
+  if (!approach(t, from, way, contact, contact - tolerance_m(), t_max, touch)) return;
   Vec3 normal = (1 / touch.distance) * touch.d;
   if (!(touch.distance > 0)) {
     normal = normalized(cross(t.b - t.a, t.c - t.a));
     if (dot(normal, way) > 0) normal = -normal;
   }
   if (dot(normal, way) >= 0) return;
-  const SweepHit hit{touch.t, normal, contact - touch.distance, source_[place], material_of(place)};
+  const SweepHit hit{touch.t, normal, contact - touch.distance, source_of(place), material_of(place)};
   if (best && !comes_before(hit, *best)) return;
-  if (approach(t, from, way, contact - tolerance_m(), 1, touch)) best = hit;
+  if (approach(t, from, way, contact - tolerance_m(), contact - tolerance_m(), 1, touch)) best = hit;
 }
 
 /// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
@@ -94,7 +101,7 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
   const double length = norm(way), contact = contact_radius_m(), top = top_of(place);
   Approach entry;
   look(t, from, way, 0, entry);
-  if (!approach(t, from, way, contact + top, t_max, entry)) return;
+  if (!approach(t, from, way, contact + top, contact + top - tolerance_m(), t_max, entry)) return;
   const double finest = std::max(0.5 / std::max(texels_on(place, t, way), 0.5), 1.0 / k_march_steps);
 
   // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
@@ -119,26 +126,12 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
     (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
   }
   const Clearance there = clearance_of(place, t, from + outside * way);
-  const SweepHit hit{outside, normalized(there.gradient), -there.value, source_[place], material_of(place)};
+  const SweepHit hit{outside, normalized(there.gradient), -there.value, source_of(place), material_of(place)};
   if (!best || comes_before(hit, *best)) best = hit;
 }
 
-/// The box that a probe sweeps, rounded outwards.
-Box3f ContactSurface::way_box_of(Vec3 a, Vec3 b) const noexcept {
-  const double size =
-      std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
-  const double grow = contact_radius_m() + 2 * static_cast<double>(std::numeric_limits<float>::epsilon()) * size;
-  const auto low = [grow](double x, double y) { return static_cast<float>(std::min(x, y) - grow); };
-  const auto high = [grow](double x, double y) { return static_cast<float>(std::max(x, y) + grow); };
-  Box3f box;
-  box.low = {low(a.x, b.x), low(a.y, b.y), low(a.z, b.z)};
-  box.high = {high(a.x, b.x), high(a.y, b.y), high(a.z, b.z)};
-  return box;
-}
-
 bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcept {
-  const auto& t = triangles_[place];
-  const Corner &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
+  const Corner &a = clusters_.corner(place, 0), &b = clusters_.corner(place, 1), &c = clusters_.corner(place, 2);
   bool apart = false;
   for (std::size_t i = 0; i < 3; ++i) {
     apart |= std::max(a[i], std::max(b[i], c[i])) < box.low[i];
@@ -147,20 +140,22 @@ bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcep
   return apart;
 }
 
+void ContactSurface::sweep_cluster(std::uint32_t cluster, Vec3 from, Vec3 way, double t_max,
+                                   std::optional<SweepHit>& best) const noexcept {
+  const Box3f box =
+      box_around(from, from + (best ? std::min(t_max, not_before(best->t)) : t_max) * way, contact_radius_m());
+  clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {
+    if (has_relief(place) || !beside(place, box)) sweep_one(place, from, way, t_max, best);
+  });
+}
+
 std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to) const noexcept {
   const Vec3 start = from - origin_, way = to - from;
   std::optional<SweepHit> best;
   double t_max = 1;
-  Box3f way_box = way_box_of(start, start + way);
-  bvh_.along(start, way, contact_radius_m(), t_max, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    for (std::uint32_t place = begin; place < end; ++place) {
-      if (!has_relief(place) && beside(place, way_box)) continue;
-      sweep_one(place, start, way, 1, best);
-    }
-    if (best && best->t < t_max) {
-      t_max = best->t;
-      way_box = way_box_of(start, start + t_max * way);
-    }
+  clusters_.along(start, way, contact_radius_m(), t_max, [&](std::uint32_t cluster) noexcept {
+    sweep_cluster(cluster, start, way, t_max, best);
+    if (best) t_max = not_before(best->t);
   });
   return best;
 }
@@ -169,47 +164,82 @@ bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) c
   near.begin(centre - origin_, radius_m);
   bool fits = true;
   double radius = radius_m + contact_radius_m();
-  bvh_.within(centre - origin_, radius, [&](std::uint32_t begin, std::uint32_t end) noexcept {
-    fits = fits && !near.full(end - begin);
+  clusters_.within(centre - origin_, radius, [&](std::uint32_t cluster) noexcept {
+    fits = fits && near.add_cluster(cluster);
     if (!fits) radius = 0;  // Ends the walk.
-    for (std::uint32_t place = begin; place < end && fits; ++place) {
-      const auto& t = triangles_[place];
-      near.add(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]], static_cast<float>(top_of(place)), place);
-    }
+    clusters_.prefetch(cluster);
   });
+  if (!fits) {
+    near.clear();
+    return false;
+  }
+  add_prisms(near);
+  return true;
+}
+
+/// Makes prisms of the triangles around a ball, unless there are too many: then their boxes have to do.
+void ContactSurface::add_prisms(Neighbourhood& near) const noexcept {
+  for (const std::uint32_t cluster : near.clusters()) clusters_.prefetch_triangles(cluster);
+  const Box3f box = box_around(near.centre(), near.centre(), near.reach_m() + contact_radius_m());
+  bool fits = true;
+  for (const std::uint32_t cluster : near.clusters())
+    clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {
+      fits = fits && near.add(clusters_.corner(place, 0), clusters_.corner(place, 1), clusters_.corner(place, 2),
+                              tallest_ > 0 ? static_cast<float>(top_of(place)) : 0, place);
+    });
   if (fits)
     near.finish();
   else
-    near.clear();
-  return fits;
+    near.forget_triangles();
 }
 
-/// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
-/// hit.
+/// A step is most often stopped where it starts, so that a short piece of the way is looked at first.
 std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept {
   const Vec3 start = from - origin_, way = to - from;
   const double length = norm(way), margin = near.margin(start);
   if (!(margin > 0)) return sweep(from, to);
-  const double known = length > margin ? margin / length : 1;
-  Neighbourhood::Times earliest;
-  near.near_way(start, way, contact_radius_m(), earliest);
-  std::array<std::uint32_t, Neighbourhood::k_capacity> open;
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < near.count(); ++i) {
-    open[count] = i;
-    count += static_cast<double>(earliest[i]) <= known ? 1U : 0U;
-  }
+  const double known = length > margin ? margin / length : 1, first = k_first_piece * skin_ / length;
   std::optional<SweepHit> best;
-  while (count > 0) {
-    std::uint32_t next = 0;
-    for (std::uint32_t k = 1; k < count; ++k)
-      if (earliest[open[k]] < earliest[open[next]]) next = k;
-    const std::uint32_t i = open[next];
-    if (best && static_cast<double>(earliest[i]) > best->t) break;
-    open[next] = open[--count];
-    sweep_one(near.place(i), start, way, known, best);
+  if (near.triangles() > 0) {
+    sweep_prisms(near, start, way, first, known, best);
+  } else {
+    for (const std::uint32_t cluster : near.clusters()) sweep_cluster(cluster, start, way, known, best);
   }
   return best || known >= 1 ? best : sweep(from, to);
+}
+
+/// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
+/// hit.
+void ContactSurface::sweep_prisms(const Neighbourhood& near, Vec3 from, Vec3 way, double first, double known,
+                                  std::optional<SweepHit>& best) const noexcept {
+  struct Open {
+    float earliest;
+    std::uint32_t place;
+  };
+  std::array<Open, Neighbourhood::k_capacity> open;
+  Neighbourhood::Blocks blocks;
+  const double length = norm(way), contact = contact_radius_m();
+  for (const double until : {std::min(first, known), known}) {
+    std::uint32_t count = 0;
+    const std::uint32_t block_count = near.blocks(from, until * length + contact, blocks);
+    for (std::uint32_t b = 0; b < block_count; ++b) {
+      std::array<float, Neighbourhood::k_lanes> earliest;
+      near.near_way(blocks[b], from, way, contact, tolerance_m(), earliest);
+      const std::uint32_t begin = blocks[b] * Neighbourhood::k_lanes;
+      for (std::uint32_t i = 0; i < std::min(Neighbourhood::k_lanes, near.triangles() - begin); ++i)
+        if (static_cast<double>(earliest[i]) <= until) open[count++] = {earliest[i], near.place(begin + i)};
+    }
+    while (count > 0) {
+      std::uint32_t next = 0;
+      for (std::uint32_t k = 1; k < count; ++k)
+        if (open[k].earliest < open[next].earliest) next = k;
+      const Open now = open[next];
+      if (best && static_cast<double>(now.earliest) > not_before(best->t)) break;
+      open[next] = open[--count];
+      sweep_one(now.place, from, way, until, best);
+    }
+    if (best || first >= known) return;
+  }
 }
 
 }  // namespace papilla

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "papilla/haptic/contact_surface.hpp"
 
@@ -36,9 +38,22 @@ struct ContactSurface::Clearance {
 };
 
 inline ContactSurface::Corners ContactSurface::corners(std::uint32_t place) const noexcept {
-  const auto& t = triangles_[place];
-  return {contact_detail::point_of(vertices_[t[0]]), contact_detail::point_of(vertices_[t[1]]),
-          contact_detail::point_of(vertices_[t[2]])};
+  using contact_detail::point_of;
+  return {point_of(clusters_.corner(place, 0)), point_of(clusters_.corner(place, 1)),
+          point_of(clusters_.corner(place, 2))};
+}
+
+/// The box of all that lies within `reach` of the way from a to b, rounded outwards.
+inline Box3f ContactSurface::box_around(Vec3 a, Vec3 b, double reach) noexcept {
+  const double size =
+      std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
+  const double grow = reach + 2 * static_cast<double>(std::numeric_limits<float>::epsilon()) * (size + reach);
+  const auto low = [grow](double x, double y) { return static_cast<float>(std::min(x, y) - grow); };
+  const auto high = [grow](double x, double y) { return static_cast<float>(std::max(x, y) + grow); };
+  Box3f box;
+  box.low = {low(a.x, b.x), low(a.y, b.y), low(a.z, b.z)};
+  box.high = {high(a.x, b.x), high(a.y, b.y), high(a.z, b.z)};
+  return box;
 }
 
 /// Ericson, Real-Time Collision Detection (2005), 5.1.5: by the Voronoi region that x lies in.

@@ -14,21 +14,32 @@ namespace {
 /// Of the shortest step. Near the end a step of s brings only s²/2·depth.
 constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
-constexpr double k_needed_travels = 0.6, k_wanted_travels = 1.2;
+constexpr double k_needed_travels = 0.6, k_wanted_travels = 2;
+constexpr double k_focus_skins = 2;  // How far the proxy goes before distances are noted anew.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
-constexpr double k_drop = 8;         // Of the shortest step: twice as far as a resting proxy can be off.
+constexpr double k_same_normal = 0.95;
+constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
 
 }  // namespace
 
 /// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
 struct Proxy::Planes {
   HalfSpace plane[k_planes];
+  Vec3 found_at[k_planes];
   int count = 0;
+
+  void add(const HalfSpace& found, Vec3 at) noexcept {
+    found_at[count] = at;
+    plane[count++] = found;
+  }
 
   void keep(std::uint32_t active) noexcept {
     int kept = 0;
     for (int i = 0; i < count; ++i)
-      if (active >> i & 1U) plane[kept++] = plane[i];
+      if (active >> i & 1U) {
+        found_at[kept] = found_at[i];
+        plane[kept++] = plane[i];
+      }
     count = kept;
   }
 };
@@ -61,18 +72,33 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
 
 /// Sees to it that what the proxy can meet around `from` is gathered, unless that is too much.
 void Proxy::look_around(Vec3 from, double travel) noexcept {
-  if (surface_->probe_radius_m() == 0) return;  // A point meets so few triangles that the tree is as fast.
   const double needed = k_needed_travels * travel + surface_->skin_m();
-  if (surface_->margin(from, near_) >= needed) return;
+  if (surface_->margin(from, near_) < needed) gather(from, needed, travel);
+  if (surface_->off_focus(from, near_) > k_focus_skins * surface_->skin_m()) surface_->focus(from, near_);
+}
+
+void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
   const double radius = std::min(k_wanted_travels * travel + 4 * surface_->skin_m(), widest_m_);
   if (radius < needed) {
     near_.clear();
     widest_m_ *= k_regrowth;
   } else if (!surface_->gather(from, radius, near_)) {
     widest_m_ = 0.5 * radius;
-  } else if (near_.count() < Neighbourhood::k_capacity / 8) {
+  } else if (near_.triangles() < Neighbourhood::k_capacity / 8) {
     widest_m_ = std::max(widest_m_, 2 * radius);
   }
+}
+
+/// Whether the planes that hold the proxy in a crease are still there: it may have slid past what one was found on.
+bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) const noexcept {
+  const double drop = 2 * surface_->tolerance_m();
+  for (int i = 0; i < planes.count; ++i) {
+    if (!(active >> i & 1U) || norm(x - planes.found_at[i]) <= drop || next.sweeps == k_steps) continue;
+    ++next.sweeps;
+    const auto hit = surface_->sweep(start + x, start + x - drop * planes.plane[i].normal, near_);
+    if (!hit || dot(hit->normal, planes.plane[i].normal) < k_same_normal) return false;
+  }
+  return true;
 }
 
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
@@ -103,7 +129,11 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     } else if (aim.count > 0) {
       hold(aim, planes, goal, next);
       const double held = friction(surface_->material(next.material)) * next.load_m;
-      if (wanted - held <= shortest) break;
+      if (wanted - held <= shortest) {
+        if (aim.count == 1 || all_stand(planes, aim.active, start, x, next)) break;
+        planes.count = 0;
+        continue;
+      }
       step = (1 - held / wanted) * step;
     } else {
       free = wanted == 0;
@@ -132,7 +162,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     if (planes.count == k_planes) break;
     // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
     x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
-    planes.plane[planes.count++] = {hit->normal, dot(hit->normal, x), hit->material};
+    planes.add({hit->normal, dot(hit->normal, x), hit->material}, x);
     next.in_contact = true;
   }
   if (free) next = ProxyState{};

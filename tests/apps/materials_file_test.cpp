@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bake/grain_material.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::app {
@@ -55,6 +56,33 @@ TEST_F(MaterialsFileTest, ReadsTheDocumentedExample) {
   ASSERT_EQ(file.assign.size(), 3U);
   EXPECT_EQ(file.assign[1].cad_colour, "#20ffa0");
   EXPECT_TRUE(file.assign[2].material.empty());
+}
+
+TEST_F(MaterialsFileTest, ReadsHowASurfaceHoldsAndShades) {
+  const MaterialsFile file = read(R"({"materials": {
+      "cloth": {"frictionModel": {"name": "bristle", "stiffness": 400}, "forceShading": true}, "plain": {}}})");
+  const MaterialRule& cloth = file.materials.at("cloth");
+  ASSERT_TRUE(cloth.friction_model);
+  EXPECT_EQ(cloth.friction_model->name, "bristle");
+  EXPECT_EQ(cloth.friction_model->stiffness, 400);
+  EXPECT_EQ(cloth.force_shading, true);
+  EXPECT_FALSE(file.materials.at("plain").friction_model);
+  EXPECT_FALSE(file.materials.at("plain").force_shading);
+
+  MaterialTag tag;
+  apply_constants(cloth, tag);
+  std::vector<HapticWarning> warnings;
+  const MaterialTag read_back = parse_material_tag(to_json(tag), warnings);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(read_back.friction_model, cloth.friction_model);
+  EXPECT_TRUE(read_back.force_shading);
+
+  const auto of = [&](const std::string& rule) { return complaint(R"({"materials": {"m": )" + rule + "}}"); };
+  EXPECT_NE(of(R"({"frictionModel": {"name": "glue"}})").find("/materials/m/frictionModel/name"), std::string::npos);
+  EXPECT_NE(of(R"({"frictionModel": {"stiffness": -1}})").find("/materials/m/frictionModel/stiffness"),
+            std::string::npos);
+  EXPECT_NE(of(R"({"frictionModel": "bristle"})").find("/materials/m/frictionModel"), std::string::npos);
+  EXPECT_NE(of(R"({"forceShading": 1})").find("must be true or false"), std::string::npos);
 }
 
 TEST_F(MaterialsFileTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {

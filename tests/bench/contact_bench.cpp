@@ -84,13 +84,13 @@ void run_proxy(const ContactSurface& surface, std::uint64_t seed, int ticks, Rec
   const Vec3 start = Probe(seed).next();
   const Vec3 outside = start + 0.02 * (surface.low().z < -0.05 ? normalized(start) : Vec3{0, 0, 1});
   proxy.reset(outside);
-  audit.lost(outside, false);
+  audit.lost(outside, proxy.state());
   int lost = 0, contact = 0;
   measure_ticks(
       Probe(seed), ticks, recorder, [&](Vec3 at) { proxy.update(at, k_period); },
       [&](Vec3 at) {
         contact += proxy.state().in_contact;
-        lost += audit.lost(at, proxy.state().in_contact);
+        lost += audit.lost(at, proxy.state());
       });
   recorder.record("contact_ticks", contact);
   recorder.record("lost_ticks", lost);

@@ -40,13 +40,13 @@ void run(const ContactSurface& surface, long ticks, Vec3 start, Probe&& probe, R
   auto proxy = std::make_unique<Proxy>(surface);
   ContactAudit audit(surface);
   proxy->reset(start);
-  audit.lost(start, false);
+  audit.lost(start, proxy->state());
   Vec3 last_probe = start;
   for (long i = 0; i < ticks; ++i) {
     const Vec3 at = probe(i), before = proxy->state().proxy;
     const long allocated = allocations(), locked = locks();
     proxy->update(at, k_period);
-    const bool lost = audit.lost(at, proxy->state().in_contact);
+    const bool lost = audit.lost(at, proxy->state());
     sum.allocations += allocations() - allocated;
     sum.locks += locks() - locked;
     sum.lost += lost;
@@ -67,6 +67,17 @@ void run(const ContactSurface& surface, long ticks, Vec3 start, Probe&& probe, R
 /// surface is not curved as tightly there as that is deep.
 bool is_nearest(const testing::ReferenceDescent& reference, Vec3 foot, Vec3 inward, double depth_m) {
   return norm(reference.nearest(foot + depth_m * normalized(inward)) - foot) < k_near_m;
+}
+
+/// How far the proxy is from where the descent ends; where that is too far, from where it ends for a probe that is one
+/// tolerance of the surface aside.
+double descent_gap(testing::ReferenceDescent& reference, const ContactSurface& surface, Vec3 before, Vec3 probe,
+                   Vec3 proxy, LongRun& sum) {
+  const double gap = reference.gap(before, probe, proxy);
+  if (gap <= k_near_m + k_travel) return gap;
+  const double aside = reference.gap_aside(before, probe, proxy, surface.tolerance_m());
+  sum.asides += aside <= k_near_m + k_travel;
+  return aside;
 }
 
 /// Output of a command, or nothing when it fails.
@@ -143,7 +154,7 @@ LongRun relief_run(double size, long triangles, long ticks, int seeds) {
         },
         [&](long i, Vec3 at, Vec3 before, const ProxyState& state) -> std::optional<double> {
           if (i % 100 != 99) return std::nullopt;
-          return reference.gap(before, at, state.proxy);
+          return descent_gap(reference, surface, before, at, state.proxy, sum);
         },
         sum);
   }
@@ -201,7 +212,7 @@ CadRun cad_run(const Part& part, long ticks, int seeds) {
             sum.flat_gaps += gap > k_near_m;
             sum.worst_flat_gap_m = std::max(sum.worst_flat_gap_m, gap);
           }
-          return reference.gap(before, at, state.proxy);
+          return descent_gap(reference, surface, before, at, state.proxy, sum.descent);
         },
         sum.descent);
   }
@@ -254,17 +265,19 @@ void add_long_runs(BenchReport& report) {
   const LongRun sphere = sphere_run(quick ? 20000 : 200000, ticks / 5, seeds);
   const LongRun relief = relief_run(0.2, quick ? 20000 : 200000, ticks / 5, seeds);
   const auto gap = [&](const char* where, const LongRun& r) {
-    report.target({fmt::format("proxy within 0.1 mm and one tick of travel of the reference, {}", where),
-                   fmt::format("{} of {} ticks farther, worst {:.3f} mm beyond the travel", r.gaps, r.compared,
-                               1e3 * r.worst_gap_m),
-                   r.gaps == 0});
+    report.target(
+        {fmt::format("proxy within 0.1 mm and one tick of travel of the reference, {}", where),
+         fmt::format("{} of {} ticks farther, worst {:.3f} mm beyond the travel{}", r.gaps, r.compared,
+                     1e3 * r.worst_gap_m,
+                     r.asides > 0 ? fmt::format(" ({} beside the answer to a probe 1.25 µm aside)", r.asides) : ""),
+         r.gaps == 0});
   };
   gap("slivers (global closest point)", slivers);
   gap("sphere (global closest point)", sphere);
   gap("relief 0.2 m (descent from the proxy before, every 100th tick)", relief);
   gap("relief 1 m (descent from the proxy before, every 100th tick)", metre);
   const Scene cockpit = read_cad(PAPILLA_COCKPIT);
-  for (const char* name : {"rim", "shifter_knob", "dash_skin"}) {
+  for (const char* name : {"rim", "shifter_knob", "dash_skin", "knob_grip"}) {
     const auto part =
         std::find_if(cockpit.parts.begin(), cockpit.parts.end(), [&](const Part& p) { return p.name == name; });
     if (part == cockpit.parts.end()) throw InvalidInput(fmt::format("{}: no part {}", PAPILLA_COCKPIT, name));

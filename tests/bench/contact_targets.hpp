@@ -17,6 +17,7 @@ struct LongRun {
   double worst_gap_m = 0;  ///< Largest distance of the proxy from the reference, beyond one tick of travel.
   long gaps = 0;           ///< Ticks on which that was more than 0.1 mm.
   long compared = 0;       ///< Ticks with a reference.
+  long asides = 0;         ///< Of these, ticks where it is the answer to a probe one tolerance aside.
 };
 
 /// A stroke over a CAD part, beside a descent and, where the surface is less curved than the probe is deep, beside the

@@ -135,14 +135,39 @@ TEST(HapticLoop, RefusesImpossibleRates) {
   }
 }
 
+const ProxyState k_free{};
+
+ProxyState held_at(Vec3 proxy) {
+  ProxyState state;
+  state.in_contact = true;
+  state.proxy = proxy;
+  state.normal = {0, 0, 1};
+  return state;
+}
+
 TEST(ContactAudit, SeesAProxyThatLetsGo) {
   const ContactSurface surface(testing::box({0, 0, 0}, {0.1, 0.1, 0.1}), {ContactMaterial{}}, {}, 0);
   ContactAudit audit(surface);
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.12}, false));
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.099}, true));
-  EXPECT_TRUE(audit.lost({0.03, 0.04, 0.098}, false));
-  EXPECT_TRUE(audit.lost({0.04, 0.04, 0.050}, false));
-  EXPECT_FALSE(audit.lost({0.04, 0.04, 0.12}, false));
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.12}, k_free));
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.099}, held_at({0.03, 0.04, 0.10002})));
+  EXPECT_TRUE(audit.lost({0.03, 0.04, 0.098}, k_free));
+  EXPECT_TRUE(audit.lost({0.04, 0.04, 0.050}, k_free));
+  EXPECT_FALSE(audit.lost({0.04, 0.04, 0.12}, k_free));
+}
+
+TEST(ContactAudit, ForgivesTheWayAroundARimButNoneThroughASheet) {
+  const ContactSurface sheet(testing::plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
+  const auto lost_after = [&](double held_x, Vec3 probe) {
+    ContactAudit audit(sheet);
+    EXPECT_FALSE(audit.lost({held_x, 0.05, 0.01}, k_free));
+    EXPECT_FALSE(audit.lost({held_x, 0.05, -0.002}, held_at({held_x, 0.05, 2e-5})));
+    return audit.lost(probe, k_free);
+  };
+  EXPECT_FALSE(lost_after(0.0999, {0.1005, 0.05, -0.002}));
+  EXPECT_FALSE(lost_after(0.0995, {0.0999, 0.05, -0.002}));  // Around the rim and back under the sheet.
+  EXPECT_TRUE(lost_after(0.05, {0.0502, 0.05, -0.002}));
+  EXPECT_TRUE(lost_after(0.05, {0.05, 0.05, -0.003}));
+  EXPECT_TRUE(lost_after(0.09, {0.0902, 0.05, -0.002}));
 }
 
 TEST(ContactAudit, SeesAProxyInTheRelief) {
@@ -152,8 +177,8 @@ TEST(ContactAudit, SeesAProxyInTheRelief) {
   options.scale_m = 1e-3;
   const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {material}, {HeightField(1, 1, {65535}, options)}, 0);
   ContactAudit audit(surface);
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 2e-3}, false));
-  EXPECT_TRUE(audit.lost({0.03, 0.04, 5e-4}, false));
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 2e-3}, k_free));
+  EXPECT_TRUE(audit.lost({0.03, 0.04, 5e-4}, k_free));
 }
 
 TEST(Stroke, StaysAtItsDepthAndSpeedOnASphere) {

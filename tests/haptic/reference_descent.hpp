@@ -41,6 +41,14 @@ class ReferenceDescent {
     return norm(goal - proxy) <= norm(goal - x) ? 0 : least;
   }
 
+  /// The least gap() for goals that are `aside_m` off along an axis. Right under the rim of an open sheet, or where a
+  /// fall line forks, goals that differ by nothing to speak of have answers far apart, and either is right.
+  double gap_aside(Vec3 from, Vec3 goal, Vec3 proxy, double aside_m) {
+    double least = gap(from, goal, proxy);
+    for (std::size_t k = 0; k < k_axes; ++k) least = std::min(least, gap(from, goal + aside_m * k_pushes[k], proxy));
+    return least;
+  }
+
   /// The nearest point of all triangles.
   Vec3 nearest(Vec3 p) const {
     double best = 1e3;
@@ -56,6 +64,7 @@ class ReferenceDescent {
 
  private:
   static constexpr double k_around_m = 3e-4;
+  static constexpr std::size_t k_axes = 6;  // The first of the pushes.
   static constexpr std::array<Vec3, 14> k_pushes{{{1, 0, 0},
                                                   {-1, 0, 0},
                                                   {0, 1, 0},

@@ -19,6 +19,17 @@ TEST(ReferenceDescent, RestsAboveTheGoalOnAPlateAndInACorner) {
   EXPECT_LT(norm(on_plate.nearest({0.03, 0.04, -2e-3}) - Vec3{0.03, 0.04, 0}), 1e-12);
 }
 
+TEST(ReferenceDescent, UnderARimEitherSideIsRight) {
+  const double skin = 2e-5;
+  const ContactMesh plate = testing::plate(20, 20, 0.1, 0.1);
+  testing::ReferenceDescent reference(plate, skin);
+  const Vec3 from{0.0998, 0.05, skin}, on_rim{0.1, 0.05, skin};
+  const Vec3 outside{0.1 + 1e-6, 0.05, -1e-3}, inside{0.0995, 0.05, -1e-3};
+  EXPECT_GT(reference.gap(from, outside, on_rim), 9e-4);
+  EXPECT_LT(reference.gap_aside(from, outside, on_rim, 1.25e-6), 1e-5);
+  EXPECT_GT(reference.gap_aside(from, inside, {0.0993, 0.05, skin}, 1.25e-6), 1.9e-4);
+}
+
 TEST(Proxy, IsWhereTheReferenceDescentEnds) {
   const ContactMesh mesh = testing::height_grid(100, 100, 0.06, 0.06, testing::rough_relief);
   const ContactSurface surface(mesh, {ContactMaterial{}}, {}, 0);

@@ -216,6 +216,8 @@ void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffnes
   tag.static_friction = rule.static_friction.value_or(rule.dynamic_friction.value_or(tag.static_friction));
   tag.dynamic_friction = rule.dynamic_friction.value_or(rule.static_friction.value_or(tag.dynamic_friction));
   if (rule.stribeck_velocity) tag.stribeck_velocity = *rule.stribeck_velocity;
+  if (rule.friction_model) tag.friction_model = *rule.friction_model;
+  if (rule.force_shading) tag.force_shading = *rule.force_shading;
 }
 
 }  // namespace papilla::app

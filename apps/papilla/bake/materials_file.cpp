@@ -70,6 +70,10 @@ class Value {
     if (!json_.is_string()) fail("must be a string");
     return json_.get<std::string>();
   }
+  bool yes_or_no() const {
+    if (!json_.is_boolean()) fail("must be true or false");
+    return json_.get<bool>();
+  }
   std::string one_of(std::initializer_list<std::string_view> choices) const {
     const std::string value = text();
     if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
@@ -107,9 +111,17 @@ HeightRule read_height(const Value& value) {
   return rule;
 }
 
+FrictionTag read_friction_model(const Value& value) {
+  value.expect_keys({"name", "stiffness"});
+  FrictionTag tag;
+  if (const auto v = value.get("name")) tag.name = v->one_of({"coulomb", "bristle"});
+  if (const auto v = value.get("stiffness")) tag.stiffness = v->number(0, 1e7);
+  return tag;
+}
+
 MaterialRule read_material(const Value& value, const std::string& name, const std::filesystem::path& folder) {
   value.expect_keys({"texture", "time", "size_mm", "stiffness", "damping", "staticFriction", "dynamicFriction", "stribeckVelocity",
-                     "height", "unwrap", "show", "color", "roughness", "metallic", "$comment"});
+                     "frictionModel", "forceShading", "height", "unwrap", "show", "color", "roughness", "metallic", "$comment"});
   MaterialRule rule;
   rule.name = name;
   if (const auto v = value.get("texture")) {
@@ -131,6 +143,8 @@ MaterialRule read_material(const Value& value, const std::string& name, const st
   number("staticFriction", rule.static_friction, 0, 10);
   number("dynamicFriction", rule.dynamic_friction, 0, 10);
   number("stribeckVelocity", rule.stribeck_velocity, 1e-6, 10);
+  if (const auto v = value.get("frictionModel")) rule.friction_model = read_friction_model(*v);
+  if (const auto v = value.get("forceShading")) rule.force_shading = v->yes_or_no();
   number("roughness", rule.roughness, 0, 1);
   number("metallic", rule.metallic, 0, 1);
   if (rule.static_friction && rule.dynamic_friction && *rule.dynamic_friction > *rule.static_friction)

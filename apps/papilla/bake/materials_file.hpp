@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "papilla/haptic/material_tag.hpp"
+
 namespace papilla::app {
 
 /// How a material's picture becomes relief.
@@ -27,6 +29,8 @@ struct MaterialRule {
   std::optional<double> stiffness;     ///< N/m
   std::optional<double> damping;       ///< N·s/m
   std::optional<double> static_friction, dynamic_friction, stribeck_velocity;
+  std::optional<FrictionTag> friction_model;
+  std::optional<bool> force_shading;
   HeightRule height;
   std::string unwrap = "auto";         ///< auto, triplanar, lscm.
   std::string show = "auto";           ///< auto (coloured pictures), picture (as base colour), relief (keep the part's colour).

@@ -34,19 +34,22 @@ struct Box3f {
 ///
 /// Built top down with the surface area heuristic over 16 bins a axis [Wald 2007, "On fast construction of SAH-based
 /// bounding volume hierarchies"]; below depth 48, and where all centres coincide, by halves, so that the depth stays
-/// below k_stack. Leaves hold at most 4 boxes. Build: O(n log n), about 0.5 µs per box and level. Deterministic.
+/// below k_stack. Build: O(n log n), about 0.5 µs per box and level. Deterministic.
 /// Queries are noexcept, use a fixed stack and allocate nothing. They answer with ranges of leaf_order(): the owner
 /// keeps its items in that order.
 class Bvh {
  public:
   Bvh() = default;
-  /// @param boxes finite, at most 2³¹.
-  explicit Bvh(std::span<const Box3f> boxes);
+  /// @param boxes finite, at most 2³¹. @param leaf_size most boxes in a leaf, ≥ 1.
+  explicit Bvh(std::span<const Box3f> boxes, std::uint32_t leaf_size = 4);
 
   /// leaf_order()[i]: the number of the input box that stands at place i.
   const std::vector<std::uint32_t>& leaf_order() const noexcept { return order_; }
   /// Hands the order over, for owners that need it only while they sort their items.
   std::vector<std::uint32_t> take_leaf_order() noexcept { return std::exchange(order_, {}); }
+  /// Numbers the leaves in this order: from now on queries call visit(number, number + 1).
+  /// @returns where each leaf begins in leaf_order(), and the end of the last.
+  std::vector<std::uint32_t> number_leaves();
   bool empty() const noexcept { return nodes_.empty(); }
   std::size_t bytes() const noexcept { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
 

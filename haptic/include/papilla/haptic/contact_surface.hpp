@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "papilla/haptic/bvh.hpp"
 #include "papilla/haptic/contact_mesh.hpp"
 #include "papilla/haptic/height_field.hpp"
 #include "papilla/haptic/neighbourhood.hpp"
+#include "papilla/haptic/triangle_clusters.hpp"
 
 namespace papilla {
 
@@ -59,8 +59,8 @@ struct StimulusSample {
 /// the relief is deep) the move is shortened and the valleys of the relief end at the base. Heights at a uv seam meet
 /// in a fillet of the size of their difference: no hole.
 ///
-/// Build: O(n log n); about 1 µs a triangle. Memory: 18 bytes a triangle, 12 a vertex (24 where there is relief), and
-/// the tree, about 18 bytes a triangle; 12 bytes a triangle more in a scene with shaded materials. Vertices are rounded
+/// Build: O(n log n); about 1 µs a triangle. Memory: 6 bytes a triangle and what TriangleClusters says; 12 bytes a
+/// triangle more in a scene with shaded materials. Vertices are rounded
 /// to single precision around the centre of the scene (0.5 µm at 10 m). Queries are noexcept and allocate nothing; the
 /// same input gives the same bits.
 class ContactSurface {
@@ -82,6 +82,10 @@ class ContactSurface {
 
   /// How far a probe at `from` may go in any direction before it leaves what was gathered; negative: it is outside.
   double margin(Vec3 from, const Neighbourhood& near) const noexcept { return near.margin(from - origin_); }
+
+  /// Prepares it for sweeps that start near `centre`, which makes them faster.
+  void focus(Vec3 centre, Neighbourhood& near) const noexcept { near.focus(centre - origin_); }
+  double off_focus(Vec3 from, const Neighbourhood& near) const noexcept { return near.off_focus(from - origin_); }
 
   /// The same hit, from what was gathered; from the tree as soon as the way leaves that.
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept;
@@ -114,7 +118,7 @@ class ContactSurface {
   const ContactMaterial& material(std::uint32_t index) const noexcept { return materials_[index]; }
   ContactMaterial& material(std::uint32_t index) noexcept { return materials_[index]; }
   std::size_t material_count() const noexcept { return materials_.size(); }
-  std::size_t triangles() const noexcept { return triangles_.size(); }
+  std::size_t triangles() const noexcept { return clusters_.triangles(); }
   std::size_t skipped_triangles() const noexcept { return skipped_; }
   double probe_radius_m() const noexcept { return radius_; }
   double skin_m() const noexcept { return skin_; }
@@ -130,24 +134,24 @@ class ContactSurface {
   struct Corners {
     Vec3 a, b, c;
   };
-  using Corner = std::array<float, 3>;
-  struct Relief {
-    float u, v;
-    float shift;  ///< How far the base was moved, ≤ 0.
-  };
+  using Corner = TriangleClusters::Corner;
+  using Relief = TriangleClusters::Relief;
   /// A unit vector on the octahedron |x| + |y| + |z| = 1, unfolded to a square; 0.003 degrees.
   using PackedNormal = std::array<std::int16_t, 2>;
   static constexpr std::uint16_t k_relief_bit = 0x8000;
-  struct Weld;
   struct Foot;
   struct Approach;
   struct Clearance;
   struct Nearest;
 
-  bool has_relief(std::uint32_t place) const noexcept { return (material_[place] & k_relief_bit) != 0; }
-  std::uint32_t material_of(std::uint32_t place) const noexcept { return material_[place] & ~unsigned{k_relief_bit}; }
+  std::uint16_t packed_material(std::uint32_t place) const noexcept { return material_[clusters_.slot(place)]; }
+  bool has_relief(std::uint32_t place) const noexcept { return (packed_material(place) & k_relief_bit) != 0; }
+  std::uint32_t material_of(std::uint32_t place) const noexcept {
+    return packed_material(place) & ~unsigned{k_relief_bit};
+  }
+  std::uint32_t source_of(std::uint32_t place) const noexcept { return source_[clusters_.slot(place)]; }
   const Relief& relief(std::uint32_t place, std::size_t corner) const noexcept {
-    return reliefs_[triangles_[place][corner]];
+    return clusters_.relief(place, corner);
   }
   static PackedNormal packed(Vec3 normal) noexcept;
   static std::array<PackedNormal, 3> corner_normals(const ContactMesh& mesh, std::size_t t);
@@ -162,10 +166,16 @@ class ContactSurface {
   static Vec3 in_plane(const Corners& t, double by_v, double by_w) noexcept;
   double texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept;
   static void look(const Corners& t, Vec3 from, Vec3 way, double at, Approach& state) noexcept;
-  bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double t_max, Approach& state) const noexcept;
-  Box3f way_box_of(Vec3 a, Vec3 b) const noexcept;
+  bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
+                Approach& state) const noexcept;
+  static Box3f box_around(Vec3 a, Vec3 b, double reach) noexcept;
   bool beside(std::uint32_t place, const Box3f& box) const noexcept;
   static bool comes_before(const SweepHit& a, const SweepHit& b) noexcept;
+  void sweep_cluster(std::uint32_t cluster, Vec3 from, Vec3 way, double t_max,
+                     std::optional<SweepHit>& best) const noexcept;
+  void sweep_prisms(const Neighbourhood& near, Vec3 from, Vec3 way, double first, double known,
+                    std::optional<SweepHit>& best) const noexcept;
+  void add_prisms(Neighbourhood& near) const noexcept;
   void sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max, std::optional<SweepHit>& best) const noexcept;
   void sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                    std::optional<SweepHit>& best) const noexcept;
@@ -177,14 +187,10 @@ class ContactSurface {
 
   std::vector<ContactMaterial> materials_;
   std::vector<HeightField> heights_;
-  // Triangles in the order of the tree's leaves; vertices around origin_, in the order in which triangles name them.
-  LargeArray<std::array<std::uint32_t, 3>> triangles_;
+  TriangleClusters clusters_;           // Vertices around origin_. Arrays below have an entry for each of its slots.
   LargeArray<std::uint16_t> material_;  // With k_relief_bit where there is relief.
   LargeArray<std::uint32_t> source_;    // Number in the ContactMesh.
-  LargeArray<Corner> vertices_;
-  LargeArray<Relief> reliefs_;                       // Per vertex; empty when nothing has relief.
   LargeArray<std::array<PackedNormal, 3>> normals_;  // Of the corners; empty when nothing is shaded.
-  Bvh bvh_;
   Vec3 origin_, low_, high_;
   double radius_ = 0, skin_ = 0, tallest_ = 0;
   std::size_t skipped_ = 0;

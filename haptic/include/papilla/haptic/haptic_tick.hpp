@@ -37,7 +37,7 @@ class HapticTick {
     last_ = probe;
     started_ = true;
     const ProxyState& state = proxy_.update(probe, period_);
-    lost_ = audit_.lost(probe, state.in_contact);
+    lost_ = audit_.lost(probe, state);
     // A probe that is no number gives no force, not the one of the tick before.
     Vec3 force = is_finite(probe) ? heightfield_force(*surface_, state, probe, velocity_) : probe;
     if (is_finite(probe)) force = force + bristles(state, moved);

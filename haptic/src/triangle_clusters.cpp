@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/triangle_clusters.hpp"
+
+#include <cmath>
+
+namespace papilla {
+namespace {
+
+constexpr std::uint32_t k_group = 4;
+constexpr int k_least_exponent = -120, k_largest_exponent = 120;
+constexpr std::size_t k_line = 64;
+
+float middle(const Box3f& box, std::size_t axis) noexcept { return 0.5F * box.low[axis] + 0.5F * box.high[axis]; }
+
+std::size_t widest_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items) noexcept {
+  Box3f centres;
+  for (const std::uint32_t item : items) {
+    const std::array<float, 3> c{middle(boxes[item], 0), middle(boxes[item], 1), middle(boxes[item], 2)};
+    centres.add(Box3f{c, c});
+  }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (centres.high[k] - centres.low[k] > centres.high[axis] - centres.low[axis]) axis = k;
+  return axis;
+}
+
+/// Halves the widest extent until only a group is left; all groups but the last are full.
+void sort_into_groups(std::span<const Box3f> boxes, std::span<std::uint32_t> items) {
+  if (items.size() <= k_group) return;
+  const std::size_t axis = widest_axis(boxes, items);
+  const std::size_t half = (items.size() / 2 + k_group - 1) / k_group * k_group;
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     const float x = middle(boxes[a], axis), y = middle(boxes[b], axis);
+                     return x != y ? x < y : a < b;
+                   });
+  sort_into_groups(boxes, items.first(half));
+  sort_into_groups(boxes, items.subspan(half));
+}
+
+/// The finest cells of a power of two of which 255 span the extent.
+int exponent_of(float extent) noexcept {
+  if (!(extent > 0)) return k_largest_exponent;
+  int exponent = 0;
+  std::frexp(extent, &exponent);  // extent < 2^exponent: less than 128 cells of 2^(exponent − 7).
+  const bool finer = std::ldexp(extent, 8 - exponent) < 254;
+  return std::clamp((finer ? 8 : 7) - exponent, k_least_exponent, k_largest_exponent);
+}
+
+template <class T>
+void fetch(const T* from, std::size_t count) noexcept {
+  const auto* at = reinterpret_cast<const char*>(from);
+  for (std::size_t byte = 0; byte < count * sizeof(T); byte += k_line) __builtin_prefetch(at + byte);
+}
+
+}  // namespace
+
+/// Gives corners of a cluster that are the same in place and relief one vertex, by a hash table of open addressing.
+struct TriangleClusters::Weld {
+  static constexpr std::size_t k_slots = 512;
+  static constexpr std::uint8_t k_none = 0xff;
+
+  TriangleClusters& to;
+  bool with_relief;
+  std::vector<Vertex> known{};
+  std::array<std::uint8_t, k_slots> table{};
+
+  void begin() {
+    known.clear();
+    table.fill(k_none);
+  }
+
+  std::uint8_t add(Vertex vertex) {
+    if (!with_relief) vertex.relief = {};
+    std::array<float, 6> key = {vertex.corner[0], vertex.corner[1], vertex.corner[2],
+                                vertex.relief.u,  vertex.relief.v,  vertex.relief.shift};
+    std::uint64_t hash = 0;
+    for (float& value : key) {
+      value += 0.0F;  // One zero.
+      hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15U;
+      hash ^= hash >> 29;
+    }
+    for (std::size_t at = hash % k_slots;; at = (at + 1) % k_slots) {
+      if (table[at] != k_none && !(known[table[at]] == vertex)) continue;
+      if (table[at] == k_none) {
+        table[at] = static_cast<std::uint8_t>(known.size());
+        known.push_back(vertex);
+        to.vertices_.push_back(vertex.corner);
+        if (with_relief) to.reliefs_.push_back(vertex.relief);
+      }
+      return table[at];
+    }
+  }
+};
+
+TriangleClusters::TriangleClusters(std::span<const Box3f> boxes,
+                                   const std::function<Vertex(std::uint32_t, std::size_t)>& vertex, bool with_relief) {
+  divide(boxes);
+  corners_.reserve(boxes.size());
+  Weld weld{*this, with_relief};
+  for (Cluster& cluster : clusters_) {
+    weld.begin();
+    cluster.vertex = static_cast<std::uint32_t>(vertices_.size());
+    for (std::uint32_t i = 0; i < cluster.count; ++i) {
+      const std::uint32_t triangle = order_[cluster.first + i];
+      corners_.push_back({weld.add(vertex(triangle, 0)), weld.add(vertex(triangle, 1)), weld.add(vertex(triangle, 2))});
+    }
+  }
+  vertices_.shrink_to_fit();
+  reliefs_.shrink_to_fit();
+}
+
+void TriangleClusters::divide(std::span<const Box3f> boxes) {
+  tree_ = Bvh(boxes, k_most);
+  const std::vector<std::uint32_t> begins = tree_.number_leaves();
+  order_ = tree_.take_leaf_order();
+  clusters_.resize(begins.size() - 1);
+  for (std::size_t c = 0; c < clusters_.size(); ++c) {
+    Cluster& cluster = clusters_[c];
+    cluster.first = begins[c];
+    cluster.count = static_cast<std::uint8_t>(begins[c + 1] - begins[c]);
+    const std::span<std::uint32_t> items(order_.data() + begins[c], cluster.count);
+    sort_into_groups(boxes, items);
+    Box3f all;
+    for (const std::uint32_t item : items) all.add(boxes[item]);
+    cluster.origin = all.low;
+    for (std::size_t k = 0; k < 3; ++k)
+      cluster.exponent[k] = static_cast<std::int8_t>(exponent_of(all.high[k] - all.low[k]));
+    for (std::size_t g = 0; g < k_groups; ++g) {
+      Box3f group;
+      for (std::size_t i = k_group * g; i < std::min<std::size_t>(k_group * (g + 1), items.size()); ++i)
+        group.add(boxes[items[i]]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const bool empty = !(group.low[k] <= group.high[k]);
+        cluster.low[k][g] = empty ? 255 : cluster.cell(group.low[k], k);
+        cluster.high[k][g] = empty ? 0 : cluster.cell(group.high[k], k);
+      }
+    }
+  }
+}
+
+void TriangleClusters::prefetch(std::uint32_t cluster) const noexcept { fetch(&clusters_[cluster], 1); }
+
+void TriangleClusters::prefetch_triangles(std::uint32_t cluster) const noexcept {
+  const Cluster& c = clusters_[cluster];
+  fetch(&corners_[c.first], c.count);
+  const std::size_t end = cluster + 1 < clusters_.size() ? clusters_[cluster + 1].vertex : vertices_.size();
+  fetch(&vertices_[c.vertex], end - c.vertex);
+}
+
+std::size_t TriangleClusters::bytes() const noexcept {
+  return tree_.bytes() + clusters_.size() * sizeof(Cluster) + corners_.size() * sizeof(corners_[0]) +
+         vertices_.size() * sizeof(Corner) + reliefs_.size() * sizeof(Relief);
+}
+
+}  // namespace papilla
