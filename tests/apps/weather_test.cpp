@@ -12,6 +12,7 @@
 #include "bake/grain_material.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/temporary_folder.hpp"
+#include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "weather/follow_files.hpp"
@@ -220,6 +221,37 @@ TEST(Weather, TheOwnReliefIsTheFirstLayer) {
   const WeatherResult dirty = weather(scene, config, 1);
   EXPECT_LT(red_at(dirty.scene, 8.5 / 64, 0.5), 60);
   EXPECT_EQ(red_at(dirty.scene, 24.5 / 64, 0.5), 255);
+}
+
+TEST(Weather, TheNewReliefIsFelt) {
+  HeightMap relief{32, 32, std::vector<float>(32 * 32), 1000.0 / 32, 1000.0 / 32, true};
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) relief.at(x, y) = static_cast<float>(20 * std::sin(2 * std::numbers::pi * x / 32));
+  Scene scene = waves(relief);
+  MaterialTag tag;
+  tag.height = HeightTag{};
+  scene.materials[0].extras_json = with_material_tag("", tag);
+  WeatherConfig config;
+  config.size = 32, config.depth_mm = 50;
+  // Half of the surface is filled up to 15 mm: (0.8 - 0.5) 50.
+  config.layers = {{"base|bumpblend=interpolate|bumpfunction=max(lowerbump,.8)|alphafunction=step(.5,y)", {"*"}}};
+  const Scene aged = weather(scene, config, 1).scene;
+  std::vector<HapticWarning> warnings;
+  const auto felt = material_tag_of_extras(aged.materials[0].extras_json, warnings);
+  ASSERT_TRUE(felt && felt->height);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(felt->height->size, (std::array<int, 2>{32, 32}));
+  EXPECT_NEAR(felt->height->metres_per_uv.x, 1, 1e-9);
+  EXPECT_NEAR(felt->height->offset_m, -0.020, 0.001) << "the lowest place of the other half";
+  EXPECT_NEAR(felt->height->offset_m + felt->height->scale_m, 0.020, 0.001);
+  EXPECT_GT(felt->height->rms_m, 0.008);
+  // A material without a tag stays without, and a map on coordinates of its own stays.
+  scene.materials[0].extras_json = "";
+  EXPECT_EQ(weather(scene, config, 1).scene.materials[0].extras_json, "");
+  tag.height->sha256 = std::string(64, '0');
+  scene.materials[0].extras_json = with_material_tag("", tag);
+  scene.materials[0].normal_texture.reset();
+  EXPECT_NE(weather(scene, config, 1).scene.materials[0].extras_json.find(tag.height->sha256), std::string::npos);
 }
 
 TEST(Weather, MapsTileWhereTheUvLeaveTheRepeat) {

@@ -32,7 +32,8 @@ Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vecto
         positions.insert(positions.end(), texels.positions.begin() + from, texels.positions.begin() + from + 3);
       const std::array<float, 3> colour = job.own.colour_at(x.back(), y.back());
       colours.insert(colours.end(), colour.begin(), colour.end());
-      heights.push_back(job.own.height_at(x.back(), y.back()) / static_cast<float>(job.depth_mm));
+      if (job.own.has_relief())
+        heights.push_back(job.own.height_at(x.back(), y.back()) / static_cast<float>(job.depth_mm));
       if (!sky.empty()) skies.push_back(sky[at]);
     }
   TexturePoints points{x, y, normals, positions, skies, colours, heights};

@@ -17,6 +17,7 @@
 #include "papilla/texture/normal_map.hpp"
 #include "recipe_source.hpp"
 #include "weather/atlas_uv.hpp"
+#include "weather/felt_relief.hpp"
 #include "weather/paint.hpp"
 #include "weather/sky_texels.hpp"
 
@@ -167,9 +168,9 @@ std::shared_ptr<const MaterialSurface> surface_for(Job& job, std::uint32_t index
 }
 
 /// Paints one material anew.
-/// @param compiled  compiles the recipe, seamless or not.
-AgedMaterial paint_material(Job& job, std::uint32_t index, const ProceduralTexture& texture,
-                            const std::function<ProceduralTexture(bool)>& compiled) {
+/// @param felt  the tag that it had. @param compiled  compiles the recipe, seamless or not.
+AgedMaterial paint_material(Job& job, std::uint32_t index, const std::optional<MaterialTag>& felt,
+                            const ProceduralTexture& texture, const std::function<ProceduralTexture(bool)>& compiled) {
   AgedMaterial aged;
   const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), texture.depends_on_sky()};
   const auto surface = surface_for(job, index, reading);
@@ -177,24 +178,26 @@ AgedMaterial paint_material(Job& job, std::uint32_t index, const ProceduralTextu
     aged.json["skipped"] = "no surface with uv shows it";
     return aged;
   }
-  Felt felt;
+  Felt means;
   Painted picture;
   double scale = job.config.size;
   if (surface->repeat) {
     const bool tiles = surface->leaves_the_repeat();
     const ProceduralTexture tiling = tiles ? compiled(true) : texture;
     picture = paint({tiling, reading, *surface->own, job.config.depth_mm, tiles}, *surface->repeat, surface->sky, scale,
-                    1, felt);
+                    1, means);
   } else {
     scale = surface->atlas.texels_per_repeat;
-    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm}, felt, aged.uv, aged.json);
+    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm}, means, aged.uv, aged.json);
   }
   const double pitch = surface->mm_per_repeat / scale;
   HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
-  for (float& h : relief.mm) h *= static_cast<float>(job.config.depth_mm);
+  // A height of 1/2 is the surface as it was.
+  for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
+  if (felt && (!felt->height || surface->own->has_relief())) aged.height = felt_height(relief);
   aged.color_png = encode_png({picture.width, picture.height, std::move(picture.rgb)});
   aged.normal_png = encode_png(normal_map(relief));
-  aged.friction = felt.friction / felt.texels, aged.stiffness = felt.stiffness / felt.texels;
+  aged.friction = means.friction / means.texels, aged.stiffness = means.stiffness / means.texels;
   aged.json["depends_on"] = {{"normal", texture.depends_on_normal()},
                              {"position", reading.position},
                              {"sky", reading.sky},
@@ -223,7 +226,7 @@ void apply(const AgedMaterial& aged, const std::optional<MaterialTag>& tag, Mate
 
 /// Ages one material. @returns what to tell of it.
 Json age(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures, std::vector<NewUv>& uv,
-         std::vector<std::uint32_t>& with_atlas) {
+         std::vector<std::uint32_t>& with_atlas, std::vector<std::optional<HeightTag>>& heights) {
   const Material& before = job.scene.materials[index];
   std::vector<HapticWarning> warnings;
   const std::optional<MaterialTag> tag = material_tag_of_extras(before.extras_json, warnings);
@@ -246,7 +249,7 @@ Json age(WeatherResult& result, std::uint32_t index, Job& job, Pictures& picture
   const std::string key = key_of(job, index, recipe, texture, read);
   auto it = job.cache.aged.find(key);
   if (it == job.cache.aged.end()) {
-    it = job.cache.aged.emplace(key, paint_material(job, index, texture, compiled)).first;
+    it = job.cache.aged.emplace(key, paint_material(job, index, tag, texture, compiled)).first;
     ++result.painted;
   }
   const AgedMaterial& aged = it->second;
@@ -255,6 +258,7 @@ Json age(WeatherResult& result, std::uint32_t index, Job& job, Pictures& picture
   apply(aged, tag, result.scene.materials[index], pictures);
   uv.insert(uv.end(), aged.uv.begin(), aged.uv.end());
   if (!aged.uv.empty()) with_atlas.push_back(index);
+  heights[index] = aged.height;
   return json;
 }
 
@@ -276,9 +280,12 @@ WeatherResult weather(const Scene& scene, const WeatherConfig& config, double ti
   Job job{scene, config, library, time, cache, instances(scene), {}};
   std::vector<NewUv> uv;
   std::vector<std::uint32_t> with_atlas;
+  std::vector<std::optional<HeightTag>> heights(scene.materials.size());
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m)
-    result.materials.push_back(age(result, m, job, pictures, uv, with_atlas));
+    result.materials.push_back(age(result, m, job, pictures, uv, with_atlas, heights));
   if (!with_atlas.empty()) set_atlas_uv(result.scene, job.all, std::move(uv), with_atlas);
+  for (std::size_t m = 0; m < heights.size(); ++m)
+    if (heights[m]) feel_relief(result.scene.materials[m], std::move(*heights[m]));
   return result;
 }
 

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/scene.hpp"
 #include "verb.hpp"
 #include "weather/atlas_uv.hpp"
@@ -29,6 +31,7 @@ struct AgedMaterial {
   std::vector<std::byte> color_png, normal_png;  ///< Empty when nothing was painted.
   std::vector<NewUv> uv;                         ///< Empty when it keeps its coordinates.
   double friction = 0, stiffness = 1;
+  std::optional<HeightTag> height;  ///< Of tagged materials.
   Json json = Json::object();
 };
 
@@ -43,7 +46,8 @@ struct WeatherCache {
 
 /// Lays the layers over the materials' own colour and the relief of their own normal maps at one time; each material
 /// gets a base colour and a normal map, and the friction and stiffness of its haptic tag follow the means of the
-/// layers' channels.
+/// layers' channels. The tag's height map is
+/// replaced by the new relief, 0 where no layer is over a flat material, unless it lies on coordinates of its own.
 ///
 /// Every texel knows the interpolated normal, the position and the sky of the surface that shows it. A material whose
 /// recipe reads none of them, or whose uv show no texel twice, keeps its uv; its maps cover one repeat. The others are
