@@ -7,6 +7,7 @@
 
 #include "colour_list.hpp"
 #include "compiler.hpp"
+#include "papilla/core/error.hpp"
 
 namespace papilla::procedural_detail {
 
@@ -205,7 +206,12 @@ bool Arguments::mentions(std::string_view word) const {
 
 RecipePicture Arguments::picture(const std::string& path) const {
   if (!compiler_.options().read_picture) refuse("picpath", "pictures can't be read here");
-  RecipePicture picture = compiler_.options().read_picture(path);
+  RecipePicture picture;
+  try {
+    picture = compiler_.options().read_picture(path);
+  } catch (const Error& error) {
+    refuse("picpath", error.what());
+  }
   if (picture.width < 1 || picture.height < 1 ||
       picture.rgb.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
     refuse("picpath", "the picture is empty");

@@ -39,8 +39,8 @@ greying        fbm|ismodifier=true|idtype=ageing|idmaterial=wood|scale=.8|octave
 dirt           fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.7|octaves=6|h=.4|cols=<.13,.10,.07>,<.24,.19,.13>
                |alphafunction=smoothstep(.95-.75*time,1.3-.75*time,main+.5*(1-lowerbump))*min(time*8,1)*.9
                |bumpblend=add|bumpfunction=.12*main|frictionfunction=.55
-smears         smear|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.8|density=.35|turbulence=.1|cols=<.30,.27,.22>,<.42,.39,.33>
-               |alphafunction=main*time*.7|bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.8
+smears         smear|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.8|density=.35|turbulence=.1|cols=<.36,.30,.21>,<.24,.19,.12>
+               |alphafunction=smoothstep(.1,.9,main)*time*.9|bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.8
 scratch_set    base|mainfunction=smoothstep(.42,.6,noise2d(x*1.5,y*70))*step(noise2d(x*2+7,y*5),.12)
 scratches      base|ismodifier=true|idtype=ageing|idmaterial=paint
                |mainfunction=max(max([scratch_set|rot=.4],[scratch_set|rot=1.1|seed=3|du=.3]),max([scratch_set|rot=2.2|dv=.7],[scratch_set|rot=2.9|du=.6]))
@@ -56,8 +56,8 @@ rust_on        rust_base|ismodifier=true|idtype=ageing|idmaterial=paint|seed=4
                |alphafunction=smoothstep(1-.8*time,1.1-.8*time,main+.2*noise2d(x*30,y*30))*min(time*10,1)
                |bumpblend=add|bumpfunction=.35*main+.25*absturbulence2d(x*14,y*14,4)|frictionfunction=.8|specularfunction=.05
 erosion        fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.6|octaves=7|h=.4|type=hybridmultifractal
-               |alphafunction=time*clampunit(.3+main)|colorfunction=colscale(currentcolor,.85+.2*main)
-               |bumpblend=sub|bumpfunction=.45*(1-main)|frictionfunction=lowerfriction*1.3|stiffnessfunction=lowerstiffness*.9
+               |alphafunction=time*(1-.8*smoothstep(.35,.7,main))|colorfunction=colscale(currentcolor,.7+.2*main)
+               |bumpblend=sub|bumpfunction=.9*(1-smoothstep(.3,.7,main))+.3*absturbulence2d(x*24,y*24,4)|frictionfunction=lowerfriction*1.3|stiffnessfunction=lowerstiffness*.9
 moss           fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.3|octaves=7|h=.5|cols=mossy
                |alphafunction=smoothstep(1.35-time*.9,1.55-time*.9,main+.6*(1-lowerbump))*min(time*10,1)
                |bumpblend=add|bumpfunction=.3+.4*main|frictionfunction=.6|stiffnessfunction=.3
@@ -75,9 +75,9 @@ grime          fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=.6|oct
                |afunction=(nearmean(lowerbump,.08)-lowerbump)/(neardeviation(lowerbump,.2)+.05)
                |alphafunction=smoothstep(.9-time,1.5-time,a+.4*main)*min(time*8,1)*.95
                |bumpblend=interpolate|bumpfunction=lowerbump+.5*max(nearmean(lowerbump,.04)-lowerbump,0)|frictionfunction=.6
-edge_wear      fbm|ismodifier=true|idtype=ageing|idmaterial=paint|scale=.5|octaves=4|h=.5|cols=<.62,.60,.56>,<.78,.76,.72>
+edge_wear      fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=.5|octaves=4|h=.5|cols=<.40,.37,.33>,<.55,.52,.47>
                |afunction=(lowerbump-nearmean(lowerbump,.08))/(neardeviation(lowerbump,.2)+.05)
-               |alphafunction=smoothstep(1-time,1.4-time,a+.5*main)*min(time*8,1)
+               |alphafunction=smoothstep(1.2-time,1.9-time,a+.5*main)*min(time*8,1)
                |bumpblend=interpolate|bumpfunction=min(lowerbump,nearmean(lowerbump,.04))|frictionfunction=lowerfriction*.7
 polish         fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=1.2|octaves=3|h=.8
                |alphafunction=time*smoothstep(.35,.75,lowerbump)*clampunit(.4+main)

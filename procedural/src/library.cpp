@@ -98,6 +98,7 @@ const std::string* RecipeLibrary::find_colours(std::string_view name) const {
 
 void RecipeLibrary::read_file(const std::filesystem::path& path) {
   std::error_code error;
+  files_.push_back(path);
   if (!std::filesystem::is_regular_file(path, error))
     throw IoError(path.string() + (std::filesystem::exists(path, error) ? ": is not a file" : ": does not exist"));
   if (const auto size = std::filesystem::file_size(path, error); error || size > k_most_file)

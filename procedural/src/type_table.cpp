@@ -169,12 +169,18 @@ constexpr ParameterInfo k_txt[] = {words("txt", "moin", "what is written; \\n st
                                    number_in("bordery", 0, 0.49, "0.00", "free share at top and bottom"),
                                    flag_of("centerx", "true", "centre the lines"),
                                    {"texture", textures, 0, 0, "", "recipe that fills the letters"}};
+// What the cellular types have in common.
+constexpr ParameterInfo k_first_power = number_in("distmodea", 0, 5, "1.00", "A");
+constexpr ParameterInfo k_second_power = number_in("distmodeb", 0, 5, "1.00", "B");
+constexpr ParameterInfo k_inverse = flag_of("inversedistance", "false", "1 / (1 + distance)");
+constexpr ParameterInfo k_rooted = flag_of("rooted", "false", "square root of the distance");
+constexpr ParameterInfo k_of_distances = formula("func", "f1", "of f1, f2, f3, f4");
 constexpr ParameterInfo k_voronoi[] = {
     integer_in("distmode", 0, 2, "0", "0 squared, 1 Manhattan, 2 Minkowski |dx|^A + |dy|^B"),
-    number_in("distmodea", 0, 5, "1.00", "A"),
-    number_in("distmodeb", 0, 5, "1.00", "B"),
-    flag_of("inversedistance", "false", "1 / (1 + distance)"),
-    flag_of("rooted", "false", "square root of the distance"),
+    k_first_power,
+    k_second_power,
+    k_inverse,
+    k_rooted,
     formula("densityfunc", "max(orig*.1,1)+index*0",
             "points of a cell; orig is Worley's number (mean 4), index its place in the table"),
     integer_in("displacemode", 0, 6, "0",
@@ -184,7 +190,7 @@ constexpr ParameterInfo k_voronoi[] = {
     words("weights", "", "weight of every octave"),
     integer_in("octaves", 1, 5, "1", "octaves"),
     number_in("lacunarity", 1, 10, "2.00", "ratio of their frequencies"),
-    formula("func", "f1", "of f1, f2, f3, f4"),
+    k_of_distances,
     number_in("smooth", 0, 1, "0.00", "pulls the points to the middle of their cells"),
     integer_in("cell_initmode", 0, 4, "0",
                "sponge: distances of the next octave start at 1 d^p, 2 d p, 3 d + p, 4 p; 0 infinity"),
@@ -193,11 +199,11 @@ constexpr ParameterInfo k_voronoi_seamless[] = {
     integer_in("points", 3, 200, "10", "points"),
     integer_in("smoothiterations", 0, 200, "0", "steps of mutual repulsion"),
     integer_in("distmode", 0, 2, "0", "as of voronoi"),
-    number_in("distmodea", 0, 5, "1.00", "A"),
-    number_in("distmodeb", 0, 5, "1.00", "B"),
-    flag_of("inversedistance", "false", "1 / (1 + distance)"),
-    flag_of("rooted", "false", "square root of the distance"),
-    formula("func", "f1", "of f1, f2, f3, f4")};
+    k_first_power,
+    k_second_power,
+    k_inverse,
+    k_rooted,
+    k_of_distances};
 constexpr ParameterInfo k_weave[] = {number_in("xwidth", 0.01, 1e3, "16.00", "width of the threads that run down"),
                                      number_in("ywidth", 0.01, 1e3, "16.00", "width of the threads that run across"),
                                      number_in("xgap", 0, 1e3, "6.00", "gap between them"),

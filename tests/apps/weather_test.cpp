@@ -4,12 +4,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "bake/grain_material.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/temporary_folder.hpp"
+#include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/texture/normal_map.hpp"
 #include "weather/follow_files.hpp"
 #include "weather/weather_page.hpp"
 
@@ -169,6 +174,145 @@ TEST(Weather, PaintsOnlyWhatChanged) {
     EXPECT_EQ(cached.scene.images[i].bytes, fresh.scene.images[i].bytes);
 }
 
+/// The material's normal map, as it is shown.
+ColorImage normals_of(const Scene& scene) {
+  const Texture& texture = scene.textures[scene.materials[0].normal_texture->texture];
+  return decode_color_image(scene.images[*texture.image].bytes, "map");
+}
+
+/// A metre square over the unit square of uv with a normal map of waves of 0.5 m.
+Scene waves(const HeightMap& relief) {
+  TriangleMesh mesh;
+  add_square(mesh, 0, 0, true);
+  Scene scene = scene_of(mesh);
+  EncodedImage image;
+  image.name = "waves", image.mime_type = "image/png", image.bytes = encode_png(normal_map(relief));
+  scene.images.push_back(std::move(image));
+  scene.textures.push_back({});
+  scene.textures.back().image = 0;
+  scene.materials[0].normal_texture = TextureReference{};
+  return scene;
+}
+
+TEST(Weather, TheOwnReliefIsTheFirstLayer) {
+  HeightMap relief{64, 64, std::vector<float>(64 * 64), 1000.0 / 64, 1000.0 / 64, true};
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) relief.at(x, y) = static_cast<float>(20 * std::sin(2 * std::numbers::pi * x / 32));
+  const Scene scene = waves(relief);
+  const ColorImage own = normal_map(relief);
+  WeatherConfig config;
+  config.size = 64, config.depth_mm = 50;
+  // A layer that only colours leaves the relief as it was.
+  config.layers = {{"base|bumpblend=off|colorfunction=white", {"*"}}};
+  const WeatherResult coloured = weather(scene, config, 1);
+  EXPECT_TRUE(coloured.materials[0]["own_relief"]);
+  const ColorImage kept = normals_of(coloured.scene);
+  ASSERT_EQ(kept.pixels.size(), own.pixels.size());
+  for (std::size_t i = 0; i < own.pixels.size(); ++i) EXPECT_NEAR(kept.pixels[i], own.pixels[i], 2) << i;
+  // One that covers half of it flattens that half, away from its border.
+  config.layers = {{"base|bumpblend=interpolate|bumpfunction=.5|alphafunction=step(x,.5)", {"*"}}};
+  const ColorImage half = normals_of(weather(scene, config, 1).scene);
+  for (int x = 2; x < 30; ++x)
+    EXPECT_NEAR(half.pixels[3 * static_cast<std::size_t>(x)], own.pixels[3 * static_cast<std::size_t>(x)], 3);
+  for (int x = 34; x < 62; ++x) EXPECT_EQ(half.pixels[3 * static_cast<std::size_t>(x)], 128);
+  // And layers read it: only what lies low is covered.
+  config.layers = {
+      {"base|bumpblend=off|colorfunction=white|alphafunction=step(nearmean(lowerbump,.4),lowerbump+.2)", {"*"}}};
+  const WeatherResult dirty = weather(scene, config, 1);
+  EXPECT_LT(red_at(dirty.scene, 8.5 / 64, 0.5), 60);
+  EXPECT_EQ(red_at(dirty.scene, 24.5 / 64, 0.5), 255);
+}
+
+TEST(Weather, TheNewReliefIsFelt) {
+  HeightMap relief{32, 32, std::vector<float>(32 * 32), 1000.0 / 32, 1000.0 / 32, true};
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) relief.at(x, y) = static_cast<float>(20 * std::sin(2 * std::numbers::pi * x / 32));
+  Scene scene = waves(relief);
+  MaterialTag tag;
+  tag.height = HeightTag{};
+  scene.materials[0].extras_json = with_material_tag("", tag);
+  WeatherConfig config;
+  config.size = 32, config.depth_mm = 50;
+  // Half of the surface is filled up to 15 mm: (0.8 - 0.5) 50.
+  config.layers = {{"base|bumpblend=interpolate|bumpfunction=max(lowerbump,.8)|alphafunction=step(.5,y)", {"*"}}};
+  const Scene aged = weather(scene, config, 1).scene;
+  std::vector<HapticWarning> warnings;
+  const auto felt = material_tag_of_extras(aged.materials[0].extras_json, warnings);
+  ASSERT_TRUE(felt && felt->height);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(felt->height->size, (std::array<int, 2>{32, 32}));
+  EXPECT_NEAR(felt->height->metres_per_uv.x, 1, 1e-9);
+  EXPECT_NEAR(felt->height->offset_m, -0.020, 0.001) << "the lowest place of the other half";
+  EXPECT_NEAR(felt->height->offset_m + felt->height->scale_m, 0.020, 0.001);
+  EXPECT_GT(felt->height->rms_m, 0.008);
+  // A material without a tag stays without, and a map on coordinates of its own stays.
+  scene.materials[0].extras_json = "";
+  EXPECT_EQ(weather(scene, config, 1).scene.materials[0].extras_json, "");
+  tag.height->sha256 = std::string(64, '0');
+  scene.materials[0].extras_json = with_material_tag("", tag);
+  scene.materials[0].normal_texture.reset();
+  EXPECT_NE(weather(scene, config, 1).scene.materials[0].extras_json.find(tag.height->sha256), std::string::npos);
+}
+
+TEST(Weather, MapsTileWhereTheUvLeaveTheRepeat) {
+  TriangleMesh mesh;
+  add_square(mesh, 0, 0, true);
+  for (Vec2& uv : mesh.uv.values) uv = 3.0 * uv;
+  WeatherConfig config;
+  config.size = 64;
+  config.layers = {{"base|bumpblend=off|colorfunction=rgb(main,main,main)|mainfunction=x", {"*"}}};
+  const Scene scene = weather(scene_of(mesh), config, 1).scene;
+  EXPECT_NEAR(red_at(scene, 0.5 / 64, 0.5), red_at(scene, 63.5 / 64, 0.5), 6);
+  EXPECT_NEAR(red_at(scene, 0.25, 0.5), red_at(scene, 0.75, 0.5), 6) << "the ramp's four corners are blended";
+}
+
+TEST(Weather, TimeStepsShareTheSurface) {
+  WeatherConfig config;
+  config.size = 16;
+  config.layers = {{"snow", {"*"}}};
+  WeatherCache cache;
+  const Scene scene = two_sides();
+  weather(scene, config, 0.2, cache);
+  ASSERT_EQ(cache.surfaces.size(), 1U);
+  const auto* first = cache.surfaces.begin()->second.get();
+  const WeatherResult later = weather(scene, config, 0.9, cache);
+  EXPECT_EQ(cache.surfaces.size(), 1U);
+  EXPECT_EQ(cache.surfaces.begin()->second.get(), first);
+  const WeatherResult alone = weather(scene, config, 0.9);
+  EXPECT_EQ(later.scene.images.back().bytes, alone.scene.images.back().bytes);
+  config.layers = {{"base|alphafunction=normaldot", {"*"}}};
+  weather(scene, config, 0.9, cache);
+  EXPECT_EQ(cache.surfaces.size(), 2U) << "another reading";
+}
+
+TEST(Weather, KnowsTheFilesItRestsOnAndPaintsAnewWhenAPictureChanges) {
+  const papilla::TemporaryFolder folder("papilla-weather");
+  std::ofstream(folder.path() / "one.recipes") << "include two.recipes\n";
+  std::ofstream(folder.path() / "two.recipes") << "dots image|picpath=dots.png\n";
+  const auto picture = [&](unsigned char grey, int side) {
+    write_color_image(folder.path() / "dots.png",
+                      {side, side, std::vector<unsigned char>(3 * static_cast<std::size_t>(side * side), grey)});
+  };
+  picture(255, 1);
+  WeatherConfig config;
+  config.size = 16, config.folder = folder.path(), config.libraries = {"one.recipes"};
+  config.layers = {{"dots", {"*"}}};
+  WeatherCache cache;
+  const Scene scene = two_sides();
+  EXPECT_EQ(red_at(weather(scene, config, 1, cache).scene, 0.25, 0.5), 255);
+  for (const char* name : {"one.recipes", "two.recipes", "dots.png"})
+    EXPECT_TRUE(cache.files.contains(folder.path() / name)) << name;
+  EXPECT_EQ(weather(scene, config, 1, cache).painted, 0);
+  picture(0, 4);
+  const WeatherResult again = weather(scene, config, 1, cache);
+  EXPECT_EQ(again.painted, 1);
+  EXPECT_EQ(red_at(again.scene, 0.25, 0.5), 0);
+  // What can't be read is watched, too.
+  config.libraries = {"missing.recipes"};
+  EXPECT_THROW(weather(scene, config, 1, cache), IoError);
+  EXPECT_TRUE(cache.files.contains(folder.path() / "missing.recipes"));
+}
+
 TEST(Weather, ThePageHasAPictureATimeAndNothingFromOutside) {
   const Scene scene = two_sides();
   WeatherConfig config;
@@ -198,6 +342,21 @@ TEST(FollowFiles, TellsOfAFileThatChangedAndStops) {
                  return looks > 4;
                });
   EXPECT_EQ(changes, 1);
+  // A file that joins the list is no change of its own; one that is saved later is.
+  const auto other = path.string() + "-other";
+  std::ofstream(other) << "a";
+  looks = changes = 0;
+  follow_files(
+      [&] {
+        return looks < 2 ? std::vector<std::filesystem::path>{path} : std::vector<std::filesystem::path>{path, other};
+      },
+      [&] { ++changes; },
+      [&] {
+        if (++looks == 4) std::ofstream(other) << "longer";
+        return looks > 6;
+      });
+  EXPECT_EQ(changes, 1);
+  std::filesystem::remove(other);
   std::filesystem::remove(path);
 }
 

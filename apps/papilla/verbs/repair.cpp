@@ -150,7 +150,9 @@ void add_repair(CLI::App& program) {
                              "papilla repair scan.stl -o clean.glb"},
                             [options](VerbContext& context) { return repair_file(context, *options); });
   verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")
+      ->type_name("OUT")
+      ->required();
   verb->add_option("--weld", options->repair.weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);

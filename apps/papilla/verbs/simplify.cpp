@@ -178,7 +178,9 @@ void add_simplify(CLI::App& program) {
                              "papilla simplify dash.glb -o light.glb --tolerance 0.1"},
                             [options](VerbContext& context) { return simplify_file(context, *options); });
   verb->add_option("in", options->in, "File to read")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")
+      ->type_name("OUT")
+      ->required();
   add_goals(*verb, *options);
   verb->add_option("--passes", options->simplify.passes, "1 is fastest, 4 leaves fewest triangles")
       ->type_name("N")

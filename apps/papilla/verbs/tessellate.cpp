@@ -135,7 +135,9 @@ void add_tessellate(CLI::App& program) {
                 "papilla tessellate data/cockpit.step -o cockpit.glb --chord 0.2"},
                [options](VerbContext& context) { return tessellate_file(context, *options); });
   verb->add_option("in", options->in, "STEP, IGES or BREP file")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")->type_name("OUT")->required();
+  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")
+      ->type_name("OUT")
+      ->required();
   verb->add_flag("--relative", options->relative, "The chord is a fraction of each part's diagonal");
   verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -10,6 +11,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
+#include "papilla/io/animation_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "papilla/procedural/texture.hpp"
@@ -21,6 +23,8 @@
 namespace papilla::app {
 namespace {
 
+constexpr double k_pictures_a_second = 10;
+
 struct Arguments {
   std::string recipe, output, list, sheet, suggest;
   std::string channels = "color,bump";
@@ -28,7 +32,7 @@ struct Arguments {
   std::vector<int> size{512};
   double time = 0, size_mm = 40, depth_mm = 0.3, mutate = 0;
   int steps = 1, bits = 8, tile = 128;
-  bool normal = false, seamless = false, normalize = false;
+  bool normal = false, seamless = false, normalize = false, video = false;
 };
 
 std::vector<Channel> channels_of(const std::string& list) {
@@ -78,11 +82,18 @@ void write_normal_map(const Arguments& a, const RenderedTexture& rendered, const
   json["normal_maps"].push_back(file);
 }
 
+/// What --video shows of one time: the colours, lit by the relief.
+ColorImage lit(const RenderedTexture& rendered, const Arguments& a) {
+  return shaded(rendered, a.depth_mm / (a.size_mm / rendered.width));
+}
+
 Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& context) {
   const std::vector<Channel> channels = channels_of(a.channels);
   RenderOptions render;
   render.width = a.size[0], render.height = a.size.size() > 1 ? a.size[1] : a.size[0];
   render.channels = a.normal ? 1U << static_cast<unsigned>(Channel::bump) : 0;
+  if (a.video)
+    render.channels |= 1U << static_cast<unsigned>(Channel::color) | 1U << static_cast<unsigned>(Channel::bump);
   for (const Channel c : channels) render.channels |= 1U << static_cast<unsigned>(c);
   std::filesystem::create_directories(a.output);
   const std::string recipe =
@@ -90,6 +101,7 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
   Json json{{"recipe", recipe}, {"size", {render.width, render.height}}, {"channels", Json::array()}};
   if (a.normal) json["normal_maps"] = Json::array();
   double seconds = 0;
+  std::vector<ColorImage> frames;
   for (int step = 0; step < a.steps; ++step) {
     CompileOptions options = recipe_options(".");
     options.time = a.steps > 1 ? static_cast<double>(step) / (a.steps - 1) : a.time;
@@ -109,25 +121,36 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
       json["channels"].push_back(std::move(entry));
     }
     if (a.normal) write_normal_map(a, rendered, suffix, json);
+    if (a.video) frames.push_back(lit(rendered, a));
     json["uses"] = texture.recipes_used();
     json["depends_on"] = {{"time", texture.depends_on_time()},
                           {"normal", texture.depends_on_normal()},
                           {"position", texture.depends_on_position()},
-                          {"sky", texture.depends_on_sky()}};
+                          {"sky", texture.depends_on_sky()},
+                          {"neighbours", texture.depends_on_neighbours()}};
     if (context.progress) context.progress("texture", (step + 1.0) / a.steps);
   }
   json["seconds"] = seconds;
+  if (a.video) {
+    write_animation(std::filesystem::path(a.output) / "series.gif", frames, k_pictures_a_second);
+    json["video"] = "series.gif";
+  }
   return json;
+}
+
+/// What stands behind `key` in a recipe, or nothing.
+std::string value_in(const std::string& recipe, std::string_view key) {
+  const std::size_t start = recipe.find(key);
+  if (start == std::string::npos) return "";
+  const std::size_t from = start + key.size();
+  return recipe.substr(from, std::min(recipe.size(), recipe.find_first_of("| \n", from)) - from);
 }
 
 bool is_modifier(const std::string& recipe) { return recipe.find("ismodifier=true") != std::string::npos; }
 
 /// A recipe that an ageing recipe can be shown on: one for its idmaterial, else plaster.
 std::string ground_of(const std::string& recipe, const RecipeLibrary& library) {
-  constexpr std::string_view key = "idmaterial=";
-  if (const std::size_t start = recipe.find(key); start != std::string::npos) {
-    const std::string material =
-        recipe.substr(start + key.size(), recipe.find_first_of("| \n", start) - start - key.size());
+  if (const std::string material = value_in(recipe, "idmaterial="); !material.empty()) {
     for (const std::string& name : suggest_recipes(material, library))
       if (!is_modifier(*library.find(name)) && library.find(name)->find("idtype=aged") == std::string::npos)
         return name;
@@ -181,7 +204,14 @@ Json run_list(const Arguments& a, const RecipeLibrary& library, VerbContext& con
     context.console.print(fmt::format("{:<20} {}\n", name, note));
     json[a.list].push_back({{"name", name}, {"note", note}});
   };
-  if (a.list == "reference") {
+  if (a.list == "categories") {
+    std::map<std::string, std::string> members;
+    for (const auto& [name, recipe] : library.recipes()) {
+      const std::string category = value_in(recipe, "idtype=");
+      members[category.empty() ? "none" : category] += name + " ";
+    }
+    for (const auto& [category, names] : members) line(category, names);
+  } else if (a.list == "reference") {
     context.console.print(reference_markdown());
   } else if (a.list == "types") {
     for (const TypeInfo& type : texture_types()) line(type.name, type.note);
@@ -248,9 +278,10 @@ void add_texture(CLI::App& program) {
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("T")
       ->capture_default_str();
-  verb->add_option("--steps", a->steps, "A series of pictures from time 0 to 1")
-      ->check(CLI::Range(1, 9999))
-      ->type_name("N");
+  CLI::Option* steps = verb->add_option("--steps", a->steps, "A series of pictures from time 0 to 1")
+                           ->check(CLI::Range(1, 9999))
+                           ->type_name("N");
+  verb->add_flag("--video", a->video, "The series as an animated GIF, lit, too")->needs(steps);
   verb->add_flag("--seamless", a->seamless, "The pictures tile");
   verb->add_option("--library", a->libraries, "Files of named recipes, on top of the built-in ones")->type_name("FILE");
   verb->add_option("--sheet", a->sheet, "A contact sheet: of all types, or of the library")
@@ -259,7 +290,8 @@ void add_texture(CLI::App& program) {
       ->check(CLI::Range(8, 1024))
       ->type_name("N")
       ->capture_default_str();
-  verb->add_option("--list", a->list, "Print types, functions, recipes, reference, or the parameters of a type")
+  verb->add_option("--list", a->list,
+                   "Print types, functions, recipes, categories of recipes, reference, or the parameters of a type")
       ->type_name("WHAT")
       ->expected(0, 1)
       ->default_str("types");

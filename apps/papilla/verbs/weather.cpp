@@ -12,6 +12,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
+#include "papilla/io/animation_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/read_file.hpp"
 #include "papilla/io/scene_file.hpp"
@@ -29,9 +30,11 @@ namespace fs = std::filesystem;
 std::atomic<bool> g_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
+constexpr double k_pictures_a_second = 4;
+
 struct Arguments {
   std::string scene, config, output, report;
-  bool pictures = false, live = false;
+  bool pictures = false, video = false, live = false;
   SceneOptions read;
 };
 
@@ -57,6 +60,12 @@ void write_report(const Arguments& a, Workshop& shop, const std::vector<WeatherV
   write_atomically(folder / "index.html", weather_page(fs::path(a.scene).filename().string(), *shop.before, views,
                                                        json["materials"], read_file(a.config), a.live));
   json["page"] = (folder / "index.html").string();
+  if (a.video) {
+    std::vector<ColorImage> frames;
+    for (const WeatherView& view : views) frames.push_back(view.picture);
+    write_animation(folder / "series.gif", frames, k_pictures_a_second);
+    json["video"] = (folder / "series.gif").string();
+  }
   if (!a.pictures) return;
   write_color_image(folder / "before.png", *shop.before);
   json["pictures"] = {"before.png"};
@@ -92,18 +101,13 @@ Json build(const Arguments& a, Workshop& shop, const VerbContext& context) {
   return json;
 }
 
-/// Builds again whenever the configuration or one of its libraries is saved. A mistake in them is told and waited for.
+/// Builds again whenever the configuration or a file that it rests on is saved. A mistake in them is told and waited
+/// for.
 Json follow(const Arguments& a, Workshop& shop, const VerbContext& context, Json json) {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_stop = true; });
-  std::vector<fs::path> files;
   const auto list = [&] {
-    try {
-      const WeatherConfig config = read_weather_config(a.config);
-      files.assign(1, a.config);
-      for (const std::string& library : config.libraries) files.push_back(config.folder / library);
-    } catch (const Error&) {
-      if (files.empty()) files.assign(1, a.config);
-    }
+    std::vector<fs::path> files(shop.cache.files.begin(), shop.cache.files.end());
+    files.emplace_back(a.config);
     return files;
   };
   const auto again = [&] {
@@ -144,8 +148,9 @@ void add_weather(CLI::App& program) {
       ->type_name("OUT");
   auto* report = verb->add_option("--report", a->report, "Folder for a page: before, after, a slider over the times")
                      ->type_name("DIR");
-  verb->add_flag("--pictures", a->pictures, "The page's pictures as files, too")->needs(report);
-  verb->add_flag("--live", a->live, "Stay, and build again whenever CONFIG or one of its libraries is saved");
+  verb->add_flag("--pictures", a->pictures, "The page's pictures as PNG files in its folder, too")->needs(report);
+  verb->add_flag("--video", a->video, "The series as an animated GIF in the page's folder, too")->needs(report);
+  verb->add_flag("--live", a->live, "Stay, and build again whenever CONFIG, a library or a picture of it is saved");
   a->read.add_to(*verb);
 }
 

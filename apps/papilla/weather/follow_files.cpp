@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "weather/follow_files.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -13,7 +14,7 @@ namespace {
 
 using State = std::map<std::filesystem::path, std::pair<std::filesystem::file_time_type, std::uintmax_t>>;
 
-/// Those that are there; a file that is away for a moment keeps its last state.
+/// A file that is away for a moment keeps its last state.
 State state_of(const std::vector<std::filesystem::path>& files, const State& last) {
   State state;
   for (const auto& file : files) {
@@ -24,8 +25,18 @@ State state_of(const std::vector<std::filesystem::path>& files, const State& las
       state[file] = {time, size};
     else if (const auto it = last.find(file); it != last.end())
       state[file] = it->second;
+    else
+      state[file] = {};
   }
   return state;
+}
+
+/// Whether one of the files that were looked at before is another one now.
+bool changed_since(const State& last, const State& now) {
+  return std::any_of(now.begin(), now.end(), [&](const auto& entry) {
+    const auto it = last.find(entry.first);
+    return it != last.end() && it->second != entry.second;
+  });
 }
 
 }  // namespace
@@ -35,7 +46,7 @@ void follow_files(const std::function<std::vector<std::filesystem::path>()>& fil
   State last = state_of(files(), {});
   while (!stopped()) {
     State now = state_of(files(), last);
-    if (now != last) changed();
+    if (changed_since(last, now)) changed();
     last = std::move(now);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "weather/weather.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 
+#include "papilla/core/error.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
@@ -13,29 +17,20 @@
 #include "papilla/texture/normal_map.hpp"
 #include "recipe_source.hpp"
 #include "weather/atlas_uv.hpp"
-#include "weather/own_colour.hpp"
+#include "weather/felt_relief.hpp"
+#include "weather/paint.hpp"
 #include "weather/sky_texels.hpp"
-#include "weather/surface_atlas.hpp"
 
 namespace papilla::app {
 namespace {
 
-constexpr unsigned bit(Channel c) { return 1U << static_cast<unsigned>(c); }
-constexpr unsigned k_maps = bit(Channel::color) | bit(Channel::bump) | bit(Channel::friction) | bit(Channel::stiffness);
+namespace fs = std::filesystem;
+
+/// Surfaces are kept for the next time step up to this.
+constexpr std::size_t k_most_kept_texels = std::size_t{1} << 26;
+
 /// Of materials without haptic tag: what the recipes' texts take for granted.
 constexpr double k_common_friction = 0.4;
-
-/// Sums over the texels that something shows, so that means can be told.
-struct Felt {
-  double friction = 0, stiffness = 0, texels = 0;
-};
-
-/// A painted window: byte and height a texel.
-struct Painted {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgb;
-  std::vector<float> bump;
-};
 
 /// Everything that stays the same over the materials of a scene.
 struct Job {
@@ -43,46 +38,10 @@ struct Job {
   const WeatherConfig& config;
   const RecipeLibrary& library;
   double time;
+  WeatherCache& cache;
   std::vector<Instance> all;
   std::optional<SkyView> sky;  ///< Made when the first recipe asks for it.
 };
-
-/// Evaluates the recipe at the covered texels of a window; the others get the material's middle.
-/// @param charts  how often the window is shown, for the means.
-Painted paint(const ProceduralTexture& texture, const SurfaceReading& reading, const SurfaceTexels& texels,
-              const std::vector<float>& sky, const OwnColour& own, double scale, double charts, Felt& felt) {
-  std::vector<double> x, y;
-  std::vector<float> normals, positions, skies, colours;
-  std::vector<std::size_t> place;
-  for (int j = 0; j < texels.height; ++j)
-    for (int i = 0; i < texels.width; ++i) {
-      const std::size_t at = texels.at(texels.left + i, texels.top + j);
-      if (!texels.covered[at]) continue;
-      place.push_back(at);
-      x.push_back((texels.left + i + 0.5) / scale), y.push_back((texels.top + j + 0.5) / scale);
-      const auto from = static_cast<std::ptrdiff_t>(3 * at);
-      if (!reading.directions.empty())
-        normals.insert(normals.end(), texels.normals.begin() + from, texels.normals.begin() + from + 3);
-      if (reading.position)
-        positions.insert(positions.end(), texels.positions.begin() + from, texels.positions.begin() + from + 3);
-      const std::array<float, 3> colour = own.at(x.back(), y.back());
-      colours.insert(colours.end(), colour.begin(), colour.end());
-      if (!sky.empty()) skies.push_back(sky[at]);
-    }
-  const TextureValues values = evaluate_texture(texture, {x, y, normals, positions, skies, colours}, k_maps, 1 / scale);
-  const ColorImage image = to_color_image(values[Channel::color], static_cast<int>(place.size()), 1);
-  Painted out{texels.width, texels.height, std::vector<unsigned char>(3 * texels.count(), 128),
-              std::vector<float>(texels.count(), 0.5F)};
-  for (std::size_t k = 0; k < place.size(); ++k) {
-    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * k), 3,
-                out.rgb.begin() + static_cast<std::ptrdiff_t>(3 * place[k]));
-    out.bump[place[k]] = values[Channel::bump][k];
-    felt.friction += charts * static_cast<double>(values[Channel::friction][k]);
-    felt.stiffness += charts * static_cast<double>(values[Channel::stiffness][k]);
-    felt.texels += charts;
-  }
-  return out;
-}
 
 /// Adds pictures to a scene, the same bytes once.
 class Pictures {
@@ -137,13 +96,13 @@ void put(const Painted& tile, std::pair<int, int> corner, Painted& picture) {
   }
 }
 
-Painted paint_atlas(const SurfaceAtlas& atlas, std::span<const SurfaceTriangle> surface,
-                    const ProceduralTexture& texture, const SurfaceReading& reading, const OwnColour& own, Felt& felt,
-                    std::vector<NewUv>& uv, Json& json) {
+Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, Felt& felt, std::vector<NewUv>& uv, Json& json) {
+  const SurfaceAtlas& atlas = shown.atlas;
+  const std::vector<SurfaceTriangle>& surface = shown.triangles;
   std::vector<Painted> painted, unlike;
   for (const AtlasTile& tile : atlas.tiles)
-    painted.push_back(paint(texture, reading, tile.texels, tile.sky, own, atlas.texels_per_repeat,
-                            static_cast<double>(tile.charts), felt));
+    painted.push_back(
+        paint(job, tile.texels, tile.sky, atlas.texels_per_repeat, static_cast<double>(tile.charts), felt));
   const std::vector<std::uint32_t> number = unlike_tiles(std::move(painted), unlike);
   std::vector<std::pair<int, int>> sizes;
   for (const Painted& p : unlike) sizes.emplace_back(p.width, p.height);
@@ -168,19 +127,6 @@ Painted paint_atlas(const SurfaceAtlas& atlas, std::span<const SurfaceTriangle> 
   return picture;
 }
 
-/// Where the recipe reads nothing of the surface, or no texel is shown by two places: one repeat, or nothing.
-std::optional<SurfaceTexels> one_repeat(std::span<const SurfaceTriangle> surface, const SurfaceReading& reading,
-                                        int size) {
-  SurfaceTexels texels(0, 0, size, size, true);
-  for (const SurfaceTriangle& t : surface)
-    if (draw(texels, t, size, reading) > 0) return std::nullopt;
-  grow(texels, k_gutter);
-  // What no surface shows is painted, too, and looks upwards.
-  for (std::size_t at = 0; at < texels.count(); ++at)
-    if (!texels.covered[at]) texels.covered[at] = 1, texels.normals[3 * at + 1] = 1;
-  return texels;
-}
-
 /// The tag of a material, with the friction and stiffness of its new surface.
 void feel(Material& material, MaterialTag tag, double friction, double factor) {
   const double ratio = tag.dynamic_friction > 0 ? tag.static_friction / tag.dynamic_friction : 1;
@@ -190,50 +136,74 @@ void feel(Material& material, MaterialTag tag, double friction, double factor) {
 }
 
 /// Everything that a material's look depends on apart from the scene.
-std::string key_of(const Job& job, std::uint32_t index, const std::string& recipe, const ProceduralTexture& texture) {
-  std::string key = std::to_string(index) + '\n' + std::to_string(job.config.size) + '\n' +
-                    std::to_string(job.config.depth_mm) + '\n' + std::to_string(job.config.sky_rays) + '\n' +
-                    std::to_string(texture.depends_on_time() ? job.time : 0) + '\n' + recipe;
+std::string key_of(const Job& job, std::uint32_t index, const std::string& recipe, const ProceduralTexture& texture,
+                   const std::vector<fs::path>& pictures) {
+  std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", index, job.config.size, job.config.depth_mm,
+                                job.config.sky_rays, texture.depends_on_time() ? job.time : 0, recipe);
   for (const std::string& name : texture.recipes_used()) key += '\n' + name + ' ' + *job.library.find(name);
+  for (const fs::path& picture : pictures) {
+    std::error_code error;
+    key += fmt::format("\n{} {} {}", picture.string(), fs::last_write_time(picture, error).time_since_epoch().count(),
+                       fs::file_size(picture, error));
+  }
   return key;
 }
 
+/// The material's surface, from the cache if it was laid out for such a reading before.
+std::shared_ptr<const MaterialSurface> surface_for(Job& job, std::uint32_t index, const SurfaceReading& reading) {
+  std::string key = fmt::format("{} {} {} {} {}", index, job.config.size, reading.position, reading.sky,
+                                reading.sky ? job.config.sky_rays : 0);
+  for (const auto& d : reading.directions) key += fmt::format(" {} {} {}", d[0], d[1], d[2]);
+  if (const auto it = job.cache.surfaces.find(key); it != job.cache.surfaces.end()) return it->second;
+  const auto surface = std::make_shared<const MaterialSurface>(
+      lay_out(job.scene, job.all, index, job.config.size, reading, [&]() -> const SkyView& {
+        if (!job.sky) job.sky = sky_of(job.scene, job.all, job.config.sky_rays);
+        return *job.sky;
+      }));
+  if (job.cache.texels + surface->texels() <= k_most_kept_texels) {
+    job.cache.texels += surface->texels();
+    job.cache.surfaces.emplace(std::move(key), surface);
+  }
+  return surface;
+}
+
 /// Paints one material anew.
-AgedMaterial paint_material(Job& job, std::uint32_t index, const ProceduralTexture& texture) {
-  const Material& before = job.scene.materials[index];
+/// @param felt  the tag that it had. @param compiled  compiles the recipe, seamless or not.
+AgedMaterial paint_material(Job& job, std::uint32_t index, const std::optional<MaterialTag>& felt,
+                            const ProceduralTexture& texture, const std::function<ProceduralTexture(bool)>& compiled) {
   AgedMaterial aged;
-  const std::vector<SurfaceTriangle> surface =
-      surface_of(job.scene, job.all, index, before.base_color_texture ? &*before.base_color_texture : nullptr);
-  const double mm = mm_per_repeat(surface);
-  if (!(mm > 0)) {
+  const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), texture.depends_on_sky()};
+  const auto surface = surface_for(job, index, reading);
+  if (!(surface->mm_per_repeat > 0)) {
     aged.json["skipped"] = "no surface with uv shows it";
     return aged;
   }
-  const bool reads_sky = texture.depends_on_sky();
-  if (reads_sky && !job.sky) job.sky = sky_of(job.scene, job.all, job.config.sky_rays);
-  const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), reads_sky};
-  const OwnColour own(job.scene, before);
-  Felt felt;
+  Felt means;
   Painted picture;
   double scale = job.config.size;
-  const std::optional<SurfaceTexels> plain = one_repeat(surface, reading, job.config.size);
-  if (plain) {
-    const std::vector<float> sky = reads_sky ? sky_texels(*plain, *job.sky) : std::vector<float>();
-    picture = paint(texture, reading, *plain, sky, own, scale, 1, felt);
+  if (surface->repeat) {
+    const bool tiles = surface->leaves_the_repeat();
+    const ProceduralTexture tiling = tiles ? compiled(true) : texture;
+    picture = paint({tiling, reading, *surface->own, job.config.depth_mm, tiles}, *surface->repeat, surface->sky, scale,
+                    1, means);
   } else {
-    const SurfaceAtlas atlas = cut_surface(surface, job.config.size, reading, reads_sky ? &*job.sky : nullptr);
-    scale = atlas.texels_per_repeat;
-    picture = paint_atlas(atlas, surface, texture, reading, own, felt, aged.uv, aged.json);
+    scale = surface->atlas.texels_per_repeat;
+    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm}, means, aged.uv, aged.json);
   }
-  const double pitch = mm / scale;
-  HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, plain.has_value()};
-  for (float& h : relief.mm) h *= static_cast<float>(job.config.depth_mm);
+  const double pitch = surface->mm_per_repeat / scale;
+  HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
+  // A height of 1/2 is the surface as it was.
+  for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
+  if (felt && (!felt->height || surface->own->has_relief())) aged.height = felt_height(relief);
   aged.color_png = encode_png({picture.width, picture.height, std::move(picture.rgb)});
   aged.normal_png = encode_png(normal_map(relief));
-  aged.friction = felt.friction / felt.texels, aged.stiffness = felt.stiffness / felt.texels;
-  aged.json["depends_on"] = {
-      {"normal", texture.depends_on_normal()}, {"position", texture.depends_on_position()}, {"sky", reads_sky}};
+  aged.friction = means.friction / means.texels, aged.stiffness = means.stiffness / means.texels;
+  aged.json["depends_on"] = {{"normal", texture.depends_on_normal()},
+                             {"position", reading.position},
+                             {"sky", reading.sky},
+                             {"neighbours", texture.depends_on_neighbours()}};
   aged.json["uses"] = texture.recipes_used();
+  aged.json["own_relief"] = surface->own->has_relief();
   aged.json["mm_per_texel"] = pitch;
   aged.json["friction"] = aged.friction;
   aged.json["stiffness"] = aged.stiffness;
@@ -243,7 +213,7 @@ AgedMaterial paint_material(Job& job, std::uint32_t index, const ProceduralTextu
 /// Puts what was painted onto the material.
 void apply(const AgedMaterial& aged, const std::optional<MaterialTag>& tag, Material& material, Pictures& pictures) {
   TextureReference place;
-  if (aged.uv.empty() && material.base_color_texture) place = *material.base_color_texture;
+  if (const TextureReference* own = own_place(material); aged.uv.empty() && own) place = *own;
   for (auto* reference : {&material.base_color_texture, &material.normal_texture}) {
     const bool colour = reference == &material.base_color_texture;
     *reference =
@@ -255,8 +225,8 @@ void apply(const AgedMaterial& aged, const std::optional<MaterialTag>& tag, Mate
 }
 
 /// Ages one material. @returns what to tell of it.
-Json age(WeatherResult& result, std::uint32_t index, Job& job, WeatherCache& cache, Pictures& pictures,
-         std::vector<NewUv>& uv, std::vector<std::uint32_t>& with_atlas) {
+Json age(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures, std::vector<NewUv>& uv,
+         std::vector<std::uint32_t>& with_atlas, std::vector<std::optional<HeightTag>>& heights) {
   const Material& before = job.scene.materials[index];
   std::vector<HapticWarning> warnings;
   const std::optional<MaterialTag> tag = material_tag_of_extras(before.extras_json, warnings);
@@ -265,11 +235,21 @@ Json age(WeatherResult& result, std::uint32_t index, Job& job, WeatherCache& cac
   if (recipe.empty()) return json;
   CompileOptions options = recipe_options(job.config.folder);
   options.time = job.time, options.source = "weather, material '" + before.name + "'";
-  const ProceduralTexture texture = compile_texture(recipe, job.library, options);
-  const std::string key = key_of(job, index, recipe, texture);
-  auto it = cache.find(key);
-  if (it == cache.end()) {
-    it = cache.emplace(key, paint_material(job, index, texture)).first;
+  std::vector<fs::path> read;
+  options.read_picture = [&read, &job, from = options.read_picture](const std::string& path) {
+    read.push_back(job.config.folder / path);
+    job.cache.files.insert(read.back());
+    return from(path);
+  };
+  const auto compiled = [&](bool seamless) {
+    options.seamless = seamless;
+    return compile_texture(recipe, job.library, options);
+  };
+  const ProceduralTexture texture = compiled(false);
+  const std::string key = key_of(job, index, recipe, texture, read);
+  auto it = job.cache.aged.find(key);
+  if (it == job.cache.aged.end()) {
+    it = job.cache.aged.emplace(key, paint_material(job, index, tag, texture, compiled)).first;
     ++result.painted;
   }
   const AgedMaterial& aged = it->second;
@@ -278,6 +258,7 @@ Json age(WeatherResult& result, std::uint32_t index, Job& job, WeatherCache& cac
   apply(aged, tag, result.scene.materials[index], pictures);
   uv.insert(uv.end(), aged.uv.begin(), aged.uv.end());
   if (!aged.uv.empty()) with_atlas.push_back(index);
+  heights[index] = aged.height;
   return json;
 }
 
@@ -285,16 +266,26 @@ Json age(WeatherResult& result, std::uint32_t index, Job& job, WeatherCache& cac
 
 WeatherResult weather(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache) {
   RecipeLibrary library = RecipeLibrary::builtin();
-  for (const std::string& file : config.libraries) library.read_file(config.folder / file);
+  const auto note_files = [&] { cache.files.insert(library.files().begin(), library.files().end()); };
+  try {
+    for (const std::string& file : config.libraries) library.read_file(config.folder / file);
+  } catch (const Error&) {
+    note_files();
+    throw;
+  }
+  note_files();
   WeatherResult result;
   result.scene = scene;
   Pictures pictures(result);
-  Job job{scene, config, library, time, instances(scene), {}};
+  Job job{scene, config, library, time, cache, instances(scene), {}};
   std::vector<NewUv> uv;
   std::vector<std::uint32_t> with_atlas;
+  std::vector<std::optional<HeightTag>> heights(scene.materials.size());
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m)
-    result.materials.push_back(age(result, m, job, cache, pictures, uv, with_atlas));
+    result.materials.push_back(age(result, m, job, pictures, uv, with_atlas, heights));
   if (!with_atlas.empty()) set_atlas_uv(result.scene, job.all, std::move(uv), with_atlas);
+  for (std::size_t m = 0; m < heights.size(); ++m)
+    if (heights[m]) feel_relief(result.scene.materials[m], std::move(*heights[m]));
   return result;
 }
 

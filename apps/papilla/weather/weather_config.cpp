@@ -70,8 +70,8 @@ WeatherConfig read_weather_config(const std::filesystem::path& path) {
 }
 
 std::string layered_recipe(const WeatherConfig& config, const std::string& material, double friction) {
-  std::string recipe =
-      fmt::format("multi|textures=[base|colorfunction=currentcolor|bumpfunction=.5|frictionfunction={}]", friction);
+  std::string recipe = fmt::format(
+      "multi|textures=[base|colorfunction=currentcolor|bumpfunction=.5+lowerbump|frictionfunction={}]", friction);
   bool any = false;
   for (const WeatherLayer& layer : config.layers)
     for (const std::string& pattern : layer.materials)

@@ -42,11 +42,13 @@ class RecipeLibrary {
 
   const std::string* find(std::string_view name) const;
   const std::string* find_colours(std::string_view name) const;
+  /// All that was read, includes too, in the order of reading; also what could not be read.
+  const std::vector<std::filesystem::path>& files() const noexcept { return files_; }
   const std::map<std::string, std::string, std::less<>>& recipes() const noexcept { return recipes_; }
 
  private:
   std::map<std::string, std::string, std::less<>> recipes_, colours_;
-  std::vector<std::filesystem::path> open_files_;
+  std::vector<std::filesystem::path> files_, open_files_;
 };
 
 /// Names of recipes that suit a material of that name ("Leather black", "wood2"), best first; looks at the recipes'
