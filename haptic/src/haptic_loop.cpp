@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
@@ -35,9 +36,11 @@ class Pacer {
  public:
   explicit Pacer(double period_s) noexcept : period_ns_(period_s * 1e9), start_ns_(now_ns()) {}
 
-  /// Sleeps until tick `i` and returns how late it is, in microseconds.
-  double wait(std::uint64_t i) noexcept {
+  /// Sleeps until tick `i` and returns how late it woke up, in microseconds; nothing when the tick is due already, so
+  /// that one stall counts once, as in cyclictest, and not for every tick that it has delayed.
+  std::optional<double> wait(std::uint64_t i) noexcept {
     const double due = due_ns(i);
+    if (now_ns() >= due) return std::nullopt;
     timespec t{};
     t.tv_sec = static_cast<time_t>(due / 1e9);
     t.tv_nsec = static_cast<long>(due - 1e9 * static_cast<double>(t.tv_sec));
@@ -159,12 +162,12 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
     Pacer pacer(period);
     while (result.ticks < options.ticks && !(options.stop && options.stop->load(std::memory_order_relaxed))) {
       const std::uint64_t i = result.ticks;
-      double late_us = 0;
+      std::optional<double> late_us;
       if (device.is_clock())
         late_us = 1e6 * device.wait(k_longest_frame_s);
       else if (options.paced)
         late_us = pacer.wait(i);
-      if (device.is_clock() || options.paced) result.wakeup_us.add(late_us);
+      if (late_us) result.wakeup_us.add(*late_us);
       const double awake = seconds_of(CLOCK_MONOTONIC), before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
       DeviceState state;
       result.device_lost = !device.read(state);
@@ -191,7 +194,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
         if (options.record) (*options.record)[i] = row;
         if (options.latest) options.latest->store(row);
       }
-      if (options.status) show(*options.status, result, norm(force), tick_us, late_us);
+      if (options.status) show(*options.status, result, norm(force), tick_us, late_us.value_or(0));
       result.fault = tick.guard().fault();
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
     }

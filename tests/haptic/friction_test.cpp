@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "haptic/contact_shapes.hpp"
+#include "papilla/haptic/force_model.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
+#include "papilla/haptic/proxy.hpp"
 
 namespace papilla {
 namespace {
@@ -112,6 +114,44 @@ TEST(BristleFriction, StrokeOfAPlateFeelsIt) {
   EXPECT_NEAR(at(0.02002, -1e-3).x, -limit * (1 - std::exp(-500 * 2e-5 / limit)), 1e-4);
   for (int i = 0; i < 200; ++i) at(0.02002 + 1e-4 * i, -1e-3);
   EXPECT_NEAR(at(0.0401, -1e-3).x, -limit, 0.01 * limit);
+}
+
+/// Forces of a ball of 1 mm drawn over a rough mesh at 0.2 m/s, at every millisecond.
+std::vector<Vec3> forces_over_a_rough_mesh(const ContactSurface& surface, int ticks_per_ms) {
+  Proxy proxy(surface);
+  proxy.reset({0.005, 0.003, 0.01});
+  std::vector<Vec3> forces;
+  for (int i = 0; i <= 60 * ticks_per_ms; ++i) {
+    const double ms = static_cast<double>(i) / ticks_per_ms;
+    const Vec3 probe{0.005 + 2e-4 * ms, 0.003, 5e-4};
+    proxy.update(probe, 1e-3 / ticks_per_ms);
+    if (i % ticks_per_ms == 0) forces.push_back(heightfield_force(surface, proxy.state(), probe, {}));
+  }
+  return forces;
+}
+
+TEST(Friction, OfABallOnARoughMeshConvergesInProportionToTheTick) {
+  ContactMaterial material;
+  material.static_friction = 0.24;
+  material.dynamic_friction = 0.2;
+  const auto relief = [](double x, double y) {
+    return 2e-4 * std::sin(1200 * x) * std::cos(900 * y) + 5e-5 * std::sin(6000 * x + 1) * std::sin(5500 * y);
+  };
+  const ContactSurface surface(testing::height_grid(240, 60, 0.024, 0.006, relief), {material}, {}, 1e-3);
+  const std::vector<Vec3> fine = forces_over_a_rough_mesh(surface, 16);
+  const auto error = [&](int ticks_per_ms) {
+    const std::vector<Vec3> forces = forces_over_a_rough_mesh(surface, ticks_per_ms);
+    double off = 0, all = 0;
+    for (std::size_t i = 10; i < fine.size(); ++i) {
+      off += dot(forces[i] - fine[i], forces[i] - fine[i]);
+      all += dot(fine[i], fine[i]);
+    }
+    return std::sqrt(off / all);
+  };
+  const double coarse = error(1), finer = error(4);
+  EXPECT_GT(coarse, 5e-3);  // There is something to converge.
+  EXPECT_LT(coarse, 0.05);
+  EXPECT_LT(finer, 0.5 * coarse);
 }
 
 }  // namespace

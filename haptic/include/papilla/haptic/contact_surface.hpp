@@ -87,7 +87,8 @@ class ContactSurface {
   void focus(Vec3 centre, Neighbourhood& near) const noexcept { near.focus(centre - origin_); }
   double off_focus(Vec3 from, const Neighbourhood& near) const noexcept { return near.off_focus(from - origin_); }
 
-  /// The same hit, from what was gathered; from the tree as soon as the way leaves that.
+  /// The same hit, from what was gathered; from the tree as soon as the way leaves that. On plain triangles the same
+  /// bits, on relief within the tolerance.
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept;
 
   /// Shaded normals at a resting probe: with f_i the face normals of the triangles that it touches at `proxy` and s_i

@@ -47,8 +47,8 @@ struct LoopResult {
   double seconds = 0;  ///< Wall time of the loop.
   std::uint64_t passivity_interventions = 0;
   double max_force_n = 0;  ///< Largest force written.
-  Histogram wakeup_us;     ///< How late the loop woke up.
-  Histogram tick_us;       ///< CPU time of the thread from reading the position to writing the force.
+  Histogram wakeup_us;  ///< How late the loop woke up, of the ticks that it slept for: the others are missed deadlines.
+  Histogram tick_us;    ///< CPU time of the thread from reading the position to writing the force.
   bool fixed_priority = false, memory_locked = false;
   std::string realtime_note;  ///< Why one of them was refused; empty when both hold.
   bool device_lost = false;

@@ -12,10 +12,11 @@ namespace papilla {
 /// The triangles that a probe can touch as long as it stays within a ball, kept from tick to tick so that the tree is
 /// not walked for every sweep. Filled by ContactSurface::gather(), read by ContactSurface::sweep().
 ///
-/// Each triangle has a prism around it and its relief, in single precision and rounded outwards: its plane and a plane
-/// through each edge. The distance to it is convex along a straight way, so its value and slope at the start tell, on
-/// the safe side, that a short way can't touch the triangle. The numbers of sixteen lie side by side in memory,
-/// so that a processor takes several at once. Fixed size, 73 KiB; noexcept, no allocation.
+/// Each triangle has a prism around it and its relief, in single precision and rounded outwards: its plane, a plane
+/// through each edge, and a cylinder around its middle, which is tighter beyond a corner. The distance to it is convex
+/// along a straight way, so its value and slope at the start tell, on the safe side, when a way can touch the triangle
+/// and whether it can go deep enough into it. The numbers of sixteen lie side by side in memory, so that a processor
+/// takes several at once. Fixed size, 73 KiB; noexcept, no allocation.
 class Neighbourhood {
  public:
   static constexpr std::uint32_t k_capacity = 1024;  ///< Triangles.
