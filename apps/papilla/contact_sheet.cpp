@@ -9,6 +9,7 @@
 
 #include "html_text.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/procedural/reference.hpp"
 
 namespace papilla::app {
 namespace {
@@ -101,11 +102,26 @@ ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::st
   return sheet;
 }
 
+std::vector<std::pair<std::string, std::string>> examples_of_types() {
+  std::vector<std::pair<std::string, std::string>> recipes;
+  for (const TypeInfo& type : texture_types()) {
+    std::string recipe(type.name);
+    if (type.name == "multi") recipe += "|textures=brick_wall,[moss|fixtime=true|time=.6]";
+    if (type.name == "base" || type.name == "texture")
+      recipe += "|mainfunction=.5+.5*s(x*20+4*noise2d(x*4,y*4))*s(y*20)";
+    if (type.name == "image") recipe += "|basetexture=[star|jags=5]";
+    if (type.name == "sd") recipe = "multi|textures=oak,[sd|invert=true|cols=black,orange]";
+    recipes.emplace_back(type.name, recipe);
+  }
+  return recipes;
+}
+
 std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file) {
   std::string page =
       "<!doctype html><meta charset=\"utf-8\"><title>Recipes</title><style>body{font:14px "
       "sans-serif;margin:2em}td,th{padding:2px 8px;"
-      "text-align:left;vertical-align:top;border-bottom:1px solid #ccc}code{font-size:12px;overflow-wrap:anywhere}</style>\n";
+      "text-align:left;vertical-align:top;border-bottom:1px solid "
+      "#ccc}code{font-size:12px;overflow-wrap:anywhere}</style>\n";
   const int side = (sheet.picture.width - k_gap) / sheet.columns - k_gap;
   page += fmt::format(
       "<style>figure{{display:inline-block;margin:0 6px 10px "

@@ -31,6 +31,9 @@ struct ContactSheet {
 ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::string>>& recipes,
                                 const RecipeLibrary& library, const CompileOptions& options, int side);
 
+/// Every type's name and the plainest recipe of it that shows something.
+std::vector<std::pair<std::string, std::string>> examples_of_types();
+
 /// The sheet as an HTML page: every tile above its name, cut out of the picture, and a table.
 std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file);
 
