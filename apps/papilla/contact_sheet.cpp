@@ -9,6 +9,7 @@
 
 #include "html_text.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/procedural/reference.hpp"
 
 namespace papilla::app {
 namespace {
@@ -73,7 +74,8 @@ ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::st
       3 * static_cast<std::size_t>(sheet.picture.width) * static_cast<std::size_t>(sheet.picture.height), 255);
   int place = 0;
   for (const auto& [name, recipe] : recipes) {
-    SheetEntry entry{name, recipe, {}, 0, 0, 0, 0, ""};
+    const std::string* entry_text = library.find(name);
+    SheetEntry entry{name, recipe, entry_text ? *entry_text : recipe, {}, 0, 0, 0, 0, ""};
     const int left = k_gap + place % sheet.columns * pitch, top = k_gap + place / sheet.columns * pitch;
     ++place;
     try {
@@ -100,19 +102,46 @@ ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::st
   return sheet;
 }
 
+std::vector<std::pair<std::string, std::string>> examples_of_types() {
+  std::vector<std::pair<std::string, std::string>> recipes;
+  for (const TypeInfo& type : texture_types()) {
+    std::string recipe(type.name);
+    if (type.name == "multi") recipe += "|textures=brick_wall,[moss|fixtime=true|time=.6]";
+    if (type.name == "base" || type.name == "texture")
+      recipe += "|mainfunction=.5+.5*s(x*20+4*noise2d(x*4,y*4))*s(y*20)";
+    if (type.name == "image") recipe += "|basetexture=[star|jags=5]";
+    if (type.name == "sd") recipe = "multi|textures=oak,[sd|invert=true|cols=black,orange]";
+    recipes.emplace_back(type.name, recipe);
+  }
+  return recipes;
+}
+
 std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file) {
   std::string page =
       "<!doctype html><meta charset=\"utf-8\"><title>Recipes</title><style>body{font:14px "
       "sans-serif;margin:2em}td,th{padding:2px 8px;"
-      "text-align:left;vertical-align:top;border-bottom:1px solid #ccc}code{font-size:12px}</style>\n";
-  page += fmt::format("<h1>Recipes</h1><p><img src=\"{}\" alt=\"{} tiles, {} a row\"></p>\n", picture_file,
-                      sheet.entries.size(), sheet.columns);
-  page += "<table><tr><th>#<th>name<th>recipe<th>rests on<th>height<th>mean<th>seam</tr>\n";
-  int number = 0;
+      "text-align:left;vertical-align:top;border-bottom:1px solid "
+      "#ccc}code{font-size:12px;overflow-wrap:anywhere}</style>\n";
+  const int side = (sheet.picture.width - k_gap) / sheet.columns - k_gap;
+  page += fmt::format(
+      "<style>figure{{display:inline-block;margin:0 6px 10px "
+      "0}}figcaption{{font-size:12px;max-width:{0}px}}.t{{width:{0}px;"
+      "height:{0}px;background:url({1})}}</style>\n<h1>Recipes</h1>\n<div>",
+      side, picture_file);
+  for (std::size_t k = 0; k < sheet.entries.size(); ++k) {
+    const int column = static_cast<int>(k) % sheet.columns, row = static_cast<int>(k) / sheet.columns;
+    const std::string name = html_text(sheet.entries[k].name);
+    page += fmt::format(
+        "<figure><div class=\"t\" role=\"img\" aria-label=\"{}\" style=\"background-position:-{}px -{}px\"></div>"
+        "<figcaption>{}</figcaption></figure>\n",
+        name, k_gap + column * (side + k_gap), k_gap + row * (side + k_gap), name);
+  }
+  page += "</div>\n";
+  page += "<table><tr><th>name<th>recipe<th>rests on<th>height<th>mean<th>seam</tr>\n";
   for (const SheetEntry& e : sheet.entries) {
     std::string uses;
     for (const std::string& name : e.uses) uses += (uses.empty() ? "" : ", ") + name;
-    page += fmt::format("<tr><td>{}<td>{}<td><code>{}</code>", ++number, html_text(e.name), html_text(e.recipe));
+    page += fmt::format("<tr><td>{}<td><code>{}</code>", html_text(e.name), html_text(e.text));
     if (e.error.empty())
       page += fmt::format("<td>{}<td>{:.3f} to {:.3f}<td>{:.3f}<td>{:.2f}</tr>\n", html_text(uses), e.low, e.high,
                           e.mean, e.seam);
@@ -121,7 +150,7 @@ std::string sheet_page(const ContactSheet& sheet, const std::string& picture_fil
   }
   return page +
          "</table>\n<p>Seam: largest step of the height across the border over the largest step within; not above 1 "
-         "where the texture tiles.</p>\n";
+         "where the texture tiles. An ageing recipe is shown on a material that it suits.</p>\n";
 }
 
 }  // namespace papilla::app

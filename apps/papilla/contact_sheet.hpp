@@ -13,6 +13,7 @@ namespace papilla::app {
 /// What a contact sheet says of a recipe.
 struct SheetEntry {
   std::string name, recipe;
+  std::string text;                    ///< The library's entry of that name, else the recipe.
   std::vector<std::string> uses;       ///< Recipes of the library that it rests on.
   double low = 0, high = 0, mean = 0;  ///< Of the height.
   double seam = 0;    ///< Largest step across the border over the largest step within; about 1 where it tiles.
@@ -30,7 +31,10 @@ struct ContactSheet {
 ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::string>>& recipes,
                                 const RecipeLibrary& library, const CompileOptions& options, int side);
 
-/// The sheet as a self-contained HTML page.
+/// Every type's name and the plainest recipe of it that shows something.
+std::vector<std::pair<std::string, std::string>> examples_of_types();
+
+/// The sheet as an HTML page: every tile above its name, cut out of the picture, and a table.
 std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file);
 
 /// Colours lit from the upper left by the slopes of the height; `relief` is the depth in texels of a height of 1.

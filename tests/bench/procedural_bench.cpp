@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "bench/bench_json.hpp"
 #include "bench/weather_job.hpp"
+#include "papilla/contact_sheet.hpp"
+#include "papilla/io/image_file.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "papilla/procedural/texture.hpp"
 #ifdef PAPILLA_HAVE_LIBNOISE
@@ -127,6 +130,23 @@ void seam_target(bench::BenchReport& report) {
                  std::to_string(equal) + " of " + std::to_string(all) + " types" + unlike, equal == all});
 }
 
+/// The contact sheet beside the page, and what each type gives.
+void types_table(bench::BenchReport& report) {
+  namespace fs = std::filesystem;
+  const app::ContactSheet sheet =
+      app::make_contact_sheet(app::examples_of_types(), RecipeLibrary::builtin(), CompileOptions{}, 128);
+  bench::EvidenceTable table{"Types", "", {"type", "least height", "largest", "mean"}, {}};
+  table.note = fmt::format("The plainest recipe of every type, {} a row, in the order of the table.", sheet.columns);
+  if (const fs::path page = report.options().evidence; !page.empty()) {
+    const fs::path picture = fs::path(page).replace_filename(page.stem().string() + "-types.jpg");
+    write_color_image(picture, sheet.picture);
+    table.note += "\n\n![every type](" + picture.filename().string() + ")";
+  }
+  for (const app::SheetEntry& e : sheet.entries)
+    table.rows.push_back({e.name, text("{:.3f}", e.low), text("{:.3f}", e.high), text("{:.3f}", e.mean)});
+  report.table(std::move(table));
+}
+
 double ratio(const bench::BenchReport& report, const std::string& peer, const std::string& ours,
              const std::string& input) {
   return report.median_of(peer, input, "cpu_ns_per_texel") / report.median_of(ours, input, "cpu_ns_per_texel");
@@ -221,6 +241,7 @@ void body(bench::BenchReport& report) {
   speed_targets(report, size, sizes);
   if (!quick) dimension_target(report);
   seam_target(report);
+  types_table(report);
 }
 
 }  // namespace

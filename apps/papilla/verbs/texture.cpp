@@ -161,15 +161,7 @@ std::string ground_of(const std::string& recipe, const RecipeLibrary& library) {
 Json run_sheet(const Arguments& a, const RecipeLibrary& library, VerbContext& context) {
   std::vector<std::pair<std::string, std::string>> recipes;
   if (a.sheet == "types") {
-    for (const TypeInfo& type : texture_types()) {
-      std::string recipe(type.name);
-      if (type.name == "multi") recipe += "|textures=brick_wall,[moss|fixtime=true|time=.6]";
-      if (type.name == "base" || type.name == "texture")
-        recipe += "|mainfunction=.5+.5*s(x*20+4*noise2d(x*4,y*4))*s(y*20)";
-      if (type.name == "image") recipe += "|basetexture=[star|jags=5]";
-      if (type.name == "sd") recipe = "multi|textures=oak,[sd|invert=true|cols=black,orange]";
-      recipes.emplace_back(type.name, recipe);
-    }
+    recipes = examples_of_types();
   } else {
     for (const auto& [name, recipe] : library.recipes())
       recipes.emplace_back(name,

@@ -19,6 +19,10 @@ Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vecto
   std::vector<double> x, y;
   std::vector<float> normals, positions, skies, colours, heights;
   std::vector<std::uint32_t> place;
+  const auto covered = static_cast<std::size_t>(
+      std::count_if(texels.covered.begin(), texels.covered.end(), [](auto c) { return c != 0; }));
+  x.reserve(covered), y.reserve(covered), place.reserve(covered), colours.reserve(3 * covered);
+  if (!job.reading.directions.empty()) normals.reserve(3 * covered);
   for (int j = 0; j < texels.height; ++j)
     for (int i = 0; i < texels.width; ++i) {
       const std::size_t at = texels.at(texels.left + i, texels.top + j);

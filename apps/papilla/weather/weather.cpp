@@ -8,6 +8,8 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string_view>
+#include <unordered_map>
 
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/material_tag.hpp"
@@ -72,16 +74,29 @@ class Pictures {
   std::map<std::string, std::uint32_t> known_;
 };
 
-/// Tiles with the same bytes are one, wherever they are shown. @returns the number of each tile among `unlike`.
+std::size_t hash_of(const Painted& tile) {
+  const auto bytes = std::as_bytes(std::span(tile.bump));
+  const std::hash<std::string_view> hash;
+  return hash({reinterpret_cast<const char*>(tile.rgb.data()), tile.rgb.size()}) * 31 +
+         hash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// Tiles with the same bytes are one, wherever they are shown: found by a hash, and compared.
+/// @returns the number of each tile among `unlike`.
 std::vector<std::uint32_t> unlike_tiles(std::vector<Painted> painted, std::vector<Painted>& unlike) {
   std::vector<std::uint32_t> number;
-  std::map<std::string, std::uint32_t> known;
+  std::unordered_multimap<std::size_t, std::uint32_t> known;
   for (Painted& p : painted) {
-    const std::string hash = std::to_string(p.width) + sha256_hex(std::as_bytes(std::span(p.rgb))) +
-                             sha256_hex(std::as_bytes(std::span(p.bump)));
-    const auto [it, is_new] = known.try_emplace(hash, static_cast<std::uint32_t>(unlike.size()));
-    if (is_new) unlike.push_back(std::move(p));
-    number.push_back(it->second);
+    const std::size_t hash = hash_of(p);
+    const auto [first, last] = known.equal_range(hash);
+    const auto same = std::find_if(first, last, [&](const auto& entry) {
+      const Painted& other = unlike[entry.second];
+      return other.width == p.width && other.rgb == p.rgb && other.bump == p.bump;
+    });
+    number.push_back(same != last ? same->second : static_cast<std::uint32_t>(unlike.size()));
+    if (same != last) continue;
+    known.emplace(hash, number.back());
+    unlike.push_back(std::move(p));
   }
   return number;
 }
