@@ -9,8 +9,8 @@
 #include <iterator>
 #include <map>
 
-#include "bake/mesh_assembly.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_assembly.hpp"
 #include "pictures/uv_layout.hpp"
 
 namespace papilla::app {

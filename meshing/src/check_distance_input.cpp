@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "check_distance_input.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "papilla/core/error.hpp"
 
 namespace papilla::detail {
-
-void Bounds::add(const Vec3& p) noexcept {
-  low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-  high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-}
 
 void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bounds& bounds) {
   constexpr double k_largest = 1e15;

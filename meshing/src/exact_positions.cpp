@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "exact_positions.hpp"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -24,25 +25,39 @@ std::uint64_t hash(const Vec3& p) noexcept {
 }  // namespace
 
 ExactPositions exact_positions(const TriangleMesh& mesh) {
-  const std::size_t slots = std::bit_ceil(2 * mesh.positions.size() + 1);
-  std::vector<Index> table(slots, k_none);
+  const std::vector<Vec3>& positions = mesh.positions;
+  const std::size_t count = positions.size(), slots = std::bit_ceil(2 * count + 1);
   ExactPositions result;
-  result.of_position.assign(mesh.positions.size(), k_none);
+  result.of_position.assign(count, k_none);
   for (const Triangle& t : mesh.triangles)
     for (const Index v : t) result.of_position[v] = 0;
-  constexpr Index k_ahead = 16;  // far enough for the slot to arrive from memory
-  for (Index v = 0; v < mesh.positions.size(); ++v) {
-    if (v + k_ahead < mesh.positions.size())
-      __builtin_prefetch(&table[hash(mesh.positions[v + k_ahead]) & (slots - 1)]);
+
+  // Each slot holds the first vertex of a position. Slots and those vertices' positions are asked for so early that
+  // they arrive from memory in time.
+  constexpr std::size_t k_ahead = 16, k_halfway = k_ahead / 2;
+  std::vector<Index> table(slots, k_none);
+  std::array<std::size_t, k_ahead> slot_ahead;
+  const auto look_ahead = [&](std::size_t v) {
+    if (v >= count) return;
+    slot_ahead[v % k_ahead] = hash(positions[v]) & (slots - 1);
+    __builtin_prefetch(&table[slot_ahead[v % k_ahead]]);
+  };
+  for (std::size_t v = 0; v < k_ahead; ++v) look_ahead(v);
+  for (Index v = 0; v < count; ++v) {
+    if (v + k_halfway < count)
+      if (const Index first = table[slot_ahead[(v + k_halfway) % k_ahead]]; first != k_none)
+        __builtin_prefetch(&positions[first]);
+    std::size_t slot = slot_ahead[v % k_ahead];
+    look_ahead(v + k_ahead);
     if (result.of_position[v] == k_none) continue;
-    const Vec3& p = mesh.positions[v];
-    std::size_t slot = hash(p) & (slots - 1);
-    while (table[slot] != k_none && !(mesh.positions[result.first[table[slot]]] == p)) slot = (slot + 1) & (slots - 1);
+    while (table[slot] != k_none && !(positions[table[slot]] == positions[v])) slot = (slot + 1) & (slots - 1);
     if (table[slot] == k_none) {
-      table[slot] = static_cast<Index>(result.first.size());
+      table[slot] = v;
+      result.of_position[v] = static_cast<Index>(result.first.size());
       result.first.push_back(v);
+    } else {
+      result.of_position[v] = result.of_position[table[slot]];
     }
-    result.of_position[v] = table[slot];
   }
   return result;
 }

@@ -205,14 +205,8 @@ class FansAround {
 
 class Splitter {
  public:
-  Splitter(TriangleMesh& mesh, const EdgeTable& edges, double gap, ManifoldResult& result,
-           std::vector<TouchingCopy>& touching)
-      : mesh_(mesh),
-        edges_(edges),
-        gap_(gap),
-        result_(result),
-        touching_(touching),
-        opposite_(opposite_halfedges(mesh.triangles, edges)) {}
+  Splitter(TriangleMesh& mesh, const EdgeTable& edges, double gap, ManifoldResult& result)
+      : mesh_(mesh), edges_(edges), gap_(gap), result_(result), opposite_(opposite_halfedges(mesh.triangles, edges)) {}
 
   void run() {
     find_bad_edges();
@@ -286,10 +280,7 @@ class Splitter {
       inward = inward + towards_opposite_side(corner);
       at_bad_edge = at_bad_edge || std::binary_search(parted.begin(), parted.end(), corner);
     }
-    if (at_bad_edge)
-      moves.emplace_back(copy, std::min(gap_, k_largest_move * shortest) * normalized(inward));
-    else
-      touching_.push_back({v, copy});
+    if (at_bad_edge) moves.emplace_back(copy, std::min(gap_, k_largest_move * shortest) * normalized(inward));
     return begin;
   }
 
@@ -357,7 +348,6 @@ class Splitter {
   const EdgeTable& edges_;
   double gap_;
   ManifoldResult& result_;
-  std::vector<TouchingCopy>& touching_;
   std::vector<Index> opposite_;
   std::vector<std::pair<Index, Index>> new_corners_;  ///< Corner, vertex.
   std::vector<std::size_t> bad_edges_;
@@ -374,32 +364,9 @@ bool has_bad_edges(const std::vector<Triangle>& triangles, const EdgeTable& edge
   return false;
 }
 
-bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result,
-                 std::vector<TouchingCopy>& touching) {
-  Splitter(mesh, edges, gap_mm, result, touching).run();
+bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result) {
+  Splitter(mesh, edges, gap_mm, result).run();
   return result.parted_edges + result.added_vertices > 0;
-}
-
-void move_to_end(TriangleMesh& mesh, std::vector<TouchingCopy> copies) {
-  if (copies.empty()) return;
-  std::sort(copies.begin(), copies.end());
-  std::vector<std::uint8_t> is_copy(mesh.positions.size(), 0);
-  for (const TouchingCopy& c : copies) is_copy[c.copy] = 1;
-  std::vector<Index> number(mesh.positions.size());
-  std::vector<Vec3> moved;
-  for (const TouchingCopy& c : copies) moved.push_back(mesh.positions[c.copy]);
-  Index count = 0;
-  for (Index v = 0; v < number.size(); ++v) {
-    if (is_copy[v]) continue;
-    mesh.positions[count] = mesh.positions[v];
-    number[v] = count++;
-  }
-  for (std::size_t i = 0; i < copies.size(); ++i) {
-    mesh.positions[count] = moved[i];
-    number[copies[i].copy] = count++;
-  }
-  for (Triangle& t : mesh.triangles)
-    for (Index& v : t) v = number[v];
 }
 
 }  // namespace detail
@@ -410,9 +377,8 @@ ManifoldResult split_nonmanifold(TriangleMesh mesh, const ManifoldOptions& optio
                        " is not in [0, 0.01]");
   check_mesh(mesh, "split_nonmanifold");
   ManifoldResult result;
-  std::vector<TouchingCopy> touching;
   part_sheets(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), options.relative_gap * bounding_diagonal(mesh),
-              result, touching);
+              result);
   result.mesh = std::move(mesh);
   return result;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "bounds.hpp"
+
 namespace papilla::detail {
 namespace {
 
@@ -116,15 +118,10 @@ Index split_triangle(TriangleMesh& mesh, Index triangle, std::size_t k, Index ve
 }
 
 double bounding_diagonal(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return 0;
-  Vec3 low = mesh.corner(0, 0), high = low;
+  Bounds bounds;
   for (const Triangle& t : mesh.triangles)
-    for (const Index v : t) {
-      const Vec3& p = mesh.positions[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  return norm(high - low);
+    for (const Index v : t) bounds.add(mesh.positions[v]);
+  return bounds.diagonal();
 }
 
 }  // namespace papilla::detail

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "bounds.hpp"
 #include "check_mesh.hpp"
 #include "repair_steps.hpp"
 #include "union_find.hpp"
@@ -15,25 +16,13 @@ namespace {
 
 using namespace detail;
 
-struct Box {
-  Vec3 low, high;
-  void include(const Vec3& p) noexcept {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  bool contains(const Box& b) const noexcept {
-    return low.x < b.low.x && low.y < b.low.y && low.z < b.low.z && high.x > b.high.x && high.y > b.high.y &&
-           high.z > b.high.z;
-  }
-};
-
 /// A range of `Traversal::order` and what orienting needs to know about it.
 struct Component {
   std::size_t begin = 0, end = 0;
   std::size_t turned = 0;
   bool closed = true, orientable = true;
   double volume = 0;
-  Box box;
+  Bounds box;
   bool turn_all = false;
 };
 
@@ -143,10 +132,9 @@ Traversal traverse(const TriangleMesh& mesh, std::span<const Index> neighbour, s
 
 void measure(const TriangleMesh& mesh, const Traversal& traversal, Component& component) {
   const Vec3 origin = mesh.corner(traversal.order[component.begin], 0);
-  component.box = {origin, origin};
   for (std::size_t i = component.begin; i < component.end; ++i) {
     const Index t = traversal.order[i];
-    for (int k = 0; k < 3; ++k) component.box.include(mesh.corner(t, k));
+    for (int k = 0; k < 3; ++k) component.box.add(mesh.corner(t, k));
     component.volume += (traversal.turn[t] ? -1 : 1) * volume_over(mesh, t, origin);
   }
 }

@@ -1,186 +1,181 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/meshing/repair.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "check_mesh.hpp"
-#include "find_t_junctions.hpp"
+#include "components.hpp"
 #include "papilla/core/error.hpp"
-#include "repair_steps.hpp"
+#include "papilla/meshing/mesh_assembly.hpp"
+#include "repair_piece.hpp"
+#include "triangle_shape.hpp"
 
 namespace papilla {
 namespace {
 
 using namespace detail;
 
-/// Three times what counts as degenerate, so that writing single precision doesn't make a triangle degenerate again.
-constexpr double k_repaired_altitude = 3e-7;
-
 /// Wider than any noise of coordinates, narrower than the slots and panel gaps that designers draw.
 constexpr double k_stitched_gap = 2e-4;
 
-/// The state of a repair: the mesh, the table of its edges while that is valid, and what was done so far.
-class Repair {
+/// The fewest triangles that a closed surface has.
+constexpr std::size_t k_least_solid = 4;
+
+RepairCounts operator+(RepairCounts a, const RepairCounts& b) {
+  for (std::size_t RepairCounts::*count :
+       {&RepairCounts::welded_equal, &RepairCounts::welded_near, &RepairCounts::repeated_corners,
+        &RepairCounts::collapsed_needles, &RepairCounts::flipped_caps, &RepairCounts::pushed_apexes,
+        &RepairCounts::duplicates, &RepairCounts::opposites, &RepairCounts::walls, &RepairCounts::t_junctions,
+        &RepairCounts::border_slivers, &RepairCounts::reversed, &RepairCounts::parted_edges,
+        &RepairCounts::added_vertices, &RepairCounts::stitched_gaps, &RepairCounts::filled_holes,
+        &RepairCounts::added_triangles})
+    a.*count += b.*count;
+  return a;
+}
+
+/// Adds what was done to a piece that has nothing to do with the others.
+void add(RepairResult& all, const RepairResult& piece) {
+  all.counts = all.counts + piece.counts;
+  for (double RepairDeviations::*operation :
+       {&RepairDeviations::weld, &RepairDeviations::degenerate, &RepairDeviations::t_junctions,
+        &RepairDeviations::partings, &RepairDeviations::stitches})
+    all.deviations.*operation = std::max(all.deviations.*operation, piece.deviations.*operation);
+  all.max_deviation_mm = std::max(all.max_deviation_mm, piece.max_deviation_mm);
+  all.passes = std::max(all.passes, piece.passes);
+  all.settled = all.settled && piece.settled;
+}
+
+/// Tells the caller which fraction of all triangles is done, one call at a time.
+class SharedProgress {
  public:
-  Repair(TriangleMesh mesh, const RepairOptions& options) : options_(options) {
-    all_.mesh = std::move(mesh);
-    diagonal_ = bounding_diagonal(all_.mesh);
-    all_.weld_tolerance_mm = options.weld_mm.value_or(WeldOptions{}.relative_tolerance * diagonal_);
-    all_.stitch_tolerance_mm = options.stitch_mm.value_or(k_stitched_gap * diagonal_);
+  SharedProgress(const Progress& progress, std::size_t all) : progress_(progress), all_(static_cast<double>(all)) {}
+
+  void done(double triangles) {
+    if (!progress_ || !(triangles > 0)) return;
+    const std::lock_guard lock(mutex_);
+    done_ += triangles;
+    progress_("repair", std::min(1.0, done_ / all_));
   }
 
-  RepairResult run() {
-    while (!all_.settled && all_.passes < options_.max_passes) {
-      const RepairCounts before = all_.counts;
-      clean();
-      turn();
-      part();
-      close_gaps();
-      ++all_.passes;
-      all_.settled = !changed_surface(before, all_.counts) || is_clean();
-      report(1);
-    }
-    move_to_end(all_.mesh, std::move(touching_));  // where another repair would put them
-    drop_unused(all_.mesh);
-    return std::move(all_);
+  /// For a piece that tells fractions of itself, several times where it takes several passes.
+  Progress of_piece(std::size_t triangles) {
+    return [this, size = static_cast<double>(triangles), told = 0.0](std::string_view, double fraction) mutable {
+      done((fraction - told) * size);
+      told = std::max(told, fraction);
+    };
   }
 
  private:
-  const EdgeTable& edges() {
-    if (!edges_) edges_.emplace(all_.mesh.triangles, all_.mesh.positions.size());
-    return *edges_;
+  const Progress& progress_;
+  double all_, done_ = 0;
+  std::mutex mutex_;
+};
+
+/// Repairs what does not depend on each other one by one, in caches and in parallel: closed solids, and then sets of
+/// surfaces with borders, or inside out, that lie apart.
+class SoupRepair {
+ public:
+  SoupRepair(TriangleMesh mesh, const RepairScale& scale, const Progress& progress)
+      : mesh_(std::move(mesh)),
+        scale_(scale),
+        margin_(scale.weld.tolerance_mm + scale.stitch_mm),
+        progress_(progress, mesh_.triangles.size()),
+        components_(connected_triangles(mesh_)) {}
+
+  RepairResult run() {
+    repair_solids();
+    repair_others();
+    RepairResult all;
+    all.settled = true;
+    for (const auto& piece : pieces_)
+      if (piece) add(all, *piece);
+    all.mesh = all.counts == RepairCounts{} ? std::move(mesh_) : put_together();
+    return all;
   }
 
-  void forget_edges_if(bool changed) {
-    if (changed) edges_.reset();
+ private:
+  /// Triangles of the mesh on their own; `face` says which.
+  TriangleMesh piece(std::span<const Index> triangles) const {
+    TriangleMesh result = extract_triangles(mesh_, triangles);
+    result.face.assign(triangles.begin(), triangles.end());
+    return result;
   }
 
-  void report(double fraction) const {
-    if (options_.progress) options_.progress("repair", fraction);
+  void repair_solids() {
+    pieces_.resize(components_.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, components_.size(), [&](std::size_t c) {
+      const auto triangles = components_.of(c);
+      if (triangles.size() < k_least_solid) return;
+      pieces_[c] = repair_solid(piece(triangles), scale_);
+      if (pieces_[c]) progress_.done(static_cast<double>(triangles.size()));
+    });
   }
 
-  void note(double RepairDeviations::*operation, double deviation_mm) {
-    all_.deviations.*operation = std::max(all_.deviations.*operation, deviation_mm);
-    all_.max_deviation_mm += deviation_mm;
-  }
-
-  /// Splitting T-junctions can fold a border onto itself, and such doubles must go before edges are parted.
-  void clean() {
-    touching_.clear();
-    const std::size_t merged = merge_equal(all_.mesh);
-    all_.counts.welded_equal += merged;
-    forget_edges_if(true);
-    bool found_t_junctions = true;
-    for (std::size_t round = 0; found_t_junctions && round < options_.max_passes; ++round) {
-      weld_cracks();
-      drop_doubles();
-      drop_degenerate();
-      found_t_junctions = close_t_junctions();
+  /// Those without a result so far, and solids around one of them: what is inside out may be a cavity.
+  std::vector<std::pair<std::size_t, Bounds>> others() {
+    std::vector<std::pair<std::size_t, Bounds>> result;
+    for (std::size_t c = 0; c < components_.size(); ++c)
+      if (!pieces_[c]) result.emplace_back(c, bounds_of(mesh_, components_.of(c)));
+    const std::size_t open = result.size();
+    for (std::size_t c = 0; c < components_.size() && open > 0; ++c) {
+      if (!pieces_[c]) continue;
+      const Bounds solid = bounds_of(mesh_, components_.of(c));
+      if (std::none_of(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(open),
+                       [&](const auto& other) { return solid.contains(other.second, -margin_); }))
+        continue;
+      result.emplace_back(c, solid);
+      pieces_[c].reset();
     }
-    report(0.6);
+    return result;
   }
 
-  void weld_cracks() {
-    WeldResult step;
-    forget_edges_if(weld_borders(all_.mesh, edges(), all_.weld_tolerance_mm, WeldOptions{}.feature_fraction, step));
-    all_.counts.welded_near += step.merged_near;
-    note(&RepairDeviations::weld, step.max_deviation_mm);
-    report(0.2);
+  void repair_others() {
+    const std::vector<std::vector<std::size_t>> sets = parted_by_boxes(others(), margin_);
+    const std::size_t before = pieces_.size();
+    pieces_.resize(before + sets.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
+      std::vector<Index> triangles;
+      for (const std::size_t c : sets[s])
+        triangles.insert(triangles.end(), components_.of(c).begin(), components_.of(c).end());
+      std::sort(triangles.begin(), triangles.end());
+      pieces_[before + s] =
+          std::make_unique<RepairResult>(repair_piece(piece(triangles), scale_, progress_.of_piece(triangles.size())));
+    });
   }
 
-  void drop_doubles() {
-    DuplicateResult step;
-    forget_edges_if(drop_duplicates(all_.mesh, edges(), step));
-    all_.counts.duplicates += step.same;
-    all_.counts.opposites += step.opposite;
-    all_.counts.walls += step.walls;
-    report(0.3);
-  }
-
-  void drop_degenerate() {
-    DegenerateResult step;
-    forget_edges_if(resolve_degenerate(all_.mesh, k_repaired_altitude * diagonal_, step));
-    all_.counts.repeated_corners += step.repeated;
-    all_.counts.collapsed_needles += step.collapsed;
-    all_.counts.flipped_caps += step.flipped;
-    all_.counts.pushed_apexes += step.pushed;
-    note(&RepairDeviations::degenerate, step.max_deviation_mm);
-    report(0.4);
-  }
-
-  bool close_t_junctions() {
-    TJunctionResult step;
-    const bool changed = split_borders(all_.mesh, edges(), TJunctionOptions{}.relative_tolerance * diagonal_, step);
-    forget_edges_if(changed);
-    all_.counts.t_junctions += step.inserted_vertices;
-    all_.counts.border_slivers += step.slivers;
-    note(&RepairDeviations::t_junctions, step.max_deviation_mm);
-    report(0.5);
-    return changed;
-  }
-
-  void turn() {
-    OrientResult step;
-    forget_edges_if(turn_over(all_.mesh, edges(), step));
-    all_.counts.reversed += step.reversed;
-    report(0.7);
-  }
-
-  /// Sheets that were linked may be closed once parted, or free to turn, which can leave new edges to part.
-  void part() {
-    for (std::size_t round = 0; round < options_.max_passes; ++round) {
-      ManifoldResult step;
-      forget_edges_if(part_sheets(all_.mesh, edges(), ManifoldOptions{}.relative_gap * diagonal_, step, touching_));
-      all_.counts.parted_edges += step.parted_edges;
-      all_.counts.added_vertices += step.added_vertices;
-      note(&RepairDeviations::partings, step.max_deviation_mm);
-      if (step.parted_edges == 0) break;
-      turn();
-      if (!has_bad_edges(all_.mesh.triangles, edges())) break;
+  /// All triangles in the order of those they come from.
+  TriangleMesh put_together() {
+    const std::vector<std::uint32_t> face = std::move(mesh_.face);
+    mesh_ = {};
+    TriangleMesh all;
+    for (auto& piece : pieces_) {
+      if (piece) append_mesh(all, piece->mesh);
+      piece.reset();
     }
-    report(0.8);
+    std::vector<Index> order(all.triangles.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return all.face[a] < all.face[b]; });
+    TriangleMesh result = extract_triangles(all, order);
+    if (face.empty()) result.face.clear();
+    for (std::uint32_t& f : result.face) f = face[f];
+    return result;
   }
 
-  void close_gaps() {
-    FillHolesResult step;
-    forget_edges_if(
-        fill_borders(all_.mesh, edges(),
-                     {.max_slit_width_mm = all_.stitch_tolerance_mm, .max_diameter_mm = options_.fill_holes_mm}, step));
-    all_.counts.stitched_gaps += step.slits;
-    all_.counts.filled_holes += step.holes;
-    all_.counts.added_triangles += step.triangles;
-    note(&RepairDeviations::stitches, step.max_slit_width_mm);
-    report(0.9);
-  }
-
-  /// Would another pass find nothing to do? Equal positions are those of fans that touch in a point, which it would
-  /// join and part again.
-  bool is_clean() {
-    const TriangleMesh& mesh = all_.mesh;
-    return !has_bad_edges(mesh.triangles, edges()) && !has_duplicates(mesh.triangles, edges()) &&
-           !has_degenerate(mesh, k_repaired_altitude * diagonal_) &&
-           !has_near_borders(mesh, edges(), all_.weld_tolerance_mm, WeldOptions{}.feature_fraction) &&
-           find_t_junctions(mesh.positions, mesh.triangles, edges(), TJunctionOptions{}.relative_tolerance * diagonal_)
-               .empty();
-  }
-
-  /// Welding equal positions, turning triangles over and giving fans that touch in a point their own vertices leave
-  /// the surface as it is, so they can't give another operation new work.
-  static bool changed_surface(const RepairCounts& before, RepairCounts now) {
-    now.welded_equal = before.welded_equal;
-    now.reversed = before.reversed;
-    now.added_vertices = before.added_vertices;
-    return !(now == before);
-  }
-
-  const RepairOptions& options_;
-  RepairResult all_;
-  double diagonal_ = 0;
-  std::optional<EdgeTable> edges_;
-  std::vector<TouchingCopy> touching_;  ///< Of this pass.
+  TriangleMesh mesh_;
+  const RepairScale& scale_;
+  double margin_;  ///< Boxes that lie further apart have nothing to do with each other.
+  SharedProgress progress_;
+  Components components_;
+  std::vector<std::unique_ptr<RepairResult>> pieces_;  ///< Per component, then per set of others; null where in none.
 };
 
 void check_options(const RepairOptions& options) {
@@ -194,12 +189,29 @@ void check_options(const RepairOptions& options) {
   require(options.fill_holes_mm, "fill_holes_mm");
 }
 
+RepairScale scale_of(const TriangleMesh& mesh, const RepairOptions& options) {
+  const double diagonal = bounding_diagonal(mesh);
+  const WeldOptions weld;
+  return {.diagonal_mm = diagonal,
+          .weld = {options.weld_mm.value_or(weld.relative_tolerance * diagonal), weld.feature_fraction,
+                   k_degenerate_altitude * diagonal},
+          .stitch_mm = options.stitch_mm.value_or(k_stitched_gap * diagonal),
+          .fill_holes_mm = options.fill_holes_mm,
+          .max_passes = options.max_passes};
+}
+
 }  // namespace
 
 RepairResult repair(TriangleMesh mesh, const RepairOptions& options) {
   check_options(options);
   check_mesh(mesh, "repair");
-  return Repair(std::move(mesh), options).run();
+  const RepairScale scale = scale_of(mesh, options);
+  const std::size_t merged = merge_equal(mesh);
+  RepairResult result = SoupRepair(std::move(mesh), scale, options.progress).run();
+  result.counts.welded_equal += merged;
+  result.weld_tolerance_mm = scale.weld.tolerance_mm;
+  result.stitch_tolerance_mm = scale.stitch_mm;
+  return result;
 }
 
 }  // namespace papilla

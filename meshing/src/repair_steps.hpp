@@ -19,26 +19,23 @@ namespace papilla::detail {
 /// merged.
 std::size_t merge_equal(TriangleMesh& mesh);
 
-bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction,
-                  WeldResult& result);
+/// How far welding may move vertices; see WeldOptions.
+struct WeldReach {
+  double tolerance_mm = 0;
+  double feature_fraction = 0;
+  double shortest_feature_mm = 0;  ///< Shorter edges are noise and don't limit the tolerance.
+};
+
+bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& reach, WeldResult& result);
 bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, DuplicateResult& result);
 bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result);
 bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, TJunctionResult& result);
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result);
-/// A copy of a vertex for a fan that touches others only in that point, and the vertex: they stay in one place.
-struct TouchingCopy {
-  Index original, copy;
-  auto operator<=>(const TouchingCopy&) const = default;
-};
-bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result,
-                 std::vector<TouchingCopy>& touching);
+bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result);
 bool fill_borders(TriangleMesh& mesh, const EdgeTable& edges, const FillHolesOptions& options, FillHolesResult& result);
 
-/// Renumbers vertices so that the given copies come last, in the order of their originals.
-void move_to_end(TriangleMesh& mesh, std::vector<TouchingCopy> copies);
-
 /// What another pass would look for; see repair().
-bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction);
+bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& reach);
 bool has_duplicates(const std::vector<Triangle>& triangles, const EdgeTable& edges);
 bool has_degenerate(const TriangleMesh& mesh, double tolerance_mm);
 bool has_bad_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges);

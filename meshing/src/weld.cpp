@@ -32,22 +32,20 @@ void check_options(const WeldOptions& options) {
 }
 
 /// How far each boundary vertex may move; negative for inner vertices.
-std::vector<double> reach_of_vertices(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance,
-                                      double feature_fraction) {
+std::vector<double> reach_of_vertices(const TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& most) {
   const std::vector<Index> boundary = edges.boundary_halfedges();
   if (boundary.empty()) return {};
   std::vector<double> reach(mesh.positions.size(), -1);
   for (const Index h : boundary)
-    reach[from_vertex(mesh.triangles, h)] = reach[to_vertex(mesh.triangles, h)] = tolerance;
-  const double shortest_feature = k_degenerate_altitude * bounding_diagonal(mesh);
+    reach[from_vertex(mesh.triangles, h)] = reach[to_vertex(mesh.triangles, h)] = most.tolerance_mm;
   for (const Triangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = t[k], b = t[next_corner(k)];
       if (reach[a] < 0 && reach[b] < 0) continue;
       const double length = norm(mesh.positions[b] - mesh.positions[a]);
-      if (length <= shortest_feature) continue;
-      reach[a] = std::min(reach[a], feature_fraction * length);
-      reach[b] = std::min(reach[b], feature_fraction * length);
+      if (length <= most.shortest_feature_mm) continue;
+      reach[a] = std::min(reach[a], most.feature_fraction * length);
+      reach[b] = std::min(reach[b], most.feature_fraction * length);
     }
   return reach;
 }
@@ -75,10 +73,9 @@ std::vector<Index> nearest_earlier(const std::vector<Vec3>& positions, const std
 }
 
 /// The vertex each vertex moves onto; empty when all stay.
-std::vector<Index> weld_targets(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance,
-                                double feature_fraction) {
-  if (!(tolerance > 0)) return {};
-  const std::vector<double> reach = reach_of_vertices(mesh, edges, tolerance, feature_fraction);
+std::vector<Index> weld_targets(const TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& most) {
+  if (!(most.tolerance_mm > 0)) return {};
+  const std::vector<double> reach = reach_of_vertices(mesh, edges, most);
   if (reach.empty()) return {};
   std::vector<Index> target = nearest_earlier(mesh.positions, reach);
   for (Index v = 0; v < target.size(); ++v)
@@ -102,9 +99,8 @@ std::size_t merge_equal(TriangleMesh& mesh) {
   return merged;
 }
 
-bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction,
-                  WeldResult& result) {
-  const std::vector<Index> target = weld_targets(mesh, edges, tolerance_mm, feature_fraction);
+bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& reach, WeldResult& result) {
+  const std::vector<Index> target = weld_targets(mesh, edges, reach);
   if (target.empty()) return false;
   for (Index v = 0; v < target.size(); ++v) {
     if (target[v] == v) continue;
@@ -118,8 +114,8 @@ bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_m
   return true;
 }
 
-bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, double feature_fraction) {
-  return !weld_targets(mesh, edges, tolerance_mm, feature_fraction).empty();
+bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& reach) {
+  return !weld_targets(mesh, edges, reach).empty();
 }
 
 }  // namespace detail
@@ -135,9 +131,10 @@ WeldResult weld_equal(TriangleMesh mesh) {
 WeldResult weld(TriangleMesh mesh, const WeldOptions& options) {
   check_options(options);
   WeldResult result = weld_equal(std::move(mesh));
-  result.tolerance_mm = options.tolerance_mm.value_or(options.relative_tolerance * bounding_diagonal(result.mesh));
-  weld_borders(result.mesh, EdgeTable(result.mesh.triangles, result.mesh.positions.size()), result.tolerance_mm,
-               options.feature_fraction, result);
+  const double diagonal = bounding_diagonal(result.mesh);
+  result.tolerance_mm = options.tolerance_mm.value_or(options.relative_tolerance * diagonal);
+  weld_borders(result.mesh, EdgeTable(result.mesh.triangles, result.mesh.positions.size()),
+               {result.tolerance_mm, options.feature_fraction, k_degenerate_altitude * diagonal}, result);
   return result;
 }
 

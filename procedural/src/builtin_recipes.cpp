@@ -33,48 +33,55 @@ brick_wall     brick|mortarthickness=.03|switching=true|round=.25|mortarthicknes
 marble_tile    marble|turbulence=.6|octaves=5|cols=<.93,.92,.90>,<.80,.79,.78>,<.45,.46,.48>|bumpfunction=.02*main|frictionfunction=.2|idmaterial=stone|idtype=building
 
 # --- ageing ---
-greying        fbm|ismodifier=true|idtype=ageing|scale=.8|octaves=5
+greying        fbm|ismodifier=true|idtype=ageing|idmaterial=wood|scale=.8|octaves=5
                |colorfunction=hsv(hue,saturation*.25,clampunit(value*.9+.07))|coloralphafunction=1|alphafunction=time*(.6+.5*main)
                |bumpblend=off|bumpfunction=0|frictionfunction=lowerfriction*1.15
-dirt           fbm|ismodifier=true|idtype=ageing|scale=.7|octaves=6|h=.4|cols=<.13,.10,.07>,<.24,.19,.13>
+dirt           fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.7|octaves=6|h=.4|cols=<.13,.10,.07>,<.24,.19,.13>
                |alphafunction=smoothstep(.95-.75*time,1.3-.75*time,main+.5*(1-lowerbump))*min(time*8,1)*.9
                |bumpblend=add|bumpfunction=.12*main|frictionfunction=.55
-smears         smear|ismodifier=true|idtype=ageing|scale=.8|density=.35|turbulence=.1|cols=<.30,.27,.22>,<.42,.39,.33>
+smears         smear|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.8|density=.35|turbulence=.1|cols=<.30,.27,.22>,<.42,.39,.33>
                |alphafunction=main*time*.7|bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.8
 scratch_set    base|mainfunction=smoothstep(.42,.6,noise2d(x*1.5,y*70))*step(noise2d(x*2+7,y*5),.12)
-scratches      base|ismodifier=true|idtype=ageing
+scratches      base|ismodifier=true|idtype=ageing|idmaterial=paint
                |mainfunction=max(max([scratch_set|rot=.4],[scratch_set|rot=1.1|seed=3|du=.3]),max([scratch_set|rot=2.2|dv=.7],[scratch_set|rot=2.9|du=.6]))
                |colorfunction=colscale(currentcolor,1.5)|alphafunction=clampunit(main*time*1.5)
                |bumpblend=sub|bumpfunction=.35*main|frictionfunction=lowerfriction*1.3
-chipped_paint  fbm|ismodifier=true|idtype=ageing|scale=.5|octaves=6|h=.5|cols=<.40,.40,.41>,<.55,.55,.56>
-               |afunction=smoothstep(.98-.55*time,1-.55*time,this)*min(time*20,1)
-               |alphafunction=a|bumpblend=sub|bumpfunction=.4*(.8+.2*main)|frictionfunction=.5|stiffnessfunction=1.1
+chipped_paint  fbm|ismodifier=true|idtype=ageing|idmaterial=paint|scale=.5|octaves=6|h=.5|cols=<.40,.40,.41>,<.55,.55,.56>
+               |alphafunction=smoothstep(.98-.55*time,1-.55*time,main)*min(time*20,1)|bumpblend=sub|bumpfunction=.4*(.8+.2*main)|frictionfunction=.5|stiffnessfunction=1.1
 rust_base      fbm|scale=.45|octaves=7|h=.35|cols=rust
-rust_in        rust_base|ismodifier=true|idtype=ageing
+rust_in        rust_base|ismodifier=true|idtype=ageing|idmaterial=paint
                |alphafunction=smoothstep(1-.8*time,1.15-.8*time,main+.2*noise2d(x*30,y*30))*min(time*10,1)
                |bumpblend=sub|bumpfunction=.5*main+.2*absturbulence2d(x*12,y*12,4)|frictionfunction=.75|specularfunction=.05
-rust_on        rust_base|ismodifier=true|idtype=ageing|seed=4
+rust_on        rust_base|ismodifier=true|idtype=ageing|idmaterial=paint|seed=4
                |alphafunction=smoothstep(1-.8*time,1.1-.8*time,main+.2*noise2d(x*30,y*30))*min(time*10,1)
                |bumpblend=add|bumpfunction=.35*main+.25*absturbulence2d(x*14,y*14,4)|frictionfunction=.8|specularfunction=.05
-erosion        fbm|ismodifier=true|idtype=ageing|scale=.6|octaves=7|h=.4|type=hybridmultifractal
+erosion        fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.6|octaves=7|h=.4|type=hybridmultifractal
                |alphafunction=time*clampunit(.3+main)|colorfunction=colscale(currentcolor,.85+.2*main)
                |bumpblend=sub|bumpfunction=.45*(1-main)|frictionfunction=lowerfriction*1.3|stiffnessfunction=lowerstiffness*.9
-moss           fbm|ismodifier=true|idtype=ageing|scale=.3|octaves=7|h=.5|cols=mossy
+moss           fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.3|octaves=7|h=.5|cols=mossy
                |alphafunction=smoothstep(1.35-time*.9,1.55-time*.9,main+.6*(1-lowerbump))*min(time*10,1)
                |bumpblend=add|bumpfunction=.3+.4*main|frictionfunction=.6|stiffnessfunction=.3
-wetness        fbm|ismodifier=true|idtype=ageing|scale=.9|octaves=4|h=.8
-               |afunction=smoothstep(1-time,1.25-time,this+.35*(1-lowerbump))*min(time*10,1)
-               |alphafunction=a*.85|colorfunction=colscale(currentcolor,.6)|specularfunction=.9|specularcoefffunction=120
+wetness        fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.9|octaves=4|h=.8
+               |alphafunction=smoothstep(1-time,1.25-time,main+.35*(1-lowerbump))*min(time*10,1)*.85
+               |colorfunction=colscale(currentcolor,.6)|specularfunction=.9|specularcoefffunction=120
                |bumpblend=interpolate|bumpfunction=max(lowerbump,.35*time)|frictionfunction=lowerfriction*.45
-snow           fbm|ismodifier=true|idtype=ageing|scale=.5|octaves=5|h=.7|cols=<.88,.91,.96>,white
+snow           fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.5|octaves=5|h=.7|cols=<.88,.91,.96>,white
                |alphafunction=smoothstep(.9-time,1.1-time,main)*clampunit(normaldot*4-.6)*sky*min(time*10,1)
                |normal=<0,1,0>|bumpblend=interpolate|bumpfunction=.7+.3*main|frictionfunction=.1|stiffnessfunction=.2
-dust           noise|ismodifier=true|idtype=ageing|scale=.05|cols=<.55,.52,.47>,<.66,.63,.58>
+dust           noise|ismodifier=true|idtype=ageing|idmaterial=plastic|scale=.05|cols=<.55,.52,.47>,<.66,.63,.58>
                |alphafunction=time*(.35+.35*main)*clampunit(.4+.6*normaldot)*(1.1-.6*clampunit(lowerbump))
                |bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.75
-polish         fbm|ismodifier=true|idtype=ageing|scale=1.2|octaves=3|h=.8
-               |afunction=time*smoothstep(.35,.75,lowerbump)*clampunit(.4+main)
-               |alphafunction=a|colorfunction=colscale(currentcolor,1.12)|specularfunction=.9|specularcoefffunction=90
+grime          fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=.6|octaves=5|h=.5|cols=<.30,.26,.19>,<.44,.38,.28>
+               |afunction=(nearmean(lowerbump,.08)-lowerbump)/(neardeviation(lowerbump,.2)+.05)
+               |alphafunction=smoothstep(.9-time,1.5-time,a+.4*main)*min(time*8,1)*.95
+               |bumpblend=interpolate|bumpfunction=lowerbump+.5*max(nearmean(lowerbump,.04)-lowerbump,0)|frictionfunction=.6
+edge_wear      fbm|ismodifier=true|idtype=ageing|idmaterial=paint|scale=.5|octaves=4|h=.5|cols=<.62,.60,.56>,<.78,.76,.72>
+               |afunction=(lowerbump-nearmean(lowerbump,.08))/(neardeviation(lowerbump,.2)+.05)
+               |alphafunction=smoothstep(1-time,1.4-time,a+.5*main)*min(time*8,1)
+               |bumpblend=interpolate|bumpfunction=min(lowerbump,nearmean(lowerbump,.04))|frictionfunction=lowerfriction*.7
+polish         fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=1.2|octaves=3|h=.8
+               |alphafunction=time*smoothstep(.35,.75,lowerbump)*clampunit(.4+main)
+               |colorfunction=colscale(currentcolor,1.12)|specularfunction=.9|specularcoefffunction=90
                |bumpblend=interpolate|bumpfunction=min(lowerbump,.6-.15*time)|frictionfunction=lowerfriction*.55
 
 # --- materials with their ageing ---

@@ -97,10 +97,11 @@ std::unique_ptr<Pattern> make_flame(TypeArguments& arguments) {
     for (int i = 0; i < row.n; ++i) x[i] = row.x[i], y[i] = 0.6 * row.y[i] + timing;
     turbulence_row(x, y, row.n, 6, 5, false, seed, flicker);
     for (int i = 0; i < row.n; ++i) {
-      const double up = 1 - row.y[i];  // 0 at the foot.
-      const double side = std::abs(row.x[i] - 0.5 + 0.25 * strength * flicker[i] * up) / (width / 2);
-      const double top = up / height + 0.3 * strength * flicker[i] * up;
-      row.out[i] = std::clamp((1 - side * side) * (1 - top), 0.0, 1.0);
+      // The share of the height, 0 at the foot; turbulence grows with it. The outline narrows to a tip.
+      const double up = std::max(0.0, 1 - row.y[i]), top = up / height + 0.3 * strength * flicker[i] * up;
+      const double left = std::max(0.0, 1 - top), half = width / 2 * std::sqrt(left) + 1e-9;
+      const double side = std::abs(row.x[i] - 0.5 + 0.25 * strength * flicker[i] * up) / half;
+      row.out[i] = std::min(1.0, std::max(0.0, 1 - side * side) * std::min(1.0, 1.6 * left));
     }
   });
 }
@@ -221,17 +222,21 @@ std::unique_ptr<Pattern> make_led(TypeArguments& arguments) {
     const int place = static_cast<int>(std::clamp(std::floor(x), -1.0, 1000.0));
     if (place < 0 || place >= digits) return 0.0;
     const double px = (row.x[i] - left - place * spacing) / (width / 2), py = (row.y[i] - 0.5) / (height / 2);
-    const auto bar = [](double along, double off) { return std::max(std::abs(along) - 0.42, std::abs(off) - 0.13); };
-    const double aspect = height / width, thin = std::min(1.0, aspect / 2);
-    const double distances[7] = {bar(px / 2, (py + 1) * aspect), bar(py + 0.5, px - 1), bar(py - 0.5, px - 1),
-                                 bar(px / 2, (py - 1) * aspect), bar(py - 0.5, px + 1), bar(py + 0.5, px + 1),
-                                 bar(px / 2, py * aspect)};
+    // Lengths in halves of a digit's width; segments end in points that meet at the corners.
+    const double tall = height / width, reach = 0.94, thick = std::min(0.17, 0.17 * tall);
+    const auto bar = [thick](double along, double off, double length) {
+      return std::max(std::abs(along) + std::abs(off) - length, std::abs(off) - thick);
+    };
+    const double y = py * tall, upper = y + tall / 2, lower = y - tall / 2, side = reach * tall / 2;
+    const double distances[7] = {bar(px, y + tall, reach), bar(upper, px - 1, side), bar(lower, px - 1, side),
+                                 bar(px, y - tall, reach), bar(lower, px + 1, side), bar(upper, px + 1, side),
+                                 bar(px, y, reach)};
     const unsigned lit = k_segments[places[static_cast<std::size_t>(place)] - '0'];
     double nearest = 1;
     for (int k = 0; k < 7; ++k)
-      if (lit >> k & 1U) nearest = std::min(nearest, distances[k] / thin);
-    if (decimals > 0 && place == digits - 1 - decimals)
-      nearest = std::min(nearest, std::hypot(px - 1.45, (py - 1) * aspect) - 0.2);
+      if (lit >> k & 1U) nearest = std::min(nearest, distances[k]);
+    const double point = left + (digits - 0.5 - decimals) * spacing;
+    if (decimals > 0) nearest = std::min(nearest, std::hypot((row.x[i] - point) / (width / 2), y - tall) - 1.2 * thick);
     return edge(-nearest, row.texel > 0 ? 2 * row.texel / width : 0);
   });
 }
@@ -241,14 +246,13 @@ std::unique_ptr<Pattern> make_lower(TypeArguments& arguments) {
   const std::string key = arguments.text("sdkey");
   return row_pattern([key](const PatternRow& row) {
     const auto lower = [&](BlockRow r) { return row.block->rows[static_cast<std::size_t>(r)]; };
-    const double *bump = lower(BlockRow::lower_bump), *main = lower(BlockRow::lower_main);
-    const double *r = lower(BlockRow::lower_red), *g = lower(BlockRow::lower_green), *b = lower(BlockRow::lower_blue);
-    for (int i = 0; i < row.n; ++i) {
-      if (!bump)
-        row.out[i] = 0;
-      else
-        row.out[i] = key == "hmbump" ? bump[i] : key == "main" ? main[i] : (r[i] + g[i] + b[i]) / 3;
-    }
+    std::fill_n(row.out, row.n, 0.0);
+    const auto add = [&](BlockRow r, double share) {
+      if (const double* values = lower(r))
+        for (int i = 0; i < row.n; ++i) row.out[i] += share * values[i];
+    };
+    if (key == "hmbump" || key == "main") return add(key == "main" ? BlockRow::lower_main : BlockRow::lower_bump, 1);
+    for (const BlockRow part : {BlockRow::lower_red, BlockRow::lower_green, BlockRow::lower_blue}) add(part, 1.0 / 3);
   });
 }
 

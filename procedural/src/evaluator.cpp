@@ -34,7 +34,18 @@ void blend_row(Blend rule, double* c, const double* x, const double* alpha, int 
   }
 }
 
+/// What two layers cover together: alpha for all, alpha times coloralpha for the colour.
+void cover_row(double* alpha, double* coloralpha, const double* top, const double* top_colour, int n) {
+  for (int i = 0; i < n; ++i) {
+    const double of_colour = alpha[i] * coloralpha[i];
+    alpha[i] += top[i] * (1 - alpha[i]);
+    coloralpha[i] = alpha[i] > 0 ? (of_colour + top_colour[i] * (1 - of_colour)) / alpha[i] : 0;
+  }
+}
+
 }  // namespace
+
+void Pattern::channels(const PatternRow&, ChannelRows&) const {}
 
 /// Rows of one texture.
 struct Evaluator::Frame {
@@ -85,6 +96,12 @@ void Evaluator::step(const Instruction& code, int index, Frame& frame, const Blo
     case Action::set_info:
       for (int i = 0; i < n; ++i) frame.info(code.index)[i] = finite(in[0][i]);
       std::fill_n(out, n, 1.0);
+      break;
+    case Action::neighbourhood:
+      if (block.near)
+        block.near->exchange(code.index, block.texels, n, frame.texel, in[0], out);
+      else
+        without_neighbours(graph_.near[static_cast<std::size_t>(code.index)].kind, in[0], n, out);
       break;
     case Action::rotate:
       for (int i = 0; i < n; ++i) {
@@ -238,10 +255,9 @@ void Evaluator::prepare(int index, Frame& frame, const Block& block) {
 void Evaluator::pattern_and_main(int index, Frame& frame, const Block& block) {
   const Node& node = *graph_.nodes[static_cast<std::size_t>(index)];
   double* self = frame.row(FrameRow::self);
+  if (node.layered && !frame.layered) frame.layered = std::make_unique<ChannelRows>();
   if (node.multi) {
-    if (!frame.layered) frame.layered = std::make_unique<ChannelRows>();
     layers(index, frame, block, *frame.layered);
-    std::copy_n(frame.layered->row[at(Channel::main)], block.n, self);
   } else if (node.pattern) {
     PatternRow row;
     row.n = block.n, row.x = frame.row(FrameRow::u), row.y = frame.row(FrameRow::v), row.out = self;
@@ -249,11 +265,17 @@ void Evaluator::pattern_and_main(int index, Frame& frame, const Block& block) {
     if (node.seamless && node.type->seamless != Seamless::four_corner)
       row.period_x = frame.extent_x, row.period_y = frame.extent_y;
     row.block = &block, row.evaluator = this;
-    node.pattern->evaluate(row);
-    tidy(self, block.n);
+    if (node.layered) {
+      node.pattern->channels(row, *frame.layered);
+      for (auto& channel : frame.layered->row) tidy(channel, block.n);
+    } else {
+      node.pattern->evaluate(row);
+      tidy(self, block.n);
+    }
   } else {
     std::fill_n(self, block.n, 0.0);
   }
+  if (node.layered) std::copy_n(frame.layered->row[at(Channel::main)], block.n, self);
   double* main = frame.row(FrameRow::main);
   std::copy_n(self, block.n, main);
   run(node.main, index, frame, block, &main);
@@ -314,12 +336,12 @@ void Evaluator::channels(int index, const Block& block, unsigned mask, ChannelRo
     const int parts = c == k_red ? 3 : 1;
     double* rows[3] = {out.row[c], out.row[c + (parts > 1 ? 1 : 0)], out.row[c + (parts > 2 ? 2 : 0)]};
     const Program& program = node.channels[c];
-    if (!node.multi || program.present || c == at(Channel::alpha))
+    if (!node.layered || program.present || c == at(Channel::alpha))
       run(program, index, frame, block, rows);
     else
       for (int k = 0; k < parts; ++k)
         for (int i = 0; i < n; ++i) rows[k][i] = below->row[c + static_cast<std::size_t>(k)][i] * node.channel_scale[c];
-    if (node.multi && c == at(Channel::alpha))
+    if (node.layered && c == at(Channel::alpha))
       for (int i = 0; i < n; ++i) rows[0][i] *= below->row[c][i] * node.channel_scale[c];
     if (c == at(Channel::alpha) || c == at(Channel::coloralpha) || c == k_red)
       for (int k = 0; k < parts; ++k)
@@ -351,10 +373,7 @@ void Evaluator::layers(int index, Frame& frame, const Block& block, ChannelRows&
         if (channel == at(Channel::alpha) || channel == at(Channel::coloralpha)) continue;
         blend_row(top.blend[channel], out.row[c], layer->row[c], channel == k_red ? cover : alpha, n);
       }
-      for (int i = 0; i < n; ++i) {
-        double& below = out.row[at(Channel::alpha)][i];
-        below += alpha[i] * (1 - below);
-      }
+      cover_row(out.row[at(Channel::alpha)], out.row[at(Channel::coloralpha)], alpha, cover, n);
     }
     for (std::size_t c = 0; c < k_channels + 2; ++c)
       inner.rows[static_cast<std::size_t>(BlockRow::lower_main) + c] = out.row[c];

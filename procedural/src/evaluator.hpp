@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "neighbourhood.hpp"
 #include "node.hpp"
 
 namespace papilla::procedural_detail {
@@ -14,6 +15,8 @@ struct Block {
   double extent_x = 1, extent_y = 1;  ///< What the picture spans in these coordinates.
   const float* normals = nullptr;     ///< 3 a point, or null.
   std::array<const double*, k_block_rows> rows{};
+  Neighbourhoods* near = nullptr;         ///< Null: the points have no neighbours.
+  const std::uint32_t* texels = nullptr;  ///< Where the points lie in its raster.
 };
 
 /// Results of a texture's channels; color has three rows.

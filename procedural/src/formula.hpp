@@ -9,6 +9,9 @@
 
 namespace papilla::procedural_detail {
 
+/// What is evaluated when: a formula knows what came before it.
+enum class FormulaStage : std::uint8_t { first, second, place, main, channel };
+
 /// What a formula may name, and what it learns about the texture on the way.
 struct FormulaScope {
   Graph* graph = nullptr;
@@ -24,7 +27,10 @@ struct FormulaScope {
   std::function<std::optional<Rgb>(std::string_view)> colour;
   std::function<std::vector<std::string_view>()> known_names;  ///< For suggestions.
   double cost = 0;                                             ///< Evaluations of textures within the formulas so far.
-  bool uses_normal = false, uses_infos = false;
+  FormulaStage stage = FormulaStage::channel;
+  int lower_level = 0;  ///< Neighbourhood statistics that the layers below rest on.
+  bool textures_use_near = false;
+  bool uses_normal = false, uses_infos = false, uses_near = false;
 };
 
 /// Compiles a formula to bytecode with constants folded.

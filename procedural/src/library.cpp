@@ -2,13 +2,10 @@
 #include "papilla/procedural/library.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 
 #include "builtin_recipes.hpp"
-#include "noise.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "syntax.hpp"
@@ -165,31 +162,6 @@ std::vector<std::string> suggest_recipes(std::string_view material, const Recipe
   std::vector<std::string> names;
   for (auto& [score, name] : ranked) names.push_back(std::move(name));
   return names;
-}
-
-std::string mutate_recipe(std::string_view recipe, unsigned seed, double strength) {
-  const Origin origin{"recipe", recipe};
-  const RecipeSyntax syntax = split_recipe(trimmed({recipe, 0}), origin);
-  const TypeInfo* type = find_type(syntax.head.text);
-  std::string out(syntax.head.text);
-  std::uint32_t count = 0;
-  for (const Assignment& a : syntax.parameters) {
-    std::string value(a.value.text);
-    double number = 0;
-    const auto [stop, error] = std::from_chars(a.value.text.data(), a.value.text.data() + a.value.text.size(), number);
-    const ParameterInfo* p =
-        type ? find_parameter(*type, a.name.text) : find_parameter(texture_types().front(), a.name.text);
-    const bool is_number = error == std::errc() && stop == a.value.text.data() + a.value.text.size();
-    if (is_number && p && (p->kind == ParameterKind::number || p->kind == ParameterKind::integer)) {
-      number *= 1 + strength * (2 * unit_number(mix_bits(++count, 19, seed)) - 1);
-      number = std::clamp(p->kind == ParameterKind::integer ? std::round(number) : number, p->low, p->high);
-      char text[32];
-      const auto [end, unused] = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 6);
-      value.assign(text, end);
-    }
-    out += '|' + std::string(a.name.text) + '=' + value;
-  }
-  return out;
 }
 
 }  // namespace papilla

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <set>
@@ -16,6 +17,7 @@ namespace papilla::procedural_detail {
 
 class Evaluator;
 struct Block;
+struct ChannelRows;
 
 /// What a pattern is asked for: n points at (x, y), in units of the texture.
 struct PatternRow {
@@ -35,6 +37,22 @@ class Pattern {
  public:
   virtual ~Pattern() = default;
   virtual void evaluate(const PatternRow& row) const = 0;
+  /// Whether it gives all channels, through channels(), and not only a value.
+  virtual bool has_channels() const { return false; }
+  /// As evaluate(), whose result is the channel main. @pre has_channels().
+  virtual void channels(const PatternRow& row, ChannelRows& out) const;
+};
+
+/// Statistics of a neighbourhood.
+enum class NearStatistic : std::uint8_t { mean, least, most, deviation, slope };
+inline constexpr double k_most_radius = 1000;
+inline constexpr std::size_t k_most_near = 64;
+inline constexpr int k_deepest_near = 8;
+
+struct NearRequest {
+  NearStatistic kind;
+  double radius;  ///< In the coordinates of the texture whose formula asks.
+  int level;      ///< 1, or one more than the largest of the statistics that its argument rests on.
 };
 
 enum class Blend : std::uint8_t { off, interpolate, add, subtract };
@@ -55,9 +73,11 @@ struct Node {
   std::vector<int> textures;
   std::vector<double> ranges, fades;  ///< Of `textures`.
   bool multi = false;
+  bool layered = false;  ///< All channels come from the textures within, unless a formula says otherwise.
   std::array<double, k_channels> channel_scale{};
   double range = 1, fade = 1;  ///< Of this texture within texmap.
   bool uses_normal = false;
+  bool uses_near = false;   ///< A formula of it or of a texture within asks for a neighbourhood.
   bool uses_infos = false;  ///< A formula reads the information numbers; else nobody clears them.
   double evaluations = 1;   ///< A point's cost in textures, those within included.
 };
@@ -65,10 +85,17 @@ struct Node {
 struct Graph {
   std::vector<std::unique_ptr<Node>> nodes;
   std::vector<double> constants;
+  std::vector<NearRequest> near;
   int root = 0;
   bool uses_normal = false, uses_position = false, uses_sky = false, uses_time = false;
   std::set<std::array<double, 3>> dirt_directions;  ///< Of the textures that use the normal.
   std::set<std::string> recipes;
+  /// How many neighbourhood statistics rest on each other, at most.
+  int deepest_near() const {
+    int level = 0;
+    for (const NearRequest& request : near) level = std::max(level, request.level);
+    return level;
+  }
 };
 
 }  // namespace papilla::procedural_detail

@@ -43,6 +43,7 @@ std::unique_ptr<Pattern> make_noise_pattern(std::string_view type, TypeArguments
 std::unique_ptr<Pattern> make_cell_pattern(std::string_view type, TypeArguments& arguments);
 std::unique_ptr<Pattern> make_regular_pattern(std::string_view type, TypeArguments& arguments);
 std::unique_ptr<Pattern> make_effect_pattern(std::string_view type, TypeArguments& arguments);
+std::unique_ptr<Pattern> make_overview_pattern(std::string_view type, TypeArguments& arguments);
 std::unique_ptr<Pattern> make_picture_pattern(std::string_view type, TypeArguments& arguments);
 
 /// Numbers of a text, separated by blanks or commas. @throws InvalidInput through arguments.refuse().

@@ -93,6 +93,8 @@ std::unique_ptr<Pattern> make_image(TypeArguments& arguments) {
       grid.values[i] = static_cast<double>(0.2126F * picture.rgb[3 * i] + 0.7152F * picture.rgb[3 * i + 1] +
                                            0.0722F * picture.rgb[3 * i + 2]);
   } else if (!base.empty()) {
+    if (arguments.graph().nodes[static_cast<std::size_t>(base[0])]->uses_near)
+      arguments.refuse("basetexture", "neighbourhoods are not known in a texture that is rendered once");
     const bool fit = arguments.flag("fit2screen");
     const int side = std::max(16, static_cast<int>(k_screen * arguments.number("fit2screenratio")));
     grid = rendered(arguments.graph(), base[0], fit ? side : arguments.integer("width"),

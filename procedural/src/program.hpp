@@ -56,6 +56,7 @@ struct Operand {
 enum class Action : std::uint8_t {
   kernel,
   set_info,
+  neighbourhood,
   rotate,
   zoom,
   sphere,

@@ -94,45 +94,6 @@ class Brick final : public Pattern {
   std::uint32_t seed_;
 };
 
-/// Cells of a grid or of jittered points, each showing one of several recipes.
-std::unique_ptr<Pattern> make_funky(TypeArguments& arguments, bool cells) {
-  constexpr std::size_t k_most_shown = 16;
-  const std::vector<int> shown = arguments.matching_textures(k_most_shown);
-  const std::uint32_t seed = arguments.seed();
-  return row_pattern([=](const PatternRow& row) {
-    const double count = k_cells;
-    const double fx = fitted(count, row.period_x), fy = fitted(count, row.period_y);
-    std::uint32_t choice[k_row];
-    for (int i = 0; i < row.n; ++i) {
-      double cx = std::floor(row.x[i] * fx), cy = std::floor(row.y[i] * fy);
-      if (cells) {  // The nearest of the jittered points of the 3 x 3 cells around.
-        const double bx = cx, by = cy;
-        double least = 1e30;
-        for (int q = -1; q <= 1; ++q)
-          for (int p = -1; p <= 1; ++p) {
-            const std::uint32_t h = mix_bits(whole(wrap(bx + p, std::round(fx * row.period_x))),
-                                             whole(wrap(by + q, std::round(fy * row.period_y))), seed + 73);
-            const double dx = bx + p + 0.2 + 0.6 * (h & 1023U) / 1024.0 - row.x[i] * fx,
-                         dy = by + q + 0.2 + 0.6 * (h >> 10 & 1023U) / 1024.0 - row.y[i] * fy;
-            if (dx * dx + dy * dy < least) least = dx * dx + dy * dy, cx = bx + p, cy = by + q;
-          }
-      }
-      choice[i] = mix_bits(whole(wrap(cx, std::round(fx * row.period_x))),
-                           whole(wrap(cy, std::round(fy * row.period_y))), seed + 79);
-      row.id[i] = unit_number(choice[i]);
-      row.out[i] = row.id[i];
-    }
-    Block inner = *row.block;
-    inner.x = row.x, inner.y = row.y, inner.texel = row.texel;
-    double value[k_row];
-    for (std::size_t k = 0; k < shown.size(); ++k) {
-      row.evaluator->main_value(shown[k], inner, value);
-      for (int i = 0; i < row.n; ++i)
-        if (choice[i] % shown.size() == k) row.out[i] = value[i];
-    }
-  });
-}
-
 std::unique_ptr<Pattern> make_checker() {
   return point_pattern([](const PatternRow& row, int i) {
     const double x = std::floor(row.x[i] * fitted(2, row.period_x, 2)),
@@ -219,8 +180,6 @@ std::unique_ptr<Pattern> make_weave(TypeArguments& arguments) {
 std::unique_ptr<Pattern> make_regular_pattern(std::string_view type, TypeArguments& arguments) {
   if (type == "block") return make_block(arguments);
   if (type == "brick") return std::make_unique<Brick>(arguments);
-  if (type == "brickfunky") return make_funky(arguments, false);
-  if (type == "voronoifunky") return make_funky(arguments, true);
   if (type == "checker") return make_checker();
   if (type == "checker3d") return make_checker3d();
   if (type == "circle") return make_circle(arguments);
@@ -231,8 +190,8 @@ std::unique_ptr<Pattern> make_regular_pattern(std::string_view type, TypeArgumen
 }
 
 std::unique_ptr<Pattern> make_pattern(std::string_view type, TypeArguments& arguments) {
-  for (auto* const make :
-       {make_noise_pattern, make_cell_pattern, make_regular_pattern, make_effect_pattern, make_picture_pattern})
+  for (auto* const make : {make_noise_pattern, make_cell_pattern, make_regular_pattern, make_effect_pattern,
+                           make_picture_pattern, make_overview_pattern})
     if (auto pattern = make(type, arguments)) return pattern;
   return nullptr;
 }

@@ -4,8 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "evaluator.hpp"
 #include "papilla/core/error.hpp"
@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, k_channels> k_names = {"main",       "bum
 constexpr std::size_t k_color = static_cast<std::size_t>(Channel::color);
 constexpr int k_most_side = 65536;
 constexpr std::int64_t k_most_texels = std::int64_t{1} << 30;
+constexpr std::size_t k_most_near_texels = std::size_t{1} << 26;
 constexpr double k_most_factor = 10;  ///< Of friction and stiffness.
 
 /// What a thread needs for a row of points.
@@ -31,7 +32,8 @@ struct Workspace {
   ChannelRows out;
   double x[k_row], y[k_row];
   double known[10][k_row];  ///< Rows of BlockRow::column to BlockRow::sky.
-  double color[3][k_row];
+  double color[3][k_row], height[k_row];
+  std::uint32_t texels[k_row];
 };
 
 struct Raster {
@@ -67,6 +69,10 @@ void fill_known(Workspace& w, Block& block, const Raster& raster, std::int64_t f
         w.color[c][i] = static_cast<double>(points->color[3 * static_cast<std::size_t>(first + i) + c]);
       block.rows[static_cast<std::size_t>(BlockRow::lower_red) + c] = w.color[c];
     }
+  if (points && !points->height.empty()) {
+    std::copy_n(points->height.begin() + static_cast<std::ptrdiff_t>(first), n, w.height);
+    block.rows[static_cast<std::size_t>(BlockRow::lower_bump)] = w.height;
+  }
   if (points && !points->normals.empty()) block.normals = points->normals.data() + 3 * first;
 }
 
@@ -98,6 +104,12 @@ void make_room(TextureValues& values, unsigned channels, std::size_t count) {
 }
 
 using Workspaces = tbb::enumerable_thread_specific<std::unique_ptr<Workspace>>;
+
+void refuse_large(const char* where, const NearRaster& raster) {
+  if (raster.texels() > k_most_near_texels)
+    throw InvalidInput(std::string(where) + ": " + std::to_string(raster.width) + " x " +
+                       std::to_string(raster.height) + " texels; with nearmean() and its kin at most 2^26");
+}
 
 Workspace& local(Workspaces& all, const Graph& graph) {
   auto& mine = all.local();
@@ -131,26 +143,31 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
   const bool stretch = graph.nodes[static_cast<std::size_t>(graph.root)]->stretch;
   const double shorter = std::min(options.width, options.height);
   const double step_x = 1 / (stretch ? options.width : shorter), step_y = 1 / (stretch ? options.height : shorter);
+  const NearRaster raster{options.width, options.height, graph.nodes[static_cast<std::size_t>(graph.root)]->seamless};
+  if (!graph.near.empty()) refuse_large("render_texture", raster);
+  Neighbourhoods near(graph, raster);
   Workspaces workspaces;
-  std::atomic<std::int64_t> done = 0;
-  tbb::parallel_for(
-      tbb::blocked_range<int>(0, options.height, static_cast<std::size_t>(std::max(1, 16384 / options.width))),
-      [&](const tbb::blocked_range<int>& range) {
-        Workspace& w = local(workspaces, graph);
-        for (int row = range.begin(); row < range.end(); ++row)
-          for (int column = 0; column < options.width; column += k_row) {
-            Block block;
-            block.n = std::min(k_row, options.width - column);
-            for (int i = 0; i < block.n; ++i) w.x[i] = (column + i + 0.5) * step_x, w.y[i] = (row + 0.5) * step_y;
-            block.x = w.x, block.y = w.y, block.texel = std::max(step_x, step_y);
-            block.extent_x = options.width * step_x, block.extent_y = options.height * step_y;
-            const std::int64_t first = std::int64_t{row} * options.width + column;
-            fill_known(w, block, {static_cast<double>(options.width), static_cast<double>(options.height), block.texel},
-                       first, nullptr);
-            evaluate_block(graph, w, block, options.channels, first, result.values);
-          }
-        done += range.end() - range.begin();
-      });
+  const auto evaluate = [&](const tbb::blocked_range<int>& range) {
+    Workspace& w = local(workspaces, graph);
+    for (int row = range.begin(); row < range.end(); ++row)
+      for (int column = 0; column < options.width; column += k_row) {
+        Block block;
+        block.n = std::min(k_row, options.width - column);
+        for (int i = 0; i < block.n; ++i) w.x[i] = (column + i + 0.5) * step_x, w.y[i] = (row + 0.5) * step_y;
+        block.x = w.x, block.y = w.y, block.texel = std::max(step_x, step_y);
+        block.extent_x = options.width * step_x, block.extent_y = options.height * step_y;
+        const std::int64_t first = std::int64_t{row} * options.width + column;
+        fill_known(w, block, {static_cast<double>(options.width), static_cast<double>(options.height), block.texel},
+                   first, nullptr);
+        if (!graph.near.empty()) {
+          std::iota(w.texels, w.texels + block.n, static_cast<std::uint32_t>(first));
+          block.near = &near, block.texels = w.texels;
+        }
+        evaluate_block(graph, w, block, options.channels, first, result.values);
+      }
+  };
+  const auto grain = static_cast<std::size_t>(std::max(1, 16384 / options.width));
+  while (near.next()) tbb::parallel_for(tbb::blocked_range<int>(0, options.height, grain), evaluate);
   if (options.progress) options.progress("texture", 1);
   return result;
 }
@@ -160,14 +177,23 @@ TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePo
   const std::size_t count = points.x.size();
   const auto fits = [&](std::size_t size, std::size_t parts) { return size == 0 || size == count * parts; };
   if (points.y.size() != count || !fits(points.normals.size(), 3) || !fits(points.positions.size(), 3) ||
-      !fits(points.sky.size(), 1) || !fits(points.color.size(), 3))
+      !fits(points.sky.size(), 1) || !fits(points.color.size(), 3) || !fits(points.height.size(), 1) ||
+      !fits(points.raster.at.size(), 1))
     throw InvalidInput("evaluate_texture: the spans have unlike lengths for " + std::to_string(count) + " points");
   const Graph& graph = texture.graph();
+  const NearRaster raster{points.raster.width, points.raster.height, points.raster.repeats};
+  const bool near_used = !graph.near.empty() && !points.raster.at.empty();
+  if (near_used) {
+    refuse_large("evaluate_texture", raster);
+    for (const std::uint32_t at : points.raster.at)
+      if (at >= raster.texels()) throw InvalidInput("evaluate_texture: a point lies outside of its raster");
+  }
+  Neighbourhoods near(graph, raster);
   TextureValues values;
   make_room(values, channels, count);
   Workspaces workspaces;
   const std::size_t blocks = (count + k_row - 1) / k_row;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks, 16), [&](const tbb::blocked_range<std::size_t>& range) {
+  const auto evaluate = [&](const tbb::blocked_range<std::size_t>& range) {
     Workspace& w = local(workspaces, graph);
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
       const std::size_t first = k * k_row;
@@ -175,9 +201,11 @@ TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePo
       block.n = static_cast<int>(std::min<std::size_t>(k_row, count - first));
       block.x = points.x.data() + first, block.y = points.y.data() + first, block.texel = texel;
       fill_known(w, block, {0, 0, texel}, static_cast<std::int64_t>(first), &points);
+      if (near_used) block.near = &near, block.texels = points.raster.at.data() + first;
       evaluate_block(graph, w, block, channels, static_cast<std::int64_t>(first), values);
     }
-  });
+  };
+  while (near.next()) tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks, 16), evaluate);
   return values;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -157,6 +158,60 @@ TEST(Repair, RefusesBadOptions) {
   options.weld_mm = std::nan("");
   EXPECT_THROW(repair(cube(), options), InvalidInput);
 }
+
+TriangleMesh scaled(TriangleMesh mesh, double factor) {
+  for (Vec3& p : mesh.positions) p = factor * p;
+  return mesh;
+}
+
+/// Solids are repaired one by one; a shell inside out lies in one of them, or does not.
+TEST(Repair, CavitiesStayAndSolidsInsideOutAreTurned) {
+  const TriangleMesh cavity = moved(reversed(cube(2)), {1, 1, 1});
+  const TriangleMesh apart = moved(reversed(cube(2)), {10, 0, 0});
+  for (const auto& mesh :
+       {joined(scaled(cube(3), 4), joined(cavity, apart)), joined(joined(apart, cavity), scaled(cube(3), 4))}) {
+    const RepairResult result = repair(soup_of(mesh));
+    EXPECT_EQ(result.counts.reversed, apart.triangles.size());
+    EXPECT_NEAR(*mesh_statistics(result.mesh).volume_mm3, 64 - 1 + 1, 1e-12);
+    expect_clean(result.mesh);
+    expect_idempotent(result);
+  }
+}
+
+/// Solids apart from each other and open sheets, triangles dealt like cards: the numbers of their faces still ascend.
+TEST(Repair, KeepsTheOrderOfTrianglesWhateverTheyBelongTo) {
+  TriangleMesh mesh = joined(joined(sphere(5), moved(grid(6, 6), {0, 0, 9})), moved(torus(14, 9), {20, 0, 0}));
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), std::mt19937(7));
+  TriangleMesh soup = soup_of(mesh);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) soup.face.push_back(static_cast<std::uint32_t>(3 * t + 5));
+  const RepairResult result = repair(soup);
+  EXPECT_EQ(result.mesh.face, soup.face);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(result.mesh.corner(t, k), mesh.corner(t, k));
+  EXPECT_EQ(result.mesh.positions.size(), mesh.positions.size());
+  expect_idempotent(result);
+}
+
+class Neighbours : public testing::TestWithParam<unsigned> {};
+
+/// What is far away changes nothing as long as the diagonal, which tolerances go by, stays: a soup that needs every
+/// operation comes out beside a solid as it does without it.
+TEST_P(Neighbours, FarAwayChangeNothing) {
+  TriangleMesh soup = lattice_soup(80, GetParam());
+  soup = joined(soup, moved(grid(1, 1), {60, 0, 0}));
+  const TriangleMesh solid = soup_of(moved(sphere(4), {40, 1, 1}));
+  const RepairResult alone = repair(soup), beside = repair(joined(solid, soup));
+  ASSERT_EQ(beside.weld_tolerance_mm, alone.weld_tolerance_mm);
+  ASSERT_EQ(beside.mesh.triangles.size(), solid.triangles.size() + alone.mesh.triangles.size());
+  RepairCounts with_solid = alone.counts;
+  with_solid.welded_equal = beside.counts.welded_equal;
+  EXPECT_EQ(beside.counts, with_solid);
+  EXPECT_EQ(beside.max_deviation_mm, alone.max_deviation_mm);
+  for (std::size_t t = 0; t < alone.mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(beside.mesh.corner(solid.triangles.size() + t, k), alone.mesh.corner(t, k));
+  expect_idempotent(beside);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, Neighbours, testing::Range(1u, 13u));
 
 }  // namespace
 }  // namespace papilla

@@ -75,14 +75,38 @@ TEST(Texture, InlineAndNamedTexturesAreTheSame) {
 }
 
 TEST(Texture, IsTheSameForAnyCutOfTheWork) {
-  // 300 columns are more than a row of the evaluator; the same points one by one must agree.
-  const RenderedTexture whole =
-      test::rendered("worn_leather", 300, RecipeLibrary::builtin(), test::at_time(0.5), k_all);
-  const auto texture = compile_texture("worn_leather", RecipeLibrary::builtin(), test::at_time(0.5));
-  std::vector<double> x, y;
-  for (int i = 0; i < 300; ++i) x.push_back((i + 0.5) * (1 / 300.0)), y.push_back(150.5 * (1 / 300.0));
-  const TextureValues row = evaluate_texture(texture, {x, y, {}, {}, {}, {}}, k_all, 1 / 300.0);
-  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(row[Channel::bump][i], whole.values[Channel::bump][150 * 300 + i]);
+  // 300 columns are more than a row of the evaluator; the same points of one row, evaluated on their own, must agree.
+  // Rows of the evaluator that a formula reads before they are filled would hold what another thread left there.
+  const RecipeLibrary library = RecipeLibrary::builtin();
+  for (const auto& [name, recipe] : library.recipes()) {
+    if (recipe.find("near") != std::string::npos) continue;
+    const std::string layered =
+        recipe.find("ismodifier=true") == std::string::npos ? name : "multi|textures=leather," + name;
+    const RenderedTexture whole = test::rendered(layered, 300, library, test::at_time(0.7), k_all);
+    const auto texture = compile_texture(layered, library, test::at_time(0.7));
+    std::vector<double> x, y;
+    for (int i = 0; i < 300; ++i) x.push_back((i + 0.5) * (1 / 300.0)), y.push_back(150.5 * (1 / 300.0));
+    const TextureValues row = evaluate_texture(texture, {x, y, {}, {}, {}, {}}, k_all, 1 / 300.0);
+    for (std::size_t i = 0; i < 300; ++i)
+      ASSERT_EQ(row[Channel::bump][i], whole.values[Channel::bump][150 * 300 + i]) << name;
+  }
+}
+
+TEST(Texture, FormulasKnowOnlyWhatCameBefore) {
+  const auto refusal = [](const char* recipe) -> std::string {
+    try {
+      compile_texture(recipe, {});
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* recipe :
+       {"fbm|afunction=this", "fbm|afunction=2*main", "fbm|afunction=a", "fbm|afunction=b", "fbm|bfunction=b",
+        "fbm|perturbx=x+main", "fbm|perturby=id", "base|textures=fbm,noise|mainfunction=1|afunction=texmappedbump"})
+    EXPECT_NE(refusal(recipe).find("is not known yet"), std::string::npos) << recipe << ": " << refusal(recipe);
+  for (const char* recipe : {"fbm|afunction=x|bfunction=a|perturbx=x+a*b|mainfunction=this+main+a+id"})
+    EXPECT_EQ(refusal(recipe), "");
 }
 
 /// Slope of the structure function between two lags, as D = 3 - slope / 2.
@@ -166,6 +190,30 @@ TEST(Multi, LayersReadWhatLiesBelow) {
   EXPECT_FLOAT_EQ(v[Channel::bump][0], 0.8F);
   EXPECT_FLOAT_EQ(v[Channel::friction][0], 0.4F);
   EXPECT_FLOAT_EQ(v[Channel::color][2], 0.3F);
+}
+
+TEST(Multi, LayersReadEveryChannelBelow) {
+  const std::string below =
+      "[base|mainfunction=.11|bumpfunction=.12|alphafunction=.5|coloralphafunction=.4|"
+      "reflectionfunction=.13|diffusefunction=.14|specularfunction=.15|specularcoefffunction=.16|"
+      "frictionfunction=.17|stiffnessfunction=.18]";
+  const std::pair<const char*, float> known[] = {
+      {"lowermain", .11F},       {"lowerbump", .12F},     {"loweralpha", .5F},     {"lowercoloralpha", .4F},
+      {"lowerreflection", .13F}, {"lowerdiffuse", .14F},  {"lowerspecular", .15F}, {"lowerspecularcoeff", .16F},
+      {"lowerfriction", .17F},   {"lowerstiffness", .18F}};
+  static_assert(std::size(known) == k_channels - 1, "and the colour, which is currentcolor");
+  const std::vector<double> here = {0.5};
+  for (const auto& [name, value] : known) {
+    const auto texture =
+        compile_texture("multi|textures=" + below + ",[base|bumpblend=interpolate|bumpfunction=" + name + "]", {});
+    EXPECT_FLOAT_EQ(evaluate_texture(texture, {here, here, {}, {}, {}, {}}, k_all, 0)[Channel::bump][0], value) << name;
+  }
+  // Two layers of half the cover and of half of that for the colour.
+  const std::string half = "[base|alphafunction=.5|coloralphafunction=.5]";
+  const auto two = compile_texture("multi|textures=" + half + "," + half, {});
+  const TextureValues v = evaluate_texture(two, {here, here, {}, {}, {}, {}}, k_all, 0);
+  EXPECT_FLOAT_EQ(v[Channel::alpha][0], .75F);
+  EXPECT_FLOAT_EQ(v[Channel::alpha][0] * v[Channel::coloralpha][0], 1 - .75F * .75F);
 }
 
 TEST(Time, ModifiersFixedTimeAndPeriodicTime) {

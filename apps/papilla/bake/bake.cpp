@@ -10,11 +10,11 @@
 #include <set>
 #include <tuple>
 
-#include "bake/mesh_assembly.hpp"
 #include "bake/surface_uv.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/param/measure.hpp"
 

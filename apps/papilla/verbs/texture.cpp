@@ -86,7 +86,7 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
   for (const Channel c : channels) render.channels |= 1U << static_cast<unsigned>(c);
   std::filesystem::create_directories(a.output);
   const std::string recipe =
-      a.mutate > 0 ? mutate_recipe(a.recipe, static_cast<unsigned>(context.seed), a.mutate) : a.recipe;
+      a.mutate > 0 ? mutate_recipe(a.recipe, library, static_cast<unsigned>(context.seed), a.mutate) : a.recipe;
   Json json{{"recipe", recipe}, {"size", {render.width, render.height}}, {"channels", Json::array()}};
   if (a.normal) json["normal_maps"] = Json::array();
   double seconds = 0;
@@ -120,6 +120,21 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
   return json;
 }
 
+bool is_modifier(const std::string& recipe) { return recipe.find("ismodifier=true") != std::string::npos; }
+
+/// A recipe that an ageing recipe can be shown on: one for its idmaterial, else plaster.
+std::string ground_of(const std::string& recipe, const RecipeLibrary& library) {
+  constexpr std::string_view key = "idmaterial=";
+  if (const std::size_t start = recipe.find(key); start != std::string::npos) {
+    const std::string material =
+        recipe.substr(start + key.size(), recipe.find_first_of("| \n", start) - start - key.size());
+    for (const std::string& name : suggest_recipes(material, library))
+      if (!is_modifier(*library.find(name)) && library.find(name)->find("idtype=aged") == std::string::npos)
+        return name;
+  }
+  return "plaster";
+}
+
 Json run_sheet(const Arguments& a, const RecipeLibrary& library, VerbContext& context) {
   std::vector<std::pair<std::string, std::string>> recipes;
   if (a.sheet == "types") {
@@ -133,10 +148,9 @@ Json run_sheet(const Arguments& a, const RecipeLibrary& library, VerbContext& co
       recipes.emplace_back(type.name, recipe);
     }
   } else {
-    for (const auto& [name, recipe] : library.recipes()) {
-      const bool modifier = recipe.find("ismodifier=true") != std::string::npos;
-      recipes.emplace_back(name, modifier ? "multi|textures=leather," + name : name);
-    }
+    for (const auto& [name, recipe] : library.recipes())
+      recipes.emplace_back(name,
+                           is_modifier(recipe) ? "multi|textures=" + ground_of(recipe, library) + "," + name : name);
   }
   std::filesystem::create_directories(a.output);
   CompileOptions options = recipe_options(".");

@@ -53,8 +53,9 @@ class RecipeLibrary {
 /// names, idmaterial and idtype. Empty when none has anything in common.
 std::vector<std::string> suggest_recipes(std::string_view material, const RecipeLibrary& library);
 
-/// The recipe with its numbers changed by up to `strength` of themselves, within the ranges of the table.
-/// Same seed, same recipe. @throws InvalidInput when the text is no recipe.
-std::string mutate_recipe(std::string_view recipe, unsigned seed, double strength);
+/// The recipe with its numbers changed by up to `strength` of themselves: parameters within the ranges of the table,
+/// and numbers with a decimal point in formulas. Named recipes and layers are written out and changed, too. Same seed,
+/// same recipe. @throws InvalidInput when the text is no recipe.
+std::string mutate_recipe(std::string_view recipe, const RecipeLibrary& library, unsigned seed, double strength);
 
 }  // namespace papilla

@@ -60,10 +60,11 @@ class ProceduralTexture {
  public:
   explicit ProceduralTexture(std::shared_ptr<const procedural_detail::Graph> graph) : graph_(std::move(graph)) {}
   const procedural_detail::Graph& graph() const noexcept { return *graph_; }
-  bool depends_on_normal() const noexcept;    ///< normaldot is used somewhere.
-  bool depends_on_position() const noexcept;  ///< posx, posy, posz or checker3d is used somewhere.
-  bool depends_on_sky() const noexcept;       ///< sky is used somewhere.
-  bool depends_on_time() const noexcept;      ///< time is used somewhere.
+  bool depends_on_normal() const noexcept;      ///< normaldot is used somewhere.
+  bool depends_on_position() const noexcept;    ///< posx, posy, posz or checker3d is used somewhere.
+  bool depends_on_sky() const noexcept;         ///< sky is used somewhere.
+  bool depends_on_time() const noexcept;        ///< time is used somewhere.
+  bool depends_on_neighbours() const noexcept;  ///< nearmean() or one of its kin is used somewhere.
   /// The dirt directions of all that use normaldot, each once: two normals with the same product with each of them look
   /// the same to the recipe.
   std::vector<std::array<double, 3>> dirt_directions() const;
@@ -83,13 +84,22 @@ class ProceduralTexture {
 ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& library,
                                   const CompileOptions& options = {});
 
+/// Where points lie in a picture, so that nearmean() and its kin know their neighbours.
+struct PointRaster {
+  int width = 0, height = 0;          ///< 0: the points are alone. @pre at most 2^26 texels.
+  bool repeats = false;               ///< The picture goes on round its borders.
+  std::span<const std::uint32_t> at;  ///< row * width + column of every point, each place at most once.
+};
+
 /// Points to evaluate at. All spans but `x` and `y` may be empty.
 struct TexturePoints {
-  std::span<const double> x, y;      ///< Place in the picture: (0, 0) is its top left, (1, 1) its bottom right.
-  std::span<const float> normals;    ///< 3 a point, unit length; empty: the recipe's own.
-  std::span<const float> positions;  ///< 3 a point, metres, y up; empty: (x, y, 0).
-  std::span<const float> sky;        ///< Share of the sky seen; empty: 1.
-  std::span<const float> color;      ///< 3 a point: what `currentcolor` is below all layers; empty: black.
+  std::span<const double> x, y;        ///< Place in the picture: (0, 0) is its top left, (1, 1) its bottom right.
+  std::span<const float> normals;      ///< 3 a point, unit length; empty: the recipe's own.
+  std::span<const float> positions;    ///< 3 a point, metres, y up; empty: (x, y, 0).
+  std::span<const float> sky;          ///< Share of the sky seen; empty: 1.
+  std::span<const float> color = {};   ///< 3 a point: what `currentcolor` is below all layers; empty: black.
+  std::span<const float> height = {};  ///< What `lowerbump` is there; empty: 0.
+  PointRaster raster = {};
 };
 
 /// channels[c] has one number a point (color three); empty when not asked for.
@@ -111,11 +121,13 @@ struct RenderedTexture {
 
 /// The channels as pictures. The shorter side spans 1 unless the recipe says stretch.
 /// Every value is finite: what is not, on the way, counts as 0. Alpha, coloralpha and colours are cut to [0, 1],
-/// friction and stiffness to [0, 10]. Cost: O(texels); all cores (TBB). Deterministic, whatever the number of threads.
-/// @throws InvalidInput when the size breaks its precondition.
+/// friction and stiffness to [0, 10]. Cost: O(texels), once more for every neighbourhood statistic that rests on
+/// another one; all cores (TBB). Deterministic, whatever the number of threads.
+/// @throws InvalidInput when the size breaks its precondition, or a recipe with neighbourhoods exceeds 2^26 texels.
 RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOptions& options);
 
 /// The same at any points. `texel` is the distance of neighbouring points, for the choice of octaves; 0: all octaves.
+/// @throws InvalidInput when the spans have unlike lengths, or the raster breaks its precondition.
 TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePoints& points, unsigned channels,
                                double texel);
 

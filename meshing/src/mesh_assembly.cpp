@@ -1,44 +1,59 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/mesh_assembly.hpp"
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/mesh_assembly.hpp"
 
-namespace papilla::app {
+#include <algorithm>
+
+namespace papilla {
 namespace {
 
 constexpr Triangle k_no_values = {k_no_value, k_no_value, k_no_value};
 
+/// The numbers that `triangles` use lie in [first, second).
+std::pair<Index, Index> used_range(const std::vector<Triangle>& indices, std::span<const Index> triangles) {
+  Index first = k_no_value, last = 0;
+  for (const Index t : triangles)
+    for (const Index i : indices[t])
+      if (i != k_no_value) {
+        first = std::min(first, i);
+        last = std::max(last, i + 1);
+      }
+  return {std::min(first, last), last};
+}
+
 /// Copies the values that `triangles` use, renumbered in order of first use.
 template <class T>
 void extract_values(const std::vector<T>& values, const std::vector<Triangle>& indices,
-                    const std::vector<std::uint32_t>& triangles, std::vector<T>& out_values,
-                    std::vector<Triangle>& out_indices) {
-  std::vector<Index> number(values.size(), k_no_value);
+                    std::span<const Index> triangles, std::vector<T>& out_values, std::vector<Triangle>& out_indices) {
+  const auto [first, last] = used_range(indices, triangles);
+  std::vector<Index> number(last - first, k_no_value);
   out_indices.reserve(triangles.size());
-  for (const std::uint32_t t : triangles) {
+  for (const Index t : triangles) {
     Triangle corners = indices[t];
     for (Index& corner : corners) {
       if (corner == k_no_value) continue;
-      if (number[corner] == k_no_value) {
-        number[corner] = static_cast<Index>(out_values.size());
+      Index& seen = number[corner - first];
+      if (seen == k_no_value) {
+        seen = static_cast<Index>(out_values.size());
         out_values.push_back(values[corner]);
       }
-      corner = number[corner];
+      corner = seen;
     }
     out_indices.push_back(corners);
   }
 }
 
 template <class T>
-CornerAttribute<T> extract(const CornerAttribute<T>& attribute, const std::vector<std::uint32_t>& triangles) {
+CornerAttribute<T> extract(const CornerAttribute<T>& attribute, std::span<const Index> triangles) {
   CornerAttribute<T> out;
   if (!attribute.empty()) extract_values(attribute.values, attribute.indices, triangles, out.values, out.indices);
   return out;
 }
 
-std::vector<std::uint32_t> extract(const std::vector<std::uint32_t>& numbers, const std::vector<std::uint32_t>& triangles) {
+std::vector<std::uint32_t> extract(const std::vector<std::uint32_t>& numbers, std::span<const Index> triangles) {
   std::vector<std::uint32_t> out;
   if (numbers.empty()) return out;
   out.reserve(triangles.size());
-  for (const std::uint32_t t : triangles) out.push_back(numbers[t]);
+  for (const Index t : triangles) out.push_back(numbers[t]);
   return out;
 }
 
@@ -72,7 +87,7 @@ void append(std::vector<std::uint32_t>& target, std::size_t target_triangles, co
 
 }  // namespace
 
-TriangleMesh extract_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+TriangleMesh extract_triangles(const TriangleMesh& mesh, std::span<const Index> triangles) {
   TriangleMesh out;
   extract_values(mesh.positions, mesh.triangles, triangles, out.positions, out.triangles);
   out.normals = extract(mesh.normals, triangles);
@@ -99,4 +114,4 @@ void append_mesh(TriangleMesh& mesh, const TriangleMesh& piece) {
   for (const Triangle& t : piece.triangles) mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
 }
 
-}  // namespace papilla::app
+}  // namespace papilla

@@ -1,9 +1,11 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/mesh_assembly.hpp"
+// SPDX-License-Identifier: MIT
+#include "papilla/meshing/mesh_assembly.hpp"
 
 #include <gtest/gtest.h>
 
-namespace papilla::app {
+#include <array>
+
+namespace papilla {
 namespace {
 
 /// Two triangles of a unit square; uv on the second one only.
@@ -18,7 +20,7 @@ TriangleMesh square() {
 }
 
 TEST(MeshAssembly, ExtractsTrianglesWithTheirAttributes) {
-  const TriangleMesh piece = extract_triangles(square(), {1});
+  const TriangleMesh piece = extract_triangles(square(), std::array{Index{1}});
   ASSERT_EQ(piece.triangles.size(), 1U);
   EXPECT_EQ(piece.positions.size(), 3U);
   EXPECT_EQ(piece.corner(0, 2), (Vec3{0, 1, 0}));
@@ -29,8 +31,8 @@ TEST(MeshAssembly, ExtractsTrianglesWithTheirAttributes) {
 
 TEST(MeshAssembly, AppendingThePiecesGivesTheSameTriangles) {
   const TriangleMesh whole = square();
-  TriangleMesh joined = extract_triangles(whole, {0});
-  append_mesh(joined, extract_triangles(whole, {1}));
+  TriangleMesh joined = extract_triangles(whole, std::array{Index{0}});
+  append_mesh(joined, extract_triangles(whole, std::array{Index{1}}));
   ASSERT_EQ(joined.triangles.size(), 2U);
   for (std::size_t t = 0; t < 2; ++t)
     for (int k = 0; k < 3; ++k) EXPECT_EQ(joined.corner(t, k), whole.corner(t, k));
@@ -57,4 +59,4 @@ TEST(MeshAssembly, FillsAttributesThatOnePieceLacks) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla
