@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include "distortion_report.hpp"
 #include "exit_code.hpp"
 #include "papilla/core/error.hpp"
@@ -181,6 +185,37 @@ TEST(HeldOption, IsoLineTakesTheShortestPathOfEdges) {
   const auto first = static_cast<Index>(mesh.positions.size());
   apart.triangles.push_back({first, first + 1, first + 2});
   EXPECT_THROW(iso_line_on(apart, parse_iso_line("v:0,1,0;10,0,0")), InvalidInput);
+}
+
+TEST(Unwrap, ChartsAreChosenByTwoSeamCosts) {
+  struct Outcome {
+    double seam_mm, price;
+  };
+  const TriangleMesh mesh = test::spherical_cap(100, 1.2, 16, 32);
+  const auto outcome = [&](std::optional<double> cost) {
+    Scene scene = scene_of(mesh);
+    UnwrapOptions options = options_of(UnwrapMethod::automatic);
+    options.method.choose_seam_cost = !cost;
+    options.method.segmentation.seam_cost = cost.value_or(0.5);
+    const double seam_mm = unwrap_scene(scene, options).parts[0].seams.seam_mm;
+    const DistortionReport r = measure_distortion(scene.parts[0].mesh, scene.parts[0].mesh.uv);
+    return Outcome{seam_mm, (r.symmetric_dirichlet.mean - 4 + 1e-4) * std::pow(1 + seam_mm / std::sqrt(r.area_mm2), 5)};
+  };
+  const Outcome usual = outcome(0.03), generous = outcome(0.01), sparing = outcome(0.1), chosen = outcome({});
+  EXPECT_NE(generous.seam_mm, sparing.seam_mm);
+  EXPECT_LE(chosen.price, usual.price * (1 + 1e-9));
+  EXPECT_TRUE(chosen.seam_mm == usual.seam_mm || chosen.seam_mm == generous.seam_mm ||
+              chosen.seam_mm == sparing.seam_mm);
+}
+
+TEST(Unwrap, EdgesOfOpposedTrianglesAreCounted) {
+  TriangleMesh mesh = test::plane(2, 2, 2, 2);
+  mesh.uv = {};
+  Scene straight = scene_of(mesh);
+  EXPECT_EQ(unwrap_scene(straight, options_of(UnwrapMethod::best)).parts[0].opposed_edges, 0u);
+  std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
+  Scene turned = scene_of(mesh);
+  EXPECT_GE(unwrap_scene(turned, options_of(UnwrapMethod::best)).parts[0].opposed_edges, 1u);
 }
 
 TEST(Unwrap, KeepRefusesWhatIsNoSurface) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "bounding_diagonal.hpp"
 #include "papilla/core/error.hpp"
@@ -94,6 +95,19 @@ void place_unique(Scene& scene, const UnwrapOptions& options, UnwrapReport& repo
   report.unique = std::move(atlas);
 }
 
+/// Edges through which two triangles or more run in the same direction.
+std::size_t opposed_edges(const TriangleMesh& mesh) {
+  std::vector<std::pair<Index, Index>> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) sides.push_back({t[k], t[(k + 1) % 3]});
+  std::sort(sides.begin(), sides.end());
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    count += sides[i] == sides[i - 1] && (i == 1 || sides[i] != sides[i - 2]);
+  return count;
+}
+
 double grain_size(const UnwrapOptions& options) {
   if (options.grain_mm) return *options.grain_mm;
   const double tile = std::min(options.tile_mm.x, options.tile_mm.y);
@@ -138,6 +152,7 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
     UnwrappedPart& result = report.parts[p];
     try {
       part.mesh = weld_equal(std::move(part.mesh)).mesh;
+      result.opposed_edges = opposed_edges(part.mesh);
       const double start = clock.seconds();
       context.part = part.name;
       FlattenedPart flattened = flatten_part(part.mesh, context, options.method);

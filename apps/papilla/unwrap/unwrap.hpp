@@ -45,6 +45,7 @@ struct UnwrappedPart {
   std::vector<ChartChoice> choices;  ///< Of automatic, per chart.
   SeamVisibility seams;              ///< For the tile and the grain's size.
   double grain_continued_mm = 0;     ///< Length of the seam over which the grain goes on.
+  std::size_t opposed_edges = 0;     ///< Of two triangles that are wound against each other: charts end there.
   std::string failure;               ///< Why the part has no uv; empty when it has.
 };
 

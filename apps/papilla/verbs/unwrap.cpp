@@ -73,6 +73,7 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
                      {"grain_continued_mm", part.grain_continued_mm},
                      {"seam_visibility", seams_json(part.seams)},
+                     {"opposed_edges", part.opposed_edges},
                      {"notes", std::move(notes)},
                      {"failure", part.failure.empty() ? Json() : Json(part.failure)}});
   }
@@ -80,9 +81,15 @@ Json parts_json(const Scene& scene, const UnwrapReport& report) {
 }
 
 /// What was not done as asked, a line each.
-std::string remarks(const UnwrapReport& report) {
+std::string remarks(const Scene& scene, const UnwrapReport& report) {
   std::string text;
-  for (const UnwrappedPart& part : report.parts) {
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    const UnwrappedPart& part = report.parts[p];
+    if (part.opposed_edges > 0)
+      text += fmt::format(
+          "part '{}': charts end at {} edges of triangles that are wound against each other; papilla repair turns "
+          "them\n",
+          scene.parts[p].name, part.opposed_edges);
     if (!part.reason.empty() && part.failure.empty()) text += part.method + ": " + part.reason + "\n";
     if (!part.failure.empty()) text += "not unwrapped: " + part.failure + "\n";
     if (!part.flattening.notes.empty())
@@ -205,7 +212,7 @@ Json run(const Options& options, VerbContext& context) {
   const std::string method = unwrap_method_name(unwrap.method.method);
   const Json worst_chart = worst_chart_json(scene, distortion);
   context.console.print(fmt::format("{}: {} charts in {:.3f} s\n", method, report.charts, report.seconds.total) +
-                        distortion_text(distortion.report, worst_chart) + remarks(report));
+                        distortion_text(distortion.report, worst_chart) + remarks(scene, report));
   return {{"method", method},
           {"charts", report.charts},
           {"stop", to_string(report.stop)},
