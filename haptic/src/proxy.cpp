@@ -14,7 +14,7 @@ namespace {
 /// Of the shortest step. Near the end a step of s brings only s²/2·depth.
 constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
-constexpr double k_needed_travels = 0.6, k_wanted_travels = 2;
+constexpr double k_needed_travels = 0.6, k_wanted_travels = 4;
 constexpr double k_focus_skins = 2;  // How far the proxy goes before distances are noted anew.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;

@@ -30,8 +30,9 @@ struct ProxyState {
 /// that the constraints found so far allow (the closest point of up to k_planes half-spaces, at most three of which can
 /// act) and is swept, so that no speed tunnels; what stops it becomes a constraint; constraints that no longer act are
 /// dropped when the proxy moves, and all are forgotten and found again when a step ends free, so that surfaces which
-/// fall away let go. The tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps
-/// sweeps; then the proxy still is outside and goes on in the next tick.
+/// fall away let go; in a crease, planes that were found farther back are asked for again before the proxy stops. The
+/// tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps sweeps; then the proxy
+/// still is outside and goes on in the next tick.
 ///
 /// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
 /// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
