@@ -179,8 +179,14 @@ bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) c
 
 /// Makes prisms of the triangles around a ball, unless there are too many: then their boxes have to do.
 void ContactSurface::add_prisms(Neighbourhood& near) const noexcept {
-  for (const std::uint32_t cluster : near.clusters()) clusters_.prefetch_triangles(cluster);
   const Box3f box = box_around(near.centre(), near.centre(), near.reach_m() + contact_radius_m());
+  std::uint32_t least = 0;
+  for (const std::uint32_t cluster : near.clusters()) least += clusters_.least_in_box(cluster, box);
+  if (least > Neighbourhood::k_capacity) {
+    near.forget_triangles();
+    return;
+  }
+  for (const std::uint32_t cluster : near.clusters()) clusters_.prefetch_triangles(cluster);
   bool fits = true;
   for (const std::uint32_t cluster : near.clusters())
     clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {

@@ -82,7 +82,8 @@ void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
   if (radius < needed) {
     near_.clear();
     widest_m_ *= k_regrowth;
-  } else if (!surface_->gather(from, radius, near_)) {
+  } else if (!surface_->gather(from, radius, near_) || (surface_->probe_radius_m() == 0 && near_.is_crowded())) {
+    near_.clear();  // For a point the tree is as fast as boxes without prisms.
     widest_m_ = 0.5 * radius;
   } else if (near_.triangles() < Neighbourhood::k_capacity / 8) {
     widest_m_ = std::max(widest_m_, 2 * radius);

@@ -43,6 +43,8 @@ class Neighbourhood {
   /// Numbers of the clusters of ContactSurface that come that near.
   std::span<const std::uint32_t> clusters() const noexcept { return {cluster_.data(), cluster_count_}; }
   std::uint32_t triangles() const noexcept { return count_; }
+  /// Clusters are known, but their triangles are too many.
+  bool is_crowded() const noexcept { return count_ == 0 && cluster_count_ > 0; }
   Vec3 centre() const noexcept { return centre_; }
   double reach_m() const noexcept { return reach_; }
   std::uint32_t place(std::uint32_t i) const noexcept { return place_[i]; }

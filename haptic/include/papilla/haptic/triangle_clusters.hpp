@@ -81,6 +81,12 @@ class TriangleClusters {
     }
   }
 
+  /// in_box() visits at least that many: whole groups but for the last of the cluster.
+  std::uint32_t least_in_box(std::uint32_t cluster, const Box3f& box) const noexcept {
+    const auto groups = static_cast<std::uint32_t>(std::popcount(clusters_[cluster].meet(box)));
+    return groups > 0 ? k_group * (groups - 1) + 1 : 0;
+  }
+
   /// Asks the processor to fetch the numbers of a cluster, or its triangles, ahead of their use.
   void prefetch(std::uint32_t cluster) const noexcept;
   void prefetch_triangles(std::uint32_t cluster) const noexcept;
