@@ -62,7 +62,7 @@ Json run_follow(const Options& options, const VerbContext& context) {
       {*options.follow, options.input, options.port},
       [&](const std::string& file) { return content_of(file, options, context); },
       [&](const std::string& url) {
-        context.console.print(url + ": follows the player; Ctrl-C ends\n");
+        context.console.print("following the player at " + url + " until Ctrl-C\n");
         opened = open_if_wanted(url, options, context);
       });
   json["opened"] = opened;
