@@ -130,8 +130,9 @@ class TriangleRefiner {
   /// Pieces bounded by this need no further look.
   double limit() const noexcept {
     if (local_ > options_.list_above_mm) return std::numeric_limits<double>::infinity();
-    const double known = (1 + options_.relative_tolerance) * std::max(known_, local_);
-    return std::max(floor_, std::min(known, options_.list_above_mm));
+    const double known = std::max(known_, local_);
+    if (known <= floor_) return floor_;  // Whether anything exceeds it is still open: a share of it more would not do.
+    return std::min((1 + options_.relative_tolerance) * known, options_.list_above_mm);
   }
 
   double distance_bound(const ConvexPiece& piece, Index to_triangle) const noexcept {

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <set>
+#include <thread>
 
 #include "evaluate/stability/extreme_meshes.hpp"
 #include "evaluate/stability/stability_files.hpp"
@@ -37,6 +39,24 @@ void expect_full(const StabilitySuite& suite) {
   }
   EXPECT_EQ(pairs.size(), suite.cells.size());
   EXPECT_EQ(pairs.size(), methods.size() * inputs.size());
+}
+
+struct Named {
+  std::string name;
+};
+
+TEST(Stability, WhatWasQuickComesFirst) {
+  const std::vector<Named> inputs{{"first"}, {"second"}}, methods{{"dear"}, {"quick"}};
+  std::vector<std::string> ran;
+  StabilitySuite suite;
+  fill_suite(suite, {{}, Budget()}, inputs, methods, [&](const Named& method, const Named& input, StabilityCell&) {
+    if (method.name == "dear" && input.name == "first") std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ran.push_back(method.name);
+  });
+  EXPECT_EQ(ran, (std::vector<std::string>{"dear", "quick", "quick", "dear"}));
+  expect_full(suite);
+  EXPECT_EQ(suite.cells[2].method, "dear");
+  EXPECT_EQ(suite.cells[2].input, "second");
 }
 
 TEST(Stability, WallsShakeUnlessTheyAreLimited) {

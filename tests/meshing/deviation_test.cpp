@@ -185,6 +185,21 @@ TEST(SurfaceDeviation, SettledBelowStillBounds) {
   EXPECT_GE(d.bound(), exact.value());
 }
 
+TEST(SurfaceDeviation, TellsWhetherItIsWithinATolerance) {
+  const TriangleMesh fine = test::torus(10, 3, 90, 40);
+  for (const Index segments : {17, 31, 45}) {
+    const TriangleMesh coarse = test::torus(10, 3, segments, 17);
+    DeviationOptions settled;
+    settled.relative_tolerance = 1e-6;
+    const double exact = surface_deviation(fine, coarse, settled).bound();
+    DeviationOptions options;  // 1 % is what is allowed to a maximum beyond the tolerance, not to one below it.
+    options.settled_below_mm = 1.0001 * exact;
+    EXPECT_LE(surface_deviation(fine, coarse, options).bound(), options.settled_below_mm) << segments;
+    options.settled_below_mm = 0.9999 * exact;
+    EXPECT_GT(surface_deviation(fine, coarse, options).bound(), options.settled_below_mm) << segments;
+  }
+}
+
 TEST(SurfaceDeviation, SameForAnyNumberOfThreads) {
   const TriangleMesh a = test::torus(10, 3, 90, 40), b = test::torus(10, 3, 31, 17);
   const auto run = [&](std::size_t threads) {

@@ -5,9 +5,12 @@
 
 #include <set>
 
+#include "bake/bake.hpp"
 #include "evaluate/stability/extreme_meshes.hpp"
 #include "evaluate/stability/extreme_pictures.hpp"
+#include "papilla/io/glb_writer.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/io/sample_solids.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/texture/grain.hpp"
 
@@ -57,12 +60,46 @@ std::vector<std::string> reliefs(const fs::path& folder) {
   return files;
 }
 
+std::vector<std::string> solids(const fs::path& folder) {
+  const fs::path file = folder / "ball, ring and cone.brep";
+  write_sample_solids(file);
+  return {file.string()};
+}
+
+/// A dome with leather on it, as a bake makes it.
+std::vector<std::string> leather_dome(const fs::path& folder) {
+  MaterialRule leather;
+  leather.name = "leather";
+  leather.texture = folder / "leather.png";
+  leather.size_mm[0] = leather.size_mm[1] = 40;
+  leather.stiffness = 700;
+  leather.damping = 0.4;
+  leather.static_friction = 0.5;
+  leather.dynamic_friction = 0.4;
+  leather.height.depth_mm = 0.3;
+  write_grey_image(leather.texture, synthesize_grain(GrainKind::leather, {.size_px = 256}).picture, 8);
+  MaterialsFile rules;
+  rules.materials[leather.name] = leather;
+  rules.assign.emplace_back().material = leather.name;
+  std::vector<NamedMesh> inputs = extreme_meshes();
+  Part dome;
+  dome.name = "dome";
+  dome.mesh = std::move(inputs.front().mesh);
+  Scene scene = single_part_scene(std::move(dome), "PLY");
+  const std::vector<Surface> surfaces = plan_surfaces(scene, rules);
+  const fs::path file = folder / "leather dome.glb";
+  write_glb(bake(std::move(scene), surfaces, {}).scene, file, {});
+  return {file.string()};
+}
+
 }  // namespace
 
 std::vector<std::string> write_built_in_inputs(const std::string& kind, const fs::path& folder) {
   if (kind == "param" || kind == "charts" || kind == "weld" || kind == "simplification") return meshes(folder);
   if (kind == "fractal" || kind == "symmetry") return pictures(folder, kind == "symmetry");
   if (kind == "height") return reliefs(folder);
+  if (kind == "tessellation") return solids(folder);
+  if (kind == "contact") return leather_dome(folder);
   return {};
 }
 

@@ -106,8 +106,6 @@ Json evaluate_files(VerbContext& context, EvaluateOptions options) {
   std::optional<TemporaryFolder> own;
   if (options.files.empty())
     options.files = write_built_in_inputs(options.kind, own.emplace("papilla-evaluate").path());
-  if (options.files.empty())
-    throw UsageError("evaluate " + options.kind + ": has no input of its own, a FILE is required");
   Folder folder(options.folder, options.kind);
   Json json = heading(context, options);
   std::vector<EvaluationRun> runs;
@@ -172,7 +170,7 @@ void add_evaluate(CLI::App& program) {
   help += " stability (every method on input made to break it; takes no file)";
   verb->add_option("kind", options->kind, help)->type_name("KIND")->check(CLI::IsMember(names))->required();
   verb->add_option("file", options->files,
-                   "Files to read; without, inputs of its own: disks, fractal surfaces, lattices, reliefs")
+                   "Files to read; without, inputs of its own: disks, solids, fractal surfaces, lattices, reliefs")
       ->type_name("FILE");
   verb->add_option("-o,--output", options->folder, "Folder for evaluate-KIND.json, .csv, .html and pictures")
       ->type_name("DIR")

@@ -36,6 +36,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/cad_reader.hpp"
+#include "papilla/io/sample_solids.hpp"
 #include "papilla/io/tessellation_trace.hpp"
 
 namespace papilla::test {
@@ -99,9 +100,7 @@ TEST_F(CadExactness, TheMesherAloneDoesNotKeepTheChord) {
 
 TEST_F(CadExactness, TorusKeepsTheChord) {
   const TriangleMesh mesh = read(BRepPrimAPI_MakeTorus(40, 12).Shape(), options(0.2));
-  EXPECT_LE(largest(mesh,
-                    [](Vec3 p) { return std::abs(std::hypot(std::hypot(p.x, p.y) - 40, p.z) - 12); }),
-            0.2);
+  EXPECT_LE(largest(mesh, [](Vec3 p) { return std::abs(std::hypot(std::hypot(p.x, p.y) - 40, p.z) - 12); }), 0.2);
   EXPECT_TRUE(is_closed(mesh));
 }
 
@@ -109,11 +108,10 @@ TEST_F(CadExactness, ConeKeepsTheChordUpToItsApex) {
   const TriangleMesh mesh = read(BRepPrimAPI_MakeCone(20, 0, 30).Shape(), options(0.1));
   const double along = 30 / std::hypot(20.0, 30.0);
   // Distance from the mantle; points of the base have none of their own.
-  EXPECT_LE(largest(mesh,
-                    [&](Vec3 p) {
-                      return p.z < 1e-9 ? 0 : std::abs((std::hypot(p.x, p.y) - 20 * (1 - p.z / 30)) * along);
-                    }),
-            0.1);
+  EXPECT_LE(
+      largest(mesh,
+              [&](Vec3 p) { return p.z < 1e-9 ? 0 : std::abs((std::hypot(p.x, p.y) - 20 * (1 - p.z / 30)) * along); }),
+      0.1);
   EXPECT_TRUE(is_closed(mesh));
 }
 
@@ -253,12 +251,12 @@ TEST_F(CadExactness, NoTriangleIsFlat) {
   }
 }
 
-/// A square with a slit whose sides cross by a thousandth of a millimetre, as inexact CAD files have it. The mesher leaves
-/// part of the boundary without triangles.
+/// A square with a slit whose sides cross by a thousandth of a millimetre, as inexact CAD files have it. The mesher
+/// leaves part of the boundary without triangles.
 TopoDS_Face crossed_slit() {
   BRepBuilderAPI_MakePolygon outline;
-  for (const auto& [x, y] : {std::pair(0.0, 0.0), {10.0, 0.0}, {10.0, 10.0}, {4.999, 10.0}, {5.0, 5.0}, {5.001, 10.0},
-                             {0.0, 10.0}})
+  for (const auto& [x, y] :
+       {std::pair(0.0, 0.0), {10.0, 0.0}, {10.0, 10.0}, {4.999, 10.0}, {5.0, 5.0}, {5.001, 10.0}, {0.0, 10.0}})
     outline.Add(gp_Pnt(x, y, 0));
   outline.Close();
   return BRepBuilderAPI_MakeFace(gp_Pln(), outline.Wire(), true).Face();
@@ -318,6 +316,23 @@ TEST_F(CadExactness, TraceFallsWithTheChord) {
   }
   EXPECT_THROW(chord_ladder(0.1, 0.5, 3), InvalidInput);
   EXPECT_THROW(chord_ladder(0.5, 0.1, 1), InvalidInput);
+}
+
+TEST_F(CadExactness, SampleSolidsHaveTheirAreas) {
+  using namespace sample_solids;
+  write_sample_solids(folder_ / "solids.brep");
+  const Scene scene = read_cad(folder_ / "solids.brep", options(0.005));
+  double area = 0;
+  for (const Part& part : scene.parts)
+    for (const Triangle& t : part.mesh.triangles)
+      area += 0.5 * norm(cross(part.mesh.positions[t[1]] - part.mesh.positions[t[0]],
+                               part.mesh.positions[t[2]] - part.mesh.positions[t[0]]));
+  const double pi = std::numbers::pi;
+  const double slant = std::hypot(k_cone_radius - k_cone_top_radius, k_cone_height);
+  const double expected = 4 * pi * k_ball_radius * k_ball_radius + 4 * pi * pi * k_ring_radius * k_tube_radius +
+                          pi * (k_cone_radius * k_cone_radius + k_cone_top_radius * k_cone_top_radius) +
+                          pi * (k_cone_radius + k_cone_top_radius) * slant;
+  EXPECT_NEAR(area / expected, 1, 2e-3);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -74,18 +76,28 @@ struct OneSize {
 };
 
 /// Fills a suite: work(method, input, cell) for every input and every method. Both have a `name`.
+/// For each input the methods that were quick on the first one come first, so that the dear ones get what is left.
 /// @param size_of of an input: what a method took on the first one tells what it is expected to take on the others.
 template <class Inputs, class Methods, class Work, class SizeOf = OneSize>
 void fill_suite(StabilitySuite& suite, const StabilityRun& run, const Inputs& inputs, const Methods& methods,
                 Work&& work, SizeOf size_of = {}) {
+  const std::size_t count = std::size(methods);
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<double> on_first_s(count, 0);
+  suite.cells.resize(std::size(inputs) * count);
   std::size_t done = 0;
   for (const auto& input : inputs) {
-    std::size_t number = 0;
-    for (const auto& method : methods) {
-      const double on_first_s = done == 0 ? 0 : suite.cells[number++].seconds;
-      suite.cells.push_back(measured_cell(
+    for (const std::size_t m : order) {
+      const auto& method = *std::next(std::begin(methods), static_cast<std::ptrdiff_t>(m));
+      suite.cells[done * count + m] = measured_cell(
           run, method.name, input.name, [&](StabilityCell& cell) { work(method, input, cell); },
-          expected_seconds(on_first_s, size_of(*std::begin(inputs)), size_of(input))));
+          expected_seconds(on_first_s[m], size_of(*std::begin(inputs)), size_of(input)));
+    }
+    if (done == 0) {
+      for (std::size_t m = 0; m < count; ++m) on_first_s[m] = suite.cells[m].seconds;
+      std::stable_sort(order.begin(), order.end(),
+                       [&](std::size_t a, std::size_t b) { return on_first_s[a] < on_first_s[b]; });
     }
     ++done;
     if (run.progress)
