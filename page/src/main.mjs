@@ -170,6 +170,8 @@ class Page {
       $('canvasuv').dataset.part = this.nameOf(use);
     }
     this.three?.select(use, frame);
+    const { meshes } = this.scene.parts[this.scene.instances[use].part];
+    this.touch.follow(meshes.map((m) => this.scene.materials[m.material]).find((m) => m?.relief));
     this.describe(use);
   }
 
@@ -199,6 +201,7 @@ class Page {
   pick(hit) {
     if (!hit) return;
     this.select(hit.use, false);
+    this.touch.follow(this.scene.materials[hit.mesh.material]);
     this.describe(hit.use, this.withBary(hit));
     this.three.mark(hit.use, hit.mesh, hit.local);
     if (hit.mesh.uv) this.uv.mark(hit.uv.x, hit.uv.y);

@@ -10,9 +10,11 @@ import { Sound } from './sound.mjs';
 const $ = (id) => document.getElementById(id);
 const KEPT = 400;
 
+const feelsLike = (a, b) => a.height === b.height && a.haptic.stiffness === b.haptic.stiffness;
+
 export class Touch {
   constructor(scene, reasonOff) {
-    this.materials = scene.materials.filter((m) => m.relief).filter((m, i, all) => all.findIndex((o) => o.height === m.height && o.haptic.stiffness === m.haptic.stiffness) === i);
+    this.materials = scene.materials.filter((m) => m.relief).filter((m, i, all) => all.findIndex((o) => feelsLike(o, m)) === i);
     if (reasonOff || !this.materials.length) {
       $('touch-on').hidden = true;
       $('touch-off').hidden = false;
@@ -42,8 +44,16 @@ export class Touch {
     }, [[], [], []], $('force-plot'));
   }
 
+  /** Lays the relief of a picked material under the probe, if it has one. */
+  follow(picked) {
+    const index = this.materials.findIndex((m) => picked?.relief && feelsLike(m, picked));
+    if (index < 0 || this.materials[index] === this.chosen) return;
+    $('touch-material').value = index;
+    this.choose(index);
+  }
+
   choose(index) {
-    const material = this.materials[index];
+    const material = this.chosen = this.materials[index];
     this.surface = surfaceOf(material);
     this.last = null;
     const { relief, size } = this.surface;

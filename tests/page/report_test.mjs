@@ -26,6 +26,8 @@ async function pick(page) {
   await page.locator('#parts [role=option]').filter({ hasText: 'seat_cushion' }).first().click();
   assert.match(await text(page, '#picked'), /^seat_cushion: [\d,]+ triangles/);
   assert.equal(await page.locator('#canvasuv').getAttribute('data-part'), 'seat_cushion');
+  const felt = await page.locator('#touch-material').evaluate((list) => list.selectedOptions[0].textContent);
+  assert.match(felt, /leather/, 'the relief of what is picked lies under the probe');
   const box = await page.locator('#canvas3d').boundingBox();
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await page.waitForFunction(() => / uv /.test(document.getElementById('picked').textContent));
