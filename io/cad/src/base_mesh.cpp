@@ -60,13 +60,37 @@ std::string take_triangles(const Handle(Poly_Triangulation) & source, const TopL
   return {};
 }
 
+using Polygon = Handle(Poly_PolygonOnTriangulation);
+
+/// How far the nodes of a polygon are from the edge's curve in the face's parameters.
+double misfit(const Polygon& polygon, const EdgeUse& use, const FacePatch& patch) {
+  double sum = 0;
+  for (int k = 1; k <= polygon->NbNodes(); ++k) {
+    const gp_Pnt2d on_curve = use.curve->Value(use.offset + use.factor * polygon->Parameter(k));
+    const Vec2 node = patch.nodes[static_cast<std::size_t>(polygon->Node(k) - 1)].uv;
+    sum += norm(node - Vec2{on_curve.X(), on_curve.Y()});
+  }
+  return sum;
+}
+
+/// The nodes along an edge of the face. A seam has two rows of them; the mesher gives those of the other side where the
+/// surface runs against the face, as on a cone.
+Polygon polygon_along(const TopoDS_Edge& edge, const Handle(Poly_Triangulation) & source,
+                      const TopLoc_Location& location, const EdgeUse& use, const FacePatch& patch) {
+  const Polygon named = BRep_Tool::PolygonOnTriangulation(edge, source, location);
+  const Polygon other = BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edge.Reversed()), source, location);
+  if (named.IsNull() || other.IsNull() || named == other || !named->HasParameters() || !other->HasParameters())
+    return named;
+  return misfit(other, use, patch) < misfit(named, use, patch) ? other : named;
+}
+
 std::string take_uses(const Handle(Poly_Triangulation) & source, const TopLoc_Location& location, const EdgeNet& net,
                       FaceMesh& mesh, std::vector<std::vector<double>>& parameters) {
   for (const TopoDS_Edge& edge : edges_of(mesh.face)) {
-    const Handle(Poly_PolygonOnTriangulation) polygon = BRep_Tool::PolygonOnTriangulation(edge, source, location);
     EdgeUse use;
-    if (polygon.IsNull() || !polygon->HasParameters() || !make_use(net, edge, mesh.face, use))
-      return "an edge has no polygon";
+    if (!make_use(net, edge, mesh.face, use)) return "an edge has no curve in the face's parameters";
+    const Polygon polygon = polygon_along(edge, source, location, use, mesh.patch);
+    if (polygon.IsNull() || !polygon->HasParameters()) return "an edge has no polygon";
     std::vector<double> along;
     for (int k = 1; k <= polygon->NbNodes(); ++k) {
       use.nodes.push_back(static_cast<Index>(polygon->Node(k) - 1));

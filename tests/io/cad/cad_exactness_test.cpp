@@ -227,6 +227,23 @@ TEST_F(CadExactness, LongestEdgeIsKept) {
   EXPECT_NEAR(volume(mesh), 6000, 1e-9);
 }
 
+/// Seams that are straight, or fine enough for the chord, are cut only for this.
+TEST_F(CadExactness, LongestEdgeIsKeptAcrossSeams) {
+  CadReadOptions how = options(0.1, 20);
+  how.max_edge_mm = 2.5;
+  for (const TopoDS_Shape& shape :
+       {BRepPrimAPI_MakeCone(20, 8, 40).Shape(), BRepPrimAPI_MakeCone(8, 20, 40).Shape(),
+        BRepPrimAPI_MakeCylinder(15, 30).Shape(), BRepPrimAPI_MakeTorus(30, 8).Shape(),
+        BRepPrimAPI_MakeSphere(20).Shape(), BRepPrimAPI_MakeCylinder(15, 30).Shape().Reversed()}) {
+    const TriangleMesh mesh = read(shape, how);
+    EXPECT_LE(report_.max_deviation_mm, 0.1);
+    EXPECT_LT(mesh.triangles.size(), 20000U);
+    EXPECT_TRUE(is_closed(mesh));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) ASSERT_LE(norm(mesh.corner(t, k) - mesh.corner(t, (k + 1) % 3)), 2.5);
+  }
+}
+
 TEST_F(CadExactness, RelativeChordIsAFractionOfThePartsDiagonal) {
   CadReadOptions how = options(0.002);
   how.relative = true;
