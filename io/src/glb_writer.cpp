@@ -17,6 +17,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
+#include "haptic_mirror.hpp"
 #include "scene_losses.hpp"
 #include "trs.hpp"
 
@@ -236,6 +237,9 @@ std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::pa
   MaterialWriter materials(scene, buffer);
   materials.write(gltf);
   NodeWriter(scene, options, materials.needs(), buffer, gltf).write();
+  std::vector<std::string> not_mirrored;
+  if (options.mirror_mpeg_haptics) not_mirrored = mirror_mpeg_haptics(gltf, buffer);
+  if (options.mirror_khr_physics) mirror_khr_physics(gltf, not_mirrored);
   if (buffer.size() > 0) {
     gltf["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
     gltf["bufferViews"] = buffer.views();
@@ -254,7 +258,9 @@ std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::pa
   FormatKeeps keeps;
   keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
   keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
-  return scene_losses(scene, keeps);
+  std::vector<std::string> losses = scene_losses(scene, keeps);
+  losses.insert(losses.end(), not_mirrored.begin(), not_mirrored.end());
+  return losses;
 }
 
 }  // namespace papilla

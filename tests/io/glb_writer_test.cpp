@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -28,8 +29,8 @@ class GlbWriter : public testing::Test {
     return read_gltf(folder_ / "a.glb");
   }
 
-  json document(const Scene& scene) const {
-    write_glb(scene, folder_ / "a.glb");
+  json document(const Scene& scene, const GlbWriteOptions& options = {}) const {
+    write_glb(scene, folder_ / "a.glb", options);
     const std::string bytes = content_of(folder_ / "a.glb");
     std::uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 12, 4);
@@ -115,6 +116,63 @@ TEST_F(GlbWriter, TangentsOnlyWhereANormalTextureNeedsThem) {
   ASSERT_EQ(primitives.size(), 2U);
   EXPECT_TRUE(primitives[0]["attributes"].contains("TANGENT"));
   EXPECT_FALSE(primitives[1]["attributes"].contains("TANGENT"));
+}
+
+/// The cube, all of it of the first material, whose tag holds a map of four bytes.
+Scene tagged_scene() {
+  Scene scene = test::rich_scene();
+  scene.parts[0].mesh.material.assign(12, 0);
+  scene.materials[0].extras_json =
+      R"({"haptic":{"version":1,"dynamicFriction":0.35,"height":{"uri":"data:image/png;base64,iVBORw==","scale":2e-4}}})";
+  return scene;
+}
+
+TEST_F(GlbWriter, MirrorsHeightMapsAsTexturesOfMeshes) {
+  const Scene scene = tagged_scene();
+  const json gltf = document(scene, {.mirror_mpeg_haptics = true});
+  EXPECT_EQ(gltf["meshes"][0]["extensions"]["MPEG_material_haptic"]["hapticMaterialIndex"], 0);
+  const json& material = gltf["extensions"]["MPEG_material_haptic"]["materials"].at(0);
+  EXPECT_EQ(material["name"], "grain");
+  const json& layer = material["vibrotactileTexture"].at(0);
+  EXPECT_EQ(layer["type"], "High_Resolution");
+  EXPECT_EQ(layer["extras"]["scale"], 2e-4);
+  EXPECT_EQ(layer["texture"]["extensions"], gltf["materials"][0]["normalTexture"]["extensions"]);
+  const json& image =
+      gltf["images"].at(gltf["textures"].at(layer["texture"]["index"].get<std::size_t>())["source"].get<std::size_t>());
+  EXPECT_EQ(gltf["bufferViews"].at(image["bufferView"].get<std::size_t>())["byteLength"], 4);
+  EXPECT_EQ(round_trip(scene).materials[0].extras_json, read_gltf(folder_ / "a.glb").materials[0].extras_json);
+  EXPECT_FALSE(gltf.contains("extensionsRequired"));
+  const auto used = gltf["extensionsUsed"].get<std::vector<std::string>>();
+  EXPECT_EQ(std::count(used.begin(), used.end(), "MPEG_material_haptic"), 1);
+}
+
+TEST_F(GlbWriter, MirrorsFrictionAsPhysicsMaterials) {
+  const json gltf = document(tagged_scene(), {.mirror_khr_physics = true});
+  const json& material = gltf["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"].at(0);
+  EXPECT_EQ(material["staticFriction"], 0.35) << "each other's default";
+  EXPECT_EQ(material["dynamicFriction"], 0.35);
+  int colliders = 0;
+  for (std::size_t i = 0; i < gltf["nodes"].size(); ++i) {
+    const json& node = gltf["nodes"][i];
+    EXPECT_EQ(node.contains("mesh"), node.contains("extensions"));
+    if (!node.contains("mesh")) continue;
+    ++colliders;
+    EXPECT_EQ(node["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"]["node"], i);
+  }
+  EXPECT_EQ(colliders, 2);
+}
+
+TEST_F(GlbWriter, MirrorsNothingOfMeshesOfSeveralMaterials) {
+  Scene scene = tagged_scene();
+  scene.parts[0].mesh.material[3] = 1;
+  const auto losses = write_glb(scene, folder_ / "a.glb", {.mirror_mpeg_haptics = true, .mirror_khr_physics = true});
+  EXPECT_EQ(std::count_if(losses.begin(), losses.end(),
+                          [](const std::string& loss) { return loss.find("several materials") != std::string::npos; }),
+            2);
+  const json gltf = document(scene, {.mirror_mpeg_haptics = true, .mirror_khr_physics = true});
+  EXPECT_FALSE(gltf["meshes"][0].contains("extensions"));
+  scene.materials[0].extras_json.clear();
+  EXPECT_FALSE(document(scene, {.mirror_mpeg_haptics = true, .mirror_khr_physics = true}).contains("extensions"));
 }
 
 TEST_F(GlbWriter, LevelsOfDetailAreNodesThatNoSceneNames) {

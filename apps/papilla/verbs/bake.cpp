@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -26,13 +27,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *k_mpeg = "MPEG_material_haptic", *k_khr = "KHR_physics_rigid_bodies";
+
 struct Options {
   std::string input, materials, output, report;
-  std::vector<std::string> libraries;
+  std::vector<std::string> libraries, mirrors;
   bool pictures = false;
   std::optional<std::size_t> budget;
   LeaveOutOptions leave_out;
   SceneOptions scene;
+
+  GlbWriteOptions write_options() const {
+    const auto mirrored = [&](const char* name) { return std::count(mirrors.begin(), mirrors.end(), name) > 0; };
+    return {.mirror_mpeg_haptics = mirrored(k_mpeg), .mirror_khr_physics = mirrored(k_khr)};
+  }
 };
 
 /// Makes the report's folder before the work, so that a wrong path is known at once.
@@ -77,7 +85,8 @@ Json run_bake(const Options& options, VerbContext& context) {
   BakeResult result = bake(std::move(scene), surfaces, context.progress, load_recipes(options.libraries));
   result.seconds.merge(seconds);
   const Stopwatch write_clock;
-  for (const std::string& loss : write_glb(result.scene, options.output, {})) result.scene.losses.push_back(loss);
+  for (const std::string& loss : write_glb(result.scene, options.output, options.write_options()))
+    result.scene.losses.push_back(loss);
   result.seconds["write"] = write_clock.seconds();
 
   Json json = bake_json(result, surfaces);
@@ -131,6 +140,11 @@ void add_bake(CLI::App& program) {
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
+  verb->add_option(
+          "--mirror", options->mirrors,
+          "Repeat what the haptic tags say in drafts of others' extensions, as far as they have a place for it")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({k_mpeg, k_khr}));
   auto* const report =
       verb->add_option("--report", options->report, "Folder for a page to look at (index.html) and report.json")
           ->type_name("DIR");

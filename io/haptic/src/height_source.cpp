@@ -6,36 +6,12 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/sha256.hpp"
+#include "papilla/io/data_uri.hpp"
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/read_file.hpp"
 
 namespace papilla {
 namespace {
-
-int base64_value(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-std::optional<std::string> decode_base64(std::string_view text) {
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  unsigned buffer = 0;
-  int bits = 0;
-  for (const char c : text) {
-    const int value = base64_value(c);
-    if (value < 0) return std::nullopt;
-    buffer = (buffer << 6 | static_cast<unsigned>(value)) & 0xffffU;
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes += static_cast<char>(buffer >> bits & 0xffU);
-  }
-  return bytes;
-}
 
 int hex_value(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -71,9 +47,7 @@ class Finder {
   std::optional<std::string> from_uri(const std::filesystem::path& folder) const {
     if (tag_.uri.empty()) return std::nullopt;
     if (tag_.uri.starts_with("data:")) {
-      const auto comma = tag_.uri.find(";base64,");
-      auto bytes =
-          comma == std::string::npos ? std::nullopt : decode_base64(std::string_view(tag_.uri).substr(comma + 8));
+      auto bytes = decode_data_uri(tag_.uri);
       if (!bytes) warnings_.push_back({"height_data_uri", "the data: URI of the height map is not base64"});
       return bytes && matches(bytes_of(*bytes), "data: URI") ? bytes : std::nullopt;
     }

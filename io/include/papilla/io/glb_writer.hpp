@@ -11,6 +11,10 @@ namespace papilla {
 
 struct GlbWriteOptions {
   double crease_deg = 40;  ///< Parts without normals are shaded smoothly over edges up to this angle.
+  /// Drafts of others' extensions that repeat what the haptic tags say, as far as they have a place for it. The tags
+  /// stay, and count: tools that do not know an extension drop it.
+  bool mirror_mpeg_haptics = false;  ///< MPEG_material_haptic: height maps as vibrotactile textures of whole meshes.
+  bool mirror_khr_physics = false;   ///< KHR_physics_rigid_bodies: friction as physics materials of colliders.
 };
 
 /// Writes a scene as one .glb file: millimetres become metres, v becomes 1 − v, and a root node turns Z up to Y up.
