@@ -10,6 +10,7 @@ const GL_WRAP = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatW
 
 /** A full frame that takes longer makes moving unpleasant. */
 const SLOW_MS = 30;
+const REST_MS = 250, LONGEST_REST_MS = 3000;
 
 export function geometryOf(mesh) {
   const { positions, normals, uv, measured, indices, coarse } = mesh.data;
@@ -55,7 +56,7 @@ function standardMaterial(material) {
 export class SceneView {
   /** @param onPick called with {use, mesh, face, point, bary} */
   constructor(canvas, scene, onPick, onHover) {
-    Object.assign(this, { canvas, data: scene, onPick, onHover });
+    Object.assign(this, { canvas, data: scene, onPick, onHover, fullMs: 0 });
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.ratio = Math.min(window.devicePixelRatio, 2);
     this.renderer.setPixelRatio(this.ratio);
@@ -251,11 +252,12 @@ export class SceneView {
     this.moved();
   }
 
-  /** While the camera moves, a slow machine draws the coarse triangles in half the resolution. */
+  /** While the camera moves, a slow machine draws the coarse triangles in half the resolution; the longer a full frame
+   * takes, the longer it waits for the next move before it begins one. */
   moved() {
     if (this.slow) this.detail(true);
     clearTimeout(this.rest);
-    this.rest = setTimeout(() => this.detail(false), 250);
+    this.rest = setTimeout(() => this.detail(false), Math.min(Math.max(REST_MS, this.fullMs / 2), LONGEST_REST_MS));
     this.invalidate();
   }
 
@@ -296,6 +298,7 @@ export class SceneView {
     if (this.frames < 3 || this.coarse) return;
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until the frame is there
-    this.slow = performance.now() - start > SLOW_MS;
+    this.fullMs = performance.now() - start;
+    this.slow = this.fullMs > SLOW_MS;
   }
 }

@@ -21,7 +21,7 @@ try {
   const turns = [];
   for (let i = 0; i < TURNS; ++i) turns.push(await turn(page));
   const moving = await triangles(page);
-  await page.waitForTimeout(5000);
+  await page.waitForTimeout(8000);
   writeFileSync(out, JSON.stringify({ turn_ms: turns.slice(TURNS / 2), triangles_moving: moving, triangles_at_rest: await triangles(page), complaints }));
 } finally {
   await browser.close();
