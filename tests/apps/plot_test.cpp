@@ -56,5 +56,17 @@ TEST(Plot, LeavesOutWhatALogarithmicAxisHasNoPlaceFor) {
   EXPECT_EQ(*plot_svg(all), *plot_svg(more));
 }
 
+TEST(Plot, NumbersALogarithmicAxisHoweverLittleItShows) {
+  if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
+  const auto shows = [](double low, double high, const std::vector<std::string>& ticks) {
+    const auto svg =
+        plot_svg({.log_y = true, .series = {{"", {{1, low}, {2, high}}}}, .low = {0.5, low}, .high = {2.5, high}});
+    ASSERT_TRUE(svg);
+    for (const std::string& tick : ticks) EXPECT_EQ(count(*svg, ">" + tick + "</"), 1U) << tick << " of " << low;
+  };
+  shows(3.85, 4.34, {"3.9", "4.2", "4.3"});
+  shows(0.04, 0.9, {"0.05", "0.1", "0.2", "0.5"});
+}
+
 }  // namespace
 }  // namespace papilla::app

@@ -35,10 +35,26 @@ std::string legend_of(const EvaluationGroup& group, const EvaluationRun& run) {
   return on_front ? run.name() + " *" : run.name();
 }
 
+// Of the pictures, in pixels: where curves are drawn, what stands around them without the legend, and a letter.
+constexpr int k_curves_px = 520, k_around_px = 200, k_letter_px = 7;
+
+int longest(const std::vector<std::string>& names) {
+  std::size_t most = 0;
+  for (const std::string& name : names) most = std::max(most, name.size());
+  return static_cast<int>(most);
+}
+
+/// What the curves leave free on their left so that the name of the first on the front fits, of what they take.
+double room_for(const std::vector<std::string>& names) {
+  const double name = std::min(static_cast<double>(k_letter_px * longest(names)) / k_curves_px, 0.6);
+  return name / (1 - name);
+}
+
 /// The names of those on the front at the places where each of them first is on it. Nothing lies left of and below the
 /// front, so that is where the names have room: the axes begin so much earlier that the first one fits.
 void name_front(const EvaluationGroup& group, double floor, Plot& plot) {
-  constexpr double k_room_x = 0.45, k_room_y = 0.15, k_line = 0.045;  // of what the points take
+  constexpr double k_room_y = 0.15, k_line = 0.045;  // of what the points take
+  const double room_x = room_for(group.on_front);
   Vec2 low{INFINITY, INFINITY}, high{0, 0};
   for (const PlotSeries& series : plot.series)
     for (const Vec2 p : series.points) {
@@ -48,7 +64,7 @@ void name_front(const EvaluationGroup& group, double floor, Plot& plot) {
   if (group.front.empty() || !std::isfinite(low.x)) return;
   const double decades = std::max(std::log10(high.y / low.y), 0.3),
                decades_x = std::max(std::log10(high.x / low.x), 1.0);
-  plot.low = {low.x * std::pow(10, -k_room_x * decades_x), low.y * std::pow(10, -k_room_y * decades)};
+  plot.low = {low.x * std::pow(10, -room_x * decades_x), low.y * std::pow(10, -k_room_y * decades)};
   plot.high = {1.2 * high.x, high.y * std::pow(10, 0.04 * decades)};
   std::vector<std::string> named;
   double last_y = INFINITY;
@@ -66,6 +82,9 @@ void name_front(const EvaluationGroup& group, double floor, Plot& plot) {
 Plot curves_of(const EvaluationGroup& group) {
   Plot plot{.title = group.input, .x_name = "run time [s]", .y_name = group.error_name, .log_x = true, .log_y = true};
   plot.height_px = std::max(520, 120 + 17 * static_cast<int>(group.runs.size()));
+  std::vector<std::string> names;
+  for (const EvaluationRun* run : group.runs) names.push_back(legend_of(group, *run));
+  plot.width_px = std::max(plot.width_px, k_curves_px + k_around_px + k_letter_px * longest(names));
   const double floor = floor_of(group);
   plot.series.push_back({"Pareto front *", points_of(group.front, floor), Style::band});
   for (std::size_t i = 0; i < group.runs.size(); ++i) {

@@ -69,15 +69,57 @@ bool has_points(const Plot& plot, const PlotSeries& series) {
   return std::any_of(series.points.begin(), series.points.end(), [&](Vec2 p) { return can_be_drawn(plot, p); });
 }
 
-/// A logarithmic axis: powers of ten, or of two as plain numbers.
-std::string log_axis(char axis, double base) {
-  return fmt::format("set logscale {0} {1:g}\nset format {0} '{2}'\n", axis, base, base == 10 ? "10^{%L}" : "%g");
+/// What an axis shows: its given ends, or the points.
+struct Extent {
+  double low = INFINITY, high = 0;
+  double decades() const { return low < high ? std::log10(high / low) : 0; }
+};
+
+Extent extent_of(const Plot& plot, double Vec2::*axis) {
+  if (plot.low.*axis < plot.high.*axis) return {plot.low.*axis, plot.high.*axis};
+  Extent extent;
+  for (const PlotSeries& series : plot.series)
+    for (const Vec2 p : series.points)
+      if (can_be_drawn(plot, p)) extent = {std::min(extent.low, p.*axis), std::max(extent.high, p.*axis)};
+  return extent;
+}
+
+/// 1, 2 or 5 times a power of ten, not far from `about`.
+double round_step(double about) {
+  const double power = std::pow(10, std::floor(std::log10(about))), share = about / power;
+  return power * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
+}
+
+/// Round numbers for a logarithmic axis on which few powers of ten are seen: with their multiples by 2 and 5, or, where
+/// those are few, too, in even steps.
+std::string few_ticks(const Extent& extent) {
+  std::string ticks;
+  const auto add = [&](double value) { ticks += fmt::format("{}{:g}", ticks.empty() ? "" : ", ", value); };
+  constexpr double k_narrow_decades = 0.8, k_steps = 5;
+  if (extent.decades() < k_narrow_decades) {
+    const double step = round_step((extent.high - extent.low) / k_steps);
+    for (double n = std::ceil(extent.low / step); n * step <= extent.high; ++n) add(n * step);
+    return ticks;
+  }
+  for (double power = std::floor(std::log10(extent.low)); power <= std::log10(extent.high); ++power)
+    for (const int multiple : {1, 2, 5}) add(multiple * std::pow(10, power));
+  return ticks;
+}
+
+/// A logarithmic axis: powers of ten, or of two as plain numbers; plain numbers also where few powers are seen.
+std::string log_axis(char axis, double base, const Extent& extent) {
+  constexpr double k_few_decades = 2;
+  std::string script = fmt::format("set logscale {} {:g}\n", axis, base);
+  if (base != 10) return script + fmt::format("set format {} '%g'\n", axis);
+  if (extent.decades() <= 0 || extent.decades() >= k_few_decades)
+    return script + fmt::format("set format {} '10^{{%L}}'\n", axis);
+  return script + fmt::format("set format {0} '%g'\nset {0}tics ({1})\n", axis, few_ticks(extent));
 }
 
 std::string axes_of(const Plot& plot) {
   std::string script;
-  if (plot.log_x) script += log_axis('x', plot.log_x_base);
-  if (plot.log_y) script += log_axis('y', 10);
+  if (plot.log_x) script += log_axis('x', plot.log_x_base, extent_of(plot, &Vec2::x));
+  if (plot.log_y) script += log_axis('y', 10, extent_of(plot, &Vec2::y));
   if (plot.polar)
     return script +
            "set polar\nset angles degrees\nset theta right clockwise\nset size square\nset grid polar 30\n"
