@@ -41,6 +41,9 @@ constexpr int k_halvings = 40;
 constexpr double k_longer = 1.5;
 constexpr double k_longest = 4;
 
+/// The most of the energy that a step's slope may promise, where the step is to be that for the logarithm.
+constexpr double k_most_promised = 0.75;
+
 /// A lengthened step goes this part of its way at most: near a flip the next one would be short.
 constexpr double k_room = 0.5;
 
@@ -301,7 +304,10 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     if (slope < 0) {
       const double most = options.allow_flips ? std::numeric_limits<double>::infinity()
                                               : k_before_flip * step_to_first_flip(problem.triangles, uv, direction);
-      taken = LineSearch(problem, direction, slope, most, uv, result.energy).run(step, result.energy);
+      // The logarithm's Hessian is H / E - g gᵀ / E².
+      const double longer = options.of_logarithm ? step / (1 - std::min(-slope / before, k_most_promised)) : step;
+      const double first = std::max(step, std::min(longer, k_room * most));
+      taken = LineSearch(problem, direction, slope, most, uv, result.energy).run(first, result.energy);
     }
     if (taken.length == 0) {
       // Near the minimum rounding hides how far the energy falls.

@@ -119,7 +119,9 @@ typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index 
   std::unique_ptr<Scalar[]> room;  // of a right branch that runs at the same time as the left one
   if (is_parallel(front)) {
     oneapi::tbb::parallel_invoke(
-        [&] { left = eliminate(front.left, fill, {stacks.other, stacks.own, stacks.element}); },
+        [&] {
+          left = eliminate(front.left, fill, {stacks.other, stacks.own, stacks.element});
+        },
         [&] { right = eliminate_alone(front.right, fill, room); });
   } else {
     Scalar* free = stacks.other;
