@@ -17,8 +17,12 @@ constexpr Index k_leaf = 16;
 /// Branches with fewer multiplications are not worth a task of their own.
 constexpr std::size_t k_parallel_work = 500'000;
 
+/// Panels are kept in blocks of about this size: of blocks that the system has to clear there are then none for small
+/// charts, one after the other.
+constexpr std::size_t k_block_bytes = std::size_t{2} << 20;
+
 /// Columns of an update are cleared from the first row of a block of so many on: dense tiles write there.
-constexpr std::size_t k_block = 4;
+constexpr std::size_t k_clear_columns = 4;
 
 double conjugate(double x) { return x; }
 std::complex<double> conjugate(std::complex<double> x) { return std::conj(x); }
@@ -43,15 +47,8 @@ struct SparseCholesky<Scalar>::Stacks {
 template <class Scalar>
 SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const Vec3> where, int width)
     : width_(static_cast<std::size_t>(width)), elements_(elements), dissection_(dissect(elements, where, k_leaf)) {
-  std::size_t total = 0;
-  panel_.reserve(dissection_.fronts.size());
-  for (const Front& front : dissection_.fronts) {
-    panel_.push_back(total);
-    total += width_ * front.size() * width_ * front.own();
-  }
   for (std::size_t e = 0; e < elements_.count(); ++e)
     largest_element_ = std::max(largest_element_, width_ * elements_.of(e).size());
-  stored_ = total + k_dense_slack;
   place_.resize(elements_.vertices.size());
   for (const Front& front : dissection_.fronts)
     for (const Index e : front.elements)
@@ -60,9 +57,24 @@ SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const
         const auto found = std::lower_bound(front.rows.begin(), front.rows.end(), row) - front.rows.begin();
         place_[i] = row < front.end ? row - front.begin : front.own() + static_cast<Index>(found);
       }
-  factor_ = std::make_unique_for_overwrite<Scalar[]>(stored_);
+  make_panels();
   bad_pivots_.resize(dissection_.fronts.size());
   count_needs();
+}
+
+template <class Scalar>
+void SparseCholesky<Scalar>::make_panels() {
+  const std::vector<Front>& fronts = dissection_.fronts;
+  const auto size = [&](std::size_t f) { return width_ * fronts[f].size() * width_ * fronts[f].own(); };
+  panel_.resize(fronts.size());
+  for (std::size_t begin = 0, end = 0; begin < fronts.size(); begin = end) {
+    std::size_t together = 0;
+    do together += size(end++);
+    while (end < fronts.size() && (together + size(end)) * sizeof(Scalar) <= k_block_bytes);
+    Scalar* next = blocks_.emplace_back(std::make_unique_for_overwrite<Scalar[]>(together + k_dense_slack)).get();
+    for (std::size_t f = begin; f < end; ++f) panel_[f] = std::exchange(next, next + size(f));
+    std::fill_n(next, k_dense_slack, Scalar(0));
+  }
 }
 
 template <class Scalar>
@@ -95,7 +107,6 @@ void SparseCholesky<Scalar>::count_needs() {
 
 template <class Scalar>
 std::size_t SparseCholesky<Scalar>::factor(const FillElement& fill) {
-  std::fill_n(factor_.get() + stored_ - k_dense_slack, k_dense_slack, Scalar(0));
   if (!dissection_.fronts.empty()) eliminate_alone(static_cast<Index>(dissection_.fronts.size() - 1), fill, workspace_);
   std::size_t bad = 0;
   for (const std::size_t count : bad_pivots_) bad += count;
@@ -133,11 +144,12 @@ typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index 
   }
 
   const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
-  Scalar* panel = factor_.get() + panel_[f];
+  Scalar* panel = panel_[f];
   std::fill_n(panel, rows * columns, Scalar(0));
   const Update update{stacks.own, width_ * front.rows.size()};
   for (std::size_t j = 0; j < update.size; ++j)
-    std::fill(update.values + j * update.size + j - j % k_block, update.values + (j + 1) * update.size, Scalar(0));
+    std::fill(update.values + j * update.size + j - j % k_clear_columns, update.values + (j + 1) * update.size,
+              Scalar(0));
   const auto assemble = [&]<std::size_t Width>() {
     add_elements<Width>(front, fill, stacks.element, panel, update);
     if (left.values) add_update<Width>(dissection_.fronts[front.left].into_parent, left, front, panel, update);
@@ -216,7 +228,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     const std::size_t rows = width_ * front.size(), own = width_ * front.own();
     local.assign(rows, Scalar(0));
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
-    solve_forward(factor_.get() + panel_[f], rows, own, local.data());
+    solve_forward(panel_[f], rows, own, local.data());
     std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
     each_row(front, [&](std::size_t row, std::size_t place) { x[row] += local[place]; });
   }
@@ -226,7 +238,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     local.resize(rows);
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
     each_row(front, [&](std::size_t row, std::size_t place) { local[place] = x[row]; });
-    solve_backward(factor_.get() + panel_[f], rows, own, local.data());
+    solve_backward(panel_[f], rows, own, local.data());
     std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
   }
   for (std::size_t i = 0; i < dissection_.order.size(); ++i)

@@ -35,11 +35,11 @@ class SparseCholesky {
   /// Overwrites b, `width` numbers per vertex in the caller's order, by A⁻¹ b.
   void solve(std::span<Scalar> b) const;
 
-  std::size_t stored() const { return stored_; }
-
  private:
   struct Update;
   struct Stacks;
+
+  void make_panels();
 
   /// The most numbers that updates in and below a front take at a time, by the parity of their depth.
   struct Need {
@@ -65,10 +65,9 @@ class SparseCholesky {
   std::size_t width_, largest_element_ = 0;  ///< The latter in unknowns.
   Elements elements_;
   Dissection dissection_;
-  std::vector<Index> place_;        ///< Of each element's members in their front: own unknowns, then rows.
-  std::vector<std::size_t> panel_;  ///< Where each front's columns begin in factor_.
-  std::size_t stored_ = 0;
-  std::unique_ptr<Scalar[]> factor_;
+  std::vector<Index> place_;  ///< Of each element's members in their front: own unknowns, then rows.
+  std::vector<std::unique_ptr<Scalar[]>> blocks_;
+  std::vector<Scalar*> panel_;           ///< Where each front's columns begin in its block.
   std::vector<Need> needs_;              ///< Per front.
   std::unique_ptr<Scalar[]> workspace_;  ///< Kept for the next matrix.
   std::vector<std::size_t> bad_pivots_;  ///< Per front.
