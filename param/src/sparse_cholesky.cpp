@@ -12,7 +12,7 @@ namespace papilla::param_detail {
 namespace {
 
 /// Unknowns at which dissection stops: smaller fronts cost more in bookkeeping than they save.
-constexpr Index k_leaf = 16;
+constexpr Index k_leaf = 24;
 
 /// Branches with fewer multiplications are not worth a task of their own.
 constexpr std::size_t k_parallel_work = 500'000;
