@@ -41,7 +41,9 @@ constexpr int k_halvings = 40;
 constexpr double k_longer = 1.5;
 constexpr double k_longest = 4;
 
-/// The most of the energy that a step's slope may promise, where the step is to be that for the logarithm.
+/// The parts of the energy that a step's slope promises between which the step is that for the logarithm: the slope of
+/// x⁻² promises two thirds.
+constexpr double k_far_promise = 0.3;
 constexpr double k_most_promised = 0.75;
 
 /// A lengthened step goes this part of its way at most: near a flip the next one would be short.
@@ -305,7 +307,8 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
       const double most = options.allow_flips ? std::numeric_limits<double>::infinity()
                                               : k_before_flip * step_to_first_flip(problem.triangles, uv, direction);
       // The logarithm's Hessian is H / E - g gᵀ / E².
-      const double longer = options.of_logarithm ? step / (1 - std::min(-slope / before, k_most_promised)) : step;
+      const double promised = std::min(-slope / before, k_most_promised);
+      const double longer = options.of_logarithm && promised > k_far_promise ? step / (1 - promised) : step;
       const double first = std::max(step, std::min(longer, k_room * most));
       taken = LineSearch(problem, direction, slope, most, uv, result.energy).run(first, result.energy);
     }

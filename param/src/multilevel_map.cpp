@@ -196,7 +196,7 @@ class Multilevel {
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
     descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
     if (is_deep()) descent.tolerance = last ? k_deep_share * options_.tolerance : k_deep_tolerance;
-    descent.of_logarithm = true;
+    descent.of_logarithm = !guarded_;  // the barrier counts in the slope alone
     descent.foresee = last;
     descent.time_limit_s = options_.time_limit_s;
     const DescentResult result =
