@@ -32,6 +32,9 @@ constexpr double k_good_step = 0.3;
 /// A small gain means convergence only where the slope did not promise this many times as much.
 constexpr double k_promise = 10;
 
+/// A shorter step was stopped by the border before the barrier was felt: next time it is. One alone is no convergence.
+constexpr double k_blocked_step = 0.1;
+
 /// Of the gains of a full Newton step and the one before, while there is no other to go by; 0.04 to 0.3 were seen.
 constexpr double k_first_ratio = 0.2;
 
@@ -282,7 +285,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
   result.energy = total_energy(problem, uv);
   result.trace.push_back({clock.seconds(), result.energy});
   double step = 1, slope_before = 0;
-  bool good = false;
+  bool good = false, little_before = false;
   while (result.iterations < options.max_iterations) {
     if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
       result.stop = StopReason::time_limit;
@@ -320,7 +323,10 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     }
     result.trace.push_back({clock.seconds(), result.energy});
     const double gain = before - result.energy, small = options.tolerance * result.energy;
-    const bool stands = std::abs(gain) <= small && (problem.barrier || -slope <= k_promise * small);
+    const bool little = std::abs(gain) <= small;
+    const bool stands = little && (-slope <= k_promise * small ||
+                                   (problem.barrier && (little_before || taken.length >= k_blocked_step)));
+    little_before = little;
     const bool was_last = options.foresee && taken.length >= step && left_after(gain, slope, slope_before) <= small;
     if (stands || was_last) {
       result.stop = StopReason::converged;
