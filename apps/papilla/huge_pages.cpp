@@ -2,7 +2,8 @@
 // Puts large blocks of memory on huge pages: the arrays of a mesh of millions of triangles are walked out of order, and
 // with small pages a quarter of that time goes to page tables. Replaces the global operator new of a program that
 // links this file; where the kernel offers no huge pages nothing changes. Large blocks go back to the system when they
-// are freed: malloc would raise its limit for that to 32 MiB and keep what the tasks of a repair leave behind.
+// are freed: malloc would raise its limit for that to 32 MiB and keep what the tasks of a repair leave behind. What is
+// smaller stays: a heap that shrinks and grows with every chart of a part would be cleared page by page each time.
 #include <malloc.h>
 #include <sys/mman.h>
 
@@ -14,7 +15,7 @@ namespace {
 constexpr std::size_t k_huge_page = std::size_t{2} << 20;
 constexpr std::size_t k_large = 2 * k_huge_page;
 
-const int malloc_gives_back = ::mallopt(M_MMAP_THRESHOLD, k_large);
+const bool malloc_is_told = ::mallopt(M_MMAP_THRESHOLD, k_large) && ::mallopt(M_TRIM_THRESHOLD, 4 * k_large);
 
 void* allocate(std::size_t size) noexcept {
   if (size < k_large) return std::malloc(size > 0 ? size : 1);

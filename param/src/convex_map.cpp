@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <queue>
 #include <utility>
 
 #include "adjacency.hpp"
@@ -44,9 +47,59 @@ void put_on_circle(const Loop& loop, const std::vector<double>& lengths, double 
   }
 }
 
-/// Every free vertex at the mean of its neighbours (edges of two triangles count twice).
+/// The distance of each vertex from the nearest fixed one along edges.
+std::vector<double> depths(std::span<const Triangle> triangles, const std::vector<char>& fixed,
+                           std::span<const Vec3> where) {
+  std::vector<std::vector<Index>> neighbors(where.size());
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      neighbors[t[k]].push_back(t[(k + 1) % 3]);
+      neighbors[t[(k + 1) % 3]].push_back(t[k]);
+    }
+  std::vector<double> depth(where.size(), std::numeric_limits<double>::infinity());
+  using Reached = std::pair<double, Index>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
+  for (Index v = 0; v < where.size(); ++v)
+    if (fixed[v]) depth[v] = 0, queue.emplace(0, v);
+  while (!queue.empty()) {
+    const auto [distance, v] = queue.top();
+    queue.pop();
+    if (distance > depth[v]) continue;
+    for (const Index w : neighbors[v])
+      if (const double by_v = distance + norm(where[w] - where[v]); by_v < depth[w])
+        depth[w] = by_v, queue.emplace(by_v, w);
+  }
+  return depth;
+}
+
+/// How much edges pull. A uniform pull shrinks a finger by a factor per ring of edges, below what numbers resolve when
+/// it is long. What leads away from the border pulls harder where the disk is deeper than its border is wide: by the
+/// square of that ratio, which leaves a finger of any length about one such factor in all.
+class Pull {
+ public:
+  Pull(std::span<const Triangle> triangles, const std::vector<char>& fixed, std::span<const Vec3> where,
+       double border_length)
+      : where_(where), depth_(depths(triangles, fixed, where)) {
+    const double deepest = *std::max_element(depth_.begin(), depth_.end());
+    const double ratio = 2 * std::numbers::pi * deepest / border_length;
+    if (ratio > 1 && std::isfinite(ratio)) along_depth_ = ratio * ratio - 1;
+  }
+
+  double operator()(Index v, Index w) const {
+    const Vec3 edge = where_[w] - where_[v];
+    const double squared = dot(edge, edge), deeper = depth_[w] - depth_[v];
+    return squared > 0 ? 1 + along_depth_ * std::min(1.0, deeper * deeper / squared) : 1;
+  }
+
+ private:
+  std::span<const Vec3> where_;
+  std::vector<double> depth_;
+  double along_depth_ = 0;
+};
+
+/// Every free vertex at the mean of its neighbours, weighted by the pull (edges of two triangles count twice).
 void average(std::span<const Triangle> triangles, const std::vector<char>& fixed, std::span<const Vec3> where,
-             std::vector<Vec2>& uv) {
+             const Pull& pull, std::vector<Vec2>& uv) {
   std::vector<Index> row(uv.size(), k_no_triangle);
   std::vector<Vec3> where_free;
   for (Index v = 0; v < uv.size(); ++v)
@@ -60,14 +113,23 @@ void average(std::span<const Triangle> triangles, const std::vector<char>& fixed
       if (fixed[v]) continue;
       members.push_back(row[v]);
       for (const Index w : t)
-        if (fixed[w]) right[row[v]] = right[row[v]] + uv[w];
+        if (fixed[w]) right[row[v]] = right[row[v]] + pull(v, w) * uv[w];
     }
     elements.add(members);
   }
   SparseCholesky<double> factor(elements, where_free, 1);
   factor.factor([&](std::size_t e, double* matrix) {
-    const std::size_t size = elements.of(e).size();
-    for (std::size_t i = 0; i < size * size; ++i) matrix[i] = i % (size + 1) == 0 ? 2 : -1;
+    for (const Index v : triangles[e]) {
+      if (fixed[v]) continue;
+      double sum = 0, *diagonal = nullptr;
+      for (const Index w : triangles[e]) {
+        if (w != v) sum += pull(v, w);
+        if (fixed[w]) continue;
+        if (w == v) diagonal = matrix;
+        *matrix++ = -pull(v, w);
+      }
+      *diagonal = sum;
+    }
   });
   std::vector<double> x(right.size());
   for (double Vec2::*axis : {&Vec2::x, &Vec2::y}) {
@@ -109,7 +171,7 @@ std::vector<Vec2> map_to_circle(const MapLevel& level, std::span<const Vec3> pos
   std::vector<char> fixed(where.size(), 0);
   for (const Index v : loops[outer]) fixed[v] = 1;
   put_on_circle(loops[outer], longest, std::sqrt(level.area / std::numbers::pi), uv);
-  average(triangles, fixed, where, uv);
+  average(triangles, fixed, where, Pull(triangles, fixed, where, longest_sum), uv);
   uv.resize(level.vertices.size());
   return uv;
 }

@@ -8,9 +8,10 @@
 
 namespace papilla::param_detail {
 
-/// Tutte's map of a small disk, holes filled by fans, with uniform weights: the longest border goes to a circle of the
-/// disk's area, edges along it in proportion to their length as far as that leaves none too short. Valid for every
-/// triangulated disk without double edges, up to rounding.
+/// Tutte's map of a small disk, holes filled by fans: the longest border goes to a circle of the disk's area, edges
+/// along it in proportion to their length as far as that leaves none too short. Weights are uniform on disks that are
+/// less deep than wide; on deeper ones, edges that lead away from the border weigh more. Valid for every triangulated
+/// disk without double edges, up to rounding.
 std::vector<Vec2> map_to_circle(const MapLevel& level, std::span<const Vec3> positions);
 
 }  // namespace papilla::param_detail

@@ -72,9 +72,11 @@ class DiskHierarchy::Coarsener {
   struct Ring {
     std::array<Index, k_most_triangles + 1> vertex;
     std::array<Index, k_most_triangles> triangle;
+    std::array<Vec3, k_most_triangles + 1> position;  ///< Of the vertices; set by best_target().
     std::size_t triangles = 0, size = 0;
     bool closed = false;
     Vec3 normal;  ///< Sum of the triangles' cross products; set by best_target().
+    std::size_t after(std::size_t i) const { return i + 1 == size ? 0 : i + 1; }
   };
 
   struct Candidate {
@@ -145,32 +147,33 @@ class DiskHierarchy::Coarsener {
       return true;
     });
     if (!small || count == 0) return false;
-    const auto first = [count](const std::array<Index, k_most_triangles>& list, Index wanted) {
-      return static_cast<std::size_t>(std::find(list.begin(), list.begin() + count, wanted) - list.begin());
+    // Into the order around the vertex, those that are left behind: from the first triangle on, and before it.
+    std::size_t ordered = 1;
+    const auto bring = [&](const std::array<Index, k_most_triangles>& list, Index wanted) {
+      for (std::size_t i = ordered; i < count; ++i)
+        if (list[i] == wanted) {
+          std::swap(from[i], from[ordered]), std::swap(to[i], to[ordered]), std::swap(triangle[i], triangle[ordered]);
+          ++ordered;
+          return true;
+        }
+      return false;
     };
-    // Backwards from any triangle: to the border, or once around.
-    std::size_t start = 0;
-    for (std::size_t i = 1; i < count; ++i) {
-      const std::size_t before = first(to, from[start]);
-      if (before == count) break;
-      start = before;
+    while (bring(from, to[ordered - 1])) {
     }
-    ring.closed = first(to, from[start]) != count;
-    ring.triangles = count;
-    ring.size = 0;
-    std::size_t at = start;
-    for (std::size_t i = 0; i < count; ++i) {
-      ring.vertex[ring.size++] = from[at];
-      ring.triangle[i] = triangle[at];
-      const Index end = to[at];
-      if (i + 1 == count) {
-        if (ring.closed != (end == ring.vertex[0])) return false;
-        if (!ring.closed) ring.vertex[ring.size++] = end;
-        break;
+    const std::size_t ahead = ordered;
+    ring.closed = to[ahead - 1] == from[0];
+    if (!ring.closed)
+      while (bring(to, from[ordered == ahead ? 0 : ordered - 1])) {
       }
-      at = first(from, end);
-      if (at == count) return false;
+    if (ordered != count) return false;
+    ring.triangles = ring.size = count;
+    const std::size_t behind = count - ahead;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = ring.closed ? (i + 1) % count : i < behind ? count - 1 - i : i - behind;
+      ring.vertex[i] = from[at];
+      ring.triangle[i] = triangle[at];
     }
+    if (!ring.closed) ring.vertex[ring.size++] = to[ahead - 1];
     return ring.closed ? ring.size >= 3 : ring.triangles >= 2;
   }
 
@@ -195,10 +198,11 @@ class DiskHierarchy::Coarsener {
   }
 
   Candidate best_target(Index v, Ring& ring, const Round& round) {
+    const Vec3 origin = positions_[v];
+    for (std::size_t i = 0; i < ring.size; ++i) ring.position[i] = positions_[ring.vertex[i]];
     ring.normal = {};
     for (std::size_t i = 0; i < ring.triangles; ++i)
-      ring.normal = ring.normal + cross(positions_[ring.vertex[i]] - positions_[v],
-                                        positions_[ring.vertex[(i + 1) % ring.size]] - positions_[v]);
+      ring.normal = ring.normal + cross(ring.position[i] - origin, ring.position[ring.after(i)] - origin);
     Candidate best{std::numeric_limits<double>::infinity(), v, k_none};
     if (!ring.closed) {
       consider(v, ring, 0, round, best);
@@ -207,7 +211,7 @@ class DiskHierarchy::Coarsener {
     }
     std::array<double, k_most_triangles> squared;
     for (std::size_t i = 0; i < ring.size; ++i) {
-      const Vec3 e = positions_[ring.vertex[i]] - positions_[v];
+      const Vec3 e = ring.position[i] - origin;
       squared[i] = dot(e, e);
     }
     const auto shortest =
@@ -226,7 +230,7 @@ class DiskHierarchy::Coarsener {
   double worst_shape(Vec3 origin, const Ring& ring) const {
     double worst = 1;
     for (std::size_t i = 0; i < ring.triangles; ++i) {
-      const Vec3 p = positions_[ring.vertex[i]] - origin, q = positions_[ring.vertex[(i + 1) % ring.size]] - origin;
+      const Vec3 p = ring.position[i] - origin, q = ring.position[ring.after(i)] - origin;
       const Vec3 r = q - p;
       worst = std::min(worst, shape(norm(cross(p, q)), dot(p, p) + dot(q, q) + dot(r, r)));
     }
@@ -234,14 +238,14 @@ class DiskHierarchy::Coarsener {
   }
 
   void consider(Index v, const Ring& ring, std::size_t place, const Round& round, Candidate& best) {
-    const Vec3 origin = positions_[v], target = positions_[ring.vertex[place]];
+    const Vec3 origin = positions_[v], target = ring.position[place];
     const Vec3 edge = target - origin, normal = ring.normal;
     const double size = norm(normal);
     double cosine = 1, quality = 1;
     for (std::size_t i = 0; i < ring.triangles; ++i) {
-      const std::size_t j = (i + 1) % ring.size;
+      const std::size_t j = ring.after(i);
       if (i == place || j == place) continue;
-      const Vec3 p = positions_[ring.vertex[i]] - target, q = positions_[ring.vertex[j]] - target, r = q - p;
+      const Vec3 p = ring.position[i] - target, q = ring.position[j] - target, r = q - p;
       const Vec3 doubled = cross(p, q);
       const double area = norm(doubled);
       if (area > 0 && size > 0) cosine = std::min(cosine, dot(doubled, normal) / (area * size));
@@ -250,7 +254,7 @@ class DiskHierarchy::Coarsener {
     if (cosine < round.cosine) return;
     if (quality < round.shape && quality < 0.5 * worst_shape(origin, ring)) return;
     if (!ring.closed) {
-      const Vec3 in = origin - positions_[ring.vertex.front()], out = positions_[ring.vertex[ring.size - 1]] - origin;
+      const Vec3 in = origin - ring.position.front(), out = ring.position[ring.size - 1] - origin;
       const double lengths = norm(in) * norm(out);
       if (lengths > 0) cosine = std::min(cosine, dot(in, out) / lengths);
     }

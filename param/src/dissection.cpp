@@ -19,25 +19,29 @@ struct Graph {
 };
 
 Graph graph_of(const Elements& elements, Index count) {
-  std::vector<Index> first(count + 2, 0);
-  for (std::size_t e = 0; e < elements.count(); ++e)
-    for (const Index v : elements.of(e)) first[v + 2] += static_cast<Index>(elements.of(e).size()) - 1;
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Index> pairs(first.back());
-  for (std::size_t e = 0; e < elements.count(); ++e)
-    for (const Index v : elements.of(e))
-      for (const Index w : elements.of(e))
-        if (w != v) pairs[first[v + 1]++] = w;
+  // The elements of each vertex.
+  std::vector<Index> begin(count + 2, 0), room(count + 1, 0), element_of(elements.vertices.size());
+  for (const Index v : elements.vertices) ++begin[v + 2];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  for (Index e = 0; e < elements.count(); ++e)
+    for (const Index v : elements.of(e)) {
+      element_of[begin[v + 1]++] = e;
+      room[v + 1] += static_cast<Index>(elements.of(e).size()) - 1;
+    }
+  std::partial_sum(room.begin(), room.end(), room.begin());
+  // Vertices enter their neighbours' lists in ascending order, so that a second time comes right after the first.
+  std::vector<Index> list(room.back()), end(room.begin(), room.end() - 1);
+  for (Index v = 0; v < count; ++v)
+    for (Index i = begin[v]; i < begin[v + 1]; ++i)
+      for (const Index w : elements.of(element_of[i]))
+        if (w != v && (end[w] == room[w] || list[end[w] - 1] != v)) list[end[w]++] = v;
   Graph graph;
   graph.first.assign(1, 0);
   graph.first.reserve(count + 1);
-  graph.neighbors.reserve(pairs.size() / 2 + count);
-  for (Index v = 0; v < count; ++v) {
-    const auto begin = pairs.begin() + first[v], end = pairs.begin() + first[v + 1];
-    std::sort(begin, end);
-    graph.neighbors.insert(graph.neighbors.end(), begin, std::unique(begin, end));
-    graph.first.push_back(static_cast<Index>(graph.neighbors.size()));
-  }
+  for (Index v = 0; v < count; ++v) graph.first.push_back(graph.first.back() + end[v] - room[v]);
+  graph.neighbors.reserve(graph.first.back());
+  for (Index v = 0; v < count; ++v)
+    graph.neighbors.insert(graph.neighbors.end(), list.begin() + room[v], list.begin() + end[v]);
   return graph;
 }
 
@@ -132,12 +136,17 @@ class Dissector {
   Cut cut_at(std::vector<Index> sorted, std::size_t middle, std::uint32_t inside) {
     const std::uint32_t right_half = ++marks_;
     for (std::size_t i = middle; i < sorted.size(); ++i) mark_[sorted[i]] = right_half;
-    const std::uint32_t separator = ++marks_;
+    const std::uint32_t right_at_cut = ++marks_, separator = ++marks_;
     std::array<std::vector<Index>, 2> at_cut;
-    for (const bool right : {false, true})
-      for (std::size_t i = right ? middle : 0; i < (right ? sorted.size() : middle); ++i)
-        if (touches(sorted[i], [&](Index w) { return region_[w] == inside && (mark_[w] == right_half) != right; }))
-          at_cut[right].push_back(sorted[i]);
+    for (std::size_t i = 0; i < middle; ++i) {
+      bool touches = false;
+      for (const Index w : graph_.of(sorted[i]))
+        if (region_[w] == inside && (mark_[w] == right_half || mark_[w] == right_at_cut))
+          touches = true, mark_[w] = right_at_cut;
+      if (touches) at_cut[0].push_back(sorted[i]);
+    }
+    for (std::size_t i = middle; i < sorted.size(); ++i)
+      if (mark_[sorted[i]] == right_at_cut) at_cut[1].push_back(sorted[i]);
     // The half whose members at the cut are fewer gives the separator.
     const std::vector<Index>& chosen = at_cut[at_cut[1].size() < at_cut[0].size()];
     std::vector<Index> members;
@@ -154,11 +163,6 @@ class Dissector {
     members.insert(members.end(), chosen.begin(), chosen.end());
     cut.members = std::move(members);
     return cut;
-  }
-
-  template <class Test>
-  bool touches(Index v, Test test) const {
-    return std::any_of(graph_.of(v).begin(), graph_.of(v).end(), test);
   }
 
   Index add_front(std::span<const Index> own, Index left, Index right) {

@@ -32,6 +32,9 @@ constexpr double k_good_step = 0.3;
 /// A small gain means convergence only where the slope did not promise this many times as much.
 constexpr double k_promise = 10;
 
+/// A shorter step was stopped by the border before the barrier was felt: next time it is. One alone is no convergence.
+constexpr double k_blocked_step = 0.1;
+
 /// Of the gains of a full Newton step and the one before, while there is no other to go by; 0.04 to 0.3 were seen.
 constexpr double k_first_ratio = 0.2;
 
@@ -40,6 +43,11 @@ constexpr int k_halvings = 40;
 /// A step that could be this much longer is tried so; by how much at once at most.
 constexpr double k_longer = 1.5;
 constexpr double k_longest = 4;
+
+/// The parts of the energy that a step's slope promises between which the step is that for the logarithm: the slope of
+/// x⁻² promises two thirds.
+constexpr double k_far_promise = 0.3;
+constexpr double k_most_promised = 0.75;
 
 /// A lengthened step goes this part of its way at most: near a flip the next one would be short.
 constexpr double k_room = 0.5;
@@ -277,7 +285,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
   result.energy = total_energy(problem, uv);
   result.trace.push_back({clock.seconds(), result.energy});
   double step = 1, slope_before = 0;
-  bool good = false;
+  bool good = false, little_before = false;
   while (result.iterations < options.max_iterations) {
     if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
       result.stop = StopReason::time_limit;
@@ -301,7 +309,11 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     if (slope < 0) {
       const double most = options.allow_flips ? std::numeric_limits<double>::infinity()
                                               : k_before_flip * step_to_first_flip(problem.triangles, uv, direction);
-      taken = LineSearch(problem, direction, slope, most, uv, result.energy).run(step, result.energy);
+      // The logarithm's Hessian is H / E - g gᵀ / E².
+      const double promised = std::min(-slope / before, k_most_promised);
+      const double longer = options.of_logarithm && promised > k_far_promise ? step / (1 - promised) : step;
+      const double first = std::max(step, std::min(longer, k_room * most));
+      taken = LineSearch(problem, direction, slope, most, uv, result.energy).run(first, result.energy);
     }
     if (taken.length == 0) {
       // Near the minimum rounding hides how far the energy falls.
@@ -311,7 +323,10 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     }
     result.trace.push_back({clock.seconds(), result.energy});
     const double gain = before - result.energy, small = options.tolerance * result.energy;
-    const bool stands = std::abs(gain) <= small && (problem.barrier || -slope <= k_promise * small);
+    const bool little = std::abs(gain) <= small;
+    const bool stands = little && (-slope <= k_promise * small ||
+                                   (problem.barrier && (little_before || taken.length >= k_blocked_step)));
+    little_before = little;
     const bool was_last = options.foresee && taken.length >= step && left_after(gain, slope, slope_before) <= small;
     if (stands || was_last) {
       result.stop = StopReason::converged;

@@ -17,7 +17,10 @@ struct DescentOptions {
   double time_limit_s = 0;    ///< 0: none.
   bool allow_flips = false;   ///< Let triangles turn over; the energy must then be finite for such.
   bool reuse_factor = false;  ///< Factor again only when a step disappoints: for energies that are nearly quadratic.
-  bool foresee = false;       ///< Stop also when what full steps have still to gain is below the tolerance.
+  /// Far from the minimum, make the steps of Newton's method for the logarithm of the energy. These go the same way,
+  /// and further: near a wall like 1/x² three times as far.
+  bool of_logarithm = false;
+  bool foresee = false;  ///< Stop also when what full steps have still to gain is below the tolerance.
 };
 
 struct DescentResult {

@@ -7,36 +7,9 @@
 namespace papilla::param_detail {
 namespace {
 
-/// The projected Hessian by the four numbers of J, in the order (∂u/∂x, ∂v/∂x, ∂u/∂y, ∂v/∂y), for unit area.
-using JacobianHessian = std::array<std::array<double, 4>, 4>;
-
-JacobianHessian jacobian_hessian(const Jacobian& j) {
-  const double det = j.determinant(), squared = j.squared();
-  const double inverse = 1 / det, inverse2 = inverse * inverse, inverse3 = inverse2 * inverse;
-  const std::array<double, 4> a{j.x.x, j.x.y, j.y.x, j.y.y};
-  const std::array<double, 4> cofactor{j.y.y, -j.y.x, -j.x.y, j.x.x};  // ∂det/∂J
-  JacobianHessian h;
-  const double mixed = -4 * inverse3, pure = 6 * squared * inverse2 * inverse2;
-  for (std::size_t r = 0; r < 4; ++r)
-    for (std::size_t c = 0; c < 4; ++c)
-      h[r][c] = mixed * (a[r] * cofactor[c] + cofactor[r] * a[c]) + pure * cofactor[r] * cofactor[c];
-  for (std::size_t r = 0; r < 4; ++r) h[r][r] += 2 * (1 + inverse2);
-  const double bend = -2 * squared * inverse3;  // times ∂²det
-  h[0][3] += bend, h[3][0] += bend, h[1][2] -= bend, h[2][1] -= bend;
-  // The eigenvalue of the rotation of the polar factor R: J = R S, direction R (0 -1; 1 0) / √2.
-  const double rotation = 2 - 2 * (squared - det) * inverse3;
-  if (rotation < 0) {
-    double c = j.x.x + j.y.y, s = j.x.y - j.y.x;
-    const double size = std::sqrt(c * c + s * s);
-    if (size > 0) {
-      c /= size, s /= size;
-      // R = (c -s; s c); R (0 -1; 1 0) = (-s -c; c -s), by columns.
-      const std::array<double, 4> turn{-s, c, -c, -s};
-      for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t k = 0; k < 4; ++k) h[r][k] -= 0.5 * rotation * turn[r] * turn[k];
-    }
-  }
-  return h;
+/// (∂J/∂corner)ᵀ of a matrix with the columns x and y.
+std::array<Vec2, 3> by_corners(const CornerFactors& f, Vec2 x, Vec2 y) {
+  return {f[0][0] * x + f[0][1] * y, f[1][0] * x + f[1][1] * y, f[2][0] * x + f[2][1] * y};
 }
 
 }  // namespace
@@ -59,19 +32,40 @@ CornerGradient SymmetricDirichlet::gradient(std::size_t triangle, Vec2 a, Vec2 b
 }
 
 void SymmetricDirichlet::hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double* matrix) const {
+  // For J as one vector j, with C = ∂det/∂J:
+  // 2 (1 + det⁻²) I - 4 det⁻³ (j Cᵀ + C jᵀ) + 6 |J|² det⁻⁴ C Cᵀ - 2 |J|² det⁻³ ∂²det, for unit area.
   const RestShape& rest = rest_[triangle];
-  const JacobianHessian h = jacobian_hessian(jacobian(rest, b - a, c - a));
+  const Jacobian j = jacobian(rest, b - a, c - a);
   const CornerFactors f = corner_factors(rest);
-  // Rows of J's Hessian times the factors of each corner, first on one side, then on the other.
-  double half[4][6];
-  for (std::size_t r = 0; r < 4; ++r)
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      for (std::size_t k = 0; k < 2; ++k)
-        half[r][2 * corner + k] = rest.area * (f[corner][0] * h[r][k] + f[corner][1] * h[r][k + 2]);
-  for (std::size_t column = 0; column < 6; ++column)
-    for (std::size_t corner = column / 2; corner < 3; ++corner)
-      for (std::size_t k = 0; k < 2; ++k)
-        matrix[6 * column + 2 * corner + k] = f[corner][0] * half[k][column] + f[corner][1] * half[k + 2][column];
+  const double det = j.determinant(), squared = j.squared();
+  const double inverse = 1 / det, inverse2 = inverse * inverse, inverse3 = inverse2 * inverse;
+  const double diagonal = 2 * rest.area * (1 + inverse2), mixed = -4 * rest.area * inverse3;
+  const double pure = 6 * rest.area * squared * inverse2 * inverse2, bend = -2 * rest.area * squared * inverse3;
+  const auto own = by_corners(f, j.x, j.y), cofactor = by_corners(f, {j.y.y, -j.y.x}, {-j.x.y, j.x.x});
+  // The eigenvalue of the rotation of the polar factor R: J = R S, direction R (0 -1; 1 0) / √2.
+  const double eigenvalue = rest.area * (2 - 2 * (squared - det) * inverse3);
+  double rotation = 0;
+  std::array<Vec2, 3> turn{};
+  if (eigenvalue < 0) {
+    const Vec2 r{j.x.x + j.y.y, j.x.y - j.y.x};
+    // R = (c -s; s c); R (0 -1; 1 0) = (-s -c; c -s), by columns.
+    if (const double size = dot(r, r); size > 0) {
+      turn = by_corners(f, {-r.y, r.x}, {-r.x, -r.y});
+      rotation = -0.5 * eigenvalue / size;
+    }
+  }
+  for (std::size_t q = 0; q < 3; ++q)
+    for (std::size_t p = q; p < 3; ++p) {
+      const double same = diagonal * (f[p][0] * f[q][0] + f[p][1] * f[q][1]);
+      const double skew = bend * (f[p][0] * f[q][1] - f[p][1] * f[q][0]);
+      // Rows are corner p's, columns corner q's.
+      const Vec2 left = mixed * own[p] + pure * cofactor[p], right = mixed * cofactor[p], turned = rotation * turn[p];
+      const Vec2 first = cofactor[q].x * left + own[q].x * right + turn[q].x * turned;
+      const Vec2 second = cofactor[q].y * left + own[q].y * right + turn[q].y * turned;
+      double* block = matrix + 6 * (2 * q) + 2 * p;
+      block[0] = first.x + same, block[1] = first.y - skew;
+      block[6] = second.x + skew, block[7] = second.y + same;
+    }
 }
 
 }  // namespace papilla::param_detail

@@ -28,10 +28,15 @@ constexpr double k_coarse_tolerance = 1e-2;
 constexpr int k_coarse_iterations = 100;
 constexpr double k_relax_tolerance = 3e-3;
 
-/// From this mean energy on a chart counts as deep: fingers, arms. There levels grow slowly and are brought nearer to
+/// From this mean energy on a chart counts as deep: fingers, arms. It then begins with more vertices, enough for some
+/// around each finger: from fewer, finer levels fall into poor minima. Levels grow slowly and are brought nearer to
 /// their minimum, for steps are cheaper on a coarse level than on a fine one that starts far off.
 constexpr double k_deep_energy = 15;
-constexpr std::size_t k_deep_growth = 2;
+constexpr std::size_t k_deep_base_vertices = 200;
+constexpr std::size_t k_deep_growth = 3;
+
+/// A finer beginning whose energy is this many times that of the coarsest level has failed.
+constexpr double k_much_worse = 2;
 constexpr double k_deep_tolerance = 1.5e-3;
 
 /// Their last steps are many and small: what counts as small is halved.
@@ -74,17 +79,51 @@ class Multilevel {
   MultilevelMap take() { return std::move(result_); }
 
  private:
+  /// Tutte's map of the chart as coarse as it is now. @return whether it has one.
+  bool start(MapLevel& level) {
+    result_ = {};
+    level = make_level();
+    level.uv = map_to_circle(level, chart_.positions);
+    if (!std::isfinite(total(level))) return false;
+    keep(level);
+    return true;
+  }
+
+  void bring_to(std::size_t vertices) {
+    while (hierarchy_.vertex_count() > vertices) hierarchy_.remove_again();
+    while (hierarchy_.removed_count() > 0 && hierarchy_.vertex_count() < vertices) hierarchy_.restore();
+  }
+
+  /// Puts a finer beginning into the place of the coarsest level, unless none is any good.
+  /// @param level the coarsest one, improved; the finer one, improved, on return.
+  /// @param beginning gets the finer one as it was before.
+  void begin_finer(MapLevel& level, MapLevel& beginning) {
+    const double coarsest = mean_energy_;
+    for (std::size_t vertices = k_deep_base_vertices; vertices >= 2 * level.vertices.size(); vertices /= 2) {
+      bring_to(vertices);
+      MapLevel finer;
+      if (!start(finer)) continue;
+      MapLevel improved = finer;
+      improve(improved);
+      if (!(mean_energy_ < k_much_worse * coarsest)) continue;
+      beginning = std::move(finer);
+      level = std::move(improved);
+      return;
+    }
+    bring_to(level.vertices.size());
+    result_ = {};
+    mean_energy_ = coarsest;
+  }
+
   /// From Tutte's map of the chart as coarse as it is now.
   bool run_from_here() {
     guarded_ = false;
-    result_ = {};
-    MapLevel level = make_level();
-    level.uv = map_to_circle(level, chart_.positions);
-    if (!std::isfinite(total(level))) return fail("Tutte's map of the coarsened chart is not valid");
-    keep(level);
+    MapLevel level;
+    if (!start(level)) return fail("Tutte's map of the coarsened chart is not valid");
     std::vector<MapLevel> left_alone{level};  // levels before the border was watched
-    for (;;) {
+    for (bool first = true;; first = false) {
       improve(level);
+      if (first && is_deep()) begin_finer(level, left_alone.front());
       std::string why = "the chart overlaps itself";
       if (is_simple(level)) {
         keep(level);
@@ -157,6 +196,7 @@ class Multilevel {
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
     descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
     if (is_deep()) descent.tolerance = last ? k_deep_share * options_.tolerance : k_deep_tolerance;
+    descent.of_logarithm = !guarded_;  // the barrier counts in the slope alone
     descent.foresee = last;
     descent.time_limit_s = options_.time_limit_s;
     const DescentResult result =

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "dense_cholesky.hpp"
 
@@ -11,34 +12,43 @@ namespace papilla::param_detail {
 namespace {
 
 /// Unknowns at which dissection stops: smaller fronts cost more in bookkeeping than they save.
-constexpr Index k_leaf = 16;
+constexpr Index k_leaf = 24;
 
 /// Branches with fewer multiplications are not worth a task of their own.
-constexpr std::size_t k_parallel_work = 200'000;
+constexpr std::size_t k_parallel_work = 500'000;
+
+/// Panels are kept in blocks of about this size: of blocks that the system has to clear there are then none for small
+/// charts, one after the other.
+constexpr std::size_t k_block_bytes = std::size_t{2} << 20;
+
+/// Columns of an update are cleared from the first row of a block of so many on: dense tiles write there.
+constexpr std::size_t k_clear_columns = 4;
 
 double conjugate(double x) { return x; }
 std::complex<double> conjugate(std::complex<double> x) { return std::conj(x); }
 
 }  // namespace
 
-/// What a front hands to its parent: a square matrix over its rows, lower half.
+/// What a front hands to its parent: a square matrix over its rows, lower half, column by column.
 template <class Scalar>
 struct SparseCholesky<Scalar>::Update {
-  std::vector<Scalar> values;
+  Scalar* values = nullptr;
   std::size_t size = 0;
+};
+
+/// Where updates lie until the parent has taken them: those of a front's own depth in one place, those of the next
+/// depth in the other, and so on in turns. A branch that is done leaves nothing but its root's update.
+template <class Scalar>
+struct SparseCholesky<Scalar>::Stacks {
+  Scalar *own, *other;
+  Scalar* element;  ///< Room for one element's matrix.
 };
 
 template <class Scalar>
 SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const Vec3> where, int width)
     : width_(static_cast<std::size_t>(width)), elements_(elements), dissection_(dissect(elements, where, k_leaf)) {
-  std::size_t total = 0;
-  for (const Front& front : dissection_.fronts) {
-    panel_.push_back(total);
-    total += width_ * front.size() * width_ * front.own();
-  }
   for (std::size_t e = 0; e < elements_.count(); ++e)
     largest_element_ = std::max(largest_element_, width_ * elements_.of(e).size());
-  stored_ = total + k_dense_slack;
   place_.resize(elements_.vertices.size());
   for (const Front& front : dissection_.fronts)
     for (const Index e : front.elements)
@@ -47,69 +57,133 @@ SparseCholesky<Scalar>::SparseCholesky(const Elements& elements, std::span<const
         const auto found = std::lower_bound(front.rows.begin(), front.rows.end(), row) - front.rows.begin();
         place_[i] = row < front.end ? row - front.begin : front.own() + static_cast<Index>(found);
       }
-  factor_ = std::make_unique_for_overwrite<Scalar[]>(stored_);
+  make_panels();
   bad_pivots_.resize(dissection_.fronts.size());
+  count_needs();
+}
+
+template <class Scalar>
+void SparseCholesky<Scalar>::make_panels() {
+  const std::vector<Front>& fronts = dissection_.fronts;
+  const auto size = [&](std::size_t f) { return width_ * fronts[f].size() * width_ * fronts[f].own(); };
+  panel_.resize(fronts.size());
+  for (std::size_t begin = 0, end = 0; begin < fronts.size(); begin = end) {
+    std::size_t together = 0;
+    do together += size(end++);
+    while (end < fronts.size() && (together + size(end)) * sizeof(Scalar) <= k_block_bytes);
+    Scalar* next = blocks_.emplace_back(std::make_unique_for_overwrite<Scalar[]>(together + k_dense_slack)).get();
+    for (std::size_t f = begin; f < end; ++f) panel_[f] = std::exchange(next, next + size(f));
+    std::fill_n(next, k_dense_slack, Scalar(0));
+  }
+}
+
+template <class Scalar>
+bool SparseCholesky<Scalar>::is_parallel(const Front& front) const {
+  return front.right != k_no_front && front.subtree_work * width_ * width_ * width_ > k_parallel_work;
+}
+
+template <class Scalar>
+std::size_t SparseCholesky<Scalar>::update_size(Index f) const {
+  const std::size_t rows = width_ * dissection_.fronts[f].rows.size();
+  return rows * rows;
+}
+
+template <class Scalar>
+void SparseCholesky<Scalar>::count_needs() {
+  needs_.resize(dissection_.fronts.size());
+  for (Index f = 0; f < needs_.size(); ++f) {
+    const Front& front = dissection_.fronts[f];
+    Need& need = needs_[f];
+    need.own = update_size(f);
+    std::size_t siblings = 0;
+    for (const Index child : {front.left, front.right}) {
+      if (child == k_no_front || (child == front.right && is_parallel(front))) continue;
+      need.own = std::max(need.own, needs_[child].other);
+      need.other = std::max(need.other, siblings + needs_[child].own);
+      siblings += update_size(child);
+    }
+  }
 }
 
 template <class Scalar>
 std::size_t SparseCholesky<Scalar>::factor(const FillElement& fill) {
-  std::fill_n(factor_.get() + stored_ - k_dense_slack, k_dense_slack, Scalar(0));
-  if (!dissection_.fronts.empty()) eliminate(static_cast<Index>(dissection_.fronts.size() - 1), fill);
+  if (!dissection_.fronts.empty()) eliminate_alone(static_cast<Index>(dissection_.fronts.size() - 1), fill, workspace_);
   std::size_t bad = 0;
   for (const std::size_t count : bad_pivots_) bad += count;
   return bad;
 }
 
 template <class Scalar>
-typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index f, const FillElement& fill) {
+typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate_alone(Index f, const FillElement& fill,
+                                                                                std::unique_ptr<Scalar[]>& room) {
+  const Need& need = needs_[f];
+  if (!room)
+    room = std::make_unique_for_overwrite<Scalar[]>(need.own + need.other + largest_element_ * largest_element_);
+  return eliminate(f, fill, {room.get(), room.get() + need.own, room.get() + need.own + need.other});
+}
+
+template <class Scalar>
+typename SparseCholesky<Scalar>::Update SparseCholesky<Scalar>::eliminate(Index f, const FillElement& fill,
+                                                                          const Stacks& stacks) {
   const Front& front = dissection_.fronts[f];
   Update left, right;
-  const auto first = [&] {
-    if (front.left != k_no_front) left = eliminate(front.left, fill);
-  };
-  const auto second = [&] {
-    if (front.right != k_no_front) right = eliminate(front.right, fill);
-  };
-  if (front.subtree_work * width_ * width_ * width_ > k_parallel_work)
-    oneapi::tbb::parallel_invoke(first, second);
-  else
-    first(), second();
+  std::unique_ptr<Scalar[]> room;  // of a right branch that runs at the same time as the left one
+  if (is_parallel(front)) {
+    oneapi::tbb::parallel_invoke(
+        [&] {
+          left = eliminate(front.left, fill, {stacks.other, stacks.own, stacks.element});
+        },
+        [&] { right = eliminate_alone(front.right, fill, room); });
+  } else {
+    Scalar* free = stacks.other;
+    for (const auto& [child, update] : {std::pair(front.left, &left), std::pair(front.right, &right)})
+      if (child != k_no_front) {
+        *update = eliminate(child, fill, {free, stacks.own, stacks.element});
+        free += update_size(child);
+      }
+  }
 
   const std::size_t rows = width_ * front.size(), columns = width_ * front.own();
-  Scalar* panel = factor_.get() + panel_[f];
+  Scalar* panel = panel_[f];
   std::fill_n(panel, rows * columns, Scalar(0));
-  Update update;
-  update.size = width_ * front.rows.size();
-  update.values.assign(update.size * update.size + k_dense_slack, Scalar(0));
-  assemble_elements(front, fill, panel, update);
-  if (front.left != k_no_front) assemble_child(front, dissection_.fronts[front.left], left, panel, update);
-  if (front.right != k_no_front) assemble_child(front, dissection_.fronts[front.right], right, panel, update);
+  const Update update{stacks.own, width_ * front.rows.size()};
+  for (std::size_t j = 0; j < update.size; ++j)
+    std::fill(update.values + j * update.size + j - j % k_clear_columns, update.values + (j + 1) * update.size,
+              Scalar(0));
+  const auto assemble = [&]<std::size_t Width>() {
+    add_elements<Width>(front, fill, stacks.element, panel, update);
+    if (left.values) add_update<Width>(dissection_.fronts[front.left].into_parent, left, front, panel, update);
+    if (right.values) add_update<Width>(dissection_.fronts[front.right].into_parent, right, front, panel, update);
+  };
+  if (width_ == 1)
+    assemble.template operator()<1>();
+  else
+    assemble.template operator()<2>();
   bad_pivots_[f] = factor_columns(panel, rows, columns);
-  subtract_square(panel, rows, columns, update.values.data(), update.size);
+  subtract_square(panel, rows, columns, update.values, update.size);
   return update;
 }
 
 template <class Scalar>
-void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillElement& fill, Scalar* panel,
-                                               Update& update) const {
-  const std::size_t rows = width_ * front.size(), own = width_ * front.own();
-  std::vector<Scalar> matrix(largest_element_ * largest_element_);
+template <std::size_t Width>
+void SparseCholesky<Scalar>::add_elements(const Front& front, const FillElement& fill, Scalar* matrix, Scalar* panel,
+                                          const Update& update) const {
+  const std::size_t rows = Width * front.size(), own = Width * front.own();
   for (const Index e : front.elements) {
-    const auto members = elements_.of(e);
+    const std::size_t members = elements_.of(e).size(), size = Width * members;
     const Index* place = place_.data() + elements_.first[e];
-    fill(e, matrix.data());
-    const std::size_t size = width_ * members.size();
-    for (std::size_t j = 0; j < members.size(); ++j)
-      for (std::size_t i = j; i < members.size(); ++i) {
+    fill(e, matrix);
+    for (std::size_t j = 0; j < members; ++j)
+      for (std::size_t i = j; i < members; ++i) {
         // Only lower halves are kept: a block that would lie above the diagonal is transposed.
         const bool turned = place[i] < place[j];
-        const std::size_t row = width_ * place[turned ? j : i], column = width_ * place[turned ? i : j];
+        const std::size_t row = Width * place[turned ? j : i], column = Width * place[turned ? i : j];
         const bool eliminated = column < own;
         const std::size_t stride = eliminated ? rows : update.size, shift = eliminated ? 0 : own;
-        Scalar* target = (eliminated ? panel : update.values.data()) + (column - shift) * stride + (row - shift);
-        const Scalar* block = matrix.data() + width_ * (j * size + i);
-        for (std::size_t c = 0; c < width_; ++c)
-          for (std::size_t r = i == j ? c : 0; r < width_; ++r) {
+        Scalar* target = (eliminated ? panel : update.values) + (column - shift) * stride + (row - shift);
+        const Scalar* block = matrix + Width * (j * size + i);
+        for (std::size_t c = 0; c < Width; ++c)
+          for (std::size_t r = i == j ? c : 0; r < Width; ++r) {
             const Scalar value = block[c * size + r];
             if (turned)
               target[r * stride + c] += conjugate(value);
@@ -121,25 +195,16 @@ void SparseCholesky<Scalar>::assemble_elements(const Front& front, const FillEle
 }
 
 template <class Scalar>
-void SparseCholesky<Scalar>::assemble_child(const Front& front, const Front& child, const Update& from, Scalar* panel,
-                                            Update& to) const {
-  if (width_ == 1)
-    add_update<1>(child.into_parent, from, front, panel, to);
-  else
-    add_update<2>(child.into_parent, from, front, panel, to);
-}
-
-template <class Scalar>
 template <std::size_t Width>
 void SparseCholesky<Scalar>::add_update(const std::vector<Index>& into, const Update& from, const Front& front,
-                                        Scalar* panel, Update& to) {
+                                        Scalar* panel, const Update& to) {
   const std::size_t rows = Width * front.size(), own = front.own();
   for (std::size_t j = 0; j < into.size(); ++j) {
     // Places ascend with rows, so that the lower half stays the lower half.
     const bool eliminated = into[j] < own;
     const std::size_t stride = eliminated ? rows : to.size, shift = eliminated ? 0 : own;
-    Scalar* target = (eliminated ? panel : to.values.data()) + Width * (into[j] - shift) * stride;
-    const Scalar* value = from.values.data() + Width * j * from.size;
+    Scalar* target = (eliminated ? panel : to.values) + Width * (into[j] - shift) * stride;
+    const Scalar* value = from.values + Width * j * from.size;
     for (std::size_t column = 0; column < Width; ++column, target += stride, value += from.size) {
       for (std::size_t k = column; k < Width; ++k) target[Width * (into[j] - shift) + k] += value[Width * j + k];
       for (std::size_t i = j + 1; i < into.size(); ++i)
@@ -163,7 +228,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     const std::size_t rows = width_ * front.size(), own = width_ * front.own();
     local.assign(rows, Scalar(0));
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
-    solve_forward(factor_.get() + panel_[f], rows, own, local.data());
+    solve_forward(panel_[f], rows, own, local.data());
     std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
     each_row(front, [&](std::size_t row, std::size_t place) { x[row] += local[place]; });
   }
@@ -173,7 +238,7 @@ void SparseCholesky<Scalar>::solve(std::span<Scalar> b) const {
     local.resize(rows);
     std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin), own, local.begin());
     each_row(front, [&](std::size_t row, std::size_t place) { local[place] = x[row]; });
-    solve_backward(factor_.get() + panel_[f], rows, own, local.data());
+    solve_backward(panel_[f], rows, own, local.data());
     std::copy_n(local.begin(), own, x.begin() + static_cast<std::ptrdiff_t>(width_ * front.begin));
   }
   for (std::size_t i = 0; i < dissection_.order.size(); ++i)

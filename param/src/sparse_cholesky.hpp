@@ -35,25 +35,41 @@ class SparseCholesky {
   /// Overwrites b, `width` numbers per vertex in the caller's order, by A⁻¹ b.
   void solve(std::span<Scalar> b) const;
 
-  std::size_t stored() const { return stored_; }
-
  private:
   struct Update;
-  Update eliminate(Index front, const FillElement& fill);
-  void assemble_elements(const Front& front, const FillElement& fill, Scalar* panel, Update& update) const;
-  void assemble_child(const Front& front, const Front& child, const Update& from, Scalar* panel, Update& to) const;
+  struct Stacks;
+
+  void make_panels();
+
+  /// The most numbers that updates in and below a front take at a time, by the parity of their depth.
+  struct Need {
+    std::size_t own = 0, other = 0;
+  };
+  void count_needs();
+  std::size_t update_size(Index front) const;
+
+  /// Whether the branches below run at the same time; the right one then has memory of its own.
+  bool is_parallel(const Front& front) const;
+
+  Update eliminate(Index front, const FillElement& fill, const Stacks& stacks);
+  /// @param room gets what the front and those below need, unless it has it.
+  Update eliminate_alone(Index front, const FillElement& fill, std::unique_ptr<Scalar[]>& room);
 
   template <std::size_t Width>
+  void add_elements(const Front& front, const FillElement& fill, Scalar* matrix, Scalar* panel,
+                    const Update& update) const;
+  template <std::size_t Width>
   static void add_update(const std::vector<Index>& into, const Update& from, const Front& front, Scalar* panel,
-                         Update& to);
+                         const Update& to);
 
   std::size_t width_, largest_element_ = 0;  ///< The latter in unknowns.
   Elements elements_;
   Dissection dissection_;
-  std::vector<Index> place_;        ///< Of each element's members in their front: own unknowns, then rows.
-  std::vector<std::size_t> panel_;  ///< Where each front's columns begin in factor_.
-  std::size_t stored_ = 0;
-  std::unique_ptr<Scalar[]> factor_;
+  std::vector<Index> place_;  ///< Of each element's members in their front: own unknowns, then rows.
+  std::vector<std::unique_ptr<Scalar[]>> blocks_;
+  std::vector<Scalar*> panel_;           ///< Where each front's columns begin in its block.
+  std::vector<Need> needs_;              ///< Per front.
+  std::unique_ptr<Scalar[]> workspace_;  ///< Kept for the next matrix.
   std::vector<std::size_t> bad_pivots_;  ///< Per front.
 };
 

@@ -72,26 +72,23 @@ Sheets make_sheets(const TriangleMesh& mesh, const Adjacency& across, const Trip
 CornerAttribute<Vec2> project_corners(const TriangleMesh& mesh, const Sheets& sheets,
                                       const std::vector<std::uint8_t>& label, GrainUp up) {
   CornerAttribute<Vec2> uv;
-  uv.indices.resize(mesh.triangles.size());
+  uv.indices = mesh.triangles;  // of vertices; those of values take their places
   uv.values.reserve(mesh.positions.size() + mesh.positions.size() / 8);
   const TrianglesOfCharts members = sort_by_chart(sheets.of_triangle, sheets.count);
-  struct Seen {
-    std::uint32_t chart = ~std::uint32_t{0};
-    Index value = 0;
-  };
-  std::vector<Seen> seen(mesh.positions.size());
+  std::vector<Index> values_then(mesh.positions.size());  // after the vertex got its last value; 0: it has none
   for (std::uint32_t s = 0; s < sheets.count; ++s) {
     const auto own = members.of(s);
     const std::uint8_t l = label[own.front()];
     const ProjectionAxes axes = projection_axes(l >> 1, l & 1, up);
+    const auto values_before = static_cast<Index>(uv.values.size());
     for (const Index t : own)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Index v = mesh.triangles[t][k];
-        if (seen[v].chart != s) {
-          seen[v] = {s, static_cast<Index>(uv.values.size())};
+      for (Index& corner : uv.indices[t]) {
+        const Index v = corner;
+        if (values_then[v] <= values_before) {
           uv.values.push_back(project(mesh.positions[v], axes));
+          values_then[v] = static_cast<Index>(uv.values.size());
         }
-        uv.indices[t][k] = seen[v].value;
+        corner = values_then[v] - 1;
       }
   }
   return uv;

@@ -39,11 +39,13 @@ struct EdgeBatch {
 };
 
 struct LabelBatch {
-  double label[k_batch], doubled_area[k_batch];
+  std::uint8_t label[k_batch];
+  float doubled_area[k_batch];
 };
 
 /// The same as normal_of() and the largest component of it, without branches.
 PAPILLA_VECTOR_CLONES void label_batch(const EdgeBatch& e, LabelBatch& result) {
+  double label[k_batch], squared[k_batch];
   for (std::size_t i = 0; i < k_batch; ++i) {
     const double x = e.py[i] * e.qz[i] - e.pz[i] * e.qy[i], y = e.pz[i] * e.qx[i] - e.px[i] * e.qz[i],
                  z = e.px[i] * e.qy[i] - e.py[i] * e.qx[i];
@@ -56,17 +58,22 @@ PAPILLA_VECTOR_CLONES void label_batch(const EdgeBatch& e, LabelBatch& result) {
     const bool by_z = az > k_tie * most;
     const double along = by_z ? z : by_y ? y : x, axis = by_z ? 4 : by_y ? 2 : 0;
     const bool has_area = square > k_no_area * k_no_area * longest * longest;
-    result.label[i] = has_area ? (along < 0 ? axis + 1 : axis) : k_no_label;
-    result.doubled_area[i] = has_area ? square : 0;
+    label[i] = has_area ? (along < 0 ? axis + 1 : axis) : k_no_label;
+    squared[i] = has_area ? square : 0;
   }
-  for (double& area : result.doubled_area) area = std::sqrt(area);
+  for (std::size_t i = 0; i < k_batch; ++i) {
+    result.label[i] = static_cast<std::uint8_t>(static_cast<int>(label[i]));
+    result.doubled_area[i] = static_cast<float>(std::sqrt(squared[i]));
+  }
 }
 
 }  // namespace
 
 LabelledTriangles label_triangles(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
-  LabelledTriangles result{std::vector<std::uint8_t>(count), std::vector<float>(count)};
+  LabelledTriangles result;
+  result.label.reserve(count);
+  result.doubled_area.reserve(count);
   EdgeBatch edges;
   LabelBatch labels;
   for (std::size_t begin = 0; begin < count; begin += k_batch) {
@@ -79,10 +86,8 @@ LabelledTriangles label_triangles(const TriangleMesh& mesh) {
       edges.qx[i] = q.x, edges.qy[i] = q.y, edges.qz[i] = q.z;
     }
     label_batch(edges, labels);
-    for (std::size_t i = 0; i < size; ++i) {
-      result.label[begin + i] = static_cast<std::uint8_t>(labels.label[i]);
-      result.doubled_area[begin + i] = static_cast<float>(labels.doubled_area[i]);
-    }
+    result.label.insert(result.label.end(), labels.label, labels.label + size);
+    result.doubled_area.insert(result.doubled_area.end(), labels.doubled_area, labels.doubled_area + size);
   }
   return result;
 }

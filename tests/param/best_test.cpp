@@ -33,10 +33,14 @@ DistortionReport valid_map(const TriangleMesh& mesh, const BestOptions& options 
 }
 
 /// A tube of radius 1 and the given length that is closed at its end: convex maps shrink its tip by exp(-length).
-TriangleMesh finger(double length) {
+/// @param bend the angle between its ends [rad].
+TriangleMesh finger(double length, double bend = 0) {
   const int rings = static_cast<int>(4 * length);
   TriangleMesh mesh = test::grid_mesh(24, rings, [&](double s, double t) {
-    return Vec3{std::cos(2 * k_pi * s), std::sin(2 * k_pi * s), length * (t - 1)};
+    const double x = std::cos(2 * k_pi * s), y = std::sin(2 * k_pi * s), z = length * (t - 1);
+    if (bend == 0) return Vec3{x, y, z};
+    const double radius = length / bend;
+    return Vec3{radius - (radius - x) * std::cos(z / radius), y, (radius - x) * std::sin(z / radius)};
   });
   // Rolls the sheet up: the last column becomes the first one; the top ring is closed by a fan.
   std::vector<Index> number(mesh.positions.size());
@@ -86,6 +90,14 @@ TEST(Best, LongFingerIsValid) {
   // The tip of Tutte's map is exp(-30) wide; the best map opens the finger as far as its border allows.
   EXPECT_LT(valid_map(finger(6)).symmetric_dirichlet.mean, 9.45);  // the minimum is 9.414
   EXPECT_LT(valid_map(finger(30)).symmetric_dirichlet.mean, 40);
+}
+
+TEST(Best, LongFingersOpenAsConesDo) {
+  // A tube that opens to a disk of radius a z has E / A = a² + 1/a² + a² L²/3 + ..., least 2 √(1 + L²/3), without its
+  // tip.
+  const auto cone = [](double length) { return 2 * std::sqrt(1 + length * length / 3); };
+  EXPECT_LT(valid_map(finger(45)).symmetric_dirichlet.mean, 1.03 * cone(45));
+  EXPECT_LT(valid_map(finger(30, 2)).symmetric_dirichlet.mean, 1.05 * cone(30));
 }
 
 TEST(Best, NearlyClosedSphereIsValid) {

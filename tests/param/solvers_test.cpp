@@ -8,6 +8,7 @@
 #include <random>
 
 #include "border_guard.hpp"
+#include "convex_map.hpp"
 #include "disk_hierarchy.hpp"
 #include "maillot_energy.hpp"
 #include "map_descent.hpp"
@@ -142,6 +143,39 @@ TEST(Descent, GoesFurtherWhereTheModelBendsTooMuch) {
   for (std::size_t v = 0; v < 3; ++v) EXPECT_LT(norm(uv[v] - StiffModel::k_places[v]), 1e-3);
   EXPECT_NEAR(result.energy, 1, 1e-6);
   EXPECT_LT(result.iterations, 10);  // steps as long as the model says gain a fifth each
+}
+
+TEST(Descent, OfTheLogarithmIsFasterFarFromTheMinimum) {
+  const Sample s;
+  const SymmetricDirichlet energy(s.rest);
+  double area = 0;
+  for (const RestShape& rest : s.rest) area += rest.area;
+  const auto run = [&](bool of_logarithm) {
+    std::vector<Vec2> uv = s.uv;
+    for (Vec2& p : uv) p = 1e-6 * p;  // the energy is 1e12 times too large
+    return descend({s.mesh.triangles, &energy}, uv, {.tolerance = 1e-6, .of_logarithm = of_logarithm});
+  };
+  // Newton's step takes x⁻² to (4/3 x)⁻², that for the logarithm to (2 x)⁻².
+  const DescentResult plain = run(false), quick = run(true);
+  EXPECT_LT(quick.iterations, 0.65 * plain.iterations);
+  EXPECT_NEAR(quick.energy, plain.energy, 1e-4 * plain.energy);
+  EXPECT_LT(quick.energy, 4.5 * area);
+}
+
+TEST(ConvexMap, DeepDisksStayOpen) {
+  // The hole of this sphere is 75 times narrower than the disk is deep; under a uniform pull, the smallest triangle
+  // would be 6e-11 of the mean.
+  const TriangleMesh mesh = test::sphere_mesh(60, 24, 3.1, [](Vec3) { return 1.0; });
+  const DiskHierarchy all(mesh.positions, mesh.triangles, mesh.positions.size());
+  const std::vector<Vec2> nowhere(mesh.positions.size());
+  const MapLevel level = current_level(all, mesh.positions, nowhere, 0);
+  const std::vector<Vec2> uv = map_to_circle(level, mesh.positions);
+  double least = std::numeric_limits<double>::infinity(), sum = 0;
+  for (const auto& [a, b, c] : level.triangles) {
+    const double doubled = cross(uv[b] - uv[a], uv[c] - uv[a]);
+    least = std::min(least, doubled), sum += doubled;
+  }
+  EXPECT_GT(least, 1e-5 * sum / static_cast<double>(level.triangles.size()));
 }
 
 TEST(Descent, ForeseesTheEnd) {
