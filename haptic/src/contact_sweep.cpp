@@ -237,7 +237,9 @@ void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, doub
   std::array<Open, Neighbourhood::k_blocks * Neighbourhood::k_lanes> open;
   Neighbourhood::Numbers blocks;
   const double contact = contact_radius_m();
-  const std::uint32_t block_count = near.within(from, until * norm(way) + contact, blocks);
+  // The ball around the whole piece.
+  const Vec3 half = 0.5 * until * way;
+  const std::uint32_t block_count = near.within(from + half, norm(half) + contact, blocks);
   std::uint32_t count = 0;
   for (std::uint32_t b = 0; b < block_count; ++b) {
     if (!near.is_made(blocks[b])) make_prisms(blocks[b], near);
