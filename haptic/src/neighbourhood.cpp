@@ -19,7 +19,8 @@ namespace {
 
 constexpr float k_margin = 2e-6F;  // Relative; a dozen roundings of single precision.
 constexpr float k_never = 2;
-// Taken of a block: the second, where the first meets a triangle, tells what the way only passes over.
+// Taken of a block: the second tells what a whole way only passes over. The piece at the start of a long one is too
+// short.
 constexpr int k_tangents = 2;
 constexpr float k_least = 1e-25F;  // Keeps a quotient finite.
 
@@ -182,7 +183,7 @@ std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, doub
   for (int tangent = 0; tangent < k_tangents; ++tangent) {
     met = Loops::meet(prisms_[slot(i)], x.data(), w.data(), c + error, c + error - static_cast<float>(deep), last,
                       earliest.data());
-    if (std::popcount(met) < 2) break;
+    if (std::popcount(met) < 2 || until < 1) break;
   }
   return met;
 }
