@@ -90,7 +90,7 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
   const double contact = contact_radius_m();
   Approach touch;
   look(t, from, way, 0, touch);
-  if ((touch.distance - contact) * touch.distance > -t_max * dot(touch.d, way)) return;
+  if ((touch.distance - contact - k_close * tolerance_m()) * touch.distance > -t_max * dot(touch.d, way)) return;
   // Whether it goes deep is asked first: a neighbour that the way only grazes is told at once, its touch found slowly.
   if (!goes_deep(t, from, way, contact - tolerance_m(), touch)) return;
   if (!approach(t, from, way, contact, contact - tolerance_m(), t_max, touch)) return;
