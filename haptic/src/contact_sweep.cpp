@@ -171,7 +171,8 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to) const noexcept
 }
 
 bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) const noexcept {
-  std::array<std::uint32_t, Neighbourhood::k_blocks> met;
+  constexpr std::uint32_t k_full = TriangleClusters::k_most / TriangleClusters::k_block;
+  std::array<std::uint32_t, Neighbourhood::k_blocks / k_full> met;  // More would hardly fit: most are full.
   std::uint32_t count = 0;
   bool fits = true;
   double radius = radius_m + contact_radius_m();
