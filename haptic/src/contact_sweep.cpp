@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 
 #include "contact_triangle.hpp"
 
@@ -9,7 +10,7 @@ namespace {
 // Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the
 // times must be finer than that, or the neighbour's tilted normal would be taken.
 constexpr double k_close = 1e-7;
-constexpr double k_first_piece = 1;  // Of the skin.
+constexpr double k_short_way = 16;  // Skins; and how much farther each piece of a long way leads than the one before.
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
@@ -67,10 +68,17 @@ bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radi
   return true;
 }
 
+/// Whether the way from `state` comes within `least` of the triangle. The point that is nearest to its start tells it
+/// most often: the triangle is at least as near as that.
+bool ContactSurface::goes_deep(const Corners& t, Vec3 from, Vec3 way, double least, Approach state) const noexcept {
+  const double along = std::clamp(-dot(state.d, way) / dot(way, way), 0.0, 1 - state.t);
+  return norm(state.d + along * way) <= least || approach(t, from, way, least, least, 1, state);
+}
+
 void ContactSurface::sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                                std::optional<SweepHit>& best) const noexcept {
   if (best) t_max = std::min(t_max, not_before(best->t));
-  if (has_relief(place))
+  if (tallest_ > 0 && has_relief(place))
     sweep_relief(place, from, way, t_max, best);
   else
     sweep_plain(place, from, way, t_max, best);
@@ -82,6 +90,9 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
   const double contact = contact_radius_m();
   Approach touch;
   look(t, from, way, 0, touch);
+  if ((touch.distance - contact - k_close * tolerance_m()) * touch.distance > -t_max * dot(touch.d, way)) return;
+  // Whether it goes deep is asked first: a neighbour that the way only grazes is told at once, its touch found slowly.
+  if (!goes_deep(t, from, way, contact - tolerance_m(), touch)) return;
   if (!approach(t, from, way, contact, contact - tolerance_m(), t_max, touch)) return;
   Vec3 normal = (1 / touch.distance) * touch.d;
   if (!(touch.distance > 0)) {
@@ -90,8 +101,7 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
   }
   if (dot(normal, way) >= 0) return;
   const SweepHit hit{touch.t, normal, contact - touch.distance, source_of(place), material_of(place)};
-  if (best && !comes_before(hit, *best)) return;
-  if (approach(t, from, way, contact - tolerance_m(), contact - tolerance_m(), 1, touch)) best = hit;
+  if (!best || comes_before(hit, *best)) best = hit;
 }
 
 /// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
@@ -161,90 +171,95 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to) const noexcept
 }
 
 bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) const noexcept {
-  near.begin(centre - origin_, radius_m);
+  constexpr std::uint32_t k_full = TriangleClusters::k_most / TriangleClusters::k_block;
+  std::array<std::uint32_t, Neighbourhood::k_blocks / k_full> met;  // More would hardly fit: most are full.
+  std::uint32_t count = 0;
   bool fits = true;
   double radius = radius_m + contact_radius_m();
   clusters_.within(centre - origin_, radius, [&](std::uint32_t cluster) noexcept {
-    fits = fits && near.add_cluster(cluster);
-    if (!fits) radius = 0;  // Ends the walk.
+    fits = count < met.size();
+    if (fits)
+      met[count++] = cluster;
+    else
+      radius = 0;  // Ends the walk.
     clusters_.prefetch(cluster);
   });
-  if (!fits) {
-    near.clear();
-    return false;
+  near.begin(centre - origin_, radius_m);
+  for (std::uint32_t i = 0; i < count && fits; ++i) {
+    const std::uint32_t first = clusters_.first_block(met[i]), end = first + clusters_.blocks_of(met[i]);
+    for (std::uint32_t block = first; block < end; ++block) fits = fits && near.add(block, clusters_.box_of(block));
   }
-  add_prisms(near);
-  return true;
+  if (!fits) near.forget_place();
+  return fits;
 }
 
-/// Makes prisms of the triangles around a ball, unless there are too many: then their boxes have to do.
-void ContactSurface::add_prisms(Neighbourhood& near) const noexcept {
-  const Box3f box = box_around(near.centre(), near.centre(), near.reach_m() + contact_radius_m());
-  std::uint32_t least = 0;
-  for (const std::uint32_t cluster : near.clusters()) least += clusters_.least_in_box(cluster, box);
-  if (least > Neighbourhood::k_capacity) {
-    near.forget_triangles();
-    return;
+static_assert(TriangleClusters::k_block == Neighbourhood::k_lanes);
+
+/// Of the triangles of block i of the neighbourhood. Lanes without a triangle repeat the last.
+void ContactSurface::make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept {
+  const std::uint32_t block = near.block(i), begin = block * Neighbourhood::k_lanes;
+  const std::uint32_t last = clusters_.triangles_in(block) - 1;
+  const Corner origin = clusters_.corner(begin, 0);
+  Neighbourhood::Corners corners;
+  for (std::uint32_t lane = 0; lane < Neighbourhood::k_lanes; ++lane) {
+    const std::uint32_t place = begin + std::min(lane, last);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner& corner = clusters_.corner(place, k);
+      for (std::size_t axis = 0; axis < 3; ++axis) corners.x[3 * k + axis][lane] = corner[axis] - origin[axis];
+    }
+    corners.top[lane] = tallest_ > 0 ? static_cast<float>(top_of(place)) : 0;
   }
-  for (const std::uint32_t cluster : near.clusters()) clusters_.prefetch_triangles(cluster);
-  bool fits = true;
-  for (const std::uint32_t cluster : near.clusters())
-    clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {
-      fits = fits && near.add(clusters_.corner(place, 0), clusters_.corner(place, 1), clusters_.corner(place, 2),
-                              tallest_ > 0 ? static_cast<float>(top_of(place)) : 0, place);
-    });
-  if (fits)
-    near.finish();
-  else
-    near.forget_triangles();
+  near.make(i, origin, corners);
 }
 
-/// A step is most often stopped where it starts, so that a short piece of the way is looked at first.
-std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept {
+std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood& near) const noexcept {
   const Vec3 start = from - origin_, way = to - from;
   const double length = norm(way), margin = near.margin(start);
   if (!(margin > 0)) return sweep(from, to);
-  const double known = length > margin ? margin / length : 1, first = k_first_piece * skin_ / length;
+  const double known = length > margin ? margin / length : 1;
   std::optional<SweepHit> best;
-  if (near.triangles() > 0) {
-    sweep_prisms(near, start, way, first, known, best);
-  } else {
-    for (const std::uint32_t cluster : near.clusters()) sweep_cluster(cluster, start, way, known, best);
+  // A long way goes into the surface and is most often stopped where it starts, a short one leads along it.
+  double until = length > k_short_way * skin_ ? skin_ / length : known;
+  for (bool last = false; !best && !last; until *= k_short_way) {
+    last = until >= known;
+    sweep_prisms(near, start, way, std::min(until, known), best);
   }
   return best || known >= 1 ? best : sweep(from, to);
 }
 
 /// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
 /// hit.
-void ContactSurface::sweep_prisms(const Neighbourhood& near, Vec3 from, Vec3 way, double first, double known,
+void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double until,
                                   std::optional<SweepHit>& best) const noexcept {
   struct Open {
     float earliest;
     std::uint32_t place;
   };
-  std::array<Open, Neighbourhood::k_capacity> open;
-  Neighbourhood::Blocks blocks;
-  const double length = norm(way), contact = contact_radius_m();
-  for (const double until : {std::min(first, known), known}) {
-    std::uint32_t count = 0;
-    const std::uint32_t block_count = near.blocks(from, until * length + contact, blocks);
-    for (std::uint32_t b = 0; b < block_count; ++b) {
-      std::array<float, Neighbourhood::k_lanes> earliest;
-      near.near_way(blocks[b], from, way, contact, tolerance_m(), earliest);
-      const std::uint32_t begin = blocks[b] * Neighbourhood::k_lanes;
-      for (std::uint32_t i = 0; i < std::min(Neighbourhood::k_lanes, near.triangles() - begin); ++i)
-        if (static_cast<double>(earliest[i]) <= until) open[count++] = {earliest[i], near.place(begin + i)};
+  std::array<Open, Neighbourhood::k_blocks * Neighbourhood::k_lanes> open;
+  Neighbourhood::Numbers blocks;
+  const double contact = contact_radius_m();
+  // The ball around the whole piece.
+  const Vec3 half = 0.5 * until * way;
+  const std::uint32_t block_count = near.within(from + half, norm(half) + contact, blocks);
+  std::uint32_t count = 0;
+  for (std::uint32_t b = 0; b < block_count; ++b) {
+    if (!near.is_made(blocks[b])) make_prisms(blocks[b], near);
+    Neighbourhood::Lanes earliest;
+    const std::uint32_t block = near.block(blocks[b]);
+    std::uint32_t met = near.near_way(blocks[b], from, way, contact, tolerance_m(), until, earliest);
+    for (met &= (1U << clusters_.triangles_in(block)) - 1; met != 0; met &= met - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(met));
+      open[count++] = {earliest[lane], block * Neighbourhood::k_lanes + lane};
     }
-    while (count > 0) {
-      std::uint32_t next = 0;
-      for (std::uint32_t k = 1; k < count; ++k)
-        if (open[k].earliest < open[next].earliest) next = k;
-      const Open now = open[next];
-      if (best && static_cast<double>(now.earliest) > not_before(best->t)) break;
-      open[next] = open[--count];
-      sweep_one(now.place, from, way, until, best);
-    }
-    if (best || first >= known) return;
+  }
+  while (count > 0) {
+    std::uint32_t next = 0;
+    for (std::uint32_t k = 1; k < count; ++k)
+      if (open[k].earliest < open[next].earliest) next = k;
+    const Open now = open[next];
+    if (best && static_cast<double>(now.earliest) > not_before(best->t)) break;
+    open[next] = open[--count];
+    sweep_one(now.place, from, way, until, best);
   }
 }
 

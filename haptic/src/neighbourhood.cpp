@@ -2,6 +2,7 @@
 #include "papilla/haptic/neighbourhood.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 // The loops below are made once for each width of vectors, and the processor chooses. (Not with sanitizers, which can't
@@ -18,6 +19,9 @@ namespace {
 
 constexpr float k_margin = 2e-6F;  // Relative; a dozen roundings of single precision.
 constexpr float k_never = 2;
+// Taken of a block: the second tells what a whole way only passes over. The piece at the start of a long one is too
+// short.
+constexpr int k_tangents = 2;
 constexpr float k_least = 1e-25F;  // Keeps a quotient finite.
 
 float size_of(Vec3 v) noexcept { return static_cast<float>(std::abs(v.x) + std::abs(v.y) + std::abs(v.z)); }
@@ -28,11 +32,11 @@ std::array<float, 3> floats_of(Vec3 v) noexcept {
 
 }  // namespace
 
-/// Whole blocks: what stands behind the last triangle is computed and not looked at.
 struct Neighbourhood::Loops {
   static void make_prisms(const Corners& t, Prisms& p) noexcept;
-  static void meet(const Prisms& t, const float* x, const float* w, float reach, float least, float* earliest) noexcept;
-  static void distances(const Prisms* prisms, std::uint32_t blocks, const float* x, float* least) noexcept;
+  static std::uint32_t meet(const Prisms& t, const float* x, const float* w, float reach, float least, float until,
+                            float* earliest) noexcept;
+  static void distances2(const Boxes& boxes, std::uint32_t count, const float* x, float* result) noexcept;
 };
 
 /// Plane and edge planes of each triangle. Whatever the rounded normals are, corners bound all that lies between them.
@@ -67,23 +71,30 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p)
     p.n[0][i] = nx, p.n[1][i] = ny, p.n[2][i] = nz;
     p.middle[i] = 0.5F * (low + high);
     p.thick[i] = 0.5F * (high - low) + more;
-    const float hx = (ax + bx + cx) / 3, hy = (ay + by + cy) / 3, hz = (az + bz + cz) / 3;
-    const auto from_hub2 = [=](float x, float y, float z) {
-      return (x - hx) * (x - hx) + (y - hy) * (y - hy) + (z - hz) * (z - hz);
-    };
-    p.hub[0][i] = hx, p.hub[1][i] = hy, p.hub[2][i] = hz;
-    p.radius[i] =
-        std::sqrt(std::max(from_hub2(ax, ay, az), std::max(from_hub2(bx, by, bz), from_hub2(cx, cy, cz)))) + more;
+    // Along the longest edge, orthogonal to n whatever its rounding.
+    const float ul = ux * ux + uy * uy + uz * uz, vl = vx * vx + vy * vy + vz * vz, wl = wx * wx + wy * wy + wz * wz;
+    const bool u = ul >= vl && ul >= wl, v = vl >= wl;
+    const float lx = u ? mx[0] : v ? mx[1] : mx[2], ly = u ? my[0] : v ? my[1] : my[2];
+    const float lz = u ? mz[0] : v ? mz[1] : mz[2];
+    const float ex = ly * nz - lz * ny, ey = lz * nx - lx * nz, ez = lx * ny - ly * nx;
+    const float ae = ex * ax + ey * ay + ez * az, be = ex * bx + ey * by + ez * bz, ce = ex * cx + ey * cy + ez * cz;
+    const float first = std::min(ae, std::min(be, ce)), last = std::max(ae, std::max(be, ce));
+    p.e[0][i] = ex, p.e[1][i] = ey, p.e[2][i] = ez;
+    p.halfway[i] = 0.5F * (first + last);
+    p.half[i] = 0.5F * (last - first) + more;
   }
 }
 
-/// With g the distance to the prism at x and p/g its slope along w, the distance at x + t·w is at least g + t·p/g:
-/// reach c is not met before t = (g − c)·g/−p, and what lies below g + p/g not at all.
-PAPILLA_WIDE void Neighbourhood::Loops::meet(const Prisms& t, const float* x, const float* w, float reach, float least,
-                                             float* earliest) noexcept {
-  const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2];
+/// With g the distance to the prism at x + t·w, t = earliest, and p/g its slope along w, the distance at t' is at least
+/// g + (t' − t)·p/g: reach c is not met before t + (g − c)·g/−p, and what lies below g + (1 − t)·min(p/g, 0) not at
+/// all.
+/// @returns a bit for each that may be met by `until`.
+PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::meet(const Prisms& t, const float* x, const float* w, float reach,
+                                                      float least, float until, float* earliest) noexcept {
+  const float w0 = w[0], w1 = w[1], w2 = w[2], o0 = x[0], o1 = x[1], o2 = x[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
+    const float at = earliest[i], x0 = o0 + at * w0, x1 = o1 + at * w1, x2 = o2 + at * w2;
     const float s = t.n[0][i] * x0 + t.n[1][i] * x1 + t.n[2][i] * x2 - t.middle[i];
     const float ds = std::max(s - t.thick[i], 0.0F) + std::min(s + t.thick[i], 0.0F);
     const float ws = t.n[0][i] * w0 + t.n[1][i] * w1 + t.n[2][i] * w2;
@@ -93,107 +104,88 @@ PAPILLA_WIDE void Neighbourhood::Loops::meet(const Prisms& t, const float* x, co
     const float v0 = t.m[0][i] * w0 + t.m[1][i] * w1 + t.m[2][i] * w2;
     const float v1 = t.m[3][i] * w0 + t.m[4][i] * w1 + t.m[5][i] * w2;
     const float v2 = t.m[6][i] * w0 + t.m[7][i] * w1 + t.m[8][i] * w2;
-    const float h0 = x0 - t.hub[0][i], h1 = x1 - t.hub[1][i], h2 = x2 - t.hub[2][i];
-    const float up = t.n[0][i] * h0 + t.n[1][i] * h1 + t.n[2][i] * h2;
-    const float l0 = h0 - up * t.n[0][i], l1 = h1 - up * t.n[1][i], l2 = h2 - up * t.n[2][i];
-    const float across = std::sqrt(std::max(l0 * l0 + l1 * l1 + l2 * l2, k_least));
-    const float m3 = across - t.radius[i], v3 = (l0 * w0 + l1 * w1 + l2 * w2) / across;
+    const float e = t.e[0][i] * x0 + t.e[1][i] * x1 + t.e[2][i] * x2 - t.halfway[i];
+    const float we = t.e[0][i] * w0 + t.e[1][i] * w1 + t.e[2][i] * w2;
+    const float m3 = std::abs(e) - t.half[i], v3 = e > 0 ? we : -we;
     const float m01 = std::max(m0, m1), v01 = m0 > m1 ? v0 : v1;
     const float m23 = std::max(m2, m3), v23 = m2 > m3 ? v2 : v3;
     const float dm = std::max(std::max(m01, m23), 0.0F), wm = m01 > m23 ? v01 : v23;
     const float g = std::sqrt(ds * ds + dm * dm);
     const float approach = std::max(-(ds * ws + dm * wm), k_least);
-    const float met = std::max((g - reach) * g / approach * (1 - k_margin), 0.0F);
-    earliest[i] = (g - least) * g > approach ? k_never : met;
+    const float met = at + std::max((g - reach) * g / approach * (1 - k_margin), 0.0F);
+    earliest[i] = (g - least) * g > approach * std::max(1 - at, 0.0F) ? k_never : std::min(met, k_never);
+  }
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < k_lanes; ++i) bits |= earliest[i] <= until ? 1U << i : 0U;
+  return bits;
+}
+
+PAPILLA_WIDE void Neighbourhood::Loops::distances2(const Boxes& b, std::uint32_t count, const float* x,
+                                                   float* result) noexcept {
+  const float x0 = x[0], x1 = x[1], x2 = x[2];
+#pragma GCC ivdep
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float d0 = std::max(std::max(b.low[0][i] - x0, x0 - b.high[0][i]), 0.0F);
+    const float d1 = std::max(std::max(b.low[1][i] - x1, x1 - b.high[1][i]), 0.0F);
+    const float d2 = std::max(std::max(b.low[2][i] - x2, x2 - b.high[2][i]), 0.0F);
+    result[i] = d0 * d0 + d1 * d1 + d2 * d2;
   }
 }
 
-PAPILLA_WIDE void Neighbourhood::Loops::distances(const Prisms* prisms, std::uint32_t blocks, const float* x,
-                                                  float* least) noexcept {
-  const float x0 = x[0], x1 = x[1], x2 = x[2];
-  for (std::uint32_t block = 0; block < blocks; ++block) {
-    const Prisms& t = prisms[block];
-    float least2 = 1e30F;
-    for (std::size_t i = 0; i < k_lanes; ++i) {
-      const float s = t.n[0][i] * x0 + t.n[1][i] * x1 + t.n[2][i] * x2 - t.middle[i];
-      const float ds = std::max(std::abs(s) - t.thick[i], 0.0F);
-      const float m0 = t.m[0][i] * x0 + t.m[1][i] * x1 + t.m[2][i] * x2 - t.beyond[0][i];
-      const float m1 = t.m[3][i] * x0 + t.m[4][i] * x1 + t.m[5][i] * x2 - t.beyond[1][i];
-      const float m2 = t.m[6][i] * x0 + t.m[7][i] * x1 + t.m[8][i] * x2 - t.beyond[2][i];
-      const float h0 = x0 - t.hub[0][i], h1 = x1 - t.hub[1][i], h2 = x2 - t.hub[2][i];
-      const float up = t.n[0][i] * h0 + t.n[1][i] * h1 + t.n[2][i] * h2;
-      const float l0 = h0 - up * t.n[0][i], l1 = h1 - up * t.n[1][i], l2 = h2 - up * t.n[2][i];
-      const float m3 = std::sqrt(l0 * l0 + l1 * l1 + l2 * l2) - t.radius[i];
-      const float dm = std::max(std::max(std::max(m0, m1), std::max(m2, m3)), 0.0F);
-      least2 = std::min(least2, ds * ds + dm * dm);
-    }
-    least[block] = std::sqrt(least2);
-  }
+void Neighbourhood::clear() noexcept {
+  forget_place();
+  made_.fill(k_no_block);
 }
 
 void Neighbourhood::begin(Vec3 centre, double reach_m) noexcept {
   centre_ = centre;
-  frame_ = {static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z)};
   reach_ = reach_m;
-  count_ = cluster_count_ = 0;
+  count_ = 0;
 }
 
-bool Neighbourhood::add_cluster(std::uint32_t cluster) noexcept {
-  if (cluster_count_ == k_clusters) return false;
-  cluster_[cluster_count_++] = cluster;
+bool Neighbourhood::add(std::uint32_t block, const Box3f& box) noexcept {
+  if (count_ == k_blocks) return false;
+  for (std::size_t k = 0; k < 3; ++k) boxes_.low[k][count_] = box.low[k], boxes_.high[k][count_] = box.high[k];
+  block_[count_++] = block;
   return true;
 }
 
-bool Neighbourhood::add(const std::array<float, 3>& a, const std::array<float, 3>& b, const std::array<float, 3>& c,
-                        float top, std::uint32_t place) noexcept {
-  if (count_ == k_capacity) return false;
-  const std::uint32_t lane = count_ % k_lanes;
-  for (std::size_t k = 0; k < 3; ++k) {
-    corners_.x[k][lane] = a[k] - frame_[k];
-    corners_.x[3 + k][lane] = b[k] - frame_[k];
-    corners_.x[6 + k][lane] = c[k] - frame_[k];
-  }
-  corners_.top[lane] = top;
-  place_[count_++] = place;
-  if (count_ % k_lanes == 0) Loops::make_prisms(corners_, prisms_[count_ / k_lanes - 1]);
-  return true;
+void Neighbourhood::make(std::uint32_t i, const std::array<float, 3>& origin, const Corners& corners) noexcept {
+  Loops::make_prisms(corners, prisms_[next_]);
+  origin_[next_] = origin;
+  made_[next_] = block_[i];
+  slots_[block_[i] % k_remembered] = static_cast<std::uint16_t>(next_);
+  next_ = (next_ + 1) % k_made;
 }
 
-void Neighbourhood::finish() noexcept {
-  if (count_ % k_lanes != 0) Loops::make_prisms(corners_, prisms_[count_ / k_lanes]);
-  focus(centre_);
-}
-
-Vec3 Neighbourhood::in_frame(Vec3 p) const noexcept {
-  return p - Vec3{static_cast<double>(frame_[0]), static_cast<double>(frame_[1]), static_cast<double>(frame_[2])};
-}
-
-void Neighbourhood::focus(Vec3 centre) noexcept {
-  focus_centre_ = centre;
-  const Vec3 at = in_frame(centre);
-  const std::array<float, 3> x = floats_of(at);
-  Loops::distances(prisms_.data(), block_count(), x.data(), least_.data());
-  const float error = 4 * k_margin * size_of(at);
-  for (std::uint32_t b = 0; b < block_count(); ++b) least_[b] = least_[b] * (1 - k_margin) - error;
-}
-
-std::uint32_t Neighbourhood::blocks(Vec3 from, double distance, Blocks& numbers) const noexcept {
-  const auto most = static_cast<float>((off_focus(from) + distance) * (1 + static_cast<double>(k_margin)));
+std::uint32_t Neighbourhood::within(Vec3 from, double distance, Numbers& found) const noexcept {
+  const std::array<float, 3> x = floats_of(from);
+  alignas(64) std::array<float, k_blocks> distance2;
+  Loops::distances2(boxes_, count_, x.data(), distance2.data());
+  const float most = static_cast<float>(distance) * (1 + k_margin) + k_margin * size_of(from);
   std::uint32_t count = 0;
-  for (std::uint32_t b = 0; b < block_count(); ++b) {
-    numbers[count] = b;
-    count += least_[b] <= most ? 1U : 0U;
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    found[count] = static_cast<std::uint16_t>(i);
+    count += distance2[i] <= most * most ? 1U : 0U;
   }
   return count;
 }
 
-void Neighbourhood::near_way(std::uint32_t block, Vec3 from, Vec3 way, double contact, double deep,
-                             std::array<float, k_lanes>& earliest) const noexcept {
-  const Vec3 at = in_frame(from);
+std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double until,
+                                      Lanes& earliest) const noexcept {
+  const std::array<float, 3>& o = origin_[slot(i)];
+  const Vec3 at = from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
   const std::array<float, 3> x = floats_of(at), w = floats_of(way);
-  const auto c = static_cast<float>(contact);
+  const auto c = static_cast<float>(contact), last = static_cast<float>(until) * (1 + k_margin);
   const float error = 4 * k_margin * (c + size_of(at) + size_of(way));
-  Loops::meet(prisms_[block], x.data(), w.data(), c + error, c + error - static_cast<float>(deep), earliest.data());
+  std::uint32_t met = 0;
+  earliest.fill(0);
+  for (int tangent = 0; tangent < k_tangents; ++tangent) {
+    met = Loops::meet(prisms_[slot(i)], x.data(), w.data(), c + error, c + error - static_cast<float>(deep), last,
+                      earliest.data());
+    if (std::popcount(met) < 2 || until < 1) break;
+  }
+  return met;
 }
 
 }  // namespace papilla

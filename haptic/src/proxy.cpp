@@ -15,7 +15,6 @@ namespace {
 constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
 constexpr double k_needed_travels = 0.6, k_wanted_travels = 4;
-constexpr double k_focus_skins = 2;  // How far the proxy goes before distances are noted anew.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
 constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
@@ -74,24 +73,22 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
 void Proxy::look_around(Vec3 from, double travel) noexcept {
   const double needed = k_needed_travels * travel + surface_->skin_m();
   if (surface_->margin(from, near_) < needed) gather(from, needed, travel);
-  if (surface_->off_focus(from, near_) > k_focus_skins * surface_->skin_m()) surface_->focus(from, near_);
 }
 
 void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
   const double radius = std::min(k_wanted_travels * travel + 4 * surface_->skin_m(), widest_m_);
   if (radius < needed) {
-    near_.clear();
+    near_.forget_place();
     widest_m_ *= k_regrowth;
-  } else if (!surface_->gather(from, radius, near_) || (surface_->probe_radius_m() == 0 && near_.is_crowded())) {
-    near_.clear();  // For a point the tree is as fast as boxes without prisms.
+  } else if (!surface_->gather(from, radius, near_)) {
     widest_m_ = 0.5 * radius;
-  } else if (near_.triangles() < Neighbourhood::k_capacity / 8) {
+  } else if (near_.blocks() < Neighbourhood::k_blocks / 8) {
     widest_m_ = std::max(widest_m_, 2 * radius);
   }
 }
 
 /// Whether the planes that hold the proxy in a crease are still there: it may have slid past what one was found on.
-bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) const noexcept {
+bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept {
   const double drop = 2 * surface_->tolerance_m();
   for (int i = 0; i < planes.count; ++i) {
     if (!(active >> i & 1U) || norm(x - planes.found_at[i]) <= drop || next.sweeps == k_steps) continue;

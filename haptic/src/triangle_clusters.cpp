@@ -2,6 +2,7 @@
 #include "papilla/haptic/triangle_clusters.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace papilla {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr std::uint32_t k_group = 4;
 constexpr int k_least_exponent = -120, k_largest_exponent = 120;
 constexpr std::size_t k_line = 64;
+constexpr float k_rounding = 4 * std::numeric_limits<float>::epsilon();
 
 float middle(const Box3f& box, std::size_t axis) noexcept { return 0.5F * box.low[axis] + 0.5F * box.high[axis]; }
 
@@ -45,12 +47,6 @@ int exponent_of(float extent) noexcept {
   std::frexp(extent, &exponent);  // extent < 2^exponent: less than 128 cells of 2^(exponent − 7).
   const bool finer = std::ldexp(extent, 8 - exponent) < 254;
   return std::clamp((finer ? 8 : 7) - exponent, k_least_exponent, k_largest_exponent);
-}
-
-template <class T>
-void fetch(const T* from, std::size_t count) noexcept {
-  const auto* at = reinterpret_cast<const char*>(from);
-  for (std::size_t byte = 0; byte < count * sizeof(T); byte += k_line) __builtin_prefetch(at + byte);
 }
 
 }  // namespace
@@ -139,13 +135,28 @@ void TriangleClusters::divide(std::span<const Box3f> boxes) {
   }
 }
 
-void TriangleClusters::prefetch(std::uint32_t cluster) const noexcept { fetch(&clusters_[cluster], 1); }
+/// A cell more than its numbers say, and what single precision rounds.
+Box3f TriangleClusters::box_of(std::uint32_t block) const noexcept {
+  const Cluster& c = clusters_[block / k_blocks];
+  const std::size_t begin = block % k_blocks * (k_block / k_group);
+  Box3f box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::uint8_t low = 255, high = 0;
+    for (std::size_t g = begin; g < begin + k_block / k_group; ++g) {
+      low = std::min(low, c.low[k][g]);
+      high = std::max(high, c.high[k][g]);
+    }
+    const float cell = std::bit_cast<float>(static_cast<std::uint32_t>(127 - c.exponent[k]) << 23);
+    const float error = k_rounding * (std::abs(c.origin[k]) + 256 * cell);
+    box.low[k] = c.origin[k] + cell * static_cast<float>(low) - error;
+    box.high[k] = c.origin[k] + cell * static_cast<float>(high + 1) + error;
+  }
+  return box;
+}
 
-void TriangleClusters::prefetch_triangles(std::uint32_t cluster) const noexcept {
-  const Cluster& c = clusters_[cluster];
-  fetch(&corners_[c.first], c.count);
-  const std::size_t end = cluster + 1 < clusters_.size() ? clusters_[cluster + 1].vertex : vertices_.size();
-  fetch(&vertices_[c.vertex], end - c.vertex);
+void TriangleClusters::prefetch(std::uint32_t cluster) const noexcept {
+  const auto* at = reinterpret_cast<const char*>(&clusters_[cluster]);
+  for (std::size_t byte = 0; byte < sizeof(Cluster); byte += k_line) __builtin_prefetch(at + byte);
 }
 
 std::size_t TriangleClusters::bytes() const noexcept {

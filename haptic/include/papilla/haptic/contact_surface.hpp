@@ -83,13 +83,9 @@ class ContactSurface {
   /// How far a probe at `from` may go in any direction before it leaves what was gathered; negative: it is outside.
   double margin(Vec3 from, const Neighbourhood& near) const noexcept { return near.margin(from - origin_); }
 
-  /// Prepares it for sweeps that start near `centre`, which makes them faster.
-  void focus(Vec3 centre, Neighbourhood& near) const noexcept { near.focus(centre - origin_); }
-  double off_focus(Vec3 from, const Neighbourhood& near) const noexcept { return near.off_focus(from - origin_); }
-
   /// The same hit, from what was gathered; from the tree as soon as the way leaves that. On plain triangles the same
   /// bits, on relief within the tolerance.
-  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, const Neighbourhood& near) const noexcept;
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near) const noexcept;
 
   /// Shaded normals at a resting probe: with f_i the face normals of the triangles that it touches at `proxy` and s_i
   /// their corner normals, interpolated at the nearest points, writes the normal as Σ λ_i f_i with λ_i ≥ 0 and returns
@@ -169,14 +165,15 @@ class ContactSurface {
   static void look(const Corners& t, Vec3 from, Vec3 way, double at, Approach& state) noexcept;
   bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
                 Approach& state) const noexcept;
+  bool goes_deep(const Corners& t, Vec3 from, Vec3 way, double least, Approach state) const noexcept;
   static Box3f box_around(Vec3 a, Vec3 b, double reach) noexcept;
   bool beside(std::uint32_t place, const Box3f& box) const noexcept;
   static bool comes_before(const SweepHit& a, const SweepHit& b) noexcept;
   void sweep_cluster(std::uint32_t cluster, Vec3 from, Vec3 way, double t_max,
                      std::optional<SweepHit>& best) const noexcept;
-  void sweep_prisms(const Neighbourhood& near, Vec3 from, Vec3 way, double first, double known,
+  void sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double until,
                     std::optional<SweepHit>& best) const noexcept;
-  void add_prisms(Neighbourhood& near) const noexcept;
+  void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;
   void sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max, std::optional<SweepHit>& best) const noexcept;
   void sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
                    std::optional<SweepHit>& best) const noexcept;

@@ -66,7 +66,7 @@ class Proxy {
  private:
   struct Planes;
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
-  bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) const noexcept;
+  bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
   void look_around(Vec3 from, double travel) noexcept;
   void gather(Vec3 from, double needed, double travel) noexcept;

@@ -81,18 +81,23 @@ class TriangleClusters {
     }
   }
 
-  /// in_box() visits at least that many: whole groups but for the last of the cluster.
-  std::uint32_t least_in_box(std::uint32_t cluster, const Box3f& box) const noexcept {
-    const auto groups = static_cast<std::uint32_t>(std::popcount(clusters_[cluster].meet(box)));
-    return groups > 0 ? k_group * (groups - 1) + 1 : 0;
+  /// Blocks of up to k_block triangles of a cluster that lie together: places k_block · number and on.
+  static constexpr std::uint32_t k_block = 16;
+  std::uint32_t first_block(std::uint32_t cluster) const noexcept { return cluster * k_blocks; }
+  std::uint32_t blocks_of(std::uint32_t cluster) const noexcept {
+    return (clusters_[cluster].count + k_block - 1) / k_block;
   }
+  std::uint32_t triangles_in(std::uint32_t block) const noexcept {
+    return std::min(k_block, clusters_[block / k_blocks].count - block % k_blocks * k_block);
+  }
+  /// Box around what stands in a block.
+  Box3f box_of(std::uint32_t block) const noexcept;
 
-  /// Asks the processor to fetch the numbers of a cluster, or its triangles, ahead of their use.
+  /// Asks the processor to fetch the numbers of a cluster ahead of their use.
   void prefetch(std::uint32_t cluster) const noexcept;
-  void prefetch_triangles(std::uint32_t cluster) const noexcept;
 
  private:
-  static constexpr std::uint32_t k_group = 4, k_groups = k_most / k_group;
+  static constexpr std::uint32_t k_group = 4, k_groups = k_most / k_group, k_blocks = k_most / k_block;
 
   struct alignas(64) Cluster {
     std::array<std::array<std::uint8_t, k_groups>, 3> low{}, high{};  // Of each group, in cells.
