@@ -72,7 +72,7 @@ struct Medians {
   }
 };
 
-/// The least CPU time of some runs [s].
+/// The least CPU time of some runs [s]: of `repeats`, or, when that is more than one, of as many as half a second takes.
 double cpu_of(int repeats, const std::function<void()>& work);
 
 /// Least CPU of ours over a share of the peer's.

@@ -21,12 +21,16 @@ struct Variant {
   MethodOptions options;
 };
 
+/// For a chart, of methods that iterate: a descent that creeps on a million triangles ends with what it has.
+constexpr double k_time_limit_s = 120;
+
 std::vector<Variant> variants() {
   std::vector<Variant> all;
   for (const auto& [name, method] : unwrap_methods()) {
     MethodOptions options;
     options.method = method;
     options.charts = ChartSource::keep;
+    options.time_limit_s = k_time_limit_s;
     if (method != UnwrapMethod::maillot) {
       all.push_back({name, options});
       continue;
