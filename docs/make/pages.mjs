@@ -83,6 +83,8 @@ for (const folder of ['.', 'methods', 'evidence']) {
   }
 }
 cpSync(join(project, 'docs', 'pictures'), join(out, 'pictures'), { recursive: true });
+for (const name of readdirSync(join(project, 'docs', 'evidence')).filter((n) => !n.endsWith('.md')))
+  copyFileSync(join(project, 'docs', 'evidence', name), join(out, 'evidence', name));
 for (const [name, copy] of [['README.md', 'project.md'], ['CONTRIBUTING.md', 'contributing.md'], ['CHANGELOG.md', 'changes.md']])
   writeFileSync(join(out, copy), readFileSync(join(project, name), 'utf8')
     .replace(/\]\(docs\/([^)]*)\)/g, '](./$1)').replace(/\]\((?!\.\/|https?:)[^)]*\)/g, ']()').replace(/\[([^\]]*)\]\(\)/g, '$1'));
