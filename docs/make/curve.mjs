@@ -8,6 +8,9 @@ import { readCsv } from './csv.mjs';
 const COLOURS = ['#0a5fb4', '#c1440e', '#2f7d32', '#7b3fa0', '#8a6d00', '#00707a', '#b0306a'];
 const quote = (text) => `'${text.replaceAll("'", "''").replaceAll('\n', ' ')}'`;
 
+/** The name of an axis in lines that fit beside it. */
+const lines = (text) => text.match(/.{1,38}(?: |$)/g).map((line) => quote(line.trim())).join('."\\n".');
+
 /**
  * @param series [{title, points: [[x, y]], quiet}]; quiet ones are grey and unnamed
  */
@@ -23,8 +26,8 @@ set key below left maxcols 1
 set bmargin ${4 + 0.9 * loud.length}
 set grid lc rgb '#d8dde2'
 set xlabel ${quote(x)}
-set ylabel ${quote(y)}
-${log ? 'set logscale xy\nset format "%.0e"' : ''}
+set ylabel ${lines(y)}
+${log ? 'set logscale xy\nset format "%g"\nset mxtics 10' : ''}
 plot ${all.map((s) => `'-' with ${log ? 'linespoints' : 'lines'} ${style(s)}`).join(', ')}
 ${all.map((s) => `${s.points.map((p) => p.join(' ')).join('\n')}\ne`).join('\n')}
 `;
