@@ -145,7 +145,7 @@ std::vector<std::string> mirror_mpeg_haptics(Json& gltf, GlbBuffer& buffer) {
   Mirrored mirrored;
   Json materials = Json::array();
   MapTextures maps(gltf, buffer);
-  const Json sources = gltf["materials"];
+  const Json sources = gltf["materials"];  // A copy: images and textures that are added move what stands in gltf.
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const Json* tag = haptic_tag(sources[i]);
     const Json* height = tag == nullptr ? nullptr : member(*tag, "height");
