@@ -41,11 +41,11 @@ struct BestOptions {
 /// (up to 200,000 vertices) by projected Newton steps on a nested-dissection factorization, with a line search that
 /// crosses no flip and goes further than the model says where the energy bends less. Charts that come out deep (E / ΣA
 /// above 15) begin with 200 vertices, and what leads away from their border pulls harder in Tutte's map. From the first
-/// level on whose
-/// border runs into itself, a barrier between the edges of the border keeps it apart; where vertices find no room then,
-/// the map begins again from an earlier level or a finer base. Cost: O(n) for coarsening and relaxing, O(n^1.5) per
-/// Newton step; about 2 kB per vertex. Charts, branches of the factorization and sums run in parallel; the result does
-/// not depend on the number of threads. Trace: error = E / ΣA, from the first map of the whole chart on. Papers: J.
+/// level on whose border runs into itself, a barrier between the edges of the border keeps it apart; where vertices
+/// find no room then, the map begins again from an earlier level or a finer base. Cost: O(n) for coarsening and
+/// relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the factorization and sums run in
+/// parallel; the result does not depend on the number of threads. Trace: error = E / ΣA, from the first map of the
+/// whole chart on. Papers: J.
 /// Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M. Rabinovich et al., Scalable locally
 /// injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith et al., Analytic eigensystems for
 /// isotropic distortion energies, 2019.
