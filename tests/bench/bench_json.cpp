@@ -31,10 +31,8 @@ double clock_seconds(clockid_t clock) {
 
 Json machine_json() {
   const Machine machine = this_machine();
-  return {{"cpu", machine.cpu},
-          {"cores", machine.cores},
-          {"memory_mib", machine.memory_mib},
-          {"kernel", machine.kernel}};
+  return {
+      {"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_mib", machine.memory_mib}, {"kernel", machine.kernel}};
 }
 
 Json compiler_json() {
@@ -105,6 +103,19 @@ std::string command_line(const std::string& name, int argc, char** argv) {
 
 double thread_cpu_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 double process_cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
+
+double cpu_of(int repeats, const std::function<void()>& work) {
+  constexpr double k_short_s = 0.5;
+  double least = std::numeric_limits<double>::infinity(), sum = 0;
+  for (int i = 0; i < repeats || (repeats > 1 && sum < k_short_s); ++i) {
+    const double before = process_cpu_seconds();
+    work();
+    const double seconds = process_cpu_seconds() - before;
+    least = std::min(least, seconds);
+    sum += seconds;
+  }
+  return least;
+}
 void reset_peak_rss() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 double median(std::vector<double> values) {

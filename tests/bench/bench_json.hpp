@@ -36,6 +36,9 @@ using Json = nlohmann::ordered_json;
 double thread_cpu_seconds();
 /// Processor time used by all threads of the process [s].
 double process_cpu_seconds();
+/// The least processor time of some runs [s]: of `repeats`, or, when that is more than one, of as many as half a second
+/// takes.
+double cpu_of(int repeats, const std::function<void()>& work);
 using papilla::peak_rss_mib;
 /// Starts a new peak of peak_rss_mib(); does nothing where the kernel does not allow it.
 void reset_peak_rss();

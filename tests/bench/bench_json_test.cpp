@@ -46,6 +46,20 @@ TEST(BenchJson, ProcessorClocksCountWorkOfThisThread) {
   EXPECT_GE(process_cpu_seconds() - process_before, 0.0099);
 }
 
+TEST(BenchJson, LeastProcessorTimeOfSomeRuns) {
+  int runs = 0;
+  const double least = cpu_of(3, [&] { keep(spin(++runs == 2 ? 0.2 : 0.3)); });
+  EXPECT_EQ(runs, 3);  // 0.8 s: enough
+  EXPECT_GE(least, 0.199);
+  EXPECT_LT(least, 0.3);
+  runs = 0;
+  cpu_of(2, [&] { keep(spin(0.05)), ++runs; });
+  EXPECT_GE(runs, 9);  // half a second
+  runs = 0;
+  cpu_of(1, [&] { ++runs; });
+  EXPECT_EQ(runs, 1);
+}
+
 TEST(BenchJson, PeakMemoryRisesAndCanBeReset) {
   reset_peak_rss();
   const double before = peak_rss_mib();

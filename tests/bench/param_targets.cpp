@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 
 #include "papilla/core/error.hpp"
 #include "papilla/io/scene_file.hpp"
@@ -58,19 +57,6 @@ const Peer* Peers::find(const std::string& method, const std::string& name, cons
     if (place->second) place->second->report = measure_distortion(mesh, place->second->map.uv);
   }
   return place->second ? &*place->second : nullptr;
-}
-
-double cpu_of(int repeats, const std::function<void()>& work) {
-  constexpr double k_short_s = 0.5;
-  double least = std::numeric_limits<double>::infinity(), sum = 0;
-  for (int i = 0; i < repeats || (repeats > 1 && sum < k_short_s); ++i) {
-    const double before = process_cpu_seconds();
-    work();
-    const double seconds = process_cpu_seconds() - before;
-    least = std::min(least, seconds);
-    sum += seconds;
-  }
-  return least;
 }
 
 void cpu_target(const std::string& promise, const TriangleMesh& mesh, const MapMethod& map, const Peer* peer,

@@ -72,9 +72,6 @@ struct Medians {
   }
 };
 
-/// The least CPU time of some runs [s]: of `repeats`, or, when that is more than one, of as many as half a second takes.
-double cpu_of(int repeats, const std::function<void()>& work);
-
 /// Least CPU of ours over a share of the peer's.
 void cpu_target(const std::string& promise, const TriangleMesh& mesh, const MapMethod& map, const Peer* peer,
                 double limit, double peer_share, BenchReport& report);
