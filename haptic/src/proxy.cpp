@@ -14,7 +14,9 @@ namespace {
 /// Of the shortest step. Near the end a step of s brings only s²/2·depth.
 constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
-constexpr double k_needed_travels = 0.6, k_wanted_travels = 4;
+constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
+constexpr double k_lead = 0.5;  // Of what is gathered: how far before the proxy its centre lies.
+constexpr int k_pieces = 3;     // Of a way, each with what is gathered where it begins; what is longer asks the tree.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
 constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
@@ -77,14 +79,27 @@ void Proxy::look_around(Vec3 from, double travel) noexcept {
 
 void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
   const double radius = std::min(k_wanted_travels * travel + 4 * surface_->skin_m(), widest_m_);
-  if (radius < needed) {
+  if ((1 - k_lead) * radius < needed) {
     near_.forget_place();
     widest_m_ *= k_regrowth;
-  } else if (!surface_->gather(from, radius, near_)) {
+  } else if (!surface_->gather(from + (k_lead * radius) * ahead_, radius, near_)) {
     widest_m_ = 0.5 * radius;
   } else if (near_.blocks() < Neighbourhood::k_blocks / 8) {
     widest_m_ = std::max(widest_m_, 2 * radius);
   }
+}
+
+/// ContactSurface::sweep(); a way that leaves what is gathered goes on with what is gathered where it does.
+std::optional<SweepHit> Proxy::sweep(Vec3 from, Vec3 way, double travel) noexcept {
+  double seen = 0;
+  for (int piece = 0; piece < k_pieces; ++piece) {
+    look_around(from + seen * way, std::min(travel, norm(way)));
+    const double before = seen;
+    const auto hit = surface_->sweep(from, from + way, near_, seen);
+    if (hit || seen >= 1) return hit;
+    if (!(seen > before)) break;
+  }
+  return surface_->sweep(from, from + way);
 }
 
 /// Whether the planes that hold the proxy in a crease are still there: it may have slid past what one was found on.
@@ -104,6 +119,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   if (!started_) reset(probe);
   const double shortest = surface_->tolerance_m() / 4;
   const double travel = norm(probe - probe_);
+  ahead_ = travel > shortest ? (1 / travel) * (probe - probe_) : Vec3{};
   probe_ = probe;
   const Vec3 start = state_.proxy;  // Everything below is relative to it: small numbers, full precision.
   const Vec3 goal = probe - start;
@@ -141,8 +157,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     }
     if (next.sweeps == k_steps) break;
     ++next.sweeps;
-    look_around(start + x, std::min(travel, norm(step)));
-    const auto hit = surface_->sweep(start + x, start + x + step, near_);
+    const auto hit = sweep(start + x, step, travel);
     drop = 0;
     if (drops && !hit) continue;
     step = (hit ? hit->t : 1) * step;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "papilla/core/vec.hpp"
 #include "papilla/haptic/contact_surface.hpp"
@@ -68,6 +69,7 @@ class Proxy {
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
   void look_around(Vec3 from, double travel) noexcept;
   void gather(Vec3 from, double needed, double travel) noexcept;
 
@@ -76,6 +78,7 @@ class Proxy {
   double slide_speed_ = 0;  // m/s, of the tick before.
   bool started_ = false;
   Vec3 probe_;  // Of the tick before.
+  Vec3 ahead_;  // Unit direction of the probe's way in this tick; zero when that is short.
   Neighbourhood near_;
   double widest_m_ = 1;  // Radius that is likely to fit into near_.
 };
