@@ -238,6 +238,31 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood&
   return best;
 }
 
+std::optional<Vec3> ContactSurface::likely_rest(Vec3 goal, double radius_m, Vec3 normal,
+                                                const Neighbourhood& near) const noexcept {
+  if (tallest_ > 0) return std::nullopt;
+  const Vec3 x = goal - origin_;
+  const double contact = contact_radius_m();
+  Neighbourhood::Numbers blocks;
+  // A goal that is no deeper than the radius lies before the surface.
+  double best = radius_m > contact ? radius_m - contact : contact;
+  Vec3 away;
+  const std::uint32_t count = near.along(x, {}, best, blocks);
+  for (std::uint32_t b = 0; b < count; ++b) {
+    if (!near.is_made(blocks[b])) continue;
+    const std::uint32_t block = near.block(blocks[b]);
+    Neighbourhood::Lanes least;
+    near.distances(blocks[b], x, least);
+    for (std::uint32_t lane = 0; lane < clusters_.triangles_in(block); ++lane) {
+      if (static_cast<double>(least[lane]) >= best) continue;
+      const Vec3 d = foot(corners(block * Neighbourhood::k_lanes + lane), x).point - x;
+      if (norm(d) < best) best = norm(d), away = d;
+    }
+  }
+  if (away == Vec3{}) return std::nullopt;
+  return goal + away + (dot(away, normal) >= 0 ? contact / best : -contact / best) * away;
+}
+
 /// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
 /// hit. Nothing is met before `since`.
 void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double since, double until,

@@ -37,6 +37,7 @@ std::array<float, 3> floats_of(Vec3 v) noexcept {
 struct Neighbourhood::Loops {
   static void make_prisms(const Corners& t, Prisms& p) noexcept;
   static void make_box(const Corners& t, Box& box) noexcept;
+  static void distances(const Prisms& t, const float* x, float* result) noexcept;
   static std::uint32_t meet(const Prisms& t, const float* x, const float* w, float reach, float least, float until,
                             float* earliest) noexcept;
   static std::uint32_t near_boxes(const Boxes& b, const float* x, const float* half, float reach) noexcept;
@@ -136,6 +137,22 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noe
     box.half[axis] = 0.5F * (high[axis] - low[axis]) + more + k_margin * size;
     box.centre[axis] = 0.5F * ((high[0] + low[0]) * box.axis[axis] + (high[1] + low[1]) * box.axis[3 + axis] +
                                (high[2] + low[2]) * box.axis[6 + axis]);
+  }
+}
+
+PAPILLA_WIDE void Neighbourhood::Loops::distances(const Prisms& t, const float* x, float* result) noexcept {
+  const float x0 = x[0], x1 = x[1], x2 = x[2];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < k_lanes; ++i) {
+    const float s = t.n[0][i] * x0 + t.n[1][i] * x1 + t.n[2][i] * x2 - t.middle[i];
+    const float ds = std::max(std::abs(s) - t.thick[i], 0.0F);
+    const float m0 = t.m[0][i] * x0 + t.m[1][i] * x1 + t.m[2][i] * x2 - t.beyond[0][i];
+    const float m1 = t.m[3][i] * x0 + t.m[4][i] * x1 + t.m[5][i] * x2 - t.beyond[1][i];
+    const float m2 = t.m[6][i] * x0 + t.m[7][i] * x1 + t.m[8][i] * x2 - t.beyond[2][i];
+    const float e = t.e[0][i] * x0 + t.e[1][i] * x1 + t.e[2][i] * x2 - t.halfway[i];
+    const float m3 = std::abs(e) - t.half[i];
+    const float dm = std::max(std::max(std::max(m0, m1), std::max(m2, m3)), 0.0F);
+    result[i] = std::sqrt(ds * ds + dm * dm);
   }
 }
 
@@ -266,6 +283,13 @@ std::uint32_t Neighbourhood::along(Vec3 from, Vec3 way, double distance, Numbers
       found[count++] = static_cast<std::uint16_t>(first + static_cast<std::uint32_t>(std::countr_zero(near)));
   }
   return count;
+}
+
+void Neighbourhood::distances(std::uint32_t i, Vec3 from, Lanes& least) const noexcept {
+  const std::array<float, 3>& o = origin_[slot(i)];
+  const std::array<float, 3> x =
+      floats_of(from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])});
+  Loops::distances(prisms_[slot(i)], x.data(), least.data());
 }
 
 std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double since,

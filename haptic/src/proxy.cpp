@@ -17,6 +17,7 @@ constexpr double k_least_gain = 0.02;
 constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
 constexpr double k_lead = 0.5;  // Of what is gathered: how far before the proxy its centre lies.
 constexpr int k_pieces = 3;     // Of a way, each with what is gathered where it begins; what is longer asks the tree.
+constexpr double k_far = 1.5;   // Of the probe's way: a proxy that goes farther slips down a slope.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
 constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
@@ -114,6 +115,25 @@ bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Ve
   return true;
 }
 
+/// Where the way of steepest descent forks, long steps can come to rest in the farther of two hollows. Tries whether
+/// the nearest place of all can be reached: along the surface, then down. @returns whether x was moved nearer to the
+/// goal.
+bool Proxy::leap(Vec3 start, Vec3 goal, Vec3& x, double travel, ProxyState& next) noexcept {
+  const double now = norm(goal - x);
+  const auto found = surface_->likely_rest(start + goal, now - 2 * surface_->tolerance_m(), next.normal, near_);
+  if (!found || next.sweeps + 2 > k_steps) return false;
+  const Vec3 rest = *found - start, over = rest - std::min(dot(next.normal, rest - x), 0.0) * next.normal;
+  if (norm(over - x) <= k_drop * surface_->tolerance_m()) return false;
+  next.sweeps += 2;
+  if (sweep(start + x, over - x, travel)) return false;
+  const Vec3 down = rest - over - surface_->tolerance_m() * next.normal;
+  const auto hit = sweep(start + over, down, travel);
+  const Vec3 there = over + (hit ? hit->t : 1) * down;
+  if (norm(goal - there) >= now - surface_->tolerance_m()) return false;
+  x = there;
+  return true;
+}
+
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   if (!is_finite(probe)) return state_;
   if (!started_) reset(probe);
@@ -127,7 +147,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   ProxyState next;
   Planes planes;
   Vec3 x{}, slid{};
-  bool free = false;
+  bool free = false, leapt = false;
   // What friction holds is pressed back along the normal: on the straight way to the probe it would creep along.
   Vec3 normal = state_.normal;
   double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
@@ -144,7 +164,10 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
       hold(aim, planes, goal, next);
       const double held = friction(surface_->material(next.material)) * next.load_m;
       if (wanted - held <= shortest) {
-        if (aim.count == 1 || all_stand(planes, aim.active, start, x, next)) break;
+        const bool stays = aim.count == 1 || all_stand(planes, aim.active, start, x, next);
+        if (stays && (leapt || held > 0 || norm(x) <= k_far * travel)) break;
+        if (stays) leapt = true;
+        if (stays && !leap(start, goal, x, travel, next)) break;
         planes.count = 0;
         continue;
       }

@@ -61,6 +61,9 @@ class Neighbourhood {
   /// Makes the prisms of block i. @param origin what the corners are relative to, near them. All lanes are filled.
   void make(std::uint32_t i, const std::array<float, 3>& origin, const Corners& corners) noexcept;
 
+  /// How far `from` is at least from each triangle of a block that is made.
+  void distances(std::uint32_t i, Vec3 from, Lanes& least) const noexcept;
+
   /// For the triangles of a block that is made, side by side: no t from `since` on and before earliest[k] brings
   /// from + t·way nearer than `contact` to triangle k; 2 when none up to 1 brings it `deep` nearer than that.
   /// @returns a bit for each with earliest[k] up to `until`, and maybe some more.

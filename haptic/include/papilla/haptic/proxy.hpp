@@ -68,6 +68,7 @@ class Proxy {
   struct Planes;
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
+  bool leap(Vec3 start, Vec3 goal, Vec3& x, double travel, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
   std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
   void look_around(Vec3 from, double travel) noexcept;
