@@ -18,6 +18,7 @@ constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
 constexpr double k_lead = 0.5;  // Of what is gathered: how far before the proxy its centre lies.
 constexpr int k_pieces = 3;     // Of a way, each with what is gathered where it begins; what is longer asks the tree.
 constexpr double k_far = 1.5;   // Of the probe's way: a proxy that goes farther slips down a slope.
+constexpr double k_held = 0.1;  // Of the probe's way: a proxy that goes no farther is held.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
 constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
@@ -147,7 +148,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   ProxyState next;
   Planes planes;
   Vec3 x{}, slid{};
-  bool free = false, leapt = false;
+  bool free = false, leapt = false, crept = false, again = false;
   // What friction holds is pressed back along the normal: on the straight way to the probe it would creep along.
   Vec3 normal = state_.normal;
   double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
@@ -174,8 +175,12 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
       step = (1 - held / wanted) * step;
     } else {
       free = wanted == 0;
-      // A round that started from here and came back no nearer: converged to within the tolerance.
-      if (free || (planes.count == 0 && wanted > nearest - k_least_gain * shortest)) break;
+      // A round that started from here and came back no nearer: converged to within the tolerance. Only a proxy that is
+      // held in a crease, and has crept a little along it, may have come to where a wall falls away: a round later it's
+      // seen.
+      const bool no_nearer = planes.count == 0 && wanted > nearest - k_least_gain * shortest;
+      if (free || (no_nearer && (again || !crept || norm(x) > k_held * travel))) break;
+      again = again || no_nearer;
       if (planes.count == 0) nearest = wanted;
     }
     if (next.sweeps == k_steps) break;
@@ -191,6 +196,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     if (!hit) {
       if (friction(surface_->material(next.material)) > 0) drop = norm(step) + k_drop * shortest;
       normal = next.normal;
+      crept = aim.count > 1 && norm(step) > 2 * shortest;
       planes.count = 0;
       continue;
     }
