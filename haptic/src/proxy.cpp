@@ -18,6 +18,7 @@ constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
 constexpr double k_lead = 0.5;  // Of what is gathered: how far before the proxy its centre lies.
 constexpr int k_pieces = 3;     // Of a way, each with what is gathered where it begins; what is longer asks the tree.
 constexpr double k_far = 1.5;   // Of the probe's way: a proxy that goes farther slips down a slope.
+constexpr int k_few = 8;        // Sweeps; one that took more of them has felt its way.
 constexpr double k_held = 0.1;  // Of the probe's way: a proxy that goes no farther is held.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
@@ -122,7 +123,7 @@ bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Ve
 bool Proxy::leap(Vec3 start, Vec3 goal, Vec3& x, double travel, ProxyState& next) noexcept {
   const double now = norm(goal - x);
   const auto found = surface_->likely_rest(start + goal, now - 2 * surface_->tolerance_m(), next.normal, near_);
-  if (!found || next.sweeps + 2 > k_steps) return false;
+  if (!found) return false;
   const Vec3 rest = *found - start, over = rest - std::min(dot(next.normal, rest - x), 0.0) * next.normal;
   if (norm(over - x) <= k_drop * surface_->tolerance_m()) return false;
   next.sweeps += 2;
@@ -166,7 +167,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
       const double held = friction(surface_->material(next.material)) * next.load_m;
       if (wanted - held <= shortest) {
         const bool stays = aim.count == 1 || all_stand(planes, aim.active, start, x, next);
-        if (stays && (leapt || held > 0 || norm(x) <= k_far * travel)) break;
+        if (stays && (leapt || held > 0 || next.sweeps > k_few || norm(x) <= k_far * travel)) break;
         if (stays) leapt = true;
         if (stays && !leap(start, goal, x, travel, next)) break;
         planes.count = 0;
