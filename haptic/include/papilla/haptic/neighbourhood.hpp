@@ -15,7 +15,7 @@ namespace papilla {
 /// Triangles come in blocks of sixteen that lie together. Of all blocks around the ball the boxes are known. The
 /// triangles of a block are taken in when a way comes near its box for the first time, and stay, also when the ball is
 /// moved on, until newer ones need the room: a probe on its way meets a new block now and then, so that the work comes
-/// in small pieces and none of it in vain.
+/// in small pieces and none of it in vain. From then on its box is one of its own direction: blocks are flat.
 ///
 /// Each triangle has a prism around it and its relief, in single precision and rounded outwards: its plane, a plane
 /// through each edge, and the two ends of its longest edge, which are tighter beyond a sharp corner. The distance to it

@@ -35,6 +35,11 @@ struct ProxyState {
 /// tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps sweeps; then the proxy
 /// still is outside and goes on in the next tick.
 ///
+/// A proxy without friction that went much farther than the probe, in a few sweeps, may have come to rest in the
+/// farther of two hollows: once a tick it tries whether ContactSurface::likely_rest() can be reached by a free way
+/// along the surface and one down. One that is held in a crease goes on for a round more than its gain is worth, as a
+/// wall may have fallen away.
+///
 /// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
 /// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
 /// [Stribeck]. v is the way along the surface smoothed over the memory of friction, 10 ms (assumed; frictional lag:
