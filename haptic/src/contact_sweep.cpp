@@ -187,7 +187,10 @@ bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) c
   near.begin(centre - origin_, radius_m);
   for (std::uint32_t i = 0; i < count && fits; ++i) {
     const std::uint32_t first = clusters_.first_block(met[i]), end = first + clusters_.blocks_of(met[i]);
-    for (std::uint32_t block = first; block < end; ++block) fits = fits && near.add(block, clusters_.box_of(block));
+    for (std::uint32_t block = first; block < end && fits; ++block) {
+      fits = !near.full();
+      if (fits && !near.add_made(block)) near.add(block, clusters_.box_of(block));
+    }
   }
   if (!fits) near.forget_place();
   return fits;
@@ -213,23 +216,56 @@ void ContactSurface::make_prisms(std::uint32_t i, Neighbourhood& near) const noe
 }
 
 std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood& near) const noexcept {
+  double seen = 0;
+  const auto hit = sweep(from, to, near, seen);
+  return hit || seen >= 1 ? hit : sweep(from, to);
+}
+
+std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept {
   const Vec3 start = from - origin_, way = to - from;
-  const double length = norm(way), margin = near.margin(start);
-  if (!(margin > 0)) return sweep(from, to);
-  const double known = length > margin ? margin / length : 1;
+  const double length = norm(way), margin = near.margin(start + seen * way);
   std::optional<SweepHit> best;
+  if (!(margin > 0)) return best;
+  const double known = (1 - seen) * length > margin ? seen + margin / length : 1;
   // A long way goes into the surface and is most often stopped where it starts, a short one leads along it.
-  double until = length > k_short_way * skin_ ? skin_ / length : known;
-  for (bool last = false; !best && !last; until *= k_short_way) {
-    last = until >= known;
-    sweep_prisms(near, start, way, std::min(until, known), best);
+  double piece = length > k_short_way * skin_ ? skin_ / length : 1;
+  while (!best && seen < known) {
+    const double until = std::min(seen + piece, known);
+    sweep_prisms(near, start, way, seen, until, best);
+    seen = until;
+    piece *= k_short_way;
   }
-  return best || known >= 1 ? best : sweep(from, to);
+  return best;
+}
+
+std::optional<Vec3> ContactSurface::likely_rest(Vec3 goal, double radius_m, Vec3 normal,
+                                                const Neighbourhood& near) const noexcept {
+  if (tallest_ > 0) return std::nullopt;
+  const Vec3 x = goal - origin_;
+  const double contact = contact_radius_m();
+  Neighbourhood::Numbers blocks;
+  // A goal that is no deeper than the radius lies before the surface.
+  double best = radius_m > contact ? radius_m - contact : contact;
+  Vec3 away;
+  const std::uint32_t count = near.along(x, {}, best, blocks);
+  for (std::uint32_t b = 0; b < count; ++b) {
+    if (!near.is_made(blocks[b])) continue;
+    const std::uint32_t block = near.block(blocks[b]);
+    Neighbourhood::Lanes least;
+    near.distances(blocks[b], x, least);
+    for (std::uint32_t lane = 0; lane < clusters_.triangles_in(block); ++lane) {
+      if (static_cast<double>(least[lane]) >= best) continue;
+      const Vec3 d = foot(corners(block * Neighbourhood::k_lanes + lane), x).point - x;
+      if (norm(d) < best) best = norm(d), away = d;
+    }
+  }
+  if (away == Vec3{}) return std::nullopt;
+  return goal + away + (dot(away, normal) >= 0 ? contact / best : -contact / best) * away;
 }
 
 /// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
-/// hit.
-void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double until,
+/// hit. Nothing is met before `since`.
+void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double since, double until,
                                   std::optional<SweepHit>& best) const noexcept {
   struct Open {
     float earliest;
@@ -238,15 +274,13 @@ void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, doub
   std::array<Open, Neighbourhood::k_blocks * Neighbourhood::k_lanes> open;
   Neighbourhood::Numbers blocks;
   const double contact = contact_radius_m();
-  // The ball around the whole piece.
-  const Vec3 half = 0.5 * until * way;
-  const std::uint32_t block_count = near.within(from + half, norm(half) + contact, blocks);
+  const std::uint32_t block_count = near.along(from + since * way, (until - since) * way, contact, blocks);
   std::uint32_t count = 0;
   for (std::uint32_t b = 0; b < block_count; ++b) {
     if (!near.is_made(blocks[b])) make_prisms(blocks[b], near);
     Neighbourhood::Lanes earliest;
     const std::uint32_t block = near.block(blocks[b]);
-    std::uint32_t met = near.near_way(blocks[b], from, way, contact, tolerance_m(), until, earliest);
+    std::uint32_t met = near.near_way(blocks[b], from, way, contact, tolerance_m(), since, until, earliest);
     for (met &= (1U << clusters_.triangles_in(block)) - 1; met != 0; met &= met - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(met));
       open[count++] = {earliest[lane], block * Neighbourhood::k_lanes + lane};

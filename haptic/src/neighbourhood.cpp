@@ -19,10 +19,12 @@ namespace {
 
 constexpr float k_margin = 2e-6F;  // Relative; a dozen roundings of single precision.
 constexpr float k_never = 2;
-// Taken of a block: the second tells what a whole way only passes over. The piece at the start of a long one is too
-// short.
-constexpr int k_tangents = 2;
+// Taken of a block: those after the first tell what a whole way only passes over. The piece at the start of a long one
+// is too short.
+constexpr int k_tangents = 3;
 constexpr float k_least = 1e-25F;  // Keeps a quotient finite.
+
+constexpr float k_rounding = 4e-7F;  // Relative; a few roundings.
 
 float size_of(Vec3 v) noexcept { return static_cast<float>(std::abs(v.x) + std::abs(v.y) + std::abs(v.z)); }
 
@@ -34,9 +36,11 @@ std::array<float, 3> floats_of(Vec3 v) noexcept {
 
 struct Neighbourhood::Loops {
   static void make_prisms(const Corners& t, Prisms& p) noexcept;
+  static void make_box(const Corners& t, Box& box) noexcept;
+  static void distances(const Prisms& t, const float* x, float* result) noexcept;
   static std::uint32_t meet(const Prisms& t, const float* x, const float* w, float reach, float least, float until,
                             float* earliest) noexcept;
-  static void distances2(const Boxes& boxes, std::uint32_t count, const float* x, float* result) noexcept;
+  static std::uint32_t near_boxes(const Boxes& b, const float* x, const float* half, float reach) noexcept;
 };
 
 /// Plane and edge planes of each triangle. Whatever the rounded normals are, corners bound all that lies between them.
@@ -85,6 +89,73 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p)
   }
 }
 
+/// Along the mean normal, and the axis of the frame that lies most across it: blocks are cut along the frame's axes.
+/// The centre is that of the corners.
+PAPILLA_WIDE void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noexcept {
+  float n0 = 0, n1 = 0, n2 = 0;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < k_lanes; ++i) {
+    const float ux = t.x[3][i] - t.x[0][i], uy = t.x[4][i] - t.x[1][i], uz = t.x[5][i] - t.x[2][i];
+    const float vx = t.x[6][i] - t.x[0][i], vy = t.x[7][i] - t.x[1][i], vz = t.x[8][i] - t.x[2][i];
+    n0 += uy * vz - uz * vy, n1 += uz * vx - ux * vz, n2 += ux * vy - uy * vx;
+  }
+  const float length2 = n0 * n0 + n1 * n1 + n2 * n2, by = 1 / std::sqrt(std::max(length2, k_least));
+  const bool folded = !(length2 > k_least);
+  const float n[3] = {folded ? 1 : by * n0, folded ? 0 : by * n1, folded ? 0 : by * n2};
+  const float a0 = std::abs(n[0]), a1 = std::abs(n[1]), a2 = std::abs(n[2]);
+  const std::size_t k = a0 <= a1 && a0 <= a2 ? 0 : a1 <= a2 ? 1 : 2;
+  float u[3] = {-n[k] * n[0], -n[k] * n[1], -n[k] * n[2]};
+  u[k] += 1;
+  const float to_unit = 1 / std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);  // Of at least 2/3.
+  for (float& v : u) v *= to_unit;
+  box.axis = {n[0],
+              n[1],
+              n[2],
+              u[0],
+              u[1],
+              u[2],
+              n[1] * u[2] - n[2] * u[1],
+              n[2] * u[0] - n[0] * u[2],
+              n[0] * u[1] - n[1] * u[0]};
+  float more = 0;
+  for (std::size_t i = 0; i < k_lanes; ++i) more = std::max(more, t.top[i]);
+  float low[3], high[3];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float e0 = box.axis[3 * axis], e1 = box.axis[3 * axis + 1], e2 = box.axis[3 * axis + 2];
+    float least = t.x[0][0] * e0 + t.x[1][0] * e1 + t.x[2][0] * e2, most = least;
+    for (std::size_t corner = 0; corner < 9; corner += 3)
+      for (std::size_t i = 0; i < k_lanes; ++i) {
+        const float at = t.x[corner][i] * e0 + t.x[corner + 1][i] * e1 + t.x[corner + 2][i] * e2;
+        least = std::min(least, at);
+        most = std::max(most, at);
+      }
+    low[axis] = least, high[axis] = most;
+  }
+  const float size = std::max(std::abs(low[0]), std::abs(high[0])) + std::max(std::abs(low[1]), std::abs(high[1])) +
+                     std::max(std::abs(low[2]), std::abs(high[2]));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.half[axis] = 0.5F * (high[axis] - low[axis]) + more + k_margin * size;
+    box.centre[axis] = 0.5F * ((high[0] + low[0]) * box.axis[axis] + (high[1] + low[1]) * box.axis[3 + axis] +
+                               (high[2] + low[2]) * box.axis[6 + axis]);
+  }
+}
+
+PAPILLA_WIDE void Neighbourhood::Loops::distances(const Prisms& t, const float* x, float* result) noexcept {
+  const float x0 = x[0], x1 = x[1], x2 = x[2];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < k_lanes; ++i) {
+    const float s = t.n[0][i] * x0 + t.n[1][i] * x1 + t.n[2][i] * x2 - t.middle[i];
+    const float ds = std::max(std::abs(s) - t.thick[i], 0.0F);
+    const float m0 = t.m[0][i] * x0 + t.m[1][i] * x1 + t.m[2][i] * x2 - t.beyond[0][i];
+    const float m1 = t.m[3][i] * x0 + t.m[4][i] * x1 + t.m[5][i] * x2 - t.beyond[1][i];
+    const float m2 = t.m[6][i] * x0 + t.m[7][i] * x1 + t.m[8][i] * x2 - t.beyond[2][i];
+    const float e = t.e[0][i] * x0 + t.e[1][i] * x1 + t.e[2][i] * x2 - t.halfway[i];
+    const float m3 = std::abs(e) - t.half[i];
+    const float dm = std::max(std::max(std::max(m0, m1), std::max(m2, m3)), 0.0F);
+    result[i] = std::sqrt(ds * ds + dm * dm);
+  }
+}
+
 /// With g the distance to the prism at x + t·w, t = earliest, and p/g its slope along w, the distance at t' is at least
 /// g + (t' − t)·p/g: reach c is not met before t + (g − c)·g/−p, and what lies below g + (1 − t)·min(p/g, 0) not at
 /// all.
@@ -120,16 +191,30 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::meet(const Prisms& t, const flo
   return bits;
 }
 
-PAPILLA_WIDE void Neighbourhood::Loops::distances2(const Boxes& b, std::uint32_t count, const float* x,
-                                                   float* result) noexcept {
-  const float x0 = x[0], x1 = x[1], x2 = x[2];
+/// With d from a box to x, the middle of a way from x − half to x + half, no point of that is nearer to the box than
+/// |d| − |d·half|/|d|. @returns a bit for each of k_lanes boxes where that is at most `reach`.
+PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::near_boxes(const Boxes& b, const float* x, const float* half,
+                                                            float reach) noexcept {
+  const float x0 = x[0], x1 = x[1], x2 = x[2], h0 = half[0], h1 = half[1], h2 = half[2];
+  float beyond[k_lanes];
 #pragma GCC ivdep
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const float d0 = std::max(std::max(b.low[0][i] - x0, x0 - b.high[0][i]), 0.0F);
-    const float d1 = std::max(std::max(b.low[1][i] - x1, x1 - b.high[1][i]), 0.0F);
-    const float d2 = std::max(std::max(b.low[2][i] - x2, x2 - b.high[2][i]), 0.0F);
-    result[i] = d0 * d0 + d1 * d1 + d2 * d2;
+  for (std::size_t i = 0; i < k_lanes; ++i) {
+    const float y0 = x0 - b.centre[0][i], y1 = x1 - b.centre[1][i], y2 = x2 - b.centre[2][i];
+    const float q0 = b.axis[0][i] * y0 + b.axis[1][i] * y1 + b.axis[2][i] * y2;
+    const float q1 = b.axis[3][i] * y0 + b.axis[4][i] * y1 + b.axis[5][i] * y2;
+    const float q2 = b.axis[6][i] * y0 + b.axis[7][i] * y1 + b.axis[8][i] * y2;
+    const float d0 = std::max(q0 - b.half[0][i], 0.0F) - std::max(-q0 - b.half[0][i], 0.0F);
+    const float d1 = std::max(q1 - b.half[1][i], 0.0F) - std::max(-q1 - b.half[1][i], 0.0F);
+    const float d2 = std::max(q2 - b.half[2][i], 0.0F) - std::max(-q2 - b.half[2][i], 0.0F);
+    const float g2 = d0 * d0 + d1 * d1 + d2 * d2;
+    const float along = d0 * (b.axis[0][i] * h0 + b.axis[1][i] * h1 + b.axis[2][i] * h2) +
+                        d1 * (b.axis[3][i] * h0 + b.axis[4][i] * h1 + b.axis[5][i] * h2) +
+                        d2 * (b.axis[6][i] * h0 + b.axis[7][i] * h1 + b.axis[8][i] * h2);
+    beyond[i] = g2 - std::abs(along) - reach * std::sqrt(g2);
   }
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < k_lanes; ++i) bits |= beyond[i] <= 0 ? 1U << i : 0U;
+  return bits;
 }
 
 void Neighbourhood::clear() noexcept {
@@ -143,47 +228,83 @@ void Neighbourhood::begin(Vec3 centre, double reach_m) noexcept {
   count_ = 0;
 }
 
-bool Neighbourhood::add(std::uint32_t block, const Box3f& box) noexcept {
-  if (count_ == k_blocks) return false;
-  for (std::size_t k = 0; k < 3; ++k) boxes_.low[k][count_] = box.low[k], boxes_.high[k][count_] = box.high[k];
+void Neighbourhood::set_box(std::uint32_t i, const Box& box) noexcept {
+  Boxes& to = boxes_[i / k_lanes];
+  const std::size_t lane = i % k_lanes;
+  for (std::size_t k = 0; k < 3; ++k) to.centre[k][lane] = box.centre[k], to.half[k][lane] = box.half[k];
+  for (std::size_t k = 0; k < 9; ++k) to.axis[k][lane] = box.axis[k];
+}
+
+void Neighbourhood::add(std::uint32_t block, const Box3f& box) noexcept {
+  Box level;
+  for (std::size_t k = 0; k < 3; ++k) {
+    level.centre[k] = 0.5F * (box.low[k] + box.high[k]);
+    level.half[k] = 0.5F * (box.high[k] - box.low[k]) + k_rounding * (std::abs(box.low[k]) + std::abs(box.high[k]));
+  }
+  set_box(count_, level);
   block_[count_++] = block;
+}
+
+bool Neighbourhood::add_made(std::uint32_t block) noexcept {
+  block_[count_] = block;
+  if (!is_made(count_)) return false;
+  set_box(count_, made_box_[slot(count_)]);
+  ++count_;
   return true;
 }
 
 void Neighbourhood::make(std::uint32_t i, const std::array<float, 3>& origin, const Corners& corners) noexcept {
   Loops::make_prisms(corners, prisms_[next_]);
+  Box& box = made_box_[next_];
+  Loops::make_box(corners, box);
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.centre[k] += origin[k];
+    box.half[k] += k_rounding * (std::abs(origin[0]) + std::abs(origin[1]) + std::abs(origin[2]));
+  }
+  set_box(i, box);
   origin_[next_] = origin;
   made_[next_] = block_[i];
   slots_[block_[i] % k_remembered] = static_cast<std::uint16_t>(next_);
   next_ = (next_ + 1) % k_made;
 }
 
-std::uint32_t Neighbourhood::within(Vec3 from, double distance, Numbers& found) const noexcept {
-  const std::array<float, 3> x = floats_of(from);
-  alignas(64) std::array<float, k_blocks> distance2;
-  Loops::distances2(boxes_, count_, x.data(), distance2.data());
-  const float most = static_cast<float>(distance) * (1 + k_margin) + k_margin * size_of(from);
+std::uint32_t Neighbourhood::along(Vec3 from, Vec3 way, double distance, Numbers& found) const noexcept {
+  const Vec3 half = 0.5 * way, middle = from + half;
+  const std::array<float, 3> x = floats_of(middle), h = floats_of(half);
+  const auto reach = static_cast<float>(distance);
+  // Rounding turns the direction to a box beyond `reach` by less than the error over `reach`.
+  const float error = k_margin * size_of(middle);
+  const float most = reach * (1 + k_margin) + error + (error / reach + k_margin) * size_of(half);
   std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    found[count] = static_cast<std::uint16_t>(i);
-    count += distance2[i] <= most * most ? 1U : 0U;
+  for (std::uint32_t first = 0; first < count_; first += k_lanes) {
+    std::uint32_t near = Loops::near_boxes(boxes_[first / k_lanes], x.data(), h.data(), most);
+    if (count_ - first < k_lanes) near &= (1U << (count_ - first)) - 1;
+    for (; near != 0; near &= near - 1)
+      found[count++] = static_cast<std::uint16_t>(first + static_cast<std::uint32_t>(std::countr_zero(near)));
   }
   return count;
 }
 
-std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double until,
-                                      Lanes& earliest) const noexcept {
+void Neighbourhood::distances(std::uint32_t i, Vec3 from, Lanes& least) const noexcept {
+  const std::array<float, 3>& o = origin_[slot(i)];
+  const std::array<float, 3> x =
+      floats_of(from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])});
+  Loops::distances(prisms_[slot(i)], x.data(), least.data());
+}
+
+std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double since,
+                                      double until, Lanes& earliest) const noexcept {
   const std::array<float, 3>& o = origin_[slot(i)];
   const Vec3 at = from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
   const std::array<float, 3> x = floats_of(at), w = floats_of(way);
   const auto c = static_cast<float>(contact), last = static_cast<float>(until) * (1 + k_margin);
   const float error = 4 * k_margin * (c + size_of(at) + size_of(way));
   std::uint32_t met = 0;
-  earliest.fill(0);
+  earliest.fill(static_cast<float>(since) * (1 - k_margin));
   for (int tangent = 0; tangent < k_tangents; ++tangent) {
     met = Loops::meet(prisms_[slot(i)], x.data(), w.data(), c + error, c + error - static_cast<float>(deep), last,
                       earliest.data());
-    if (std::popcount(met) < 2 || until < 1) break;
+    if (met == 0 || until < 1) break;
   }
   return met;
 }

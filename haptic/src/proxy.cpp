@@ -14,7 +14,12 @@ namespace {
 /// Of the shortest step. Near the end a step of s brings only s²/2·depth.
 constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
-constexpr double k_needed_travels = 0.6, k_wanted_travels = 4;
+constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
+constexpr double k_lead = 0.5;  // Of what is gathered: how far before the proxy its centre lies.
+constexpr int k_pieces = 3;     // Of a way, each with what is gathered where it begins; what is longer asks the tree.
+constexpr double k_far = 1.5;   // Of the probe's way: a proxy that goes farther slips down a slope.
+constexpr int k_few = 8;        // Sweeps; one that took more of them has felt its way.
+constexpr double k_held = 0.1;  // Of the probe's way: a proxy that goes no farther is held.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
 constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
@@ -77,14 +82,27 @@ void Proxy::look_around(Vec3 from, double travel) noexcept {
 
 void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
   const double radius = std::min(k_wanted_travels * travel + 4 * surface_->skin_m(), widest_m_);
-  if (radius < needed) {
+  if ((1 - k_lead) * radius < needed) {
     near_.forget_place();
     widest_m_ *= k_regrowth;
-  } else if (!surface_->gather(from, radius, near_)) {
+  } else if (!surface_->gather(from + (k_lead * radius) * ahead_, radius, near_)) {
     widest_m_ = 0.5 * radius;
   } else if (near_.blocks() < Neighbourhood::k_blocks / 8) {
     widest_m_ = std::max(widest_m_, 2 * radius);
   }
+}
+
+/// ContactSurface::sweep(); a way that leaves what is gathered goes on with what is gathered where it does.
+std::optional<SweepHit> Proxy::sweep(Vec3 from, Vec3 way, double travel) noexcept {
+  double seen = 0;
+  for (int piece = 0; piece < k_pieces; ++piece) {
+    look_around(from + seen * way, std::min(travel, norm(way)));
+    const double before = seen;
+    const auto hit = surface_->sweep(from, from + way, near_, seen);
+    if (hit || seen >= 1) return hit;
+    if (!(seen > before)) break;
+  }
+  return surface_->sweep(from, from + way);
 }
 
 /// Whether the planes that hold the proxy in a crease are still there: it may have slid past what one was found on.
@@ -99,11 +117,31 @@ bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Ve
   return true;
 }
 
+/// Where the way of steepest descent forks, long steps can come to rest in the farther of two hollows. Tries whether
+/// the nearest place of all can be reached: along the surface, then down. @returns whether x was moved nearer to the
+/// goal.
+bool Proxy::leap(Vec3 start, Vec3 goal, Vec3& x, double travel, ProxyState& next) noexcept {
+  const double now = norm(goal - x);
+  const auto found = surface_->likely_rest(start + goal, now - 2 * surface_->tolerance_m(), next.normal, near_);
+  if (!found) return false;
+  const Vec3 rest = *found - start, over = rest - std::min(dot(next.normal, rest - x), 0.0) * next.normal;
+  if (norm(over - x) <= k_drop * surface_->tolerance_m()) return false;
+  next.sweeps += 2;
+  if (sweep(start + x, over - x, travel)) return false;
+  const Vec3 down = rest - over - surface_->tolerance_m() * next.normal;
+  const auto hit = sweep(start + over, down, travel);
+  const Vec3 there = over + (hit ? hit->t : 1) * down;
+  if (norm(goal - there) >= now - surface_->tolerance_m()) return false;
+  x = there;
+  return true;
+}
+
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   if (!is_finite(probe)) return state_;
   if (!started_) reset(probe);
   const double shortest = surface_->tolerance_m() / 4;
   const double travel = norm(probe - probe_);
+  ahead_ = travel > shortest ? (1 / travel) * (probe - probe_) : Vec3{};
   probe_ = probe;
   const Vec3 start = state_.proxy;  // Everything below is relative to it: small numbers, full precision.
   const Vec3 goal = probe - start;
@@ -111,7 +149,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   ProxyState next;
   Planes planes;
   Vec3 x{}, slid{};
-  bool free = false;
+  bool free = false, leapt = false, crept = false, again = false;
   // What friction holds is pressed back along the normal: on the straight way to the probe it would creep along.
   Vec3 normal = state_.normal;
   double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
@@ -128,21 +166,27 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
       hold(aim, planes, goal, next);
       const double held = friction(surface_->material(next.material)) * next.load_m;
       if (wanted - held <= shortest) {
-        if (aim.count == 1 || all_stand(planes, aim.active, start, x, next)) break;
+        const bool stays = aim.count == 1 || all_stand(planes, aim.active, start, x, next);
+        if (stays && (leapt || held > 0 || next.sweeps > k_few || norm(x) <= k_far * travel)) break;
+        if (stays) leapt = true;
+        if (stays && !leap(start, goal, x, travel, next)) break;
         planes.count = 0;
         continue;
       }
       step = (1 - held / wanted) * step;
     } else {
       free = wanted == 0;
-      // A round that started from here and came back no nearer: converged to within the tolerance.
-      if (free || (planes.count == 0 && wanted > nearest - k_least_gain * shortest)) break;
+      // A round that started from here and came back no nearer: converged to within the tolerance. Only a proxy that is
+      // held in a crease, and has crept a little along it, may have come to where a wall falls away: a round later it's
+      // seen.
+      const bool no_nearer = planes.count == 0 && wanted > nearest - k_least_gain * shortest;
+      if (free || (no_nearer && (again || !crept || norm(x) > k_held * travel))) break;
+      again = again || no_nearer;
       if (planes.count == 0) nearest = wanted;
     }
     if (next.sweeps == k_steps) break;
     ++next.sweeps;
-    look_around(start + x, std::min(travel, norm(step)));
-    const auto hit = surface_->sweep(start + x, start + x + step, near_);
+    const auto hit = sweep(start + x, step, travel);
     drop = 0;
     if (drops && !hit) continue;
     step = (hit ? hit->t : 1) * step;
@@ -153,6 +197,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     if (!hit) {
       if (friction(surface_->material(next.material)) > 0) drop = norm(step) + k_drop * shortest;
       normal = next.normal;
+      crept = aim.count > 1 && norm(step) > 2 * shortest;
       planes.count = 0;
       continue;
     }

@@ -57,6 +57,38 @@ TEST_P(Near, SweepsAsTheTreeDoes) { compare(300, 3e-3, 1e-2); }
 
 TEST_P(Near, SweepsAsTheTreeDoesWhenPrismsMakeRoomForOthers) { compare(4000, 0.1, 2e-2); }
 
+TEST_P(Near, SweepsInPiecesAsTheTreeDoesAtOnce) {
+  const ContactSurface surface(random_soup(5, 300), {ContactMaterial{}}, {}, GetParam());
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> unit(-0.02, 0.02);
+  const auto place = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  auto near = std::make_unique<Neighbourhood>();
+  int hits = 0, pieces = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 from = place(), to = place();
+    std::optional<SweepHit> found;
+    double seen = 0;
+    while (!found && seen < 1) {
+      ASSERT_TRUE(surface.gather(from + seen * (to - from), 3e-3, *near));
+      const double before = seen;
+      found = surface.sweep(from, to, *near, seen);
+      if (!found) {
+        ASSERT_GT(seen, before);
+      }
+      ++pieces;
+    }
+    const auto expected = surface.sweep(from, to);
+    ASSERT_EQ(expected.has_value(), found.has_value()) << i;
+    if (!expected) continue;
+    ++hits;
+    EXPECT_EQ(expected->t, found->t) << i;
+    EXPECT_EQ(expected->triangle, found->triangle) << i;
+    EXPECT_EQ(expected->normal, found->normal) << i;
+  }
+  EXPECT_GT(hits, 200);
+  EXPECT_GT(pieces, 2000);
+}
+
 INSTANTIATE_TEST_SUITE_P(Radius, Near, ::testing::Values(0.0, 1e-4, 1e-3));
 
 TEST(Neighbourhood, SaysWhenItIsFull) {

@@ -294,6 +294,26 @@ HeightField sine_field(double amplitude, int waves) {
   return HeightField(n, 2, samples, options);
 }
 
+/// A place of a rough relief where the way of a proxy that slips down forks: 0.3 mm apart lie the hollow that is
+/// nearest to the probe and one that is 5 µm farther.
+TEST(Proxy, TakesTheNearerOfTwoHollows) {
+  const auto height = [](double x, double y) { return 5 * testing::rough_relief(x / 5, y / 5); };
+  const Vec3 corner{0.68, 0.755, 0};
+  const ContactMesh mesh =
+      testing::height_grid(20, 20, 0.02, 0.02, [&](double x, double y) { return height(corner.x + x, corner.y + y); });
+  const ContactSurface surface(mesh, {ContactMaterial{}}, {}, 0);
+  Proxy proxy(surface);
+  const Vec3 rest = Vec3{0.687896285, 0.764078381, 0.001422326} - corner;
+  const Vec3 probe = Vec3{0.688278924, 0.763642124, -0.001485704} - corner;
+  proxy.reset(rest + Vec3{0, 0, 1e-6});
+  proxy.update(Vec3{0.688109545, 0.763748476, -0.001509808} - corner, 1e-3);
+  ASSERT_LT(norm(proxy.state().proxy - rest), 1e-5);
+  proxy.update(probe, 1e-3);
+  const auto nearest = surface.closest_point(probe, 0.01);
+  ASSERT_TRUE(nearest);
+  EXPECT_LT(norm(proxy.state().proxy - nearest->point), surface.contact_radius_m() + 1e-5);
+}
+
 TEST(Proxy, ReliefForceFollowsTheSine) {
   // 0.1 mm waves of 5 mm on a plate; the force is normal to the wave at the point nearest to the probe.
   ContactMaterial material = spring(1000);

@@ -87,6 +87,16 @@ class ContactSurface {
   /// bits, on relief within the tolerance.
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near) const noexcept;
 
+  /// The same, looked for only as far as what was gathered reaches, and only from t = `seen` on: it is known that
+  /// nothing is met before. Without a hit `seen` grows to where it was looked, 1 at the end; it stays when nothing is
+  /// known there.
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept;
+
+  /// Where a probe would rest that is drawn to `goal` and comes from the side of `normal`, if nothing but the nearest
+  /// of the triangles were there that ways have come near so far: a place to try. Nothing with relief, and when there
+  /// is no such place within `radius_m` of the goal.
+  std::optional<Vec3> likely_rest(Vec3 goal, double radius_m, Vec3 normal, const Neighbourhood& near) const noexcept;
+
   /// Shaded normals at a resting probe: with f_i the face normals of the triangles that it touches at `proxy` and s_i
   /// their corner normals, interpolated at the nearest points, writes the normal as Σ λ_i f_i with λ_i ≥ 0 and returns
   /// Σ λ_i s_i, of unit length. So a force that jumps by the angle between two facets turns steadily over both instead
@@ -171,7 +181,7 @@ class ContactSurface {
   static bool comes_before(const SweepHit& a, const SweepHit& b) noexcept;
   void sweep_cluster(std::uint32_t cluster, Vec3 from, Vec3 way, double t_max,
                      std::optional<SweepHit>& best) const noexcept;
-  void sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double until,
+  void sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double since, double until,
                     std::optional<SweepHit>& best) const noexcept;
   void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;
   void sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max, std::optional<SweepHit>& best) const noexcept;

@@ -15,13 +15,13 @@ namespace papilla {
 /// Triangles come in blocks of sixteen that lie together. Of all blocks around the ball the boxes are known. The
 /// triangles of a block are taken in when a way comes near its box for the first time, and stay, also when the ball is
 /// moved on, until newer ones need the room: a probe on its way meets a new block now and then, so that the work comes
-/// in small pieces and none of it in vain.
+/// in small pieces and none of it in vain. From then on its box is one of its own direction: blocks are flat.
 ///
 /// Each triangle has a prism around it and its relief, in single precision and rounded outwards: its plane, a plane
 /// through each edge, and the two ends of its longest edge, which are tighter beyond a sharp corner. The distance to it
 /// is convex along a straight way, so its values and slopes tell, on the safe side, when a way can touch the
 /// triangle and whether it can go deep enough into it. The numbers of sixteen lie side by side in memory, so that a
-/// processor takes several at once. Fixed size, 194 KiB; noexcept, no allocation.
+/// processor takes several at once. Fixed size, 220 KiB; noexcept, no allocation.
 class Neighbourhood {
  public:
   static constexpr std::uint32_t k_lanes = 16;    ///< Triangles in a block.
@@ -42,25 +42,32 @@ class Neighbourhood {
   void forget_place() noexcept { begin({}, -1); }
   /// Starts anew: all that comes within reach_m of `centre` is about to be added. Positions are those of the surface.
   void begin(Vec3 centre, double reach_m) noexcept;
-  /// @param block its number, the same for ever. @returns false, and adds nothing, when there is no room.
-  bool add(std::uint32_t block, const Box3f& box) noexcept;
+  bool full() const noexcept { return count_ == k_blocks; }
+  /// @param block its number, the same for ever. Not when full().
+  void add(std::uint32_t block, const Box3f& box) noexcept;
+  /// Adds a block whose prisms are made, in the box that is known of it. @returns false, and adds nothing, of others.
+  bool add_made(std::uint32_t block) noexcept;
 
   std::uint32_t blocks() const noexcept { return count_; }
   std::uint32_t block(std::uint32_t i) const noexcept { return block_[i]; }
   /// How far a probe may go from `from` in any direction so that all that it can touch is known; negative: not at all.
   double margin(Vec3 from) const noexcept { return reach_ - norm(from - centre_); }
 
-  /// Which blocks have boxes within `distance` of `from`, and maybe some more. @returns how many.
-  std::uint32_t within(Vec3 from, double distance, Numbers& found) const noexcept;
+  /// Which blocks have boxes within `distance` > 0 of the points from + t·way, t ∈ [0, 1], and some more.
+  /// @returns how many.
+  std::uint32_t along(Vec3 from, Vec3 way, double distance, Numbers& found) const noexcept;
 
   bool is_made(std::uint32_t i) const noexcept { return made_[slot(i)] == block_[i]; }
   /// Makes the prisms of block i. @param origin what the corners are relative to, near them. All lanes are filled.
   void make(std::uint32_t i, const std::array<float, 3>& origin, const Corners& corners) noexcept;
 
-  /// For the triangles of a block that is made, side by side: no t before earliest[k] brings from + t·way nearer than
-  /// `contact` to triangle k; 2 when no t up to 1 brings it `deep` nearer than that.
+  /// How far `from` is at least from each triangle of a block that is made.
+  void distances(std::uint32_t i, Vec3 from, Lanes& least) const noexcept;
+
+  /// For the triangles of a block that is made, side by side: no t from `since` on and before earliest[k] brings
+  /// from + t·way nearer than `contact` to triangle k; 2 when none up to 1 brings it `deep` nearer than that.
   /// @returns a bit for each with earliest[k] up to `until`, and maybe some more.
-  std::uint32_t near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double until,
+  std::uint32_t near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double since, double until,
                          Lanes& earliest) const noexcept;
 
  private:
@@ -75,18 +82,26 @@ class Neighbourhood {
     std::array<Lanes, 3> e{};
     Lanes halfway{}, half{};
   };
-  struct Boxes {
-    std::array<std::array<float, k_blocks>, 3> low{}, high{};
+  /// |axis_k · (x − centre)| <= half_k. Along the frame's axes, until the prisms are made and tell better ones: blocks
+  /// are flat.
+  struct Box {
+    std::array<float, 3> centre{}, half{};
+    std::array<float, 9> axis{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  };
+  struct alignas(64) Boxes {
+    std::array<Lanes, 3> centre{}, half{};
+    std::array<Lanes, 9> axis{};
   };
   struct Loops;
 
   /// Where the prisms of block i stand, if they are made.
   std::uint32_t slot(std::uint32_t i) const noexcept { return slots_[block_[i] % k_remembered]; }
+  void set_box(std::uint32_t i, const Box& box) noexcept;
 
   Vec3 centre_;        // Of the ball.
   double reach_ = -1;  // Radius of the ball for the probe's centre.
   std::uint32_t count_ = 0;
-  Boxes boxes_{};
+  std::array<Boxes, k_blocks / k_lanes> boxes_{};
   std::array<std::uint32_t, k_blocks> block_{};
 
   std::uint32_t next_ = 0;                           // The slot to be used next: the oldest.
@@ -94,6 +109,7 @@ class Neighbourhood {
   std::array<std::uint16_t, k_remembered> slots_{};  // By the last digits of a block; of several the last made.
   std::array<std::array<float, 3>, k_made> origin_{};
   std::array<Prisms, k_made> prisms_{};
+  std::array<Box, k_made> made_box_{};
 };
 
 }  // namespace papilla

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "papilla/core/vec.hpp"
 #include "papilla/haptic/contact_surface.hpp"
@@ -33,6 +34,11 @@ struct ProxyState {
 /// fall away let go; in a crease, planes that were found farther back are asked for again before the proxy stops. The
 /// tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps sweeps; then the proxy
 /// still is outside and goes on in the next tick.
+///
+/// A proxy without friction that went much farther than the probe, in a few sweeps, may have come to rest in the
+/// farther of two hollows: once a tick it tries whether ContactSurface::likely_rest() can be reached by a free way
+/// along the surface and one down. One that is held in a crease goes on for a round more than its gain is worth, as a
+/// wall may have fallen away.
 ///
 /// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
 /// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
@@ -67,7 +73,9 @@ class Proxy {
   struct Planes;
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
+  bool leap(Vec3 start, Vec3 goal, Vec3& x, double travel, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
   void look_around(Vec3 from, double travel) noexcept;
   void gather(Vec3 from, double needed, double travel) noexcept;
 
@@ -76,6 +84,7 @@ class Proxy {
   double slide_speed_ = 0;  // m/s, of the tick before.
   bool started_ = false;
   Vec3 probe_;  // Of the tick before.
+  Vec3 ahead_;  // Unit direction of the probe's way in this tick; zero when that is short.
   Neighbourhood near_;
   double widest_m_ = 1;  // Radius that is likely to fit into near_.
 };
