@@ -4,10 +4,12 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "dense_cholesky.hpp"
 #include "sparse_cholesky.hpp"
 
 namespace papilla::param_detail {
@@ -51,6 +53,9 @@ constexpr double k_most_promised = 0.75;
 
 /// A lengthened step goes this part of its way at most: near a flip the next one would be short.
 constexpr double k_room = 0.5;
+
+/// Of negative curvature, this part is always left out: in all, the Hessian has to be positive.
+constexpr double k_least_raised = 0.1;
 
 /// Bisections between the longest step that is accepted and the shortest that is refused.
 constexpr int k_refinements = 2;
@@ -101,15 +106,19 @@ class NewtonStep {
     if (!problem.barrier) prepare(uv, {});
   }
 
-  void factor(std::span<const Vec2> uv, const Pairs& pairs) {
+  /// @param raised the part of each triangle's negative curvature that is left out; all of it where that is not enough.
+  void factor(std::span<const Vec2> uv, const Pairs& pairs, double raised) {
     if (problem_.barrier) prepare(uv, pairs);
     const std::size_t triangles = problem_.triangles.size();
-    factor_->factor([&](std::size_t e, double* matrix) {
-      if (e >= triangles) return problem_.barrier->hessian(pairs[e - triangles], uv, matrix);
-      const auto [a, b, c] = problem_.triangles[e];
-      problem_.energy->hessian(e, uv[a], uv[b], uv[c], matrix);
-      for (std::size_t k = 0; k < 6; ++k) matrix[7 * k] += k_anchor;
-    });
+    const auto bad_pivots = [&](double part) {
+      return factor_->factor([&](std::size_t e, double* matrix) {
+        if (e >= triangles) return problem_.barrier->hessian(pairs[e - triangles], uv, matrix);
+        const auto [a, b, c] = problem_.triangles[e];
+        problem_.energy->hessian(e, uv[a], uv[b], uv[c], part, matrix);
+        for (std::size_t k = 0; k < 6; ++k) matrix[7 * k] += k_anchor;
+      });
+    };
+    if (bad_pivots(raised) > 0 && raised < 1) bad_pivots(1);
   }
 
   std::vector<Vec2> direction(std::span<const Vec2> gradient) const {
@@ -133,6 +142,67 @@ class NewtonStep {
 
   const DescentProblem& problem_;
   std::optional<SparseCholesky<double>> factor_;
+};
+
+/// The same for the scales of rings.
+class RingStep {
+ public:
+  RingStep(const DescentProblem& problem, const RingScales& scales)
+      : problem_(problem), scales_(scales), matrix_(scales.rings * scales.rings + k_dense_slack) {}
+
+  std::vector<Vec2> direction(std::span<const Vec2> uv, std::span<const Vec2> gradient) {
+    assemble(uv);
+    const std::size_t rings = scales_.rings;
+    std::vector<double> change(rings + k_dense_slack, 0);
+    for (std::size_t v = 0; v < uv.size(); ++v) {
+      const double out = -papilla::dot(uv[v], gradient[v]);
+      for (const auto& [ring, share] : shares(v)) change[ring] += share * out;
+    }
+    factor_columns(matrix_.data(), rings, rings);
+    solve_forward(matrix_.data(), rings, rings, change.data());
+    solve_backward(matrix_.data(), rings, rings, change.data());
+    std::vector<Vec2> direction(uv.size());
+    for (std::size_t v = 0; v < uv.size(); ++v) {
+      double scale = 0;
+      for (const auto& [ring, share] : shares(v)) scale += share * change[ring];
+      direction[v] = scale * uv[v];
+    }
+    return direction;
+  }
+
+ private:
+  std::array<std::pair<std::size_t, double>, 2> shares(std::size_t v) const {
+    const auto& [inner, share] = scales_.place[v];
+    return {{{inner, 1 - share}, {inner + 1, share}}};
+  }
+
+  void assemble(std::span<const Vec2> uv) {
+    const std::size_t rings = scales_.rings;
+    std::fill(matrix_.begin(), matrix_.end(), 0);
+    CornerHessian hessian;
+    for (std::size_t t = 0; t < problem_.triangles.size(); ++t) {
+      const Triangle& corners = problem_.triangles[t];
+      problem_.energy->hessian(t, uv[corners[0]], uv[corners[1]], uv[corners[2]], 1, hessian.data());
+      for (std::size_t q = 0; q < 3; ++q)
+        for (std::size_t p = q; p < 3; ++p) {
+          const Vec2 a = uv[corners[p]], b = uv[corners[q]];
+          const double* block = hessian.data() + 6 * (2 * q) + 2 * p;
+          const double upper = p == q ? block[1] : block[6];
+          const double value = a.x * (block[0] * b.x + upper * b.y) + a.y * (block[1] * b.x + block[7] * b.y);
+          for (const auto& [i, share_i] : shares(corners[p]))
+            for (const auto& [j, share_j] : shares(corners[q])) {
+              const double part = share_i * share_j * value;
+              if (i >= j) matrix_[j * rings + i] += part;
+              if (p != q && j >= i) matrix_[i * rings + j] += part;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < rings; ++i) matrix_[i * rings + i] *= 1 + k_anchor;
+  }
+
+  const DescentProblem& problem_;
+  const RingScales& scales_;
+  std::vector<double> matrix_;
 };
 
 }  // namespace
@@ -275,8 +345,13 @@ double left_after(double gain, double slope, double slope_before) {
   return ratio < 1 ? gain * ratio / (1 - ratio) : std::numeric_limits<double>::infinity();
 }
 
-/// The iteration that both methods share: `direct(gradient, uv, pairs, good)` says where to go, `good` whether the last
-/// step did what was expected of it.
+/// What the last step showed about the Hessian behind it.
+struct Experience {
+  bool good = false;  ///< The step did what was expected of it.
+  double raised = 1;  ///< The part of the energy's negative curvature to be left out next time.
+};
+
+/// The iteration that all methods share: `direct(gradient, uv, pairs, experience)` says where to go.
 template <class Direct>
 DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options,
                       double growth, Direct direct) {
@@ -285,7 +360,8 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
   result.energy = total_energy(problem, uv);
   result.trace.push_back({clock.seconds(), result.energy});
   double step = 1, slope_before = 0;
-  bool good = false, little_before = false;
+  Experience experience;
+  bool little_before = false;
   while (result.iterations < options.max_iterations) {
     if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
       result.stop = StopReason::time_limit;
@@ -302,7 +378,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
         gradient[pair.to] = gradient[pair.to] + g[2];
       }
     }
-    const std::vector<Vec2> direction = direct(gradient, uv, pairs, good);
+    const std::vector<Vec2> direction = direct(gradient, uv, pairs, experience);
     const double slope = dot(gradient, direction), before = result.energy;
     ++result.iterations;
     Step taken;
@@ -337,7 +413,10 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
       result.stop = StopReason::line_search_stalled;
       break;
     }
-    good = taken.length >= step && gain > -k_good_step * step * slope;
+    experience.good = taken.length >= step && gain > -k_good_step * step * slope;
+    // Where the best step was n times that of the model, the energy bends 1/n as much: too much was left out.
+    const bool too_stiff = taken.length >= step && -slope < k_far_promise * before;
+    experience.raised = too_stiff ? std::max(k_least_raised, step / taken.length) : 1;
     step = growth > 1 ? growth * taken.length : 1;
   }
   return result;
@@ -347,7 +426,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
 
 DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options) {
   return iterate(problem, uv, options, 2,
-                 [](const std::vector<Vec2>& gradient, std::span<const Vec2>, const Pairs&, bool) {
+                 [](const std::vector<Vec2>& gradient, std::span<const Vec2>, const Pairs&, const Experience&) {
                    std::vector<Vec2> direction(gradient);
                    for (Vec2& d : direction) d = -1.0 * d;
                    return direction;
@@ -356,10 +435,20 @@ DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>&
 
 DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options) {
   NewtonStep newton(problem, uv);
+  return iterate(
+      problem, uv, options, 1,
+      [&](const std::vector<Vec2>& gradient, std::span<const Vec2> at, const Pairs& pairs, const Experience& last) {
+        if (!last.good || !options.reuse_factor) newton.factor(at, pairs, last.raised);
+        return newton.direction(gradient);
+      });
+}
+
+DescentResult descend_by_rings(const DescentProblem& problem, const RingScales& scales, std::vector<Vec2>& uv,
+                               const DescentOptions& options) {
+  RingStep newton(problem, scales);
   return iterate(problem, uv, options, 1,
-                 [&](const std::vector<Vec2>& gradient, std::span<const Vec2> at, const Pairs& pairs, bool good) {
-                   if (!good || !options.reuse_factor) newton.factor(at, pairs);
-                   return newton.direction(gradient);
+                 [&](const std::vector<Vec2>& gradient, std::span<const Vec2> at, const Pairs&, const Experience&) {
+                   return newton.direction(at, gradient);
                  });
 }
 

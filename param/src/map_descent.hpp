@@ -53,4 +53,19 @@ DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>&
 /// symbolic factorization serves all iterations.
 DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options);
 
+/// Rings around the origin that vertices lie on or between: vertex v moves in or out with (1 - share) of what ring
+/// `inner` does and share of what the next one does.
+struct RingScales {
+  struct Place {
+    Index inner = 0;
+    double share = 0;
+  };
+  std::vector<Place> place;  ///< Per vertex.
+  std::size_t rings = 0;
+};
+
+/// Projected Newton over the scales of rings alone: a full matrix as small as there are rings.
+DescentResult descend_by_rings(const DescentProblem& problem, const RingScales& scales, std::vector<Vec2>& uv,
+                               const DescentOptions& options);
+
 }  // namespace papilla::param_detail

@@ -8,6 +8,7 @@
 #include "map_descent.hpp"
 #include "map_level.hpp"
 #include "ring_placement.hpp"
+#include "tube_map.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -115,6 +116,38 @@ class Multilevel {
     mean_energy_ = coarsest;
   }
 
+  /// Begins with the whole chart as one tube, unless it has several ends or that is worse than the coarsest level.
+  /// @param level the coarsest one, improved; the whole one, improved, on return.
+  bool begin_as_tube(MapLevel& level) {
+    bring_to(k_deep_base_vertices);
+    if (has_one_end(make_level(), chart_.positions)) {
+      bring_to(k_most_factored);
+      MapLevel whole = make_level();
+      if (widen_tube(whole) && total(whole) < mean_energy_ * whole.area) {
+        level = std::move(whole);
+        keep(level);
+        improve(level);
+        return true;
+      }
+    }
+    bring_to(level.vertices.size());
+    return false;
+  }
+
+  /// Maps a level as a tube, and each of its rings to where the energy wants it. @return whether that is possible.
+  bool widen_tube(MapLevel& level) const {
+    std::optional<TubeMap> tube = map_tube(level, chart_.positions);
+    if (!tube) return false;
+    level.uv = std::move(tube->uv);
+    if (!std::isfinite(total(level))) return false;
+    const SymmetricDirichlet energy(level.rest);
+    DescentOptions descent;
+    descent.tolerance = k_coarse_tolerance;
+    descent.of_logarithm = true;
+    descend_by_rings({level.triangles, &energy, nullptr}, tube->rings, level.uv, descent);
+    return true;
+  }
+
   /// From Tutte's map of the chart as coarse as it is now.
   bool run_from_here() {
     guarded_ = false;
@@ -123,7 +156,7 @@ class Multilevel {
     std::vector<MapLevel> left_alone{level};  // levels before the border was watched
     for (bool first = true;; first = false) {
       improve(level);
-      if (first && is_deep()) begin_finer(level, left_alone.front());
+      if (first && is_deep() && !begin_as_tube(level)) begin_finer(level, left_alone.front());
       std::string why = "the chart overlaps itself";
       if (is_simple(level)) {
         keep(level);
