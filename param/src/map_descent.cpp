@@ -57,6 +57,10 @@ constexpr double k_room = 0.5;
 /// Of negative curvature, this part is always left out: in all, the Hessian has to be positive.
 constexpr double k_least_raised = 0.1;
 
+/// One symbolic factorization serves while no vertex and edge of the border come near each other that were further
+/// apart than this times their reach.
+constexpr double k_watched_reach = 1.5;
+
 /// Bisections between the longest step that is accepted and the shortest that is refused.
 constexpr int k_refinements = 2;
 
@@ -92,10 +96,13 @@ double dot(std::span<const Vec2> a, std::span<const Vec2> b) {
 
 using Pairs = std::vector<BorderBarrier::Pair>;
 
-double barrier_value(const DescentProblem& problem, std::span<const Vec2> uv) {
+Pairs near_pairs(const DescentProblem& problem, std::span<const Vec2> uv) {
+  return problem.barrier ? problem.barrier->near_pairs(uv) : Pairs{};
+}
+
+double barrier_value(const DescentProblem& problem, const Pairs& pairs, std::span<const Vec2> uv) {
   double sum = 0;
-  if (problem.barrier)
-    for (const auto& pair : problem.barrier->near_pairs(uv)) sum += problem.barrier->value(pair, uv);
+  for (const auto& pair : pairs) sum += problem.barrier->value(pair, uv);
   return sum;
 }
 
@@ -103,16 +110,16 @@ double barrier_value(const DescentProblem& problem, std::span<const Vec2> uv) {
 class NewtonStep {
  public:
   NewtonStep(const DescentProblem& problem, std::span<const Vec2> uv) : problem_(problem) {
-    if (!problem.barrier) prepare(uv, {});
+    if (!problem.barrier) prepare(uv);
   }
 
   /// @param raised the part of each triangle's negative curvature that is left out; all of it where that is not enough.
   void factor(std::span<const Vec2> uv, const Pairs& pairs, double raised) {
-    if (problem_.barrier) prepare(uv, pairs);
+    if (problem_.barrier && !(factor_ && watches(pairs))) prepare(uv);
     const std::size_t triangles = problem_.triangles.size();
     const auto bad_pivots = [&](double part) {
       return factor_->factor([&](std::size_t e, double* matrix) {
-        if (e >= triangles) return problem_.barrier->hessian(pairs[e - triangles], uv, matrix);
+        if (e >= triangles) return problem_.barrier->hessian(watched_[e - triangles], uv, matrix);
         const auto [a, b, c] = problem_.triangles[e];
         problem_.energy->hessian(e, uv[a], uv[b], uv[c], part, matrix);
         for (std::size_t k = 0; k < 6; ++k) matrix[7 * k] += k_anchor;
@@ -132,15 +139,28 @@ class NewtonStep {
   }
 
  private:
-  void prepare(std::span<const Vec2> uv, const Pairs& pairs) {
+  static bool comes_before(const BorderBarrier::Pair& a, const BorderBarrier::Pair& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.from < b.from;
+  }
+
+  bool watches(const Pairs& pairs) const {
+    return std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+      return std::binary_search(watched_.begin(), watched_.end(), pair, comes_before);
+    });
+  }
+
+  void prepare(std::span<const Vec2> uv) {
+    if (problem_.barrier) watched_ = problem_.barrier->near_pairs(uv, k_watched_reach);
+    std::sort(watched_.begin(), watched_.end(), comes_before);
     Elements elements = elements_of(problem_.triangles);
-    for (const auto& pair : pairs) elements.add(std::array{pair.vertex, pair.from, pair.to});
+    for (const auto& pair : watched_) elements.add(std::array{pair.vertex, pair.from, pair.to});
     std::vector<Vec3> where(uv.size());
     for (std::size_t v = 0; v < uv.size(); ++v) where[v] = {uv[v].x, uv[v].y, 0};
     factor_.emplace(elements, where, 2);
   }
 
   const DescentProblem& problem_;
+  Pairs watched_;  ///< What the factorization has room for, sorted; those that are too far apart add nothing.
   std::optional<SparseCholesky<double>> factor_;
 };
 
@@ -261,14 +281,16 @@ class LineSearch {
  public:
   /// @param slope derivative of the energy along the direction, negative.
   /// @param most the longest step that turns no triangle over.
+  /// @param pairs near pairs of the border, of uv like the rest.
   LineSearch(const DescentProblem& problem, std::span<const Vec2> direction, double slope, double most,
-             std::vector<Vec2>& uv, double energy)
+             std::vector<Vec2>& uv, Pairs& pairs, double energy)
       : problem_(problem),
         direction_(direction),
         slope_(slope),
         most_(most),
         uv_(uv),
-        start_(energy + barrier_value(problem, uv)),
+        pairs_(pairs),
+        start_(energy + barrier_value(problem, pairs, uv)),
         trial_(uv.size()) {}
 
   /// Goes as far as the energy falls (Armijo) and nobody refuses.
@@ -292,7 +314,7 @@ class LineSearch {
       shortening *= 0.5;
     }
     if (step_.length > 0 && !problem_.accept) lengthen();
-    if (step_.length > 0) std::swap(uv_, best_), energy = energy_;
+    if (step_.length > 0) std::swap(uv_, best_), std::swap(pairs_, best_pairs_), energy = energy_;
     return step_;
   }
 
@@ -301,7 +323,8 @@ class LineSearch {
     for (std::size_t v = 0; v < uv_.size(); ++v) trial_[v] = uv_[v] + length * direction_[v];
     if (problem_.barrier && !problem_.barrier->is_simple(trial_)) return false;
     trial_energy_ = total_energy(problem_, trial_);
-    trial_total_ = trial_energy_ + barrier_value(problem_, trial_);
+    trial_pairs_ = near_pairs(problem_, trial_);
+    trial_total_ = trial_energy_ + barrier_value(problem_, trial_pairs_, trial_);
     if (!(trial_total_ <= limit)) return false;
     const bool accepted = !problem_.accept || problem_.accept(trial_);
     step_.refused = step_.refused || !accepted;
@@ -311,6 +334,7 @@ class LineSearch {
   void take(double length) {
     std::swap(best_, trial_);
     trial_.resize(uv_.size());
+    std::swap(best_pairs_, trial_pairs_);
     energy_ = trial_energy_;
     total_ = trial_total_;
     step_.length = length;
@@ -332,6 +356,7 @@ class LineSearch {
   std::span<const Vec2> direction_;
   double slope_, most_;
   std::vector<Vec2>& uv_;
+  Pairs &pairs_, trial_pairs_, best_pairs_;
   double start_, energy_ = 0, total_ = 0;
   double trial_energy_ = 0, trial_total_ = 0;
   std::vector<Vec2> trial_, best_;
@@ -362,21 +387,18 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
   double step = 1, slope_before = 0;
   Experience experience;
   bool little_before = false;
+  Pairs pairs = near_pairs(problem, uv);
   while (result.iterations < options.max_iterations) {
     if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
       result.stop = StopReason::time_limit;
       break;
     }
     std::vector<Vec2> gradient = energy_gradient(problem, uv);
-    Pairs pairs;
-    if (problem.barrier) {
-      pairs = problem.barrier->near_pairs(uv);
-      for (const auto& pair : pairs) {
-        const auto g = problem.barrier->gradient(pair, uv);
-        gradient[pair.vertex] = gradient[pair.vertex] + g[0];
-        gradient[pair.from] = gradient[pair.from] + g[1];
-        gradient[pair.to] = gradient[pair.to] + g[2];
-      }
+    for (const auto& pair : pairs) {
+      const auto g = problem.barrier->gradient(pair, uv);
+      gradient[pair.vertex] = gradient[pair.vertex] + g[0];
+      gradient[pair.from] = gradient[pair.from] + g[1];
+      gradient[pair.to] = gradient[pair.to] + g[2];
     }
     const std::vector<Vec2> direction = direct(gradient, uv, pairs, experience);
     const double slope = dot(gradient, direction), before = result.energy;
@@ -389,7 +411,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
       const double promised = std::min(-slope / before, k_most_promised);
       const double longer = options.of_logarithm && promised > k_far_promise ? step / (1 - promised) : step;
       const double first = std::max(step, std::min(longer, k_room * most));
-      taken = LineSearch(problem, direction, slope, most, uv, result.energy).run(first, result.energy);
+      taken = LineSearch(problem, direction, slope, most, uv, pairs, result.energy).run(first, result.energy);
     }
     if (taken.length == 0) {
       // Near the minimum rounding hides how far the energy falls.
