@@ -389,6 +389,10 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
   bool little_before = false;
   Pairs pairs = near_pairs(problem, uv);
   while (result.iterations < options.max_iterations) {
+    if (result.energy < options.negligible) {
+      result.stop = StopReason::converged;
+      break;
+    }
     if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
       result.stop = StopReason::time_limit;
       break;

@@ -14,6 +14,7 @@ namespace papilla::param_detail {
 struct DescentOptions {
   int max_iterations = 100;
   double tolerance = 1e-6;    ///< Stop when the energy falls by less than this fraction in an iteration.
+  double negligible = 0;      ///< Stop also when the energy is below this.
   double time_limit_s = 0;    ///< 0: none.
   bool allow_flips = false;   ///< Let triangles turn over; the energy must then be finite for such.
   bool reuse_factor = false;  ///< Factor again only when a step disappoints: for energies that are nearly quadratic.
