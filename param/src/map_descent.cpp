@@ -429,8 +429,9 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     const bool stands = little && (-slope <= k_promise * small ||
                                    (problem.barrier && (little_before || taken.length >= k_blocked_step)));
     little_before = little;
-    const bool was_last = options.foresee && taken.length >= step && left_after(gain, slope, slope_before) <= small;
-    if (stands || was_last) {
+    const bool as_foreseen = taken.length >= step && taken.length < k_longer * step;
+    const bool was_last = options.foresee && as_foreseen && left_after(gain, slope, slope_before) <= small;
+    if ((stands || was_last) && result.iterations >= options.least_iterations) {
       result.stop = StopReason::converged;
       break;
     }

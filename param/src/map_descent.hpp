@@ -13,6 +13,7 @@ namespace papilla::param_detail {
 
 struct DescentOptions {
   int max_iterations = 100;
+  int least_iterations = 0;   ///< For convergence: near a saddle, the first gains are small.
   double tolerance = 1e-6;    ///< Stop when the energy falls by less than this fraction in an iteration.
   double negligible = 0;      ///< Stop also when the energy is below this.
   double time_limit_s = 0;    ///< 0: none.

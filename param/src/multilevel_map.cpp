@@ -40,8 +40,9 @@ constexpr std::size_t k_deep_growth = 3;
 constexpr double k_much_worse = 2;
 constexpr double k_deep_tolerance = 1.5e-3;
 
-/// Their last steps are many and small: what counts as small is halved.
-constexpr double k_deep_share = 0.5;
+/// A tube begins as round as it is, which may be a saddle.
+constexpr int k_tube_iterations = 3;
+
 constexpr int k_relax_sweeps = 10;
 
 /// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
@@ -116,22 +117,40 @@ class Multilevel {
     mean_energy_ = coarsest;
   }
 
-  /// Begins with the whole chart as one tube, unless it has several ends or that is worse than the coarsest level.
+  /// Begins with the whole chart as one tube, unless it has several ends or that has failed.
   /// @param level the coarsest one, improved; the whole one, improved, on return.
   bool begin_as_tube(MapLevel& level) {
     bring_to(k_deep_base_vertices);
     if (has_one_end(make_level(), chart_.positions)) {
       bring_to(k_most_factored);
       MapLevel whole = make_level();
-      if (widen_tube(whole) && total(whole) < mean_energy_ * whole.area) {
+      if (widen_tube(whole) && total(whole) < k_much_worse * mean_energy_ * whole.area) {
         level = std::move(whole);
         keep(level);
+        is_tube_ = true;
         improve(level);
+        is_tube_ = false;
         return true;
       }
     }
     bring_to(level.vertices.size());
     return false;
+  }
+
+  /// Radii r, as parts of the largest one, become r^1.5 as long as that lowers the energy: they begin as √z on a tube
+  /// of height z, and should end near z.
+  void steepen(MapLevel& level) const {
+    const auto squared = [](Vec2 p) { return dot(p, p); };
+    double most = 0;
+    for (const Vec2 p : level.uv) most = std::max(most, squared(p));
+    for (double energy = total(level);;) {
+      MapLevel steeper = level;
+      for (Vec2& p : steeper.uv) p = std::sqrt(std::sqrt(squared(p) / most)) * p;
+      const double next = total(steeper);
+      if (!(next < energy)) return;
+      energy = next;
+      level.uv = std::move(steeper.uv);
+    }
   }
 
   /// Maps a level as a tube, and each of its rings to where the energy wants it. @return whether that is possible.
@@ -140,6 +159,7 @@ class Multilevel {
     if (!tube) return false;
     level.uv = std::move(tube->uv);
     if (!std::isfinite(total(level))) return false;
+    steepen(level);
     const SymmetricDirichlet energy(level.rest);
     DescentOptions descent;
     descent.tolerance = k_coarse_tolerance;
@@ -228,7 +248,8 @@ class Multilevel {
     DescentOptions descent;
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
     descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
-    if (is_deep()) descent.tolerance = last ? k_deep_share * options_.tolerance : k_deep_tolerance;
+    if (is_deep() && !last) descent.tolerance = k_deep_tolerance;
+    if (is_tube_) descent.least_iterations = std::min(k_tube_iterations, descent.max_iterations);
     descent.of_logarithm = !guarded_;  // the barrier counts in the slope alone
     descent.foresee = last;
     descent.time_limit_s = options_.time_limit_s;
@@ -304,6 +325,7 @@ class Multilevel {
   std::size_t base_removed_;  ///< What is removed where the map began.
   std::vector<Vec2> uv_;
   double least_edge_;
+  bool is_tube_ = false;    ///< The level began as one.
   bool guarded_ = false;    ///< Keep the border out of its own way.
   double mean_energy_ = 0;  ///< Per area, of the level before.
   std::vector<RingEdge> ring_;

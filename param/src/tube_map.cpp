@@ -27,8 +27,9 @@ constexpr double k_sag_margin = 1.5;
 /// An end counts when it is this part of the depth deeper than where it leaves the rest.
 constexpr double k_second_end = 0.1;
 
-/// Rings whose scales are free.
+/// Rings whose scales are free, about, and how few vertices lie between the first ones and between the last ones.
 constexpr std::size_t k_rings = 24;
+constexpr std::size_t k_least_between = 8;
 
 /// The disk without its deepest vertex, the pole, cut along the shortest way from the border to the pole's ring.
 struct Wall {
@@ -233,14 +234,19 @@ class WallMap {
   Cylinder at_;
 };
 
-/// Heights between which about the same number of vertices lie, from 0 to 1.
+/// Heights from 0 to 1 between which about the same number of vertices lie; at both ends, where little room may have to
+/// do, ever fewer.
 std::vector<double> ring_heights(const std::vector<double>& height) {
   std::vector<double> sorted(height), rings{0};
   std::sort(sorted.begin(), sorted.end());
-  for (std::size_t k = 1; k + 1 < k_rings; ++k) {
-    const double h = sorted[k * (sorted.size() - 1) / (k_rings - 1)];
-    if (h > rings.back() && h < 1) rings.push_back(h);
-  }
+  const std::size_t between = std::max<std::size_t>(1, sorted.size() / k_rings);
+  std::vector<std::size_t> ranks;
+  for (std::size_t rank = k_least_between; rank < between; rank *= 2) ranks.push_back(rank);
+  const std::vector<std::size_t> dense = ranks;
+  for (std::size_t rank = between; rank + between <= sorted.size(); rank += between) ranks.push_back(rank);
+  for (auto rank = dense.rbegin(); rank != dense.rend(); ++rank) ranks.push_back(sorted.size() - *rank);
+  for (const std::size_t rank : ranks)
+    if (const double h = sorted[std::min(rank, sorted.size() - 1)]; h > rings.back() && h < 1) rings.push_back(h);
   rings.push_back(1);
   return rings;
 }

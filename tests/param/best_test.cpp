@@ -97,6 +97,7 @@ TEST(Best, LongFingersOpenAsConesDo) {
   // tip.
   const auto cone = [](double length) { return 2 * std::sqrt(1 + length * length / 3); };
   EXPECT_LT(valid_map(finger(45)).symmetric_dirichlet.mean, 1.03 * cone(45));
+  EXPECT_LT(valid_map(finger(80)).symmetric_dirichlet.mean, 1.06 * cone(80));
   EXPECT_LT(valid_map(finger(30, 2)).symmetric_dirichlet.mean, 1.05 * cone(30));
 }
 
