@@ -40,6 +40,10 @@ constexpr double k_blocked_step = 0.1;
 /// Of the gains of a full Newton step and the one before, while there is no other to go by; 0.04 to 0.3 were seen.
 constexpr double k_first_ratio = 0.2;
 
+/// What a full step gains of its slope, at most, where the next ones can be foreseen: half of it is what a quadratic
+/// promises; more, and the energy bends less than the model, whose next steps are too short as well.
+constexpr double k_most_gain = 0.6;
+
 constexpr int k_halvings = 40;
 
 /// A step that could be this much longer is tried so; by how much at once at most.
@@ -429,7 +433,8 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     const bool stands = little && (-slope <= k_promise * small ||
                                    (problem.barrier && (little_before || taken.length >= k_blocked_step)));
     little_before = little;
-    const bool as_foreseen = taken.length >= step && taken.length < k_longer * step;
+    const bool as_foreseen =
+        taken.length >= step && taken.length < k_longer * step && gain < -k_most_gain * taken.length * slope;
     const bool was_last = options.foresee && as_foreseen && left_after(gain, slope, slope_before) <= small;
     if ((stands || was_last) && result.iterations >= options.least_iterations) {
       result.stop = StopReason::converged;
