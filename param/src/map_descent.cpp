@@ -441,7 +441,8 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
       break;
     }
     slope_before = slope;
-    if (taken.refused) {
+    const bool blocked = problem.barrier && options.leave_when_blocked && taken.length < k_blocked_step * step;
+    if (taken.refused || blocked) {
       result.stop = StopReason::line_search_stalled;
       break;
     }

@@ -22,7 +22,8 @@ struct DescentOptions {
   /// Far from the minimum, make the steps of Newton's method for the logarithm of the energy. These go the same way,
   /// and further: near a wall like 1/x² three times as far.
   bool of_logarithm = false;
-  bool foresee = false;  ///< Stop also when what full steps have still to gain is below the tolerance.
+  bool leave_when_blocked = false;  ///< Stop, as stalled, after a step that the barrier all but prevented.
+  bool foresee = false;             ///< Stop also when what full steps have still to gain is below the tolerance.
 };
 
 struct DescentResult {

@@ -45,6 +45,12 @@ constexpr int k_tube_iterations = 3;
 
 constexpr int k_relax_sweeps = 10;
 
+/// Where the border stops all vertices at once, they go on one by one: so many times per level.
+constexpr int k_most_unblocked = 4;
+
+/// What a time limit that is used up still leaves: one look at the clock.
+constexpr double k_least_seconds = 1e-9;
+
 /// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
 /// factorization takes 2 kB per vertex.
 constexpr std::size_t k_most_factored = 200'000;
@@ -243,7 +249,6 @@ class Multilevel {
     trace(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
     const SymmetricDirichlet dirichlet(level.rest);
-    const BorderBarrier barrier = make_barrier(level);
     const double start = clock_.seconds();
     DescentOptions descent;
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
@@ -252,14 +257,24 @@ class Multilevel {
     if (is_tube_) descent.least_iterations = std::min(k_tube_iterations, descent.max_iterations);
     descent.of_logarithm = !guarded_;  // the barrier counts in the slope alone
     descent.foresee = last;
-    descent.time_limit_s = options_.time_limit_s;
-    const DescentResult result =
-        descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
-    mean_energy_ = result.energy / level.area;
-    if (!last) return;
-    result_.stop = result.stop;
-    for (std::size_t i = 1; i < result.trace.size(); ++i)
-      result_.trace.push_back({start + result.trace[i].seconds, result.trace[i].error / level.area});
+    for (int i = 0; i <= k_most_unblocked; ++i) {
+      if (i > 0) relax(level, k_relax_sweeps, k_relax_tolerance, guarded_);
+      descent.leave_when_blocked = i < k_most_unblocked;
+      if (options_.time_limit_s > 0)
+        descent.time_limit_s = std::max(options_.time_limit_s - (clock_.seconds() - start), k_least_seconds);
+      const double begin = clock_.seconds();
+      const BorderBarrier barrier = make_barrier(level);
+      const DescentResult result =
+          descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
+      mean_energy_ = result.energy / level.area;
+      if (last) {
+        result_.stop = result.stop;
+        for (std::size_t k = 1; k < result.trace.size(); ++k)
+          result_.trace.push_back({begin + result.trace[k].seconds, result.trace[k].error / level.area});
+      }
+      descent.max_iterations -= result.iterations;
+      if (!guarded_ || result.stop != StopReason::line_search_stalled || descent.max_iterations == 0) break;
+    }
   }
 
   void trace(const MapLevel& level, bool last) {
