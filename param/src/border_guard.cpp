@@ -169,7 +169,7 @@ BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec
   }
 }
 
-std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2> uv) const {
+std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2> uv, double widening) const {
   if (border_.empty()) return {};
   const Extent extent = extent_of(border_, uv);
   const double edges = static_cast<double>(border_.size());
@@ -190,9 +190,9 @@ std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2>
   std::vector<Pair> pairs;
   for (const auto& [from, to] : border_) {
     const Vec2 a = uv[from], b = uv[to];
-    const double edge_reach = std::min(reach_[from], reach_[to]);
-    const Vec2 low{std::min(a.x, b.x) - edge_reach, std::min(a.y, b.y) - edge_reach};
-    const Vec2 high{std::max(a.x, b.x) + edge_reach, std::max(a.y, b.y) + edge_reach};
+    const double edge_reach = std::min(reach_[from], reach_[to]), around = widening * edge_reach;
+    const Vec2 low{std::min(a.x, b.x) - around, std::min(a.y, b.y) - around};
+    const Vec2 high{std::max(a.x, b.x) + around, std::max(a.y, b.y) + around};
     const std::size_t x0 = column(low.x), x1 = column(high.x), y1 = row(high.y);
     for (std::size_t y = row(low.y); y <= y1; ++y)
       for (Index i = first[y * columns + x0]; i < first[y * columns + x1 + 1]; ++i) {
@@ -201,7 +201,7 @@ std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2>
         if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || v == from || v == to) continue;
         const double reach = std::min(edge_reach, reach_[v]);
         const Vec2 away = closest(p, a, b).away;
-        if (dot(away, away) < reach * reach) pairs.push_back({v, from, to, reach});
+        if (dot(away, away) < widening * widening * reach * reach) pairs.push_back({v, from, to, reach});
       }
   }
   return pairs;

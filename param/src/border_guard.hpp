@@ -61,7 +61,8 @@ class BorderBarrier {
   /// @param uv gives the lengths of the edges.
   BorderBarrier(std::vector<BorderPair> border, std::span<const Vec2> uv, double weight);
 
-  std::vector<Pair> near_pairs(std::span<const Vec2> uv) const;
+  /// Vertices and edges that push each other, or are no further apart than `widening` times that.
+  std::vector<Pair> near_pairs(std::span<const Vec2> uv, double widening = 1) const;
   double value(const Pair& pair, std::span<const Vec2> uv) const;
   std::array<Vec2, 3> gradient(const Pair& pair, std::span<const Vec2> uv) const;
   /// Positive semidefinite; 6 × 6, column major.

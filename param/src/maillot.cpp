@@ -20,6 +20,10 @@ using namespace param_detail;
 
 constexpr const char* k_function = "flatten_maillot";
 
+/// An energy of this much of the surface's area is none: lengths and areas are right to a millionth. Without weight on
+/// lengths every disk gets there, and the energy then falls by a large part of itself for ever.
+constexpr double k_exact = 1e-12;
+
 void check(const MaillotOptions& options) {
   const auto refuse = [](const std::string& what) { throw InvalidInput(std::string(k_function) + ": " + what); };
   if (!(options.length_weight >= 0 && options.length_weight <= 1))
@@ -86,6 +90,7 @@ ChartMap map_chart(const ChartSurface& chart, const MaillotOptions& options) {
   DescentOptions descent;
   descent.max_iterations = options.max_iterations;
   descent.tolerance = options.tolerance;
+  descent.negligible = k_exact * area_of(unit.surface);
   descent.time_limit_s = options.time_limit_s;
   descent.allow_flips = options.allow_flips;
   descent.reuse_factor = true;

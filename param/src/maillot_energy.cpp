@@ -105,7 +105,7 @@ CornerGradient MaillotEnergy::gradient(std::size_t triangle, Vec2 a, Vec2 b, Vec
   return gradient;
 }
 
-void MaillotEnergy::hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double* matrix) const {
+void MaillotEnergy::hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double, double* matrix) const {
   const Rest& rest = rest_[triangle];
   const MapEdges m(a, b, c);
   const auto by_corner = determinant_gradient(m);

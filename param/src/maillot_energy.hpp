@@ -24,7 +24,7 @@ class MaillotEnergy final : public MapEnergy {
 
   double value(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c) const override;
   CornerGradient gradient(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c) const override;
-  void hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double* matrix) const override;
+  void hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double raised, double* matrix) const override;
 
  private:
   struct Rest {

@@ -13,14 +13,17 @@ namespace papilla::param_detail {
 
 struct DescentOptions {
   int max_iterations = 100;
+  int least_iterations = 0;   ///< For convergence: near a saddle, the first gains are small.
   double tolerance = 1e-6;    ///< Stop when the energy falls by less than this fraction in an iteration.
+  double negligible = 0;      ///< Stop also when the energy is below this.
   double time_limit_s = 0;    ///< 0: none.
   bool allow_flips = false;   ///< Let triangles turn over; the energy must then be finite for such.
   bool reuse_factor = false;  ///< Factor again only when a step disappoints: for energies that are nearly quadratic.
   /// Far from the minimum, make the steps of Newton's method for the logarithm of the energy. These go the same way,
   /// and further: near a wall like 1/x² three times as far.
   bool of_logarithm = false;
-  bool foresee = false;  ///< Stop also when what full steps have still to gain is below the tolerance.
+  bool leave_when_blocked = false;  ///< Stop, as stalled, after a step that the barrier all but prevented.
+  bool foresee = false;             ///< Stop also when what full steps have still to gain is below the tolerance.
 };
 
 struct DescentResult {
@@ -52,5 +55,20 @@ DescentResult descend_gradient(const DescentProblem& problem, std::vector<Vec2>&
 /// Projected Newton (Gauss-Newton for energies whose `hessian` is that) with line search. Without a barrier one
 /// symbolic factorization serves all iterations.
 DescentResult descend(const DescentProblem& problem, std::vector<Vec2>& uv, const DescentOptions& options);
+
+/// Rings around the origin that vertices lie on or between: vertex v moves in or out with (1 - share) of what ring
+/// `inner` does and share of what the next one does.
+struct RingScales {
+  struct Place {
+    Index inner = 0;
+    double share = 0;
+  };
+  std::vector<Place> place;  ///< Per vertex.
+  std::size_t rings = 0;
+};
+
+/// Projected Newton over the scales of rings alone: a full matrix as small as there are rings.
+DescentResult descend_by_rings(const DescentProblem& problem, const RingScales& scales, std::vector<Vec2>& uv,
+                               const DescentOptions& options);
 
 }  // namespace papilla::param_detail

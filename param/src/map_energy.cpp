@@ -31,7 +31,7 @@ CornerGradient SymmetricDirichlet::gradient(std::size_t triangle, Vec2 a, Vec2 b
   return {f[0][0] * x + f[0][1] * y, f[1][0] * x + f[1][1] * y, f[2][1] * y};
 }
 
-void SymmetricDirichlet::hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double* matrix) const {
+void SymmetricDirichlet::hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double raised, double* matrix) const {
   // For J as one vector j, with C = ∂det/∂J:
   // 2 (1 + det⁻²) I - 4 det⁻³ (j Cᵀ + C jᵀ) + 6 |J|² det⁻⁴ C Cᵀ - 2 |J|² det⁻³ ∂²det, for unit area.
   const RestShape& rest = rest_[triangle];
@@ -51,7 +51,7 @@ void SymmetricDirichlet::hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, d
     // R = (c -s; s c); R (0 -1; 1 0) = (-s -c; c -s), by columns.
     if (const double size = dot(r, r); size > 0) {
       turn = by_corners(f, {-r.y, r.x}, {-r.x, -r.y});
-      rotation = -0.5 * eigenvalue / size;
+      rotation = -0.5 * raised * eigenvalue / size;
     }
   }
   for (std::size_t q = 0; q < 3; ++q)

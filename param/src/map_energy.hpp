@@ -20,19 +20,20 @@ class MapEnergy {
   virtual ~MapEnergy() = default;
   virtual double value(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c) const = 0;
   virtual CornerGradient gradient(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c) const = 0;
-  /// A positive semidefinite matrix close to the Hessian.
-  virtual void hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double* matrix) const = 0;
+  /// A matrix close to the Hessian.
+  /// @param raised the part of its negative curvature that is left out; 1 makes it positive semidefinite.
+  virtual void hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double raised, double* matrix) const = 0;
 };
 
 /// Area-weighted symmetric Dirichlet energy: Σ A (σ1² + σ2² + σ1⁻² + σ2⁻²); 4 Σ A at an isometry.
-/// The Hessian is exact but for its one eigenvalue that can be negative, the in-plane rotation, which is raised to 0
-/// [B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019].
+/// The Hessian is exact but for its one eigenvalue that can be negative, the in-plane rotation, which is raised towards
+/// 0 [B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019].
 class SymmetricDirichlet final : public MapEnergy {
  public:
   explicit SymmetricDirichlet(std::span<const RestShape> rest) : rest_(rest) {}
   double value(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c) const override;
   CornerGradient gradient(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c) const override;
-  void hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double* matrix) const override;
+  void hessian(std::size_t triangle, Vec2 a, Vec2 b, Vec2 c, double raised, double* matrix) const override;
 
  private:
   std::span<const RestShape> rest_;

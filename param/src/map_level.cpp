@@ -4,29 +4,16 @@
 #include <algorithm>
 #include <optional>
 
+#include "corners_of_vertices.hpp"
 #include "map_descent.hpp"
 #include "vertex_step.hpp"
 
 namespace papilla::param_detail {
 namespace {
 
-/// The corners (3 t + k) of each vertex.
-struct CornersOfVertices {
-  std::vector<Index> first, corner;
-  explicit CornersOfVertices(const MapLevel& level) : first(level.vertices.size() + 2, 0) {
-    for (const Triangle& t : level.triangles)
-      for (const Index v : t) ++first[v + 2];
-    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-    corner.resize(first.back());
-    for (Index t = 0; t < level.triangles.size(); ++t)
-      for (Index k = 0; k < 3; ++k) corner[first[level.triangles[t][k] + 1]++] = 3 * t + k;
-  }
-  std::span<const Index> of(std::size_t v) const { return {corner.data() + first[v], first[v + 1] - first[v]}; }
-};
-
 /// Edges that have no opposite one, in the order of the triangles.
 std::vector<BorderPair> border_of(const MapLevel& level) {
-  const CornersOfVertices corners(level);
+  const CornersOfVertices corners(level.triangles, level.vertices.size());
   const auto next = [&](Index corner) { return level.triangles[corner / 3][(corner % 3 + 1) % 3]; };
   std::vector<BorderPair> border;
   for (const Triangle& t : level.triangles)
@@ -69,7 +56,7 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
 }
 
 int relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
-  const CornersOfVertices corners(level);
+  const CornersOfVertices corners(level.triangles, level.vertices.size());
   std::optional<BorderGuard> guard;
   if (guarded) guard.emplace(level.border, level.uv);
   const SymmetricDirichlet energy(level.rest);

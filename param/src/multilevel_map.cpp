@@ -8,6 +8,7 @@
 #include "map_descent.hpp"
 #include "map_level.hpp"
 #include "ring_placement.hpp"
+#include "tube_map.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -39,9 +40,17 @@ constexpr std::size_t k_deep_growth = 3;
 constexpr double k_much_worse = 2;
 constexpr double k_deep_tolerance = 1.5e-3;
 
-/// Their last steps are many and small: what counts as small is halved.
-constexpr double k_deep_share = 0.5;
+/// A tube begins as round as it is, which may be a saddle.
+constexpr int k_tube_iterations = 3;
+
 constexpr int k_relax_sweeps = 10;
+constexpr int k_guarded_sweeps = 5;  // dearer, and Newton's steps do as well
+
+/// Where the border stops all vertices at once, they go on one by one: so many times per level.
+constexpr int k_most_unblocked = 4;
+
+/// What a time limit that is used up still leaves: one look at the clock.
+constexpr double k_least_seconds = 1e-9;
 
 /// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
 /// factorization takes 2 kB per vertex.
@@ -115,6 +124,57 @@ class Multilevel {
     mean_energy_ = coarsest;
   }
 
+  /// Begins with the whole chart as one tube, unless it has several ends or that has failed.
+  /// @param level the coarsest one, improved; the whole one, improved, on return.
+  bool begin_as_tube(MapLevel& level) {
+    bring_to(k_deep_base_vertices);
+    if (has_one_end(make_level(), chart_.positions)) {
+      bring_to(k_most_factored);
+      MapLevel whole = make_level();
+      if (widen_tube(whole) && total(whole) < k_much_worse * mean_energy_ * whole.area) {
+        level = std::move(whole);
+        keep(level);
+        is_tube_ = true;
+        improve(level);
+        is_tube_ = false;
+        return true;
+      }
+    }
+    bring_to(level.vertices.size());
+    return false;
+  }
+
+  /// Radii r, as parts of the largest one, become r^1.5 as long as that lowers the energy: they begin as √z on a tube
+  /// of height z, and should end near z.
+  void steepen(MapLevel& level) const {
+    const auto squared = [](Vec2 p) { return dot(p, p); };
+    double most = 0;
+    for (const Vec2 p : level.uv) most = std::max(most, squared(p));
+    for (double energy = total(level);;) {
+      MapLevel steeper = level;
+      for (Vec2& p : steeper.uv) p = std::sqrt(std::sqrt(squared(p) / most)) * p;
+      const double next = total(steeper);
+      if (!(next < energy)) return;
+      energy = next;
+      level.uv = std::move(steeper.uv);
+    }
+  }
+
+  /// Maps a level as a tube, and each of its rings to where the energy wants it. @return whether that is possible.
+  bool widen_tube(MapLevel& level) const {
+    std::optional<TubeMap> tube = map_tube(level, chart_.positions);
+    if (!tube) return false;
+    level.uv = std::move(tube->uv);
+    if (!std::isfinite(total(level))) return false;
+    steepen(level);
+    const SymmetricDirichlet energy(level.rest);
+    DescentOptions descent;
+    descent.tolerance = k_coarse_tolerance;
+    descent.of_logarithm = true;
+    descend_by_rings({level.triangles, &energy, nullptr}, tube->rings, level.uv, descent);
+    return true;
+  }
+
   /// From Tutte's map of the chart as coarse as it is now.
   bool run_from_here() {
     guarded_ = false;
@@ -123,7 +183,7 @@ class Multilevel {
     std::vector<MapLevel> left_alone{level};  // levels before the border was watched
     for (bool first = true;; first = false) {
       improve(level);
-      if (first && is_deep()) begin_finer(level, left_alone.front());
+      if (first && is_deep() && !begin_as_tube(level)) begin_finer(level, left_alone.front());
       std::string why = "the chart overlaps itself";
       if (is_simple(level)) {
         keep(level);
@@ -185,27 +245,38 @@ class Multilevel {
     const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= k_most_factored;
     trace(level, last);
     if (last && factored && options_.only_when_rough && total(level) <= k_smooth * mean_energy_ * level.area) return;
+    const int sweeps = guarded_ ? k_guarded_sweeps : k_relax_sweeps;
     const double relax_tolerance = last && !factored ? 0.1 * options_.tolerance : k_relax_tolerance;
-    relax(level, last && !factored ? k_fine_sweeps : k_relax_sweeps, relax_tolerance, guarded_);
+    relax(level, last && !factored ? k_fine_sweeps : sweeps, relax_tolerance, guarded_);
     trace(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
     const SymmetricDirichlet dirichlet(level.rest);
-    const BorderBarrier barrier = make_barrier(level);
     const double start = clock_.seconds();
     DescentOptions descent;
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
     descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
-    if (is_deep()) descent.tolerance = last ? k_deep_share * options_.tolerance : k_deep_tolerance;
+    if (is_deep() && !last) descent.tolerance = k_deep_tolerance;
+    if (is_tube_) descent.least_iterations = std::min(k_tube_iterations, descent.max_iterations);
     descent.of_logarithm = !guarded_;  // the barrier counts in the slope alone
     descent.foresee = last;
-    descent.time_limit_s = options_.time_limit_s;
-    const DescentResult result =
-        descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
-    mean_energy_ = result.energy / level.area;
-    if (!last) return;
-    result_.stop = result.stop;
-    for (std::size_t i = 1; i < result.trace.size(); ++i)
-      result_.trace.push_back({start + result.trace[i].seconds, result.trace[i].error / level.area});
+    for (int i = 0; i <= k_most_unblocked; ++i) {
+      if (i > 0) relax(level, sweeps, k_relax_tolerance, guarded_);
+      descent.leave_when_blocked = i < k_most_unblocked;
+      if (options_.time_limit_s > 0)
+        descent.time_limit_s = std::max(options_.time_limit_s - (clock_.seconds() - start), k_least_seconds);
+      const double begin = clock_.seconds();
+      const BorderBarrier barrier = make_barrier(level);
+      const DescentResult result =
+          descend({level.triangles, &dirichlet, guarded_ ? &barrier : nullptr}, level.uv, descent);
+      mean_energy_ = result.energy / level.area;
+      if (last) {
+        result_.stop = result.stop;
+        for (std::size_t k = 1; k < result.trace.size(); ++k)
+          result_.trace.push_back({begin + result.trace[k].seconds, result.trace[k].error / level.area});
+      }
+      descent.max_iterations -= result.iterations;
+      if (!guarded_ || result.stop != StopReason::line_search_stalled || descent.max_iterations == 0) break;
+    }
   }
 
   void trace(const MapLevel& level, bool last) {
@@ -271,6 +342,7 @@ class Multilevel {
   std::size_t base_removed_;  ///< What is removed where the map began.
   std::vector<Vec2> uv_;
   double least_edge_;
+  bool is_tube_ = false;    ///< The level began as one.
   bool guarded_ = false;    ///< Keep the border out of its own way.
   double mean_energy_ = 0;  ///< Per area, of the level before.
   std::vector<RingEdge> ring_;

@@ -47,6 +47,20 @@ TEST(Maillot, LowersLengthEnergyBelowTheStart) {
   EXPECT_NEAR(trace.back().error, 0.5 * (r.length_energy + r.area_energy), 1e-6 * trace.back().error);
 }
 
+TEST(Maillot, AreasAloneAreReachedAndThatEndsIt) {
+  // Every disk has maps that keep areas: the energy falls to nothing, by a large part of itself in each step.
+  const TriangleMesh mesh = test::hemisphere_mesh(25, 50);
+  MaillotOptions options;
+  options.length_weight = 0;
+  options.distortion_limit = 0;
+  const MaillotResult r = flatten_maillot(mesh, test::one_chart(mesh), options);
+  EXPECT_EQ(r.flattening.stop, StopReason::converged);
+  EXPECT_LT(r.flattening.trace.size(), 12u);
+  const double area = measure_distortion(mesh, r.flattening.uv).area_mm2;
+  EXPECT_LT(r.area_energy, 2e-12 * area);
+  EXPECT_GT(r.length_energy, 1e-3 * r.squared_edges);
+}
+
 TEST(Maillot, BothSolversFindTheSameMinimum) {
   const TriangleMesh mesh = test::spherical_cap(10, 0.7, 5, 12);
   MaillotOptions options;

@@ -15,6 +15,7 @@
 #include "papilla_test/shapes.hpp"
 #include "sparse_cholesky.hpp"
 #include "support/formula_meshes.hpp"
+#include "tube_map.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -54,17 +55,16 @@ TEST(Energies, GradientsAreDerivatives) {
   }
 }
 
-TEST(Energies, DirichletHessianIsTheDerivativeWhereThatIsPositive) {
+void expect_hessian_is_derivative(double scale, double raised) {
   const Sample s;
   const SymmetricDirichlet energy(s.rest);
-  // Stretched maps have no negative curvature.
   std::vector<Vec2> uv = s.uv;
-  for (Vec2& p : uv) p = 2.0 * p;
+  for (Vec2& p : uv) p = scale * p;
   for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
     const auto [a, b, c] = s.mesh.triangles[t];
     std::array<Vec2, 3> at{uv[a], uv[b], uv[c]};
     CornerHessian h;
-    energy.hessian(t, at[0], at[1], at[2], h.data());
+    energy.hessian(t, at[0], at[1], at[2], raised, h.data());
     const double step = 1e-6;
     for (std::size_t j = 0; j < 6; ++j) {
       double& x = j % 2 == 0 ? at[j / 2].x : at[j / 2].y;
@@ -80,6 +80,11 @@ TEST(Energies, DirichletHessianIsTheDerivativeWhereThatIsPositive) {
       }
     }
   }
+}
+
+TEST(Energies, DirichletHessianIsTheDerivative) {
+  expect_hessian_is_derivative(2, 1);  // stretched maps have no negative curvature
+  expect_hessian_is_derivative(0.8, 0);
 }
 
 TEST(Energies, MaillotOfOneTriangleByHand) {
@@ -130,7 +135,7 @@ class StiffModel final : public MapEnergy {
   CornerGradient gradient(std::size_t, Vec2 a, Vec2 b, Vec2 c) const override {
     return {a - k_places[0], b - k_places[1], c - k_places[2]};
   }
-  void hessian(std::size_t, Vec2, Vec2, Vec2, double* matrix) const override {
+  void hessian(std::size_t, Vec2, Vec2, Vec2, double, double* matrix) const override {
     for (std::size_t i = 0; i < 36; ++i) matrix[i] = i % 7 == 0 ? 10 : 0;
   }
 };
@@ -162,13 +167,17 @@ TEST(Descent, OfTheLogarithmIsFasterFarFromTheMinimum) {
   EXPECT_LT(quick.energy, 4.5 * area);
 }
 
+MapLevel whole_level(const TriangleMesh& mesh) {
+  const DiskHierarchy all(mesh.positions, mesh.triangles, mesh.positions.size());
+  const std::vector<Vec2> nowhere(mesh.positions.size());
+  return current_level(all, mesh.positions, nowhere, 0);
+}
+
 TEST(ConvexMap, DeepDisksStayOpen) {
   // The hole of this sphere is 75 times narrower than the disk is deep; under a uniform pull, the smallest triangle
   // would be 6e-11 of the mean.
   const TriangleMesh mesh = test::sphere_mesh(60, 24, 3.1, [](Vec3) { return 1.0; });
-  const DiskHierarchy all(mesh.positions, mesh.triangles, mesh.positions.size());
-  const std::vector<Vec2> nowhere(mesh.positions.size());
-  const MapLevel level = current_level(all, mesh.positions, nowhere, 0);
+  const MapLevel level = whole_level(mesh);
   const std::vector<Vec2> uv = map_to_circle(level, mesh.positions);
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   for (const auto& [a, b, c] : level.triangles) {
@@ -176,6 +185,60 @@ TEST(ConvexMap, DeepDisksStayOpen) {
     least = std::min(least, doubled), sum += doubled;
   }
   EXPECT_GT(least, 1e-5 * sum / static_cast<double>(level.triangles.size()));
+}
+
+TEST(TubeMap, EndsAreCounted) {
+  const auto spiky = [](std::vector<Vec3> spikes) {
+    const TriangleMesh mesh = test::sphere_mesh(40, 40, 2.6, [&](Vec3 d) {
+      double radius = 1;
+      for (const Vec3 s : spikes) radius += 3 * std::exp(-20 * dot(d - s, d - s));
+      return radius;
+    });
+    return has_one_end(whole_level(mesh), mesh.positions);
+  };
+  EXPECT_TRUE(spiky({}));
+  EXPECT_TRUE(spiky({{0, 0, 1}}));
+  EXPECT_FALSE(spiky({{0.8, 0, 0.6}, {-0.8, 0, 0.6}}));
+}
+
+TEST(TubeMap, IsValidAndNeedsARing) {
+  // The hole is 75 times narrower than the disk is deep.
+  const TriangleMesh sphere = test::sphere_mesh(60, 24, 3.1, [](Vec3) { return 1.0; });
+  const MapLevel level = whole_level(sphere);
+  const std::optional<TubeMap> tube = map_tube(level, sphere.positions);
+  ASSERT_TRUE(tube);
+  for (const auto& [a, b, c] : level.triangles)
+    EXPECT_GT(cross(tube->uv[b] - tube->uv[a], tube->uv[c] - tube->uv[a]), 0);
+  TriangleMesh fan;
+  fan.positions = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}};
+  fan.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
+  EXPECT_FALSE(map_tube(whole_level(fan), fan.positions));
+}
+
+TEST(Descent, ByRingsFindsTheRadii) {
+  // A flat disk of rings whose radii are wrong.
+  const TriangleMesh mesh = test::sphere_mesh(20, 60, 1.0, [](Vec3 d) { return 1 / d.z; });
+  const MapLevel level = whole_level(mesh);
+  const SymmetricDirichlet energy(level.rest);
+  const DescentProblem problem{level.triangles, &energy, nullptr};
+  const double outer = std::tan(1.0);
+  RingScales scales{{}, 12};
+  std::vector<Vec2> uv;
+  for (const Index v : level.vertices) {
+    const Vec3 p = mesh.positions[v];
+    const double radius = std::hypot(p.x, p.y), at = std::min(radius / outer, 1 - 1e-9) * 11;
+    const auto inner = static_cast<Index>(at);
+    scales.place.push_back({inner, at - inner});
+    uv.push_back((0.3 + 0.5 * radius) * Vec2{p.x, p.y});
+  }
+  ASSERT_GT(total_energy(problem, uv), 4.5 * level.area);
+  const DescentResult result = descend_by_rings(problem, scales, uv, {.tolerance = 1e-6});
+  EXPECT_EQ(result.stop, StopReason::converged);
+  EXPECT_NEAR(result.energy, 4 * level.area, 1e-2 * level.area);
+  EXPECT_NEAR(result.energy, total_energy(problem, uv), 1e-9 * level.area);
+  // Directions from the middle stay.
+  for (std::size_t v = 0; v < uv.size(); ++v)
+    EXPECT_NEAR(cross(uv[v], Vec2{mesh.positions[level.vertices[v]].x, mesh.positions[level.vertices[v]].y}), 0, 1e-9);
 }
 
 TEST(Descent, ForeseesTheEnd) {

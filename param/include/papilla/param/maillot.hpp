@@ -24,7 +24,8 @@ struct MaillotOptions {
   double length_weight = 0.5;  ///< φ, in [0, 1].
   MaillotSolver solver = MaillotSolver::gauss_newton;
   MaillotStart start = MaillotStart::coarse_to_fine;
-  double tolerance = 1e-3;   ///< Stop when E falls by less than this fraction in an iteration; in (0, 1).
+  double tolerance = 1e-3;   ///< Stop when E falls by less than this fraction in an iteration, or below 1e-12 of the
+                             ///< area; in (0, 1).
   int max_iterations = 500;  ///< At least 0.
   double time_limit_s = 0;   ///< Per chart; 0: none.
   /// E has no wall against triangles that collapse. The descent ends where it would raise the mean symmetric Dirichlet
