@@ -40,7 +40,9 @@ struct BestOptions {
 /// vertices come back in order, each into the kernel of its ring; every level is relaxed, first vertex by vertex, then
 /// (up to 200,000 vertices) by projected Newton steps on a nested-dissection factorization, with a line search that
 /// crosses no flip and goes further than the model says where the energy bends less. Charts that come out deep (E / ΣA
-/// above 15) begin with 200 vertices, and what leads away from their border pulls harder in Tutte's map. From the first
+/// above 15) begin with 200 vertices, and what leads away from their border pulls harder in Tutte's map; one with a
+/// single end (a finger, a bag) begins as a tube instead, on its finest level: its wall goes to a cylinder by harmonic
+/// weights, its rings to circles of the area inside them, whose scales are then set by Newton steps. From the first
 /// level on whose border runs into itself, a barrier between the edges of the border keeps it apart; where vertices
 /// find no room then, the map begins again from an earlier level or a finer base. Cost: O(n) for coarsening and
 /// relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the factorization and sums run in
