@@ -54,6 +54,8 @@ expect 2 '' "$papilla" inspect --no-such-option one.obj
 for file in missing.glb empty.glb random.glb one.obj; do
   expect 3 "$file" "$player" "$file" --device sim --seconds 0.1
 done
+expect 3 'random.stl' "$papilla" evaluate weld random.stl -o evaluated
+[[ -e evaluated ]] && { echo "FAILED: an evaluation that ended with an error left its folder"; failures=$((failures + 1)); }
 [[ -e out.glb ]] && { echo "FAILED: a bake that ended with an error left out.glb"; failures=$((failures + 1)); }
 find . -name '.*.[0-9]*-*' | grep . && { echo "FAILED: temporary files are left"; failures=$((failures + 1)); }
 ((failures == 0)) && echo "all as expected"

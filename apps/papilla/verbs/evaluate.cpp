@@ -41,14 +41,21 @@ const EvaluationKind& kind_of(const std::string& name) {
   return *std::find_if(kinds.begin(), kinds.end(), [&](const EvaluationKind& kind) { return kind.name == name; });
 }
 
-/// Writes the files of an evaluation, and remembers their names.
+/// Writes the files of an evaluation, and remembers their names. A folder that it made goes again when it stays empty.
 class Folder {
  public:
   Folder(const std::string& path, const std::string& kind) : stem_(fs::path(path) / ("evaluate-" + kind)) {
     std::error_code error;
-    fs::create_directories(path, error);
+    is_new_ = fs::create_directories(path, error);
     if (!fs::is_directory(path)) throw IoError(path + ": cannot be made a folder");
   }
+  ~Folder() {
+    std::error_code not_empty;
+    if (is_new_ && names_.empty()) fs::remove(stem_.parent_path(), not_empty);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
   void write(const std::string& ending, const std::string& content) {
     const std::string name = stem_.string() + ending;
     write_atomically(name, content);
@@ -61,6 +68,7 @@ class Folder {
 
  private:
   fs::path stem_;
+  bool is_new_ = false;
   Json names_ = Json::array();
 };
 
