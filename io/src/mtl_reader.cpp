@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/read_file.hpp"
 #include "scene_pictures.hpp"

@@ -14,6 +14,7 @@
 #include "mesh_file_scene.hpp"
 #include "mtl_reader.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/io/read_file.hpp"
 #include "polygon_triangulation.hpp"
 #include "srgb.hpp"

@@ -14,6 +14,7 @@
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "placed_mesh.hpp"
 #include "scene_losses.hpp"
 #include "srgb.hpp"
@@ -25,11 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A name that stays one statement: without line breaks and not empty.
-std::string one_line(std::string_view name, std::string_view fallback) {
-  std::string text(name.empty() ? fallback : name);
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  return text;
+std::string statement_name(std::string_view name, std::string_view fallback) {
+  return one_line(name.empty() ? fallback : name);
 }
 
 /// A name for a file: without separators and other characters that some system forbids.
@@ -50,7 +48,7 @@ std::vector<std::string> material_names(const Scene& scene) {
   std::vector<std::string> names;
   std::set<std::string> taken;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const std::string wanted = one_line(scene.materials[i].name, fmt::format("material {}", i));
+    const std::string wanted = statement_name(scene.materials[i].name, fmt::format("material {}", i));
     std::string name = wanted;
     for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}~{}", wanted, k);
     names.push_back(name);
@@ -151,7 +149,7 @@ class ObjWriter {
  private:
   void write(const PlacedMesh& mesh) {
     const TriangleMesh& source = mesh.part->mesh;
-    fmt::format_to(out_, "o {}\n", one_line(mesh.name, "part"));
+    fmt::format_to(out_, "o {}\n", statement_name(mesh.name, "part"));
     write_positions(mesh);
     for (const Vec2& t : source.uv.values)
       fmt::format_to(out_, "vt {} {}\n", finite(t.x, "texture coordinate"), finite(t.y, "texture coordinate"));

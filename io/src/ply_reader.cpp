@@ -16,6 +16,7 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/io/read_file.hpp"
 #include "ply_body.hpp"
 #include "ply_properties.hpp"

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/read_file.hpp"
 #include "text_scanner.hpp"

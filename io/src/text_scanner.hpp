@@ -43,14 +43,6 @@ inline std::string printable(std::string_view word) {
   return text;
 }
 
-/// A text of one line: control characters become blanks.
-inline std::string one_line(std::string_view text) {
-  std::string line(text);
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
-  return line;
-}
-
 /// Reads the whole word as a number, independent of the locale. "nan" and "inf" are numbers.
 template <class T>
 bool parse_number(std::string_view word, T& value) noexcept {

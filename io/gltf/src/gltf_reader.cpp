@@ -12,6 +12,7 @@
 #include "gltf_mesh.hpp"
 #include "gltf_transform.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
 
 namespace papilla {
@@ -167,6 +168,9 @@ Scene read_gltf(const std::filesystem::path& path) {
   } catch (const InvalidInput& error) {
     throw InvalidInput(document.file + ": " + error.what());
   }
+  // Names, addresses and keys come from the file.
+  for (std::vector<std::string>* lines : {&scene.losses, &scene.warnings})
+    for (std::string& line : *lines) line = one_line(line);
   return scene;
 }
 
