@@ -18,8 +18,6 @@ constexpr double k_negligible = 1e-3;
 /// From this distortion on a cut may also pay by what it takes off the scale itself: the first of several that are
 /// needed may leave some of the surface large, some small, and the variation higher than it was.
 constexpr double k_severe = 0.5;
-/// A cut counts as at least this fraction of the piece's size: what shorter ones gain is within the error of D.
-constexpr double k_least_cost = 0.01;
 /// Off the ridge of the scale a cut across costs up to this many times as much as on it.
 constexpr double k_off_ridge = 8;
 
@@ -42,7 +40,7 @@ class Reliever {
   std::vector<Index> run(double seam_cost) {
     double area = 0;
     for (Index t = 0; t < piece_.size(); ++t) area += piece_.area(t);
-    const double size = std::sqrt(area), price = seam_cost / size;
+    const double price = seam_cost / std::sqrt(area);
     std::vector<Index> taken;
     for (int i = 0; i < k_max_cuts; ++i) {
       const double before = field_.distortion(), spread = field_.squared_scale();
@@ -61,7 +59,7 @@ class Reliever {
         solve_with(cut);
         double gain = before - field_.distortion();
         if (before > k_severe) gain = std::max(gain, 0.25 * (spread - field_.squared_scale()));
-        gain -= price * std::max(cut.cost, k_least_cost * size);
+        gain -= price * cut.cost;
         if (gain > best_gain) best_gain = gain, best = &cut;
       }
       if (!best) break;

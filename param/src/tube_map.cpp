@@ -21,6 +21,9 @@ constexpr double k_turn = 2 * std::numbers::pi;
 constexpr double k_least_cotangent = 0.05;
 constexpr double k_most_cotangent = 50;
 
+/// Angles around the pole count as no less than this fraction of their mean.
+constexpr double k_least_angle = 0.3;
+
 /// How much more than they have to, rings are apart.
 constexpr double k_sag_margin = 1.5;
 
@@ -73,8 +76,7 @@ struct Wall {
  private:
   static Index following(Index corner) { return corner - corner % 3 + (corner + 1) % 3; }
   static Index next(const FilledDisk& disk, Index corner) {
-    const Index c = corner - corner % 3 + (corner % 3 + 1) % 3;
-    return disk.triangles[c / 3][c % 3];
+    return disk.triangles[corner / 3][following(corner) % 3];
   }
 
   /// The corners at v counter-clockwise from the edge to `in` to the edge to `out`, or to the border.
@@ -146,7 +148,7 @@ class WallMap {
     }
     const double mean = std::accumulate(angle.begin(), angle.end(), 0.0) / static_cast<double>(ring.size());
     double total = 0, at = 0;
-    for (double& a : angle) total += a = std::max(a, 0.3 * mean);
+    for (double& a : angle) total += a = std::max(a, k_least_angle * mean);
     for (std::size_t i = 0; i < ring.size(); ++i) {
       fixed[ring[i]] = 1;
       at_.turn[ring[i]] = k_turn * at / total;
