@@ -13,7 +13,8 @@ namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr int k_max_cuts = 64;
-/// Distortion below this fraction of what a seam as long as the piece costs is not worth a look.
+/// Distortion below this fraction of what a seam as long as the piece costs is not worth a look, nor is a cut that
+/// gains less: it is within the error of the estimate.
 constexpr double k_negligible = 1e-3;
 /// From this distortion on a cut may also pay by what it takes off the scale itself: the first of several that are
 /// needed may leave some of the surface large, some small, and the variation higher than it was.
@@ -53,7 +54,7 @@ class Reliever {
       }
       if (extremes.smallest != k_none) cuts.push_back(across(extremes.smallest));
       const Cut* best = nullptr;
-      double best_gain = 0;
+      double best_gain = k_negligible * seam_cost;
       for (const Cut& cut : cuts) {
         if (cut.halfedges.empty()) continue;
         solve_with(cut);
