@@ -19,9 +19,6 @@ namespace {
 
 constexpr float k_margin = 2e-6F;  // Relative; a dozen roundings of single precision.
 constexpr float k_never = 2;
-// Taken of a block: those after the first tell what a whole way only passes over. The piece at the start of a long one
-// is too short.
-constexpr int k_tangents = 3;
 constexpr float k_least = 1e-25F;  // Keeps a quotient finite.
 
 constexpr float k_rounding = 4e-7F;  // Relative; a few roundings.
@@ -38,8 +35,12 @@ struct Neighbourhood::Loops {
   static void make_prisms(const Corners& t, Prisms& p) noexcept;
   static void make_box(const Corners& t, Box& box) noexcept;
   static void distances(const Prisms& t, const float* x, float* result) noexcept;
+  struct Passing;
+  struct Nearness;
+  static Nearness nearness(const Prisms& t, const Passing& p, std::size_t i, float at) noexcept;
   static std::uint32_t meet(const Prisms& t, const float* x, const float* w, float reach, float least, float until,
-                            float* earliest) noexcept;
+                            float* earliest, Passing& p) noexcept;
+  static std::uint32_t turn(const Prisms& t, const Passing& p, float reach, float least, float* earliest) noexcept;
   static std::uint32_t near_boxes(const Boxes& b, const float* x, const float* half, float reach) noexcept;
 };
 
@@ -156,38 +157,85 @@ PAPILLA_WIDE void Neighbourhood::Loops::distances(const Prisms& t, const float* 
   }
 }
 
-/// With g the distance to the prism at x + t·w, t = earliest, and p/g its slope along w, the distance at t' is at least
-/// g + (t' − t)·p/g: reach c is not met before t + (g − c)·g/−p, and what lies below g + (1 − t)·min(p/g, 0) not at
-/// all.
-/// @returns a bit for each that may be met by `until`.
+/// How a point that starts at x and moves by w a unit of time stands to each prism: where it is and how fast it goes
+/// over the plane, beyond the planes of the edges, and from halfway.
+struct Neighbourhood::Loops::Passing {
+  Lanes n, m0, m1, m2, e;
+  Lanes wn, w0, w1, w2, we;
+};
+
+/// g, the distance from a prism at a time, and its descent −g·dg/dt.
+struct Neighbourhood::Loops::Nearness {
+  float g, descent;
+};
+
+[[gnu::always_inline]] inline Neighbourhood::Loops::Nearness Neighbourhood::Loops::nearness(const Prisms& t,
+                                                                                           const Passing& p,
+                                                                                           std::size_t i,
+                                                                                           float at) noexcept {
+  const float s = p.n[i] + at * p.wn[i], e = p.e[i] + at * p.we[i];
+  const float m0 = p.m0[i] + at * p.w0[i], m1 = p.m1[i] + at * p.w1[i], m2 = p.m2[i] + at * p.w2[i];
+  const float m3 = std::abs(e) - t.half[i], w3 = e > 0 ? p.we[i] : -p.we[i];
+  const float m01 = std::max(m0, m1), w01 = m0 > m1 ? p.w0[i] : p.w1[i];
+  const float m23 = std::max(m2, m3), w23 = m2 > m3 ? p.w2[i] : w3;
+  const float ds = std::max(s - t.thick[i], 0.0F) + std::min(s + t.thick[i], 0.0F);
+  const float dm = std::max(std::max(m01, m23), 0.0F), wm = m01 > m23 ? w01 : w23;
+  return {std::sqrt(ds * ds + dm * dm), -(ds * p.wn[i] + dm * wm)};
+}
+
+/// The distance g is convex: at t' it is at least g − (t' − t)·descent/g. So reach c is not met before
+/// t + (g − c)·g/descent, and what lies below g − (1 − t)·max(descent, 0)/g not at all.
+/// @returns a bit for each that may be met by `until`, from the time in `earliest` on.
 PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::meet(const Prisms& t, const float* x, const float* w, float reach,
-                                                      float least, float until, float* earliest) noexcept {
-  const float w0 = w[0], w1 = w[1], w2 = w[2], o0 = x[0], o1 = x[1], o2 = x[2];
+                                                      float least, float until, float* earliest,
+                                                      Passing& p) noexcept {
+  const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
-    const float at = earliest[i], x0 = o0 + at * w0, x1 = o1 + at * w1, x2 = o2 + at * w2;
-    const float s = t.n[0][i] * x0 + t.n[1][i] * x1 + t.n[2][i] * x2 - t.middle[i];
-    const float ds = std::max(s - t.thick[i], 0.0F) + std::min(s + t.thick[i], 0.0F);
-    const float ws = t.n[0][i] * w0 + t.n[1][i] * w1 + t.n[2][i] * w2;
-    const float m0 = t.m[0][i] * x0 + t.m[1][i] * x1 + t.m[2][i] * x2 - t.beyond[0][i];
-    const float m1 = t.m[3][i] * x0 + t.m[4][i] * x1 + t.m[5][i] * x2 - t.beyond[1][i];
-    const float m2 = t.m[6][i] * x0 + t.m[7][i] * x1 + t.m[8][i] * x2 - t.beyond[2][i];
-    const float v0 = t.m[0][i] * w0 + t.m[1][i] * w1 + t.m[2][i] * w2;
-    const float v1 = t.m[3][i] * w0 + t.m[4][i] * w1 + t.m[5][i] * w2;
-    const float v2 = t.m[6][i] * w0 + t.m[7][i] * w1 + t.m[8][i] * w2;
-    const float e = t.e[0][i] * x0 + t.e[1][i] * x1 + t.e[2][i] * x2 - t.halfway[i];
-    const float we = t.e[0][i] * w0 + t.e[1][i] * w1 + t.e[2][i] * w2;
-    const float m3 = std::abs(e) - t.half[i], v3 = e > 0 ? we : -we;
-    const float m01 = std::max(m0, m1), v01 = m0 > m1 ? v0 : v1;
-    const float m23 = std::max(m2, m3), v23 = m2 > m3 ? v2 : v3;
-    const float dm = std::max(std::max(m01, m23), 0.0F), wm = m01 > m23 ? v01 : v23;
-    const float g = std::sqrt(ds * ds + dm * dm);
-    const float approach = std::max(-(ds * ws + dm * wm), k_least);
-    const float met = at + std::max((g - reach) * g / approach * (1 - k_margin), 0.0F);
-    earliest[i] = (g - least) * g > approach * std::max(1 - at, 0.0F) ? k_never : std::min(met, k_never);
+    p.n[i] = t.n[0][i] * x0 + t.n[1][i] * x1 + t.n[2][i] * x2 - t.middle[i];
+    p.wn[i] = t.n[0][i] * w0 + t.n[1][i] * w1 + t.n[2][i] * w2;
+    p.m0[i] = t.m[0][i] * x0 + t.m[1][i] * x1 + t.m[2][i] * x2 - t.beyond[0][i];
+    p.m1[i] = t.m[3][i] * x0 + t.m[4][i] * x1 + t.m[5][i] * x2 - t.beyond[1][i];
+    p.m2[i] = t.m[6][i] * x0 + t.m[7][i] * x1 + t.m[8][i] * x2 - t.beyond[2][i];
+    p.w0[i] = t.m[0][i] * w0 + t.m[1][i] * w1 + t.m[2][i] * w2;
+    p.w1[i] = t.m[3][i] * w0 + t.m[4][i] * w1 + t.m[5][i] * w2;
+    p.w2[i] = t.m[6][i] * w0 + t.m[7][i] * w1 + t.m[8][i] * w2;
+    p.e[i] = t.e[0][i] * x0 + t.e[1][i] * x1 + t.e[2][i] * x2 - t.halfway[i];
+    p.we[i] = t.e[0][i] * w0 + t.e[1][i] * w1 + t.e[2][i] * w2;
+    const float at = earliest[i];
+    const auto [g, descent] = nearness(t, p, i, at);
+    const float down = std::max(descent, k_least);
+    const float met = at + std::max((g - reach) * g / down * (1 - k_margin), 0.0F);
+    earliest[i] = (g - least) * g > down * std::max(1 - at, 0.0F) ? k_never : std::min(met, k_never);
   }
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < k_lanes; ++i) bits |= earliest[i] <= until ? 1U << i : 0U;
+  return bits;
+}
+
+/// Of ways that go on to t = 1: the next tangent, one at the end, and one where these cross. The least distance is not
+/// below where neighbours of the three cross, nor below that at the end if the way still leads down there.
+PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::turn(const Prisms& t, const Passing& p, float reach, float least,
+                                                      float* earliest) noexcept {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < k_lanes; ++i) {
+    const float at = earliest[i], left = std::max(1 - at, 0.0F);
+    const auto [g, descent] = nearness(t, p, i, at);
+    const auto [g1, descent1] = nearness(t, p, i, 1);
+    const float down = std::max(descent, k_least) / std::max(g, k_least);
+    const float up = std::max(-descent1, 0.0F) / std::max(g1, k_least);
+    const float turned = std::clamp((g - g1 + up * left) / std::max(down + up, k_least), 0.0F, left);
+    const auto [g2, descent2] = nearness(t, p, i, at + turned);
+    const float slope2 = -descent2 / std::max(g2, k_least);
+    // From the middle tangent towards where the distance falls, to the other tangent on that side.
+    const float other = slope2 > 0 ? down : up, over = slope2 > 0 ? g - turned * down : g1 - (left - turned) * up;
+    const float lower = g2 - (g2 - over) * std::abs(slope2) / std::max(std::abs(slope2) + other, k_least);
+    const float bottom = descent1 >= 0 ? g1 : lower;
+    const float met = at + std::max((g - reach) / down * (1 - k_margin), 0.0F);
+    earliest[i] = bottom > least || at > 1 ? k_never : std::min(met, k_never);
+  }
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < k_lanes; ++i) bits |= earliest[i] <= 1 ? 1U << i : 0U;
   return bits;
 }
 
@@ -299,13 +347,12 @@ std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, doub
   const std::array<float, 3> x = floats_of(at), w = floats_of(way);
   const auto c = static_cast<float>(contact), last = static_cast<float>(until) * (1 + k_margin);
   const float error = 4 * k_margin * (c + size_of(at) + size_of(way));
-  std::uint32_t met = 0;
+  const Prisms& prisms = prisms_[slot(i)];
+  const float deepest = c + error - static_cast<float>(deep);
+  Loops::Passing passing;
   earliest.fill(static_cast<float>(since) * (1 - k_margin));
-  for (int tangent = 0; tangent < k_tangents; ++tangent) {
-    met = Loops::meet(prisms_[slot(i)], x.data(), w.data(), c + error, c + error - static_cast<float>(deep), last,
-                      earliest.data());
-    if (met == 0 || until < 1) break;
-  }
+  std::uint32_t met = Loops::meet(prisms, x.data(), w.data(), c + error, deepest, last, earliest.data(), passing);
+  if (met != 0 && until >= 1) met = Loops::turn(prisms, passing, c + error, deepest, earliest.data());
   return met;
 }
 
