@@ -18,13 +18,20 @@ constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
 constexpr double k_lead = 0.5;  // Of what is gathered: how far before the proxy its centre lies.
 constexpr int k_pieces = 3;     // Of a way, each with what is gathered where it begins; what is longer asks the tree.
 constexpr double k_far = 1.5;   // Of the probe's way: a proxy that goes farther slips down a slope.
-constexpr int k_few = 8;        // Sweeps; one that took more of them has felt its way.
-constexpr double k_held = 0.1;  // Of the probe's way: a proxy that goes no farther is held.
+constexpr double k_anywhere = std::numeric_limits<double>::infinity();
+constexpr int k_few = 8;             // Sweeps; one that took more of them has felt its way.
+constexpr double k_held = 0.1;       // Of the probe's way: a proxy that goes no farther is held.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
 constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
 
 }  // namespace
+
+/// Where the proxy was, where the probe is seen from there, and how far that has come.
+struct Proxy::Tick {
+  Vec3 start, goal;
+  double travel;
+};
 
 /// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
 struct Proxy::Planes {
@@ -53,12 +60,40 @@ void Proxy::reset(Vec3 position) noexcept {
   state_.proxy = position;
   probe_ = position;
   near_.clear();
+  held_count_ = 0;
   slide_speed_ = 0;
   started_ = true;
 }
 
 double Proxy::friction(const ContactMaterial& m) const noexcept {
   return m.friction == FrictionModel::coulomb ? friction_coefficient(m, slide_speed_) : 0;
+}
+
+/// Remembers the planes that hold the proxy at x, if all of them were found there.
+void Proxy::remember(const Planes& planes, std::uint32_t active, Vec3 x) noexcept {
+  for (int i = 0; i < planes.count; ++i) {
+    if (!(active >> i & 1U)) continue;
+    const HalfSpace& plane = planes.plane[i];
+    if (!(x == planes.found_at[i])) {
+      held_count_ = 0;
+      return;
+    }
+    held_[static_cast<std::size_t>(held_count_++)] = {plane.normal, plane.offset - dot(plane.normal, x),
+                                                      plane.material};
+  }
+}
+
+/// The planes that held the proxy when the tick before ended: it hasn't moved since, so they need not be found anew as
+/// long as the probe pulls into them.
+void Proxy::recall(Vec3 goal, Planes& planes) noexcept {
+  bool pulls = false;
+  for (int i = 0; i < held_count_; ++i) {
+    const Held& held = held_[static_cast<std::size_t>(i)];
+    planes.add({held.normal, held.offset, held.material}, {});
+    pulls = pulls || dot(held.normal, goal) < held.offset;
+  }
+  if (!pulls) planes.count = 0;
+  held_count_ = 0;
 }
 
 /// Says what holds the proxy when it wants to go to `aim` and would like to be at `goal`.
@@ -117,22 +152,34 @@ bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Ve
   return true;
 }
 
-/// Where the way of steepest descent forks, long steps can come to rest in the farther of two hollows. Tries whether
-/// the nearest place of all can be reached: along the surface, then down. @returns whether x was moved nearer to the
-/// goal.
-bool Proxy::leap(Vec3 start, Vec3 goal, Vec3& x, double travel, ProxyState& next) noexcept {
-  const double now = norm(goal - x);
-  const auto found = surface_->likely_rest(start + goal, now - 2 * surface_->tolerance_m(), next.normal, near_);
+/// What stopped the proxy at x is a constraint from now on.
+void Proxy::touch(const SweepHit& hit, Planes& planes, Vec3& x, ProxyState& next) const noexcept {
+  // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
+  x = x + std::clamp(hit.penetration_m, 0.0, surface_->tolerance_m()) * hit.normal;
+  planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
+  next.in_contact = true;
+}
+
+/// Tries whether the nearest place of all, no farther off than `farthest`, can be reached by a free way along the
+/// surface, whose normal is given, and one down. @returns whether x was moved nearer to the goal; then `planes` is what
+/// it rests on there, as far as it is known.
+bool Proxy::leap(const Tick& tick, Vec3 normal, double farthest, Planes& planes, Vec3& x, ProxyState& next) noexcept {
+  const double now = norm(tick.goal - x), tolerance = surface_->tolerance_m();
+  const auto found = surface_->likely_rest(tick.start + tick.goal, now - 2 * tolerance, normal, near_);
   if (!found) return false;
-  const Vec3 rest = *found - start, over = rest - std::min(dot(next.normal, rest - x), 0.0) * next.normal;
-  if (norm(over - x) <= k_drop * surface_->tolerance_m()) return false;
-  next.sweeps += 2;
-  if (sweep(start + x, over - x, travel)) return false;
-  const Vec3 down = rest - over - surface_->tolerance_m() * next.normal;
-  const auto hit = sweep(start + over, down, travel);
+  const Vec3 rest = *found - tick.start, over = rest - std::min(dot(normal, rest - x), 0.0) * normal;
+  const double way = norm(over - x);
+  if (way <= k_drop * tolerance || way > farthest) return false;
+  ++next.sweeps;
+  if (sweep(tick.start + x, over - x, tick.travel)) return false;
+  ++next.sweeps;
+  const Vec3 down = rest - over - 2 * tolerance * normal;
+  const auto hit = sweep(tick.start + over, down, tick.travel);
   const Vec3 there = over + (hit ? hit->t : 1) * down;
-  if (norm(goal - there) >= now - surface_->tolerance_m()) return false;
+  if (norm(tick.goal - there) >= now - tolerance) return false;
   x = there;
+  planes.count = 0;
+  if (hit) touch(*hit, planes, x, next);
   return true;
 }
 
@@ -148,12 +195,17 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
 
   ProxyState next;
   Planes planes;
+  recall(goal, planes);
   Vec3 x{}, slid{};
   bool free = false, leapt = false, crept = false, again = false;
   // What friction holds is pressed back along the normal: on the straight way to the probe it would creep along.
   Vec3 normal = state_.normal;
   double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
-  double nearest = std::numeric_limits<double>::infinity();
+  // Along smooth ground the nearest place is at hand most often: two ways lead there, whatever the edges between.
+  const Tick tick{start, goal, travel};
+  if (state_.in_contact && drop == 0 && travel > shortest)
+    if (leap(tick, state_.normal, k_far * travel, planes, x, next)) slid = x;
+  double nearest = planes.count > 0 ? norm(goal - x) : std::numeric_limits<double>::infinity();
   for (;;) {
     const ConstrainedPoint aim = closest_point(goal, planes.plane, planes.count, shortest);
     if (!aim.found) break;
@@ -167,10 +219,16 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
       const double held = friction(surface_->material(next.material)) * next.load_m;
       if (wanted - held <= shortest) {
         const bool stays = aim.count == 1 || all_stand(planes, aim.active, start, x, next);
-        if (stays && (leapt || held > 0 || next.sweeps > k_few || norm(x) <= k_far * travel)) break;
-        if (stays) leapt = true;
-        if (stays && !leap(start, goal, x, travel, next)) break;
-        planes.count = 0;
+        if (!stays) {
+          planes.count = 0;
+          continue;
+        }
+        const bool settled = leapt || held > 0 || next.sweeps > k_few || norm(x) <= k_far * travel;
+        if (settled || !leap(tick, next.normal, k_anywhere, planes, x, next)) {
+          if (aim.count > 1) remember(planes, aim.active, x);
+          break;
+        }
+        leapt = true;
         continue;
       }
       step = (1 - held / wanted) * step;
@@ -203,10 +261,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     }
     if (norm(step) > shortest) planes.keep(aim.active);
     if (planes.count == k_planes) break;
-    // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
-    x = x + std::clamp(hit->penetration_m, 0.0, surface_->tolerance_m()) * hit->normal;
-    planes.add({hit->normal, dot(hit->normal, x), hit->material}, x);
-    next.in_contact = true;
+    touch(*hit, planes, x, next);
   }
   if (free) next = ProxyState{};
   next.felt_normal = next.normal;

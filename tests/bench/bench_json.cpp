@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -100,6 +101,14 @@ std::string command_line(const std::string& name, int argc, char** argv) {
 }
 
 }  // namespace
+
+void empty_caches() {
+  constexpr std::size_t k_line = 64;
+  const long largest = ::sysconf(_SC_LEVEL3_CACHE_SIZE);
+  static std::vector<char> memory(2 * static_cast<std::size_t>(std::max(largest, 32L << 20)));
+  for (std::size_t i = 0; i < memory.size(); i += k_line) memory[i] = static_cast<char>(memory[i] + 1);
+  keep(memory.data());
+}
 
 double thread_cpu_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 double process_cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }

@@ -43,6 +43,9 @@ using papilla::peak_rss_mib;
 /// Starts a new peak of peak_rss_mib(); does nothing where the kernel does not allow it.
 void reset_peak_rss();
 
+/// Writes to twice as much memory as the largest cache holds.
+void empty_caches();
+
 /// Makes the compiler believe that `value` is read, so that the work which made it stays.
 template <class T>
 void keep(const T& value) {

@@ -93,9 +93,9 @@ class ContactSurface {
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept;
 
   /// Where a probe would rest that is drawn to `goal` and comes from the side of `normal`, if nothing but the nearest
-  /// of the triangles were there that ways have come near so far: a place to try. Nothing with relief, and when there
-  /// is no such place within `radius_m` of the goal.
-  std::optional<Vec3> likely_rest(Vec3 goal, double radius_m, Vec3 normal, const Neighbourhood& near) const noexcept;
+  /// of the triangles gathered were there: a place to try. Nothing with relief, and when there is no such place within
+  /// `radius_m` of the goal.
+  std::optional<Vec3> likely_rest(Vec3 goal, double radius_m, Vec3 normal, Neighbourhood& near) const noexcept;
 
   /// Shaded normals at a resting probe: with f_i the face normals of the triangles that it touches at `proxy` and s_i
   /// their corner normals, interpolated at the nearest points, writes the normal as Σ λ_i f_i with λ_i ≥ 0 and returns
@@ -183,6 +183,8 @@ class ContactSurface {
                      std::optional<SweepHit>& best) const noexcept;
   void sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double since, double until,
                     std::optional<SweepHit>& best) const noexcept;
+  void nearest_in(const Neighbourhood::Numbers& blocks, std::uint32_t count, Vec3 x, const Neighbourhood& near,
+                  Vec3& away, double& best) const noexcept;
   void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;
   void sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max, std::optional<SweepHit>& best) const noexcept;
   void sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,

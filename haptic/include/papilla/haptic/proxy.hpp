@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -35,10 +36,11 @@ struct ProxyState {
 /// tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps sweeps; then the proxy
 /// still is outside and goes on in the next tick.
 ///
-/// A proxy without friction that went much farther than the probe, in a few sweeps, may have come to rest in the
-/// farther of two hollows: once a tick it tries whether ContactSurface::likely_rest() can be reached by a free way
-/// along the surface and one down. One that is held in a crease goes on for a round more than its gain is worth, as a
-/// wall may have fallen away.
+/// A proxy without friction first tries whether ContactSurface::likely_rest() can be reached by a free way along the
+/// surface and one down, if that is about as far as the probe went: two sweeps instead of two for each facet on the
+/// way. One that went much farther than the probe, in a few sweeps, may have come to rest in the farther of two
+/// hollows: once a tick it tries the same, however far. One that two or three planes held starts from these; one that
+/// is held in a crease goes on for a round more than its gain is worth, as a wall may have fallen away.
 ///
 /// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
 /// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
@@ -70,10 +72,20 @@ class Proxy {
   const ProxyState& state() const noexcept { return state_; }
 
  private:
+  struct Tick;
   struct Planes;
+  /// A plane that holds the proxy, relative to it.
+  struct Held {
+    Vec3 normal;
+    double offset = 0;
+    std::uint32_t material = 0;
+  };
+  void remember(const Planes& planes, std::uint32_t active, Vec3 x) noexcept;
+  void recall(Vec3 goal, Planes& planes) noexcept;
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
-  bool leap(Vec3 start, Vec3 goal, Vec3& x, double travel, ProxyState& next) noexcept;
+  void touch(const SweepHit& hit, Planes& planes, Vec3& x, ProxyState& next) const noexcept;
+  bool leap(const Tick& tick, Vec3 normal, double farthest, Planes& planes, Vec3& x, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
   std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
   void look_around(Vec3 from, double travel) noexcept;
@@ -83,8 +95,10 @@ class Proxy {
   ProxyState state_;
   double slide_speed_ = 0;  // m/s, of the tick before.
   bool started_ = false;
-  Vec3 probe_;  // Of the tick before.
-  Vec3 ahead_;  // Unit direction of the probe's way in this tick; zero when that is short.
+  Vec3 probe_;                  // Of the tick before.
+  Vec3 ahead_;                  // Unit direction of the probe's way in this tick; zero when that is short.
+  std::array<Held, 3> held_{};  // Planes of the tick before, relative to the proxy.
+  int held_count_ = 0;
   Neighbourhood near_;
   double widest_m_ = 1;  // Radius that is likely to fit into near_.
 };
