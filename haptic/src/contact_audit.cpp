@@ -22,7 +22,7 @@ bool ContactAudit::way_around(Vec3 to) const noexcept {
 }
 
 bool ContactAudit::lost(Vec3 probe, const ProxyState& state) noexcept {
-  if (!is_finite(probe)) return false;
+  if (!ContactSurface::is_place(probe)) return false;
   if (started_ && surface_->crossings(last_, probe) % 2 == 1) behind_ = !behind_;
   last_ = probe;
   started_ = true;

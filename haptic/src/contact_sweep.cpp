@@ -129,7 +129,9 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
     if (now.distance > contact + top && dot(x - foot(t, x).point, way) >= 0) return;
     // Not past the base either: behind it the clearance grows again.
     const double base = std::max(0.5 * now.distance, tolerance_m());
-    at = std::min(t_max, at + std::min(std::max(finest, 0.5 * now.value / length), base / length));
+    const double next = std::min(t_max, at + std::min(std::max(finest, 0.5 * now.value / length), base / length));
+    if (!(next > at)) break;  // Too small a step for a number: it stops here.
+    at = next;
   }
   for (int i = 0; i < k_bisections && at - outside > 1e-9; ++i) {
     const double middle = 0.5 * (outside + at);

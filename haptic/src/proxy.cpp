@@ -184,7 +184,7 @@ bool Proxy::leap(const Tick& tick, Vec3 normal, double farthest, Planes& planes,
 }
 
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
-  if (!is_finite(probe)) return state_;
+  if (!ContactSurface::is_place(probe)) return state_;
   if (!started_) reset(probe);
   const double shortest = surface_->tolerance_m() / 4;
   const double travel = norm(probe - probe_);

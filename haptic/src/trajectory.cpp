@@ -7,6 +7,7 @@
 #include <string>
 
 #include "papilla/core/error.hpp"
+#include "papilla/haptic/contact_surface.hpp"
 
 namespace papilla {
 namespace {
@@ -37,6 +38,8 @@ Trajectory::Trajectory(std::vector<Sample> samples) : samples_(std::move(samples
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (!std::isfinite(samples_[i].t) || !is_finite(samples_[i].position))
       throw InvalidInput("Trajectory: sample " + std::to_string(i) + " is not finite");
+    if (!ContactSurface::is_place(samples_[i].position))
+      throw InvalidInput("Trajectory: sample " + std::to_string(i) + " is farther than 1000 km");
     if (i > 0 && !(samples_[i].t > samples_[i - 1].t))
       throw InvalidInput("Trajectory: the time of sample " + std::to_string(i) + " does not increase");
   }
@@ -69,6 +72,7 @@ Trajectory parse_trajectory(std::string_view csv, const std::string& name) {
     if (read < 4) throw InvalidInput(place + "column " + std::to_string(read + 1) + " of t,x,y,z is no number");
     const Trajectory::Sample sample{values[0], {values[1], values[2], values[3]}};
     if (!std::isfinite(sample.t) || !is_finite(sample.position)) throw InvalidInput(place + "a number is not finite");
+    if (!ContactSurface::is_place(sample.position)) throw InvalidInput(place + "a position is farther than 1000 km");
     if (!samples.empty() && !(sample.t > samples.back().t)) throw InvalidInput(place + "the time does not increase");
     samples.push_back(sample);
   }

@@ -213,6 +213,7 @@ TEST(Trajectory, NamesTheLineThatIsWrong) {
   EXPECT_NE(message("0,1,2,3\n0,1,2,3\n").find("T.csv:2: the time"), std::string::npos);
   EXPECT_NE(message("0,1,2,3\n1,1,2\n").find("T.csv:2: column 4"), std::string::npos);
   EXPECT_NE(message("0,1,2,3\n1;1;2;3\n").find("T.csv:2: column 1"), std::string::npos);
+  EXPECT_NE(message("0,1,2,3\n1,1e20,2,3\n").find("T.csv:2: a position is farther"), std::string::npos);
   EXPECT_NE(message("0,nan,2,3\n").find("T.csv:1"), std::string::npos);
   EXPECT_NE(message("0,1,2,1e999\n").find("T.csv:1"), std::string::npos);
   EXPECT_NE(message("").find("T.csv: holds no line"), std::string::npos);

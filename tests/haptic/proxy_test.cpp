@@ -386,6 +386,25 @@ TEST(Proxy, PositionThatIsNoNumberChangesNothing) {
   EXPECT_EQ(proxy.state().proxy, before);
 }
 
+/// A step over the relief was once too small a number to be taken, and a tick never ended.
+TEST(Proxy, ATickEndsHoweverFarTheProbeJumps) {
+  ContactMaterial material = spring(1000);
+  material.height = 0;
+  const ContactSurface surface(plate(7, 5, 0.1, 0.1), {material}, {sine_field(1e-4, 20)}, 0);
+  for (const double far : {1.0, 1e3, 9e5, 1e6, 1e9, 1e20, 1e300}) {
+    Proxy proxy(surface);
+    proxy.reset({0.05, 0.05, 1e-3});
+    const Vec3 before = proxy.state().proxy;
+    proxy.update({0.05 + far / 1024, 0.05, -far}, k_tick);
+    if (far > ContactSurface::k_farthest_m) {
+      EXPECT_EQ(proxy.state().proxy, before);
+    }
+    proxy.update({-far, 0.05, 1e-4}, k_tick);
+    proxy.update({far, 0.05, 1e-4}, k_tick);
+    EXPECT_TRUE(is_finite(proxy.state().proxy)) << far;
+  }
+}
+
 TEST(Proxy, ExtentsFromMillimetresToTenMetres) {
   for (const double size : {1e-3, 0.1, 10.0}) {
     const ContactSurface surface(sphere(100, size / 2), {spring(500)}, {}, 0);

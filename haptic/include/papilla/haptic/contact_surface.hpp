@@ -65,6 +65,14 @@ struct StimulusSample {
 /// same input gives the same bits.
 class ContactSurface {
  public:
+  /// Farther from the origin than this nothing can be felt: doubles would no longer tell how deep a probe is.
+  static constexpr double k_farthest_m = 1e6;
+  /// Whether a device can be there: finite, and no farther than that.
+  static bool is_place(Vec3 p) noexcept {
+    const double size = std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+    return size <= k_farthest_m;
+  }
+
   /// @param mesh triangles with zero area or non-finite vertices are left out (see skipped_triangles()).
   /// @param probe_radius_m r ≥ 0.
   /// @throws InvalidInput when indices are out of range, array sizes disagree, a material's numbers are not finite or

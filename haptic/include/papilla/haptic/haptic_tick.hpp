@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "papilla/haptic/contact_audit.hpp"
@@ -30,6 +31,8 @@ class HapticTick {
   /// @returns the force on the hand in newtons.
   Vec3 operator()(const DeviceState& device) noexcept {
     const Vec3 probe = device.position;
+    // A probe that is nowhere gives no force, not the one of the tick before: the guard traps what is no number.
+    if (!ContactSurface::is_place(probe)) return guard_.apply(k_no_force, period_, device.age_s);
     // Wall damping acts on a velocity that is smoothed over k_smoothing_s: differences of encoder steps are noise.
     const Vec3 moved = started_ ? probe - last_ : Vec3{};
     const double share = period_ / (period_ + k_smoothing_s);
@@ -38,11 +41,9 @@ class HapticTick {
     started_ = true;
     const ProxyState& state = proxy_.update(probe, period_);
     lost_ = audit_.lost(probe, state);
-    // A probe that is no number gives no force, not the one of the tick before.
-    Vec3 force = is_finite(probe) ? heightfield_force(*surface_, state, probe, velocity_) : probe;
-    if (is_finite(probe)) force = force + bristles(state, moved);
-    if (is_finite(probe) && stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
-    if (passivity_ && is_finite(probe)) force = passivity_->apply(force, moved, period_);
+    Vec3 force = heightfield_force(*surface_, state, probe, velocity_) + bristles(state, moved);
+    if (stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
+    if (passivity_) force = passivity_->apply(force, moved, period_);
     return guard_.apply(force, period_, device.age_s);
   }
 
@@ -74,6 +75,8 @@ class HapticTick {
   }
 
   static constexpr double k_smoothing_s = 1e-3;
+  static constexpr double k_no_number = std::numeric_limits<double>::quiet_NaN();
+  static constexpr Vec3 k_no_force{k_no_number, k_no_number, k_no_number};
   const ContactSurface* surface_;
   double period_;
   Proxy proxy_;
