@@ -6,6 +6,7 @@
 #include <new>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 
 namespace papilla::app {
 
@@ -20,7 +21,9 @@ class UsageError : public Error {
 
 /// Prints the exception in flight as one line on stderr and returns its exit code. Call it in a catch block.
 inline int report_exception(const char* program) {
-  const auto print = [program](const char* what) { std::fprintf(stderr, "%s: error: %s\n", program, what); };
+  const auto print = [program](const char* what) {
+    std::fprintf(stderr, "%s: error: %s\n", program, one_line(what).c_str());
+  };
   try {
     throw;
   } catch (const UsageError& error) {

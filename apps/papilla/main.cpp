@@ -3,9 +3,11 @@
 
 #include <csignal>
 #include <exception>
+#include <iostream>
 #include <new>
 
 #include "exit_code.hpp"
+#include "number_check.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "verb.hpp"
@@ -51,11 +53,13 @@ int main(int argc, char** argv) {
   add_view(program);
   add_evaluate(program);
 
+  program.parse_complete_callback([&] { refuse_no_numbers(program); });
   try {
     program.parse(argc, argv);
     return verb_exit_code();
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? k_exit_done : k_exit_usage;
+    if (program.exit(error) != 0) return k_exit_usage;
+    return std::cout.flush() ? k_exit_done : k_exit_input;
   } catch (...) {
     return report_exception("papilla");
   }

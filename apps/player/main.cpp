@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -15,6 +16,7 @@
 #include "live_publisher.hpp"
 #include "live_socket.hpp"
 #include "live_view.hpp"
+#include "number_check.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/haptic/sim_device.hpp"
@@ -45,6 +47,7 @@ struct Options {
 
 constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
+constexpr double k_longest_way_m = 1000;  // Of a motion of our own: a quarter of a minute to compute.
 constexpr double k_default_reach_m = 0.15;  // A little more than any workspace's radius.
 constexpr double k_clearance_m = 0.01;      // Of a real device's middle from the surface.
 
@@ -78,6 +81,10 @@ Trajectory hand_of(const Options& options, const HapticScene& scene, const Conta
   stroke.seed = options.seed;
   stroke.speed_m_per_s = options.speed;
   stroke.seconds = options.seconds > 0 ? options.seconds : k_default_seconds;
+  if (stroke.seconds * stroke.speed_m_per_s > k_longest_way_m)
+    throw app::UsageError("--seconds: at this speed a motion of more than " +
+                          std::to_string(std::llround(k_longest_way_m / stroke.speed_m_per_s)) +
+                          " s leads over more than a kilometre; give a --trajectory");
   return press_and_stroke(surface, largest.material, largest.centre, stroke);
 }
 
@@ -111,7 +118,22 @@ std::string live_greeting(const RunReport& report, const Options& options) {
   return greeting.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+/// What is written may be neither what is read nor written twice.
+void refuse_same_files(const Options& options) {
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return !a.empty() && !b.empty() &&
+           std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+  };
+  for (const std::string& out : {options.record, options.json == "-" ? std::string() : options.json})
+    for (const std::string& in : {options.file, options.trajectory})
+      if (same(out, in)) throw app::UsageError(out + ": would be written over what is read");
+  if (options.json != "-" && same(options.record, options.json))
+    throw app::UsageError(options.json + ": named by --record and by --json");
+}
+
 int run(const Options& options) {
+  refuse_same_files(options);
   const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
   RunReport report;
@@ -125,7 +147,13 @@ int run(const Options& options) {
     const Scene read = read_gltf(options.file);
     scene = haptic_scene(read, options.file, scene_options(options, choice));
   }
-  ContactSurface surface(scene.mesh, scene.materials, std::move(scene.heights), 1e-3 * options.probe_radius_mm);
+  ContactSurface surface = [&] {
+    try {
+      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), 1e-3 * options.probe_radius_mm);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(options.file + ": " + error.what());
+    }
+  }();
   std::optional<Trajectory> hand;
   if (choice.preset != nullptr) hand = hand_of(options, scene, surface);
   const Vec3 origin = choice.preset != nullptr ? Vec3{} : origin_of(options, scene, surface);
@@ -179,7 +207,12 @@ int run(const Options& options) {
     file_changed = watch.changed();
   }
 
-  if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
+  std::exception_ptr unwritten;  // Told after the rest is.
+  try {
+    if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
+  } catch (const Error&) {
+    unwritten = std::current_exception();
+  }
   if (!options.quiet && options.json != "-") std::cout << summary(report);
   if (!options.json.empty()) {
     const std::string text =
@@ -190,6 +223,7 @@ int run(const Options& options) {
       write_atomically(options.json, text);
   }
   if (!std::cout.flush()) throw IoError("standard output: cannot be written");
+  if (unwritten) std::rethrow_exception(unwritten);
   if (report.loop.device_lost) throw DeviceError(report.device + ": the device was lost");
   if (report.loop.fault == ForceGuard::Fault::stale_input)
     throw DeviceError(report.device + ": no fresh position, forces are off");
@@ -261,7 +295,9 @@ int main(int argc, char** argv) {
   program.add_option("--motion", options.motion, "How the hand moves without a trajectory")
       ->check(CLI::IsMember({"stroke", "circle", "slide", "tap"}))
       ->capture_default_str();
-  program.add_option("--seed", options.seed, "Of the random slide")->capture_default_str();
+  program.add_option("--seed", options.seed, "Of the random slide")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   program
       .add_option("--speed", options.speed,
                   "Of the hand; finer relief than the rate can carry at this speed is left out")
@@ -301,12 +337,14 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 2 usage, 3 input, 5 device.");
   try {
     program.parse(argc, argv);
+    app::refuse_no_numbers(program);
     if (options.list) return list_devices(options);
     if (!live->empty() && options.live.value_or("").empty()) options.live = app::default_live_socket();
     if (file->empty()) throw app::UsageError("a FILE is required");
     return run(options);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? app::k_exit_done : app::k_exit_usage;
+    if (program.exit(error) != 0) return app::k_exit_usage;
+    return std::cout.flush() ? app::k_exit_done : app::k_exit_input;
   } catch (...) {
     return app::report_exception("papilla-player");
   }

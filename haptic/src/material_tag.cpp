@@ -26,15 +26,22 @@ class Members {
     warnings_.push_back({code, place_ + "." + name + " = " + shown(name) + ": " + what});
   }
 
-  bool number(const char* name, const char* code, double low, double high, double& value) const {
+  bool is_number(const char* name, double low, double high) const {
+    if (!has(name) || !object_.at(name).is_number()) return false;
+    const double read = object_.at(name).get<double>();
+    return read >= low && read <= high;
+  }
+
+  /// @param other the member whose value is used instead, if that is a number in range; else the default is.
+  bool number(const char* name, const char* code, double low, double high, double& value,
+              const char* other = nullptr) const {
     if (!has(name)) return false;
-    const Json& member = object_.at(name);
-    const double read = member.is_number() ? member.get<double>() : std::nan("");
-    if (!(read >= low) || !(read <= high)) {
-      warn(code, name, "is no number in range, " + Json(value).dump() + " is used");
+    if (!is_number(name, low, high)) {
+      const bool has_other = other != nullptr && is_number(other, low, high);
+      warn(code, name, "is no number in range, " + (has_other ? other : Json(value).dump()) + " is used");
       return false;
     }
-    value = read;
+    value = object_.at(name).get<double>();
     return true;
   }
 
@@ -242,8 +249,8 @@ ProvenanceTag read_provenance(const Json& json, const std::string& place, std::v
 
 void read_friction(const Members& in, MaterialTag& tag) {
   constexpr const char* k_code = "tag_friction";
-  const bool has_static = in.number("staticFriction", k_code, 0, 100, tag.static_friction);
-  const bool has_dynamic = in.number("dynamicFriction", k_code, 0, 100, tag.dynamic_friction);
+  const bool has_static = in.number("staticFriction", k_code, 0, 100, tag.static_friction, "dynamicFriction");
+  const bool has_dynamic = in.number("dynamicFriction", k_code, 0, 100, tag.dynamic_friction, "staticFriction");
   if (has_static && !has_dynamic) tag.dynamic_friction = tag.static_friction;
   if (has_dynamic && !has_static) tag.static_friction = tag.dynamic_friction;
   if (tag.dynamic_friction > tag.static_friction) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/height_source.hpp"
 
+#include <algorithm>
 #include <span>
 #include <string>
 
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/sha256.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/io/data_uri.hpp"
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/read_file.hpp"
@@ -51,8 +53,13 @@ class Finder {
       if (!bytes) warnings_.push_back({"height_data_uri", "the data: URI of the height map is not base64"});
       return bytes && matches(bytes_of(*bytes), "data: URI") ? bytes : std::nullopt;
     }
+    const std::filesystem::path file = decode_percent(tag_.uri);
+    if (file.has_root_path() || std::find(file.begin(), file.end(), "..") != file.end()) {
+      warnings_.push_back({"height_file", one_line(tag_.uri) + ": is no file in the folder of the glTF file"});
+      return std::nullopt;
+    }
     try {
-      std::string bytes = read_file(folder / decode_percent(tag_.uri));
+      std::string bytes = read_file(folder / file);
       return matches(bytes_of(bytes), tag_.uri) ? std::optional(std::move(bytes)) : std::nullopt;
     } catch (const Error& error) {
       warnings_.push_back({"height_file", error.what()});
