@@ -50,10 +50,11 @@ std::vector<double> tolerances(const Scene& scene, const LevelOptions& options, 
   return result;
 }
 
-/// A level that was kept.
+/// A level, and whether it is fewer triangles enough to be kept.
 struct Level {
   double tolerance_mm = 0;
   SimplifyResult result;
+  bool kept = true;
 };
 
 std::vector<Level> coarser_levels(const Part& part, std::size_t finest_triangles, const std::vector<double>& tolerances,
@@ -64,9 +65,9 @@ std::vector<Level> coarser_levels(const Part& part, std::size_t finest_triangles
   std::size_t last = finest_triangles;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::size_t triangles = all[i].mesh.triangles.size();
-    if (triangles == 0 || static_cast<double>(triangles) > k_most_kept * static_cast<double>(last)) continue;
-    last = triangles;
-    levels.push_back({tolerances[i], std::move(all[i])});
+    const bool kept = triangles > 0 && static_cast<double>(triangles) <= k_most_kept * static_cast<double>(last);
+    if (kept) last = triangles;
+    levels.push_back({tolerances[i], std::move(all[i]), kept});
   }
   return levels;
 }
@@ -75,7 +76,9 @@ std::vector<Level> coarser_levels(const Part& part, std::size_t finest_triangles
 
 void LevelOptions::add_to(CLI::App& verb) {
   auto* number =
-      verb.add_option("--lod", count, "So many coarser levels, each within four times the tolerance of the last")
+      verb.add_option("--lod", count,
+                      "So many coarser levels, each within four times the tolerance of the last; one that has not a "
+                      "tenth fewer triangles is left out, and said so")
           ->type_name("N")
           ->check(CLI::Range(1, 8));
   verb.add_option("--lod-tolerances", tolerances_mm, "Coarser levels within these ascending tolerances")
@@ -104,6 +107,12 @@ Json add_levels(Scene& scene, std::vector<SimplifyResult>& results, const LevelO
     part.mesh = std::move(results[i].mesh);
     part.levels.clear();
     for (Level& level : levels[i]) {
+      if (!level.kept) {
+        console.print(fmt::format(
+            "{:>10} {:>10} {:>12}  {}: no level within {:.4g} mm, it would not have a tenth less\n",
+            level.result.triangles_before, level.result.mesh.triangles.size(), "-", part.name, level.tolerance_mm));
+        continue;
+      }
       const double coverage = std::min(1.0, size / (k_picture_height_px * level.tolerance_mm));
       const double deviation = level.result.deviation.bound();
       part.levels.push_back({std::move(level.result.mesh), coverage});

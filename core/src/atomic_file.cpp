@@ -68,8 +68,7 @@ void synchronize(const fs::path& path) {
   const int result = ::fsync(descriptor);
   const int reason = errno;
   ::close(descriptor);
-  if (result != 0 && reason != EINVAL)
-    throw IoError(path.string() + ": " + std::generic_category().message(reason));
+  if (result != 0 && reason != EINVAL) throw IoError(path.string() + ": " + std::generic_category().message(reason));
 }
 
 }  // namespace
@@ -98,10 +97,12 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 
 void write_atomically(const fs::path& path, std::string_view content) {
   write_atomically(path, [&](const fs::path& temporary) {
+    errno = 0;
     std::ofstream out(temporary, std::ios::binary);
     out.write(content.data(), static_cast<std::streamsize>(content.size()));
     out.close();
-    if (!out) throw IoError(path.string() + ": cannot be written");
+    const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
+    if (!out) throw IoError(path.string() + ": cannot be written" + reason);
   });
 }
 

@@ -225,8 +225,15 @@ std::vector<std::string> write_obj(const Scene& scene, const fs::path& path) {
   library.replace_extension(".mtl");
   ObjWriter writer(scene, names);
   const std::string_view text = writer.text(scene.materials.empty() ? "" : library.filename().string());
+  std::error_code error;
+  const bool had_library = fs::exists(library, error);
   if (!scene.materials.empty()) MtlWriter(scene, path).write(library, names);
-  write_atomically(path, text);
+  try {
+    write_atomically(path, text);
+  } catch (...) {
+    if (!scene.materials.empty() && !had_library) fs::remove(library, error);
+    throw;
+  }
   FormatKeeps keeps;
   keeps.parts = keeps.materials = keeps.normals = keeps.uv = keeps.faces = true;
   keeps.colors = writer.wrote_all_colors();

@@ -94,6 +94,7 @@ class Repair {
     WeldResult step;
     forget_edges_if(weld_borders(all_.mesh, edges(), scale_.weld, step));
     all_.counts.welded_near += step.merged_near;
+    all_.counts.repeated_corners += step.repeated;
     note(&RepairDeviations::weld, step.max_deviation_mm);
   }
 
@@ -122,6 +123,7 @@ class Repair {
     forget_edges_if(changed);
     all_.counts.t_junctions += step.inserted_vertices;
     all_.counts.border_slivers += step.slivers;
+    all_.counts.repeated_corners += step.repeated;
     note(&RepairDeviations::t_junctions, step.max_deviation_mm);
     return changed;
   }

@@ -76,7 +76,7 @@ bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_
   }
   keep.resize(mesh.triangles.size(), 1);
   keep_triangles(mesh, keep);
-  drop_repeated_corners(mesh);
+  result.repeated += drop_repeated_corners(mesh);
   drop_unused(mesh);
   return true;
 }

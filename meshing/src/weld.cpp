@@ -109,7 +109,7 @@ bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& r
   }
   for (Triangle& t : mesh.triangles)
     for (Index& v : t) v = target[v];
-  drop_repeated_corners(mesh);
+  result.repeated += drop_repeated_corners(mesh);
   drop_unused(mesh);
   return true;
 }

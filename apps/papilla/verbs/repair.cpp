@@ -122,7 +122,9 @@ Json repair_file(VerbContext& context, const RepairVerbOptions& options) {
   std::optional<double> measured;
   if (options.verify) {
     measured = measured_deviation(originals, scene);
-    context.console.print(fmt::format("measured deviation at most {:.3g} mm, both ways\n", *measured));
+    const bool walls = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.counts.walls > 0; });
+    context.console.print(fmt::format("measured deviation at most {:.3g} mm, both ways{}\n", *measured,
+                                      walls ? ", with the walls between solids that were dropped" : ""));
   }
   for (const std::string& name : unsettled) context.console.print("not settled: " + name + "\n");
   return {{"before", counters_json(before)},

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "papilla/core/error.hpp"
-#include "papilla/haptic/sha256.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/haptic/sha256.hpp"
 #include "papilla/io/data_uri.hpp"
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/read_file.hpp"
@@ -100,7 +100,8 @@ class Finder {
 }  // namespace
 
 std::optional<std::string> find_height_bytes(const HeightTag& tag, const Scene& scene,
-                                             const std::filesystem::path& folder, std::vector<HapticWarning>& warnings) {
+                                             const std::filesystem::path& folder,
+                                             std::vector<HapticWarning>& warnings) {
   const Finder finder(tag, warnings);
   if (auto bytes = finder.from_uri(folder)) return bytes;
   const EncodedImage* image = finder.from_image(scene);

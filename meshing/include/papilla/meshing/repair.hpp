@@ -23,7 +23,7 @@ struct RepairOptions {
 struct RepairCounts {
   std::size_t welded_equal = 0;      ///< Positions that another one equalled.
   std::size_t welded_near = 0;       ///< Vertices moved onto another one to close a crack.
-  std::size_t repeated_corners = 0;  ///< Triangles dropped because they named a vertex twice.
+  std::size_t repeated_corners = 0;  ///< Triangles dropped because they named a vertex twice, or came to by welding.
   std::size_t collapsed_needles = 0;
   std::size_t flipped_caps = 0;
   std::size_t pushed_apexes = 0;   ///< Vertices pushed off an edge they lay on.
@@ -53,7 +53,8 @@ struct RepairResult {
   double weld_tolerance_mm = 0;
   double stitch_tolerance_mm = 0;
   double max_deviation_mm = 0;  ///< Upper bound: the sum over all operations and passes of the furthest each moved the
-                                ///< surface. What fills a hole is new surface and does not count.
+                                ///< surface. What fills a hole is new surface and does not count, nor do walls between
+                                ///< solids that are dropped.
   std::size_t passes = 0;
   bool settled = false;  ///< The last pass found nothing left to do. Otherwise max_passes ended the work.
 };

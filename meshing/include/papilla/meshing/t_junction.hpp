@@ -17,6 +17,7 @@ struct TJunctionResult {
   std::size_t split_edges = 0;        ///< Boundary edges that got vertices.
   std::size_t inserted_vertices = 0;  ///< Vertices put into them; one may count for several edges.
   std::size_t slivers = 0;            ///< Border triangles dropped because their own apex lay on their boundary edge.
+  std::size_t repeated = 0;           ///< Triangles dropped because they named a vertex twice.
   double max_deviation_mm = 0;        ///< The largest distance of an inserted vertex from its edge.
 };
 

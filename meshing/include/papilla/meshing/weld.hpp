@@ -20,6 +20,7 @@ struct WeldResult {
   TriangleMesh mesh;
   std::size_t merged_equal = 0;  ///< Positions that another one equalled.
   std::size_t merged_near = 0;   ///< Vertices moved onto another one within the tolerance.
+  std::size_t repeated = 0;      ///< Triangles dropped because two of their corners became one.
   double tolerance_mm = 0;       ///< The tolerance that was used.
   double max_deviation_mm = 0;   ///< The furthest that a vertex moved, at most `tolerance_mm`.
 };
