@@ -47,7 +47,7 @@ struct Options {
 
 constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
-constexpr double k_longest_way_m = 1000;  // Of a motion of our own: a quarter of a minute to compute.
+constexpr double k_longest_way_m = 1000;  // Of a motion of our own: it is computed before the first tick.
 constexpr double k_default_reach_m = 0.15;  // A little more than any workspace's radius.
 constexpr double k_clearance_m = 0.01;      // Of a real device's middle from the surface.
 

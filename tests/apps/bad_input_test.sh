@@ -51,6 +51,7 @@ expect 2 'out.obj' "$papilla" bake one.obj -m grain.json -o out.obj
 expect 2 '' "$papilla" bake
 expect 2 '' "$papilla" frobnicate
 expect 2 '' "$papilla" inspect --no-such-option one.obj
+expect 2 'tolerance' "$papilla" simplify one.obj --tolerance nan -o out.obj
 for file in missing.glb empty.glb random.glb one.obj; do
   expect 3 "$file" "$player" "$file" --device sim --seconds 0.1
 done

@@ -78,6 +78,15 @@ TEST(MaterialTag, OneFrictionServesForBoth) {
   EXPECT_EQ(parse_material_tag(R"({"version":1,"stiffness":1,"staticFriction":0.3})", warnings).dynamic_friction, 0.3);
 }
 
+TEST(MaterialTag, SaysWhichFrictionIsUsedInstead) {
+  std::vector<HapticWarning> warnings;
+  const MaterialTag tag =
+      parse_material_tag(R"({"version":1,"stiffness":1,"staticFriction":-1,"dynamicFriction":0.25})", warnings);
+  EXPECT_EQ(tag.static_friction, 0.25);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].message.find("0.25 is used"), std::string::npos) << warnings[0].message;
+}
+
 struct Odd {
   const char* json;
   const char* code;

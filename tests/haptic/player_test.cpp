@@ -155,6 +155,22 @@ TEST_F(Player, LostMapsFallBackWithACode) {
   expect_warning(play_glb({{"haptic", damaged}}, "no picture").json(), "height_image");
 }
 
+TEST_F(Player, ReadsNoMapOutsideTheFolderOfItsFile) {
+  const fs::path inside = folder_ / "inside";
+  fs::create_directories(inside);
+  write("map.png", testing::sine_png());
+  Json data = tag();
+  data["height"].erase("image");
+  for (const std::string& address : {std::string("../map.png"), std::string("%2e%2e/map.png"),
+                                     std::string("./a/../../map.png"), (folder_ / "map.png").string()}) {
+    data["height"]["uri"] = address;
+    const std::string glb = write("inside/p.glb", testing::plate_glb({{"haptic", data}}, ""));
+    const Json report = play("'" + glb + "' --seconds 0.1 --json -").json();
+    EXPECT_EQ(report["height_maps"]["loaded"], 0) << address;
+    expect_warning(report, "height_file");
+  }
+}
+
 TEST_F(Player, OddTagsGiveWarningsOrAreRefused) {
   Json odd = tag();
   odd["stiffness"] = "NaN";
@@ -175,9 +191,14 @@ TEST_F(Player, RubbishIsOneLineAndAnExitCode) {
     expect_refusal(play("'" + file + "'"), 3);
   expect_refusal(play("'" + good + "' --trajectory '" + write("t.csv", "0,1,2\n") + "'"), 3);
   expect_refusal(play("'" + good + "' --trajectory '" + folder_.string() + "'"), 3);
+  const std::string far = write("far.csv", "t,x,y,z\n0,0,0,0.01\n0.1,0,0,1e20\n");
+  expect_refusal(play("'" + good + "' --trajectory '" + far + "'"), 3);
   expect_refusal(play("'" + good + "' --device sim:nothing"), 5);
   EXPECT_EQ(play("'" + good + "' --device spoon").code, 2);
   EXPECT_EQ(play("'" + good + "' --rate 0").code, 2);
+  for (const char* option : {"--rate nan", "--seconds nan", "--seconds -1", "--seconds 1e5", "--speed nan",
+                             "--seed nan", "--seed -1", "--origin nan,0,0"})
+    EXPECT_EQ(play("'" + good + "' " + option).code, 2) << option;
   EXPECT_EQ(play("").code, 2);
   EXPECT_EQ(play("--help").code, 0);
 }
@@ -192,6 +213,18 @@ TEST_F(Player, RecordingPlayedAgainGivesTheSameFile) {
       0);
   EXPECT_GT(slurp(first).size(), 100000U);
   EXPECT_EQ(slurp(first), slurp(second));
+}
+
+TEST_F(Player, WritesOverNothingThatItReads) {
+  const std::string content = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
+  const std::string glb = write("p.glb", content), quoted = "'" + glb + "'";
+  const std::string hand = write("t.csv", "t,x,y,z\n0,0,0,0.01\n0.1,0,0,-0.001\n");
+  const std::string around = "'" + (folder_ / "." / "p.glb").string() + "'";
+  for (const std::string& arguments :
+       {quoted + " --record " + quoted, quoted + " --json " + quoted, quoted + " --json " + around,
+        quoted + " --trajectory '" + hand + "' --record '" + hand + "'", quoted + " --record a.csv --json ./a.csv"})
+    expect_refusal(play(arguments), 2);
+  EXPECT_EQ(slurp(glb), content);
 }
 
 TEST_F(Player, SignalEndsItWithAReport) {

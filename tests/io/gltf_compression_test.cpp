@@ -235,6 +235,10 @@ TEST_F(GltfCompression, MeshoptClaimsAreHeldAgainstTheBytes) {
   const std::string message = refusal(meshopt_glb(grid(12), "EXT_meshopt_compression", 2000000000U));
   EXPECT_NE(message.find("count 2000000000 is more than"), std::string::npos) << message;
   EXPECT_NE(refusal(meshopt_glb(grid(12), "EXT_meshopt_compression", 300)).find("damaged"), std::string::npos);
+  for (const std::size_t claimed : {std::size_t{1} << 31, (std::size_t{1} << 32) + 144, std::size_t{1} << 63}) {
+    const std::string beyond = refusal(meshopt_glb(grid(12), "KHR_meshopt_compression", claimed));
+    EXPECT_NE(beyond.find("count " + std::to_string(claimed) + " is out of range"), std::string::npos) << beyond;
+  }
 }
 
 #else

@@ -195,6 +195,25 @@ TEST_F(GltfReader, RefusesWrongReferences) {
   EXPECT_NE(refusal(fewer_normals.glb(mesh_of(R"({"attributes":{"POSITION":0,"NORMAL":1}})"))), "");
 }
 
+TEST_F(GltfReader, NamesThePlaceOfAMemberThatIsMissing) {
+  const std::string view = R"({"buffer":0,"byteLength":4})",
+                    accessor = R"({"componentType":5126,"count":1,"type":"VEC3"})";
+  const std::pair<std::string, std::string> faults[] = {
+      {R"("buffers":[{"byteLength":4},{"uri":"a"}])", "buffers[1].byteLength is missing"},
+      {R"("bufferViews":[)" + view + R"(,{"buffer":"0","byteLength":4}])", "bufferViews[1].buffer is no whole number"},
+      {R"("accessors":[)" + accessor + R"(,{"count":1,"type":"VEC3"}])", "accessors[1].componentType is missing"},
+      {R"("accessors":[{"componentType":5126,"count":-1,"type":"VEC3"}])", "accessors[0].count is no whole number"},
+      {R"("accessors":[{"componentType":5126,"count":1,"type":3}])", "accessors[0].type is no string"},
+      {R"("meshes":[{"name":"no primitives"}])", "meshes[0].primitives is missing"},
+      {R"("meshes":[{"primitives":[{"indices":0}]}])", "meshes[0].primitives[0].attributes is missing"},
+      {R"("skins":[{"joints":[0]},{}])", "skins[1].joints is missing"},
+      {R"("nodes":[{},7])", "nodes[1] is no object"},
+  };
+  for (const auto& [json, place] : faults)
+    EXPECT_NE(refusal(R"({"asset":{"version":"2.0"},)" + json + "}").find(place), std::string::npos)
+        << refusal(R"({"asset":{"version":"2.0"},)" + json + "}");
+}
+
 TEST_F(GltfReader, RefusesDeepJson) {
   const std::string deep = std::string(100000, '[') + std::string(100000, ']');
   EXPECT_NE(refusal(triangle_glb("", R"("extras":)" + deep + ",")).find("nested"), std::string::npos);

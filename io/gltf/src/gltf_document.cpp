@@ -12,6 +12,7 @@
 
 #include "draco_mesh.hpp"
 #include "meshopt_view.hpp"
+#include "missing_member.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/read_file.hpp"
 
@@ -173,6 +174,23 @@ std::vector<Indices> detach_indices(Json& json) {
   return detached;
 }
 
+/// tinygltf keeps what extensions say in 32 bits; counts and ranges of more must be refused before.
+void check_meshopt_numbers(const Json& json, const std::string& file) {
+  const auto views = json.find("bufferViews");
+  if (views == json.end() || !views->is_array()) return;
+  for (std::size_t i = 0; i < views->size(); ++i) {
+    const Json& view = (*views)[i];
+    if (!view.is_object() || !view.contains("extensions") || !view["extensions"].is_object()) continue;
+    for (const auto& [extension, content] : view["extensions"].items()) {
+      if (!extension.ends_with("_meshopt_compression") || !content.is_object()) continue;
+      for (const auto& [name, number] : content.items())
+        if (number.is_number_unsigned() && number.get<std::uint64_t>() > std::numeric_limits<std::int32_t>::max())
+          throw InvalidInput(file + ": bufferViews[" + std::to_string(i) + "], meshopt: " + printable(name) + " " +
+                             number.dump() + " is out of range");
+    }
+  }
+}
+
 /// The file with another JSON text.
 std::string with_json(std::string_view bytes, bool binary, std::string json) {
   if (!binary) return json;
@@ -226,6 +244,13 @@ tinygltf::TinyGLTF make_loader() {
   return loader;
 }
 
+/// Why tinygltf refused a file: the place where it can be found, else its own words, which name none.
+std::string reason(const Json& json, const std::string& error) {
+  const std::string missing = find_missing_member(json);
+  if (!missing.empty()) return missing;
+  return error.empty() ? "is no valid glTF" : first_line(error);
+}
+
 void add_warnings(std::string_view text, std::vector<std::string>& warnings) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -245,6 +270,7 @@ Document load_document(const std::filesystem::path& path) {
     throw InvalidInput(document.file + ": is larger than glTF's limit of 4 GiB");
   document.binary = std::string_view(bytes).starts_with(k_magic);
   Json json = parse_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file);
+  check_meshopt_numbers(json, document.file);
   const auto primitives = count_primitives(json);
   document.empty_buffers = fill_empty_buffers(json, document.binary);
   const std::vector<Indices> detached = detach_indices(json);
@@ -263,10 +289,10 @@ Document load_document(const std::filesystem::path& path) {
   } catch (const std::exception& failure) {
     error = failure.what();
   }
-  if (!good) throw InvalidInput(document.file + ": " + (error.empty() ? "is no valid glTF" : first_line(error)));
+  if (!good) throw InvalidInput(document.file + ": " + reason(json, error));
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     if (document.model.meshes[m].primitives.size() != primitives.at(m))
-      throw InvalidInput(document.file + ": mesh " + std::to_string(m) + ": " + first_line(error));
+      throw InvalidInput(document.file + ": mesh " + std::to_string(m) + ": " + reason(json, error));
   for (const Indices& indices : detached)
     document.model.meshes[indices.mesh].primitives[indices.primitive].indices = indices.accessor;
   add_warnings(error, document.warnings);

@@ -32,7 +32,10 @@ class HapticTick {
   Vec3 operator()(const DeviceState& device) noexcept {
     const Vec3 probe = device.position;
     // A probe that is nowhere gives no force, not the one of the tick before: the guard traps what is no number.
-    if (!ContactSurface::is_place(probe)) return guard_.apply(k_no_force, period_, device.age_s);
+    if (!ContactSurface::is_place(probe)) {
+      lost_ = false;
+      return guard_.apply(k_no_force, period_, device.age_s);
+    }
     // Wall damping acts on a velocity that is smoothed over k_smoothing_s: differences of encoder steps are noise.
     const Vec3 moved = started_ ? probe - last_ : Vec3{};
     const double share = period_ / (period_ + k_smoothing_s);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace papilla::gltf {
+
+/// The first member that glTF requires and that the text lacks or has of another type, for messages:
+/// "accessors[3].componentType is missing". Empty when there is none.
+std::string find_missing_member(const nlohmann::ordered_json& document);
+
+}  // namespace papilla::gltf
