@@ -240,30 +240,22 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood&
   return best;
 }
 
-/// Shortens `away`, the way from x to the nearest triangle of blocks, if one in those blocks is nearer.
-void ContactSurface::nearest_in(const Neighbourhood::Numbers& blocks, std::uint32_t count, Vec3 x,
-                                const Neighbourhood& near, Vec3& away, double& best) const noexcept {
-  struct Open {
-    float least;
-    std::uint32_t place;
-  };
-  std::array<Open, Neighbourhood::k_blocks * Neighbourhood::k_lanes> open;
-  std::uint32_t open_count = 0, nearest = 0;
-  for (std::uint32_t b = 0; b < count; ++b) {
-    const std::uint32_t block = near.block(blocks[b]);
-    Neighbourhood::Lanes least;
-    near.distances(blocks[b], x, least);
-    for (std::uint32_t lane = 0; lane < clusters_.triangles_in(block); ++lane) {
-      if (static_cast<double>(least[lane]) >= best) continue;
-      if (open_count > 0 && least[lane] < open[nearest].least) nearest = open_count;
-      open[open_count++] = {least[lane], block * Neighbourhood::k_lanes + lane};
+/// Shortens `away`, the way from x to the nearest triangle, and `best`, its length, if one in a block is nearer. The
+/// most promising first: it rules out most of the others.
+void ContactSurface::nearest_in(std::uint32_t i, Vec3 x, const Neighbourhood& near, Vec3& away,
+                                double& best) const noexcept {
+  const std::uint32_t block = near.block(i);
+  Neighbourhood::Lanes least;
+  std::uint32_t nearer = near.distances(i, x, best, least) & ((1U << clusters_.triangles_in(block)) - 1);
+  while (nearer != 0) {
+    auto lane = static_cast<std::uint32_t>(std::countr_zero(nearer));
+    for (std::uint32_t others = nearer & (nearer - 1); others != 0; others &= others - 1) {
+      const auto other = static_cast<std::uint32_t>(std::countr_zero(others));
+      if (least[other] < least[lane]) lane = other;
     }
-  }
-  // The most promising first: it rules out most of the others.
-  if (open_count > 0) std::swap(open[0], open[nearest]);
-  for (std::uint32_t k = 0; k < open_count; ++k) {
-    if (static_cast<double>(open[k].least) >= best) continue;
-    const Vec3 d = foot(corners(open[k].place), x).point - x;
+    if (static_cast<double>(least[lane]) >= best) return;
+    nearer &= ~(1U << lane);
+    const Vec3 d = foot(corners(block * Neighbourhood::k_lanes + lane), x).point - x;
     if (norm(d) < best) best = norm(d), away = d;
   }
 }
@@ -273,25 +265,19 @@ std::optional<Vec3> ContactSurface::likely_rest(Vec3 goal, double radius_m, Vec3
   if (tallest_ > 0) return std::nullopt;
   const Vec3 x = goal - origin_;
   const double contact = contact_radius_m();
-  Neighbourhood::Numbers blocks, made;
+  Neighbourhood::Numbers blocks;
+  Neighbourhood::Distances least;
   // A goal that is no deeper than the radius lies before the surface.
   double best = radius_m > contact ? radius_m - contact : contact;
   Vec3 away;
-  std::uint32_t made_count = 0;
-  const std::uint32_t count = near.along(x, {}, best, blocks);
-  for (std::uint32_t b = 0; b < count; ++b)
-    if (near.is_made(blocks[b])) made[made_count++] = blocks[b];
-  nearest_in(made, made_count, x, near, away, best);
-  if (made_count < count) {
-    // What no way came near so far is looked at only where it may be nearer still.
-    const std::uint32_t nearer = near.along(x, {}, best, blocks);
-    for (std::uint32_t b = 0; b < nearer; ++b) {
-      if (near.is_made(blocks[b])) continue;
-      make_prisms(blocks[b], near);
-      made[0] = blocks[b];
-      nearest_in(made, 1, x, near, away, best);
+  const std::uint32_t count = near.around(x, best, blocks, least);
+  // What no way came near so far is looked at only where it may be nearer than all that is known.
+  for (const bool known : {true, false})
+    for (std::uint32_t b = 0; b < count; ++b) {
+      if (static_cast<double>(least[b]) >= best || near.is_made(blocks[b]) != known) continue;
+      if (!known) make_prisms(blocks[b], near);
+      nearest_in(blocks[b], x, near, away, best);
     }
-  }
   if (away == Vec3{}) return std::nullopt;
   return goal + away + (dot(away, normal) >= 0 ? contact / best : -contact / best) * away;
 }

@@ -34,13 +34,14 @@ std::array<float, 3> floats_of(Vec3 v) noexcept {
 struct Neighbourhood::Loops {
   static void make_prisms(const Corners& t, Prisms& p) noexcept;
   static void make_box(const Corners& t, Box& box) noexcept;
-  static void distances(const Prisms& t, const float* x, float* result) noexcept;
+  static std::uint32_t distances(const Prisms& t, const float* x, float distance, float* result) noexcept;
   struct Passing;
   struct Nearness;
   static Nearness nearness(const Prisms& t, const Passing& p, std::size_t i, float at) noexcept;
   static std::uint32_t meet(const Prisms& t, const float* x, const float* w, float reach, float least, float until,
                             float* earliest, Passing& p) noexcept;
   static std::uint32_t turn(const Prisms& t, const Passing& p, float reach, float least, float* earliest) noexcept;
+  static std::uint32_t box_distances(const Boxes& b, const float* x, float distance, float* result) noexcept;
   static std::uint32_t near_boxes(const Boxes& b, const float* x, const float* half, float reach) noexcept;
 };
 
@@ -141,7 +142,9 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noe
   }
 }
 
-PAPILLA_WIDE void Neighbourhood::Loops::distances(const Prisms& t, const float* x, float* result) noexcept {
+/// @returns a bit for each that is nearer than `distance`.
+PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::distances(const Prisms& t, const float* x, float distance,
+                                                           float* result) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -155,6 +158,9 @@ PAPILLA_WIDE void Neighbourhood::Loops::distances(const Prisms& t, const float* 
     const float dm = std::max(std::max(std::max(m0, m1), std::max(m2, m3)), 0.0F);
     result[i] = std::sqrt(ds * ds + dm * dm);
   }
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < k_lanes; ++i) bits |= result[i] < distance ? 1U << i : 0U;
+  return bits;
 }
 
 /// How a point that starts at x and moves by w a unit of time stands to each prism: where it is and how fast it goes
@@ -236,6 +242,26 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::turn(const Prisms& t, const Pas
   }
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < k_lanes; ++i) bits |= earliest[i] <= 1 ? 1U << i : 0U;
+  return bits;
+}
+
+/// @returns a bit for each of k_lanes boxes that is nearer to x than `distance`.
+PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::box_distances(const Boxes& b, const float* x, float distance,
+                                                               float* result) noexcept {
+  const float x0 = x[0], x1 = x[1], x2 = x[2];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < k_lanes; ++i) {
+    const float y0 = x0 - b.centre[0][i], y1 = x1 - b.centre[1][i], y2 = x2 - b.centre[2][i];
+    const float q0 = b.axis[0][i] * y0 + b.axis[1][i] * y1 + b.axis[2][i] * y2;
+    const float q1 = b.axis[3][i] * y0 + b.axis[4][i] * y1 + b.axis[5][i] * y2;
+    const float q2 = b.axis[6][i] * y0 + b.axis[7][i] * y1 + b.axis[8][i] * y2;
+    const float d0 = std::max(std::abs(q0) - b.half[0][i], 0.0F);
+    const float d1 = std::max(std::abs(q1) - b.half[1][i], 0.0F);
+    const float d2 = std::max(std::abs(q2) - b.half[2][i], 0.0F);
+    result[i] = std::sqrt(d0 * d0 + d1 * d1 + d2 * d2);
+  }
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < k_lanes; ++i) bits |= result[i] < distance ? 1U << i : 0U;
   return bits;
 }
 
@@ -333,11 +359,28 @@ std::uint32_t Neighbourhood::along(Vec3 from, Vec3 way, double distance, Numbers
   return count;
 }
 
-void Neighbourhood::distances(std::uint32_t i, Vec3 from, Lanes& least) const noexcept {
+std::uint32_t Neighbourhood::around(Vec3 x, double distance, Numbers& found, Distances& least) const noexcept {
+  const std::array<float, 3> at = floats_of(x);
+  const float error = k_margin * size_of(x), most = static_cast<float>(distance) * (1 + k_margin) + error;
+  std::uint32_t count = 0;
+  for (std::uint32_t first = 0; first < count_; first += k_lanes) {
+    Lanes distances;
+    std::uint32_t near = Loops::box_distances(boxes_[first / k_lanes], at.data(), most, distances.data());
+    if (count_ - first < k_lanes) near &= (1U << (count_ - first)) - 1;
+    for (; near != 0; near &= near - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+      least[count] = distances[lane] * (1 - k_margin) - error;
+      found[count++] = static_cast<std::uint16_t>(first + lane);
+    }
+  }
+  return count;
+}
+
+std::uint32_t Neighbourhood::distances(std::uint32_t i, Vec3 from, double distance, Lanes& least) const noexcept {
   const std::array<float, 3>& o = origin_[slot(i)];
   const std::array<float, 3> x =
       floats_of(from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])});
-  Loops::distances(prisms_[slot(i)], x.data(), least.data());
+  return Loops::distances(prisms_[slot(i)], x.data(), static_cast<float>(distance) * (1 + k_margin), least.data());
 }
 
 std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double since,

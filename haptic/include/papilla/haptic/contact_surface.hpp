@@ -191,8 +191,7 @@ class ContactSurface {
                      std::optional<SweepHit>& best) const noexcept;
   void sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double since, double until,
                     std::optional<SweepHit>& best) const noexcept;
-  void nearest_in(const Neighbourhood::Numbers& blocks, std::uint32_t count, Vec3 x, const Neighbourhood& near,
-                  Vec3& away, double& best) const noexcept;
+  void nearest_in(std::uint32_t i, Vec3 x, const Neighbourhood& near, Vec3& away, double& best) const noexcept;
   void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;
   void sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max, std::optional<SweepHit>& best) const noexcept;
   void sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,

@@ -29,6 +29,7 @@ class Neighbourhood {
   static constexpr std::uint32_t k_made = 128;    ///< Blocks with prisms.
   using Lanes = std::array<float, k_lanes>;
   using Numbers = std::array<std::uint16_t, k_blocks>;
+  using Distances = std::array<float, k_blocks>;
   /// Triangles of a block around an origin.
   struct Corners {
     std::array<Lanes, 9> x;  ///< a.x, a.y, a.z, b.x, ...
@@ -57,12 +58,17 @@ class Neighbourhood {
   /// @returns how many.
   std::uint32_t along(Vec3 from, Vec3 way, double distance, Numbers& found) const noexcept;
 
+  /// Which blocks have boxes nearer to x than `distance`, in least[i] how far the box of found[i] is at least.
+  /// @returns how many.
+  std::uint32_t around(Vec3 x, double distance, Numbers& found, Distances& least) const noexcept;
+
   bool is_made(std::uint32_t i) const noexcept { return made_[slot(i)] == block_[i]; }
   /// Makes the prisms of block i. @param origin what the corners are relative to, near them. All lanes are filled.
   void make(std::uint32_t i, const std::array<float, 3>& origin, const Corners& corners) noexcept;
 
   /// How far `from` is at least from each triangle of a block that is made.
-  void distances(std::uint32_t i, Vec3 from, Lanes& least) const noexcept;
+  /// @returns a bit for each that may be nearer than `distance`.
+  std::uint32_t distances(std::uint32_t i, Vec3 from, double distance, Lanes& least) const noexcept;
 
   /// For the triangles of a block that is made, side by side: no t from `since` on and before earliest[k] brings
   /// from + t·way nearer than `contact` to triangle k; 2 when none up to 1 brings it `deep` nearer than that.
