@@ -47,7 +47,7 @@ struct Options {
 
 constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
-constexpr double k_longest_way_m = 1000;  // Of a motion of our own: it is computed before the first tick.
+constexpr double k_longest_way_m = 1000;    // Of a motion of our own: it is computed before the first tick.
 constexpr double k_default_reach_m = 0.15;  // A little more than any workspace's radius.
 constexpr double k_clearance_m = 0.01;      // Of a real device's middle from the surface.
 
@@ -120,10 +120,12 @@ std::string live_greeting(const RunReport& report, const Options& options) {
 
 /// What is written may be neither what is read nor written twice.
 void refuse_same_files(const Options& options) {
-  const auto same = [](const std::string& a, const std::string& b) {
+  const auto canonical = [](const std::string& file) {
     std::error_code ignored;
-    return !a.empty() && !b.empty() &&
-           std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+  };
+  const auto same = [&](const std::string& a, const std::string& b) {
+    return !a.empty() && !b.empty() && canonical(a) == canonical(b);
   };
   for (const std::string& out : {options.record, options.json == "-" ? std::string() : options.json})
     for (const std::string& in : {options.file, options.trajectory})

@@ -191,7 +191,9 @@ bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) c
     const std::uint32_t first = clusters_.first_block(met[i]), end = first + clusters_.blocks_of(met[i]);
     for (std::uint32_t block = first; block < end && fits; ++block) {
       fits = !near.full();
-      if (fits && !near.add_made(block)) near.add(block, clusters_.box_of(block));
+      if (!fits || near.add_made(block)) continue;
+      near.add(block, clusters_.box_of(block));
+      clusters_.prefetch_block(block);
     }
   }
   if (!fits) near.forget_place();

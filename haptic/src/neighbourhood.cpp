@@ -176,9 +176,9 @@ struct Neighbourhood::Loops::Nearness {
 };
 
 [[gnu::always_inline]] inline Neighbourhood::Loops::Nearness Neighbourhood::Loops::nearness(const Prisms& t,
-                                                                                           const Passing& p,
-                                                                                           std::size_t i,
-                                                                                           float at) noexcept {
+                                                                                            const Passing& p,
+                                                                                            std::size_t i,
+                                                                                            float at) noexcept {
   const float s = p.n[i] + at * p.wn[i], e = p.e[i] + at * p.we[i];
   const float m0 = p.m0[i] + at * p.w0[i], m1 = p.m1[i] + at * p.w1[i], m2 = p.m2[i] + at * p.w2[i];
   const float m3 = std::abs(e) - t.half[i], w3 = e > 0 ? p.we[i] : -p.we[i];
@@ -193,8 +193,7 @@ struct Neighbourhood::Loops::Nearness {
 /// t + (g − c)·g/descent, and what lies below g − (1 − t)·max(descent, 0)/g not at all.
 /// @returns a bit for each that may be met by `until`, from the time in `earliest` on.
 PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::meet(const Prisms& t, const float* x, const float* w, float reach,
-                                                      float least, float until, float* earliest,
-                                                      Passing& p) noexcept {
+                                                      float least, float until, float* earliest, Passing& p) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {

@@ -12,6 +12,11 @@ constexpr int k_least_exponent = -120, k_largest_exponent = 120;
 constexpr std::size_t k_line = 64;
 constexpr float k_rounding = 4 * std::numeric_limits<float>::epsilon();
 
+void prefetch_bytes(const void* from, std::size_t bytes) noexcept {
+  const auto* at = static_cast<const char*>(from);
+  for (std::size_t byte = 0; byte < bytes + k_line - 1; byte += k_line) __builtin_prefetch(at + byte);
+}
+
 float middle(const Box3f& box, std::size_t axis) noexcept { return 0.5F * box.low[axis] + 0.5F * box.high[axis]; }
 
 std::size_t widest_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items) noexcept {
@@ -101,6 +106,7 @@ TriangleClusters::TriangleClusters(std::span<const Box3f> boxes,
       const std::uint32_t triangle = order_[cluster.first + i];
       corners_.push_back({weld.add(vertex(triangle, 0)), weld.add(vertex(triangle, 1)), weld.add(vertex(triangle, 2))});
     }
+    cluster.vertices = static_cast<std::uint8_t>(weld.known.size());
   }
   vertices_.shrink_to_fit();
   reliefs_.shrink_to_fit();
@@ -155,8 +161,13 @@ Box3f TriangleClusters::box_of(std::uint32_t block) const noexcept {
 }
 
 void TriangleClusters::prefetch(std::uint32_t cluster) const noexcept {
-  const auto* at = reinterpret_cast<const char*>(&clusters_[cluster]);
-  for (std::size_t byte = 0; byte < sizeof(Cluster); byte += k_line) __builtin_prefetch(at + byte);
+  prefetch_bytes(&clusters_[cluster], sizeof(Cluster));
+}
+
+void TriangleClusters::prefetch_block(std::uint32_t block) const noexcept {
+  const Cluster& c = clusters_[block / k_blocks];
+  prefetch_bytes(&corners_[c.first + block % k_blocks * k_block], k_block * sizeof(corners_[0]));
+  prefetch_bytes(&vertices_[c.vertex], c.vertices * sizeof(vertices_[0]));
 }
 
 std::size_t TriangleClusters::bytes() const noexcept {

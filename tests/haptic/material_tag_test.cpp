@@ -84,7 +84,7 @@ TEST(MaterialTag, SaysWhichFrictionIsUsedInstead) {
       parse_material_tag(R"({"version":1,"stiffness":1,"staticFriction":-1,"dynamicFriction":0.25})", warnings);
   EXPECT_EQ(tag.static_friction, 0.25);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].message.find("0.25 is used"), std::string::npos) << warnings[0].message;
+  EXPECT_NE(warnings[0].message.find("dynamicFriction is used"), std::string::npos) << warnings[0].message;
 }
 
 struct Odd {

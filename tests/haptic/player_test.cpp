@@ -219,11 +219,14 @@ TEST_F(Player, WritesOverNothingThatItReads) {
   const std::string content = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
   const std::string glb = write("p.glb", content), quoted = "'" + glb + "'";
   const std::string hand = write("t.csv", "t,x,y,z\n0,0,0,0.01\n0.1,0,0,-0.001\n");
+  const std::string fresh = folder_.filename().string() + ".csv";  // Nothing has this name here.
   const std::string around = "'" + (folder_ / "." / "p.glb").string() + "'";
   for (const std::string& arguments :
        {quoted + " --record " + quoted, quoted + " --json " + quoted, quoted + " --json " + around,
-        quoted + " --trajectory '" + hand + "' --record '" + hand + "'", quoted + " --record a.csv --json ./a.csv"})
+        quoted + " --trajectory '" + hand + "' --record '" + hand + "'",
+        quoted + " --record " + fresh + " --json ./" + fresh})
     expect_refusal(play(arguments), 2);
+  EXPECT_FALSE(fs::exists(fresh));
   EXPECT_EQ(slurp(glb), content);
 }
 

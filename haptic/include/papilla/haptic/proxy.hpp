@@ -65,9 +65,8 @@ class Proxy {
   /// Puts proxy and probe to `position`, free.
   void reset(Vec3 position) noexcept;
 
-  /// One tick of `period_s` with the probe at `probe`. Where ContactSurface::is_place() says that no probe can be, everything
-  /// stays as it was.
-  /// The first call after construction resets.
+  /// One tick of `period_s` with the probe at `probe`. Where ContactSurface::is_place() says that no probe can be,
+  /// everything stays as it was. The first call after construction resets.
   const ProxyState& update(Vec3 probe, double period_s) noexcept;
 
   const ProxyState& state() const noexcept { return state_; }

@@ -93,8 +93,10 @@ class TriangleClusters {
   /// Box around what stands in a block.
   Box3f box_of(std::uint32_t block) const noexcept;
 
-  /// Asks the processor to fetch the numbers of a cluster ahead of their use.
+  /// Asks the processor to fetch the numbers of a cluster ahead of their use,
   void prefetch(std::uint32_t cluster) const noexcept;
+  /// and the triangles of a block with the vertices of its cluster.
+  void prefetch_block(std::uint32_t block) const noexcept;
 
  private:
   static constexpr std::uint32_t k_group = 4, k_groups = k_most / k_group, k_blocks = k_most / k_block;
@@ -106,6 +108,7 @@ class TriangleClusters {
     std::uint8_t count = 0;
     std::uint32_t first = 0;   // Slot of the first triangle.
     std::uint32_t vertex = 0;  // The first vertex.
+    std::uint8_t vertices = 0;
 
     /// Rounded down; monotone, so that what overlaps in metres overlaps in cells.
     std::uint8_t cell(float x, std::size_t axis) const noexcept {
