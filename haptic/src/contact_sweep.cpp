@@ -10,13 +10,12 @@ namespace {
 // Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the
 // times must be finer than that, or the neighbour's tilted normal would be taken.
 constexpr double k_close = 1e-7;
+constexpr double k_beside = 0.25;  // Of the tolerance.
+constexpr double k_same_direction = 1 - 1e-9;
 constexpr double k_short_way = 16;  // Skins; and how much farther each piece of a long way leads than the one before.
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
 constexpr int k_bisections = 24;
-
-/// A little after t: what is met at the same place must not be left out by a rounding.
-double not_before(double t) noexcept { return t + 1e-9 * t + 1e-12; }
 
 }  // namespace
 
@@ -34,18 +33,58 @@ double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way
   return norm(along(&Relief::u) * per_uv[0] + along(&Relief::v) * per_uv[1]);
 }
 
-/// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat,
-/// it is the one that x stands above. Of equals the first of the mesh, so that the order of looking doesn't matter.
-bool ContactSurface::comes_before(const SweepHit& a, const SweepHit& b) noexcept {
-  if (a.t != b.t) return a.t < b.t;
-  return a.penetration_m != b.penetration_m ? a.penetration_m > b.penetration_m : a.triangle < b.triangle;
-}
+/// The way of a probe, from + t·way up to t_max, and what it has met.
+struct ContactSurface::Sweep {
+  Vec3 from, way;
+  double grace = 0;  ///< What is met so much of the way after the first hit stands beside it.
+  double t_max = 1;
+  std::optional<SweepHit> best{};
+  bool best_is_flat = false;
+
+  /// Until where a hit still matters. A little after t: what is met at the same place must not be left out by a
+  /// rounding.
+  double until() const noexcept {
+    return best ? std::min(t_max, best->t + std::max(grace, 1e-9 * best->t + 1e-12)) : t_max;
+  }
+
+  /// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat,
+  /// it is the one that x stands above. Of equals the first of the mesh, so that the order of looking doesn't matter.
+  template <class Hit, class Other>
+  static bool comes_before(const Hit& a, const Other& b) noexcept {
+    if (a.t != b.t) return a.t < b.t;
+    return a.penetration_m != b.penetration_m ? a.penetration_m > b.penetration_m : a.triangle < b.triangle;
+  }
+
+  /// @param flat it is met above its face, where it is a plane: only such can stand beside another.
+  void take(SweepHit hit, bool flat) noexcept {
+    if (!best) {
+      best = hit;
+      best_is_flat = flat;
+      return;
+    }
+    const auto beside = best->beside;
+    if (comes_before(hit, *best)) {
+      std::swap(hit, *best);
+      std::swap(flat, best_is_flat);
+    }
+    best->beside.reset();
+    if (flat) stand_beside({hit.t, hit.normal, hit.penetration_m, hit.triangle, hit.material});
+    if (beside) stand_beside(*beside);
+  }
+
+  void stand_beside(const SweepHit::Beside& hit) noexcept {
+    if (hit.t > best->t + grace || dot(hit.normal, best->normal) >= k_same_direction) return;
+    if (!best->beside || comes_before(hit, *best->beside)) best->beside = hit;
+  }
+};
 
 [[gnu::always_inline]] inline void ContactSurface::look(const Corners& t, Vec3 from, Vec3 way, double at,
                                                         Approach& state) noexcept {
   const Vec3 x = from + at * way;
+  const Foot near = foot(t, x);
   state.t = at;
-  state.d = x - foot(t, x).point;
+  state.d = x - near.point;
+  state.above = near.on == Foot::On::face;
   state.distance = norm(state.d);
 }
 
@@ -75,19 +114,17 @@ bool ContactSurface::goes_deep(const Corners& t, Vec3 from, Vec3 way, double lea
   return norm(state.d + along * way) <= least || approach(t, from, way, least, least, 1, state);
 }
 
-void ContactSurface::sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
-                               std::optional<SweepHit>& best) const noexcept {
-  if (best) t_max = std::min(t_max, not_before(best->t));
+void ContactSurface::sweep_one(std::uint32_t place, Sweep& sweep) const noexcept {
   if (tallest_ > 0 && has_relief(place))
-    sweep_relief(place, from, way, t_max, best);
+    sweep_relief(place, sweep);
   else
-    sweep_plain(place, from, way, t_max, best);
+    sweep_plain(place, sweep);
 }
 
-void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
-                                 std::optional<SweepHit>& best) const noexcept {
+void ContactSurface::sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept {
   const Corners t = corners(place);
-  const double contact = contact_radius_m();
+  const Vec3 from = sweep.from, way = sweep.way;
+  const double contact = contact_radius_m(), t_max = sweep.until();
   Approach touch;
   look(t, from, way, 0, touch);
   if ((touch.distance - contact - k_close * tolerance_m()) * touch.distance > -t_max * dot(touch.d, way)) return;
@@ -100,14 +137,14 @@ void ContactSurface::sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, doubl
     if (dot(normal, way) > 0) normal = -normal;
   }
   if (dot(normal, way) >= 0) return;
-  const SweepHit hit{touch.t, normal, contact - touch.distance, source_of(place), material_of(place)};
-  if (!best || comes_before(hit, *best)) best = hit;
+  sweep.take({touch.t, normal, contact - touch.distance, source_of(place), material_of(place), {}}, touch.above);
 }
 
 /// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
-void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
-                                  std::optional<SweepHit>& best) const noexcept {
+void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
   const Corners t = corners(place);
+  const Vec3 from = sweep.from, way = sweep.way;
+  const double t_max = sweep.until();
   const double length = norm(way), contact = contact_radius_m(), top = top_of(place);
   Approach entry;
   look(t, from, way, 0, entry);
@@ -138,8 +175,7 @@ void ContactSurface::sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, doub
     (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
   }
   const Clearance there = clearance_of(place, t, from + outside * way);
-  const SweepHit hit{outside, normalized(there.gradient), -there.value, source_of(place), material_of(place)};
-  if (!best || comes_before(hit, *best)) best = hit;
+  sweep.take({outside, normalized(there.gradient), -there.value, source_of(place), material_of(place), {}}, false);
 }
 
 bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcept {
@@ -152,24 +188,29 @@ bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcep
   return apart;
 }
 
-void ContactSurface::sweep_cluster(std::uint32_t cluster, Vec3 from, Vec3 way, double t_max,
-                                   std::optional<SweepHit>& best) const noexcept {
-  const Box3f box =
-      box_around(from, from + (best ? std::min(t_max, not_before(best->t)) : t_max) * way, contact_radius_m());
+/// On relief nothing later is looked at: a hit stands where the relief is half the tolerance deep, which can be before
+/// another that was found first.
+ContactSurface::Sweep ContactSurface::sweep_between(Vec3 from, Vec3 to) const noexcept {
+  const Vec3 way = to - from;
+  const double length = norm(way);
+  return {from - origin_, way, tallest_ > 0 || length == 0 ? 0 : k_beside * tolerance_m() / length};
+}
+
+void ContactSurface::sweep_cluster(std::uint32_t cluster, Sweep& sweep) const noexcept {
+  const Box3f box = box_around(sweep.from, sweep.from + sweep.until() * sweep.way, contact_radius_m());
   clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {
-    if (has_relief(place) || !beside(place, box)) sweep_one(place, from, way, t_max, best);
+    if (has_relief(place) || !beside(place, box)) sweep_one(place, sweep);
   });
 }
 
 std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to) const noexcept {
-  const Vec3 start = from - origin_, way = to - from;
-  std::optional<SweepHit> best;
+  Sweep sweep = sweep_between(from, to);
   double t_max = 1;
-  clusters_.along(start, way, contact_radius_m(), t_max, [&](std::uint32_t cluster) noexcept {
-    sweep_cluster(cluster, start, way, t_max, best);
-    if (best) t_max = not_before(best->t);
+  clusters_.along(sweep.from, sweep.way, contact_radius_m(), t_max, [&](std::uint32_t cluster) noexcept {
+    sweep_cluster(cluster, sweep);
+    t_max = sweep.until();
   });
-  return best;
+  return sweep.best;
 }
 
 bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) const noexcept {
@@ -226,20 +267,19 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood&
 }
 
 std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept {
-  const Vec3 start = from - origin_, way = to - from;
-  const double length = norm(way), margin = near.margin(start + seen * way);
-  std::optional<SweepHit> best;
-  if (!(margin > 0)) return best;
+  Sweep sweep = sweep_between(from, to);
+  const double length = norm(sweep.way), margin = near.margin(sweep.from + seen * sweep.way);
+  if (!(margin > 0)) return std::nullopt;
   const double known = (1 - seen) * length > margin ? seen + margin / length : 1;
   // A long way goes into the surface and is most often stopped where it starts, a short one leads along it.
   double piece = length > k_short_way * skin_ ? skin_ / length : 1;
-  while (!best && seen < known) {
-    const double until = std::min(seen + piece, known);
-    sweep_prisms(near, start, way, seen, until, best);
-    seen = until;
+  while (!sweep.best && seen < known) {
+    sweep.t_max = std::min(seen + piece, known);
+    sweep_prisms(near, seen, sweep);
+    seen = sweep.t_max;
     piece *= k_short_way;
   }
-  return best;
+  return sweep.best;
 }
 
 /// Shortens `away`, the way from x to the nearest triangle, and `best`, its length, if one in a block is nearer. The
@@ -286,8 +326,7 @@ std::optional<Vec3> ContactSurface::likely_rest(Vec3 goal, double radius_m, Vec3
 
 /// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
 /// hit. Nothing is met before `since`.
-void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double since, double until,
-                                  std::optional<SweepHit>& best) const noexcept {
+void ContactSurface::sweep_prisms(Neighbourhood& near, double since, Sweep& sweep) const noexcept {
   struct Open {
     float earliest;
     std::uint32_t place;
@@ -295,6 +334,8 @@ void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, doub
   std::array<Open, Neighbourhood::k_blocks * Neighbourhood::k_lanes> open;
   Neighbourhood::Numbers blocks;
   const double contact = contact_radius_m();
+  const Vec3 from = sweep.from, way = sweep.way;
+  const double until = sweep.t_max;
   const std::uint32_t block_count = near.along(from + since * way, (until - since) * way, contact, blocks);
   std::uint32_t count = 0;
   for (std::uint32_t b = 0; b < block_count; ++b) {
@@ -312,9 +353,9 @@ void ContactSurface::sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, doub
     for (std::uint32_t k = 1; k < count; ++k)
       if (open[k].earliest < open[next].earliest) next = k;
     const Open now = open[next];
-    if (best && static_cast<double>(now.earliest) > not_before(best->t)) break;
+    if (static_cast<double>(now.earliest) > sweep.until()) break;
     open[next] = open[--count];
-    sweep_one(now.place, from, way, until, best);
+    sweep_one(now.place, sweep);
   }
 }
 

@@ -27,7 +27,8 @@ struct ContactSurface::Foot {
 /// A moving probe at t, and where it stands to a triangle.
 struct ContactSurface::Approach {
   double t = 0, distance = 0;
-  Vec3 d;  ///< From the nearest point.
+  Vec3 d;              ///< From the nearest point.
+  bool above = false;  ///< That is within the face.
 };
 
 /// f_T and its gradient (not normalised).

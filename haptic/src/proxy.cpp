@@ -152,12 +152,27 @@ bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Ve
   return true;
 }
 
-/// What stopped the proxy at x is a constraint from now on.
-void Proxy::touch(const SweepHit& hit, Planes& planes, Vec3& x, ProxyState& next) const noexcept {
-  // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
-  x = x + std::clamp(hit.penetration_m, 0.0, surface_->tolerance_m()) * hit.normal;
-  planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
+/// What stopped the proxy at x on its way is a constraint from now on.
+void Proxy::touch(const SweepHit& hit, Vec3 way, Planes& planes, Vec3& x, ProxyState& next) const noexcept {
   next.in_contact = true;
+  // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
+  const double tolerance = surface_->tolerance_m(), first = std::clamp(hit.penetration_m, 0.0, tolerance);
+  if (hit.beside && planes.count + 2 <= k_planes) {
+    const auto& beside = *hit.beside;
+    const double second =
+        dot(beside.normal, (beside.t - hit.t) * way) + std::clamp(beside.penetration_m, 0.0, tolerance);
+    // The shortest way into the crease, where both are touched.
+    const double c = dot(hit.normal, beside.normal), s = 1 - c * c;
+    const Vec3 out = ((first - c * second) / s) * hit.normal + ((second - c * first) / s) * beside.normal;
+    if (norm(out) <= tolerance) {
+      x = x + out;
+      planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
+      planes.add({beside.normal, dot(beside.normal, x), beside.material}, x);
+      return;
+    }
+  }
+  x = x + first * hit.normal;
+  planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
 }
 
 /// Tries whether the nearest place of all, no farther off than `farthest`, can be reached by a free way along the
@@ -179,7 +194,7 @@ bool Proxy::leap(const Tick& tick, Vec3 normal, double farthest, Planes& planes,
   if (norm(tick.goal - there) >= now - tolerance) return false;
   x = there;
   planes.count = 0;
-  if (hit) touch(*hit, planes, x, next);
+  if (hit) touch(*hit, down, planes, x, next);
   return true;
 }
 
@@ -247,6 +262,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     const auto hit = sweep(start + x, step, travel);
     drop = 0;
     if (drops && !hit) continue;
+    const Vec3 way = step;
     step = (hit ? hit->t : 1) * step;
     x = x + step;
     if (aim.count > 0) slid = slid + step;
@@ -261,7 +277,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     }
     if (norm(step) > shortest) planes.keep(aim.active);
     if (planes.count == k_planes) break;
-    touch(*hit, planes, x, next);
+    touch(*hit, way, planes, x, next);
   }
   if (free) next = ProxyState{};
   next.felt_normal = next.normal;

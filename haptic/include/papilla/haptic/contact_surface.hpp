@@ -20,6 +20,16 @@ struct SweepHit {
   double penetration_m = 0;    ///< Minus the clearance at t: positive when the probe was too deep at the start already.
   std::uint32_t triangle = 0;  ///< Number in the ContactMesh.
   std::uint32_t material = 0;
+  /// A triangle without relief that is touched above its face, in another direction, at the same place or within a
+  /// quarter of the tolerance on: in a crease two hold the probe. Of several the first.
+  struct Beside {
+    double t = 0;
+    Vec3 normal;
+    double penetration_m = 0;
+    std::uint32_t triangle = 0;
+    std::uint32_t material = 0;
+  };
+  std::optional<Beside> beside;
 };
 
 /// Nearest point of the base triangles.
@@ -157,6 +167,7 @@ class ContactSurface {
   struct Foot;
   struct Approach;
   struct Clearance;
+  struct Sweep;
   struct Nearest;
 
   std::uint16_t packed_material(std::uint32_t place) const noexcept { return material_[clusters_.slot(place)]; }
@@ -186,18 +197,14 @@ class ContactSurface {
   bool goes_deep(const Corners& t, Vec3 from, Vec3 way, double least, Approach state) const noexcept;
   static Box3f box_around(Vec3 a, Vec3 b, double reach) noexcept;
   bool beside(std::uint32_t place, const Box3f& box) const noexcept;
-  static bool comes_before(const SweepHit& a, const SweepHit& b) noexcept;
-  void sweep_cluster(std::uint32_t cluster, Vec3 from, Vec3 way, double t_max,
-                     std::optional<SweepHit>& best) const noexcept;
-  void sweep_prisms(Neighbourhood& near, Vec3 from, Vec3 way, double since, double until,
-                    std::optional<SweepHit>& best) const noexcept;
+  Sweep sweep_between(Vec3 from, Vec3 to) const noexcept;
+  void sweep_cluster(std::uint32_t cluster, Sweep& sweep) const noexcept;
+  void sweep_prisms(Neighbourhood& near, double since, Sweep& sweep) const noexcept;
   void nearest_in(std::uint32_t i, Vec3 x, const Neighbourhood& near, Vec3& away, double& best) const noexcept;
   void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;
-  void sweep_one(std::uint32_t place, Vec3 from, Vec3 way, double t_max, std::optional<SweepHit>& best) const noexcept;
-  void sweep_plain(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
-                   std::optional<SweepHit>& best) const noexcept;
-  void sweep_relief(std::uint32_t place, Vec3 from, Vec3 way, double t_max,
-                    std::optional<SweepHit>& best) const noexcept;
+  void sweep_one(std::uint32_t place, Sweep& sweep) const noexcept;
+  void sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept;
+  void sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept;
   template <class Accept>
   std::optional<Nearest> nearest(Vec3 x, double radius, Accept&& accept) const noexcept;
   std::optional<SurfacePoint> surface_point(const std::optional<Nearest>& near) const noexcept;

@@ -84,7 +84,7 @@ class Proxy {
   void recall(Vec3 goal, Planes& planes) noexcept;
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
-  void touch(const SweepHit& hit, Planes& planes, Vec3& x, ProxyState& next) const noexcept;
+  void touch(const SweepHit& hit, Vec3 way, Planes& planes, Vec3& x, ProxyState& next) const noexcept;
   bool leap(const Tick& tick, Vec3 normal, double farthest, Planes& planes, Vec3& x, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
   std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
