@@ -43,6 +43,41 @@ TEST(ContactSurface, BallRollsOverAnEdge) {
   EXPECT_NEAR(hit->normal.z, std::sqrt(0.5), 1e-6);
 }
 
+/// Two planes that rise from the y axis, or fall, with the slopes `left` and `right`.
+ContactMesh fold(double left, double right) {
+  return testing::height_grid(8, 8, 0.1, 0.1,
+                              [=](double x, double) { return x < 0.05 ? left * (0.05 - x) : right * (x - 0.05); });
+}
+
+TEST(ContactSurface, InACreaseBothFacesAreMet) {
+  const double left = 0.3, right = 0.1;
+  const ContactSurface surface(fold(left, right), {ContactMaterial{}}, {}, 0);
+  // The point at the contact radius from both planes.
+  const double r = surface.contact_radius_m();
+  const double a = std::sqrt(1 + left * left), b = std::sqrt(1 + right * right);
+  const double x = r * (a - b) / (left + right), z = r * b + right * x;
+  const auto hit = surface.sweep({0.05 + x, 0.043, 0.01}, {0.05 + x, 0.043, -0.01});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(0.01 - 0.02 * hit->t, z, 1e-8);
+  ASSERT_TRUE(hit->beside);
+  const Vec3 normals[] = {{left / a, 0, 1 / a}, {-right / b, 0, 1 / b}};
+  const bool left_first = hit->normal.x > 0;
+  EXPECT_LT(norm(hit->normal - normals[left_first ? 0 : 1]), 1e-6);
+  EXPECT_LT(norm(hit->beside->normal - normals[left_first ? 1 : 0]), 1e-6);
+}
+
+TEST(ContactSurface, OnFlatGroundRidgesAndSlopesNothingStandsBeside) {
+  for (const auto& [left, right] : {std::pair{0.0, 0.0}, {-0.3, -0.1}, {-0.2, 0.2}}) {
+    const ContactSurface surface(fold(left, right), {ContactMaterial{}}, {}, 0);
+    for (const double x : {0.05, 0.05 + 1e-7, 0.05 - 1e-6, 0.05 + 1e-5, 0.0625, 0.0625 + 1e-7, 0.07})
+      for (const double y : {0.043, 0.05, 0.05 + 1e-7, 0.0625 - 1e-6}) {
+        const auto hit = surface.sweep({x, y, 0.01}, {x, y, -0.02});
+        ASSERT_TRUE(hit);
+        EXPECT_FALSE(hit->beside) << left << " " << right << " " << x << " " << y;
+      }
+  }
+}
+
 TEST(ContactSurface, LeavingAndSlidingAreFree) {
   const ContactSurface surface(plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
   const double s = surface.skin_m();

@@ -48,6 +48,10 @@ struct Near : ::testing::TestWithParam<double> {
       EXPECT_EQ(expected->penetration_m, found->penetration_m) << i;
       EXPECT_EQ(expected->triangle, found->triangle) << i;
       EXPECT_EQ(expected->normal, found->normal) << i;
+      ASSERT_EQ(expected->beside.has_value(), found->beside.has_value()) << i;
+      if (!expected->beside) continue;
+      EXPECT_EQ(expected->beside->t, found->beside->t) << i;
+      EXPECT_EQ(expected->beside->triangle, found->beside->triangle) << i;
     }
     EXPECT_GT(hits, 200);
   }

@@ -30,11 +30,11 @@ struct ProxyState {
 ///
 /// Each tick descends |proxy − probe|² from the proxy of the tick before. A step goes straight to the nearest point
 /// that the constraints found so far allow (the closest point of up to k_planes half-spaces, at most three of which can
-/// act) and is swept, so that no speed tunnels; what stops it becomes a constraint; constraints that no longer act are
-/// dropped when the proxy moves, and all are forgotten and found again when a step ends free, so that surfaces which
-/// fall away let go; in a crease, planes that were found farther back are asked for again before the proxy stops. The
-/// tick ends when a step is shorter than a quarter of the surface's tolerance, or after k_steps sweeps; then the proxy
-/// still is outside and goes on in the next tick.
+/// act) and is swept, so that no speed tunnels; what stops it becomes a constraint, in a crease both of its faces;
+/// constraints that no longer act are dropped when the proxy moves, and all are forgotten and found again when a step
+/// ends free, so that surfaces which fall away let go; in a crease, planes that were found farther back are asked for
+/// again before the proxy stops. The tick ends when a step is shorter than a quarter of the surface's tolerance, or
+/// after k_steps sweeps; then the proxy still is outside and goes on in the next tick.
 ///
 /// A proxy without friction first tries whether ContactSurface::likely_rest() can be reached by a free way along the
 /// surface and one down, if that is about as far as the probe went: two sweeps instead of two for each facet on the
