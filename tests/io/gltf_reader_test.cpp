@@ -203,15 +203,18 @@ TEST_F(GltfReader, NamesThePlaceOfAMemberThatIsMissing) {
       {R"("bufferViews":[)" + view + R"(,{"buffer":"0","byteLength":4}])", "bufferViews[1].buffer is no whole number"},
       {R"("accessors":[)" + accessor + R"(,{"count":1,"type":"VEC3"}])", "accessors[1].componentType is missing"},
       {R"("accessors":[{"componentType":5126,"count":-1,"type":"VEC3"}])", "accessors[0].count is no whole number"},
-      {R"("accessors":[{"componentType":5126,"count":1,"type":3}])", "accessors[0].type is no string"},
-      {R"("meshes":[{"name":"no primitives"}])", "meshes[0].primitives is missing"},
+      {R"("accessors":[{"componentType":5126,"count":1,"type":3}])", "accessors[0].type is no accessor type"},
       {R"("meshes":[{"primitives":[{"indices":0}]}])", "meshes[0].primitives[0].attributes is missing"},
+      {R"("accessors":[{"componentType":1,"count":1,"type":"VEC3"}])",
+       "accessors[0].componentType is no component type"},
+      {R"("bufferViews":[{"buffer":0,"byteLength":4,"byteStride":3}])",
+       "bufferViews[0].byteStride is no multiple of 4"},
       {R"("skins":[{"joints":[0]},{}])", "skins[1].joints is missing"},
       {R"("nodes":[{},7])", "nodes[1] is no object"},
   };
   for (const auto& [json, place] : faults)
     EXPECT_NE(refusal(R"({"asset":{"version":"2.0"},)" + json + "}").find(place), std::string::npos)
-        << refusal(R"({"asset":{"version":"2.0"},)" + json + "}");
+        << json << ": " << refusal(R"({"asset":{"version":"2.0"},)" + json + "}");
 }
 
 TEST_F(GltfReader, RefusesDeepJson) {

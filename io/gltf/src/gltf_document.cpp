@@ -292,7 +292,7 @@ Document load_document(const std::filesystem::path& path) {
   if (!good) throw InvalidInput(document.file + ": " + reason(json, error));
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     if (document.model.meshes[m].primitives.size() != primitives.at(m))
-      throw InvalidInput(document.file + ": mesh " + std::to_string(m) + ": " + reason(json, error));
+      throw InvalidInput(document.file + ": " + reason(json, "mesh " + std::to_string(m) + ": " + error));
   for (const Indices& indices : detached)
     document.model.meshes[indices.mesh].primitives[indices.primitive].indices = indices.accessor;
   add_warnings(error, document.warnings);

@@ -6,7 +6,7 @@
 
 namespace papilla::gltf {
 
-/// The first member that glTF requires and that the text lacks or has of another type, for messages:
+/// The first member without which tinygltf takes no file and that the text lacks or has otherwise, for messages:
 /// "accessors[3].componentType is missing". Empty when there is none.
 std::string find_missing_member(const nlohmann::ordered_json& document);
 
