@@ -338,16 +338,28 @@ void ContactSurface::sweep_prisms(Neighbourhood& near, double since, Sweep& swee
   const double until = sweep.t_max;
   const std::uint32_t block_count = near.along(from + since * way, (until - since) * way, contact, blocks);
   std::uint32_t count = 0;
-  for (std::uint32_t b = 0; b < block_count; ++b) {
-    if (!near.is_made(blocks[b])) make_prisms(blocks[b], near);
-    Neighbourhood::Lanes earliest;
-    const std::uint32_t block = near.block(blocks[b]);
-    std::uint32_t met = near.near_way(blocks[b], from, way, contact, tolerance_m(), since, until, earliest);
-    for (met &= (1U << clusters_.triangles_in(block)) - 1; met != 0; met &= met - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(met));
-      open[count++] = {earliest[lane], block * Neighbourhood::k_lanes + lane};
+  Neighbourhood::Meetings meetings;
+  const auto meet = [&]() noexcept {
+    near.near_way(from, way, contact, tolerance_m(), since, until, meetings);
+    for (std::uint32_t i = 0; i < meetings.count; ++i) {
+      const std::uint32_t block = near.block(meetings.block[i]);
+      std::uint32_t met = meetings.met[i] & ((1U << clusters_.triangles_in(block)) - 1);
+      for (; met != 0; met &= met - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(met));
+        open[count++] = {meetings.earliest[i][lane], block * Neighbourhood::k_lanes + lane};
+      }
     }
+    meetings.count = 0;
+  };
+  for (std::uint32_t b = 0; b < block_count; ++b) {
+    if (!near.is_made(blocks[b])) {
+      meet();  // Before one of them has to make room.
+      make_prisms(blocks[b], near);
+    }
+    meetings.block[meetings.count++] = blocks[b];
+    if (meetings.count == Neighbourhood::k_together) meet();
   }
+  meet();
   while (count > 0) {
     std::uint32_t next = 0;
     for (std::uint32_t k = 1; k < count; ++k)

@@ -382,20 +382,28 @@ std::uint32_t Neighbourhood::distances(std::uint32_t i, Vec3 from, double distan
   return Loops::distances(prisms_[slot(i)], x.data(), static_cast<float>(distance) * (1 + k_margin), least.data());
 }
 
-std::uint32_t Neighbourhood::near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double since,
-                                      double until, Lanes& earliest) const noexcept {
-  const std::array<float, 3>& o = origin_[slot(i)];
-  const Vec3 at = from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
-  const std::array<float, 3> x = floats_of(at), w = floats_of(way);
-  const auto c = static_cast<float>(contact), last = static_cast<float>(until) * (1 + k_margin);
-  const float error = 4 * k_margin * (c + size_of(at) + size_of(way));
-  const Prisms& prisms = prisms_[slot(i)];
-  const float deepest = c + error - static_cast<float>(deep);
-  Loops::Passing passing;
-  earliest.fill(static_cast<float>(since) * (1 - k_margin));
-  std::uint32_t met = Loops::meet(prisms, x.data(), w.data(), c + error, deepest, last, earliest.data(), passing);
-  if (met != 0 && until >= 1) met = Loops::turn(prisms, passing, c + error, deepest, earliest.data());
-  return met;
+void Neighbourhood::near_way(Vec3 from, Vec3 way, double contact, double deep, double since, double until,
+                             Meetings& meetings) const noexcept {
+  const std::array<float, 3> w = floats_of(way);
+  const auto c = static_cast<float>(contact), d = static_cast<float>(deep);
+  const float last = static_cast<float>(until) * (1 + k_margin), first = static_cast<float>(since) * (1 - k_margin);
+  std::array<Loops::Passing, k_together> passing;
+  std::array<float, k_together> error;
+  for (std::uint32_t i = 0; i < meetings.count; ++i) {
+    const std::uint32_t at = slot(meetings.block[i]);
+    const std::array<float, 3>& o = origin_[at];
+    const Vec3 start = from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
+    const std::array<float, 3> x = floats_of(start);
+    error[i] = 4 * k_margin * (c + size_of(start) + size_of(way));
+    meetings.earliest[i].fill(first);
+    meetings.met[i] = Loops::meet(prisms_[at], x.data(), w.data(), c + error[i], c + error[i] - d, last,
+                                  meetings.earliest[i].data(), passing[i]);
+  }
+  if (until < 1) return;
+  for (std::uint32_t i = 0; i < meetings.count; ++i)
+    if (meetings.met[i] != 0)
+      meetings.met[i] = Loops::turn(prisms_[slot(meetings.block[i])], passing[i], c + error[i], c + error[i] - d,
+                                    meetings.earliest[i].data());
 }
 
 }  // namespace papilla

@@ -27,6 +27,7 @@ class Neighbourhood {
   static constexpr std::uint32_t k_lanes = 16;    ///< Triangles in a block.
   static constexpr std::uint32_t k_blocks = 512;  ///< Boxes.
   static constexpr std::uint32_t k_made = 128;    ///< Blocks with prisms.
+  static constexpr std::uint32_t k_together = 8;  ///< Blocks that near_way() looks at at once.
   using Lanes = std::array<float, k_lanes>;
   using Numbers = std::array<std::uint16_t, k_blocks>;
   using Distances = std::array<float, k_blocks>;
@@ -70,11 +71,20 @@ class Neighbourhood {
   /// @returns a bit for each that may be nearer than `distance`.
   std::uint32_t distances(std::uint32_t i, Vec3 from, double distance, Lanes& least) const noexcept;
 
-  /// For the triangles of a block that is made, side by side: no t from `since` on and before earliest[k] brings
-  /// from + t·way nearer than `contact` to triangle k; 2 when none up to 1 brings it `deep` nearer than that.
-  /// @returns a bit for each with earliest[k] up to `until`, and maybe some more.
-  std::uint32_t near_way(std::uint32_t i, Vec3 from, Vec3 way, double contact, double deep, double since, double until,
-                         Lanes& earliest) const noexcept;
+  /// What a way meets in each of a few blocks: a bit for each triangle that may be met, and from when on at the
+  /// earliest.
+  struct Meetings {
+    std::array<std::uint16_t, k_together> block;
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, k_together> met;
+    std::array<Lanes, k_together> earliest;
+  };
+  /// For the triangles of the given blocks, all of them made: no t from `since` on and before earliest[k] brings
+  /// from + t·way nearer than `contact` to triangle k; 2 when none up to 1 brings it `deep` nearer than that. Met are
+  /// those with earliest[k] up to `until`, and maybe some more. Several blocks at once take little longer than one, as
+  /// each is a long chain of arithmetic.
+  void near_way(Vec3 from, Vec3 way, double contact, double deep, double since, double until,
+                Meetings& meetings) const noexcept;
 
  private:
   static constexpr std::uint32_t k_no_block = 0xffffffffU;
