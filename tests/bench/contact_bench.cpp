@@ -210,9 +210,11 @@ void add_speed_targets(bench::BenchReport& report, bool quick, const Inputs& inp
   const auto time = [&](const char* promise, const char* subject, const char* input, const std::string& quantity,
                         double most) {
     const double us = of(subject, input, quantity.c_str());
-    report.target({promise,
-                   fmt::format("{:.2f} µs (one run: {:.2f})", us, of(subject, input, ("one_run_" + quantity).c_str())),
-                   us <= most});
+    std::string notes = fmt::format("one run: {:.2f}", of(subject, input, ("one_run_" + quantity).c_str()));
+#ifdef PAPILLA_HAVE_EMBREE
+    notes += fmt::format("; Embree's closest point: {:.2f}", of("closest-point/embree", input, quantity.c_str()));
+#endif
+    report.target({promise, fmt::format("{:.2f} µs ({})", us, notes), us <= most});
   };
   const char *point = "proxy/point", *ball = "proxy/ball 1 mm", *small = "relief 20k", *middle = "relief 199k",
              *large = "relief 2000k";
