@@ -23,8 +23,9 @@ struct LevelOptions {
 };
 
 /// Gives every part its simplified mesh and coarser levels, the levels_of_detail() of the mesh that it has now. A level
-/// that keeps more than 90 % of the triangles of the one before is left out; a printed line says so. The screen coverage of a level is where
-/// its tolerance takes one of 2000 pixels, about what a headset shows from top to bottom: diagonal / (2000 tolerance).
+/// that keeps more than 90 % of the triangles of the one before is left out; a printed line says so. The screen
+/// coverage of a level is where its tolerance takes one of 2000 pixels, about what a headset shows from top to bottom:
+/// diagonal / (2000 tolerance).
 /// @param results In the order of the parts; emptied. @param finest_mm Tolerance of `results`; 0 with --lod: its levels
 ///        start from 1e-4 of the largest part's diagonal.
 /// @return {part, level, tolerance_mm, triangles, max_deviation_mm, screen_coverage} a line; also printed.

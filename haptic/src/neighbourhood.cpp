@@ -41,6 +41,8 @@ struct Neighbourhood::Loops {
   static std::uint32_t meet(const Prisms& t, const float* x, const float* w, float reach, float least, float until,
                             float* earliest, Passing& p) noexcept;
   static std::uint32_t turn(const Prisms& t, const Passing& p, float reach, float least, float* earliest) noexcept;
+  struct InBox;
+  static InBox along_axes(const Boxes& b, std::size_t i, float x, float y, float z) noexcept;
   static std::uint32_t box_distances(const Boxes& b, const float* x, float distance, float* result) noexcept;
   static std::uint32_t near_boxes(const Boxes& b, const float* x, const float* half, float reach) noexcept;
 };
@@ -244,16 +246,26 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::turn(const Prisms& t, const Pas
   return bits;
 }
 
+/// A vector in the axes of box i.
+struct Neighbourhood::Loops::InBox {
+  float x, y, z;
+};
+
+[[gnu::always_inline]] inline Neighbourhood::Loops::InBox Neighbourhood::Loops::along_axes(const Boxes& b,
+                                                                                           std::size_t i, float x,
+                                                                                           float y, float z) noexcept {
+  return {b.axis[0][i] * x + b.axis[1][i] * y + b.axis[2][i] * z,
+          b.axis[3][i] * x + b.axis[4][i] * y + b.axis[5][i] * z,
+          b.axis[6][i] * x + b.axis[7][i] * y + b.axis[8][i] * z};
+}
+
 /// @returns a bit for each of k_lanes boxes that is nearer to x than `distance`.
 PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::box_distances(const Boxes& b, const float* x, float distance,
                                                                float* result) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
-    const float y0 = x0 - b.centre[0][i], y1 = x1 - b.centre[1][i], y2 = x2 - b.centre[2][i];
-    const float q0 = b.axis[0][i] * y0 + b.axis[1][i] * y1 + b.axis[2][i] * y2;
-    const float q1 = b.axis[3][i] * y0 + b.axis[4][i] * y1 + b.axis[5][i] * y2;
-    const float q2 = b.axis[6][i] * y0 + b.axis[7][i] * y1 + b.axis[8][i] * y2;
+    const auto [q0, q1, q2] = along_axes(b, i, x0 - b.centre[0][i], x1 - b.centre[1][i], x2 - b.centre[2][i]);
     const float d0 = std::max(std::abs(q0) - b.half[0][i], 0.0F);
     const float d1 = std::max(std::abs(q1) - b.half[1][i], 0.0F);
     const float d2 = std::max(std::abs(q2) - b.half[2][i], 0.0F);
@@ -272,17 +284,13 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::near_boxes(const Boxes& b, cons
   float beyond[k_lanes];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
-    const float y0 = x0 - b.centre[0][i], y1 = x1 - b.centre[1][i], y2 = x2 - b.centre[2][i];
-    const float q0 = b.axis[0][i] * y0 + b.axis[1][i] * y1 + b.axis[2][i] * y2;
-    const float q1 = b.axis[3][i] * y0 + b.axis[4][i] * y1 + b.axis[5][i] * y2;
-    const float q2 = b.axis[6][i] * y0 + b.axis[7][i] * y1 + b.axis[8][i] * y2;
+    const auto [q0, q1, q2] = along_axes(b, i, x0 - b.centre[0][i], x1 - b.centre[1][i], x2 - b.centre[2][i]);
     const float d0 = std::max(q0 - b.half[0][i], 0.0F) - std::max(-q0 - b.half[0][i], 0.0F);
     const float d1 = std::max(q1 - b.half[1][i], 0.0F) - std::max(-q1 - b.half[1][i], 0.0F);
     const float d2 = std::max(q2 - b.half[2][i], 0.0F) - std::max(-q2 - b.half[2][i], 0.0F);
     const float g2 = d0 * d0 + d1 * d1 + d2 * d2;
-    const float along = d0 * (b.axis[0][i] * h0 + b.axis[1][i] * h1 + b.axis[2][i] * h2) +
-                        d1 * (b.axis[3][i] * h0 + b.axis[4][i] * h1 + b.axis[5][i] * h2) +
-                        d2 * (b.axis[6][i] * h0 + b.axis[7][i] * h1 + b.axis[8][i] * h2);
+    const auto [a0, a1, a2] = along_axes(b, i, h0, h1, h2);
+    const float along = d0 * a0 + d1 * a1 + d2 * a2;
     beyond[i] = g2 - std::abs(along) - reach * std::sqrt(g2);
   }
   std::uint32_t bits = 0;

@@ -81,8 +81,8 @@ class Neighbourhood {
   };
   /// For the triangles of the given blocks, all of them made: no t from `since` on and before earliest[k] brings
   /// from + t·way nearer than `contact` to triangle k; 2 when none up to 1 brings it `deep` nearer than that. Met are
-  /// those with earliest[k] up to `until`, and maybe some more. Several blocks at once take little longer than one, as
-  /// each is a long chain of arithmetic.
+  /// those with earliest[k] up to `until`, and maybe some more. The arithmetic of a block is a long chain; those of
+  /// several overlap.
   void near_way(Vec3 from, Vec3 way, double contact, double deep, double since, double until,
                 Meetings& meetings) const noexcept;
 
