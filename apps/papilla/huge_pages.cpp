@@ -3,11 +3,15 @@
 // with small pages a quarter of that time goes to page tables. Replaces the global operator new of a program that
 // links this file; where the kernel offers no huge pages nothing changes. Large blocks go back to the system when they
 // are freed: malloc would raise its limit for that to 32 MiB and keep what the tasks of a repair leave behind. What is
-// smaller stays: a heap that shrinks and grows with every chart of a part would be cleared page by page each time.
+// smaller stays: a heap that shrinks and grows with every chart of a part would be cleared page by page each time. The
+// large blocks freed last, 64 MiB of them, are handed out again instead, as the system clears what it gives.
 #include <malloc.h>
 #include <sys/mman.h>
 
+#include <array>
+#include <cstdint>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 
 namespace {
@@ -17,11 +21,65 @@ constexpr std::size_t k_large = 2 * k_huge_page;
 
 const bool malloc_is_told = ::mallopt(M_MMAP_THRESHOLD, k_large) && ::mallopt(M_TRIM_THRESHOLD, 4 * k_large);
 
+/// Freed blocks in the order they came, for those who want one of about their size.
+class FreedBlocks {
+ public:
+  void* take(std::size_t size) noexcept {
+    const std::lock_guard lock(mutex_);
+    std::size_t best = count_;
+    for (std::size_t i = 0; i < count_; ++i)
+      if (blocks_[i].size >= size && blocks_[i].size <= size + size / 4 &&
+          (best == count_ || blocks_[i].size < blocks_[best].size))
+        best = i;
+    return best < count_ ? remove(best) : nullptr;
+  }
+
+  void give(void* block, std::size_t size) noexcept {
+    if (size > k_most_bytes) return std::free(block);
+    const std::lock_guard lock(mutex_);
+    while (count_ == blocks_.size() || bytes_ + size > k_most_bytes) std::free(remove(0));
+    blocks_[count_++] = {block, size};
+    bytes_ += size;
+  }
+
+ private:
+  static constexpr std::size_t k_most_bytes = std::size_t{64} << 20;
+
+  struct Block {
+    void* start;
+    std::size_t size;
+  };
+
+  void* remove(std::size_t i) noexcept {
+    void* block = blocks_[i].start;
+    bytes_ -= blocks_[i].size;
+    for (--count_; i < count_; ++i) blocks_[i] = blocks_[i + 1];
+    return block;
+  }
+
+  std::mutex mutex_;
+  std::array<Block, k_most_bytes / k_large> blocks_{};
+  std::size_t count_ = 0, bytes_ = 0;
+};
+
+constinit FreedBlocks freed_blocks;
+
 void* allocate(std::size_t size) noexcept {
   if (size < k_large) return std::malloc(size > 0 ? size : 1);
-  void* block = std::aligned_alloc(k_huge_page, (size + k_huge_page - 1) / k_huge_page * k_huge_page);
-  if (block) ::madvise(block, size, MADV_HUGEPAGE);
+  const std::size_t whole = (size + k_huge_page - 1) / k_huge_page * k_huge_page;
+  if (void* block = freed_blocks.take(whole)) return block;
+  void* block = std::aligned_alloc(k_huge_page, whole);
+  if (block) ::madvise(block, whole, MADV_HUGEPAGE);
   return block;
+}
+
+/// Only what allocate() aligned to huge pages is that large and starts where one does.
+void release(void* block) noexcept {
+  const bool is_large = reinterpret_cast<std::uintptr_t>(block) % k_huge_page == 0 && block;
+  if (is_large && ::malloc_usable_size(block) >= k_large)
+    freed_blocks.give(block, ::malloc_usable_size(block) / k_huge_page * k_huge_page);
+  else
+    std::free(block);
 }
 
 void* allocate_or_throw(std::size_t size) {
@@ -39,9 +97,9 @@ void* operator new(std::size_t size) { return allocate_or_throw(size); }
 void* operator new[](std::size_t size) { return allocate_or_throw(size); }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete[](void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
-void operator delete(void* block, const std::nothrow_t&) noexcept { std::free(block); }
-void operator delete[](void* block, const std::nothrow_t&) noexcept { std::free(block); }
+void operator delete(void* block) noexcept { release(block); }
+void operator delete[](void* block) noexcept { release(block); }
+void operator delete(void* block, std::size_t) noexcept { release(block); }
+void operator delete[](void* block, std::size_t) noexcept { release(block); }
+void operator delete(void* block, const std::nothrow_t&) noexcept { release(block); }
+void operator delete[](void* block, const std::nothrow_t&) noexcept { release(block); }

@@ -26,6 +26,7 @@ void extract_values(const std::vector<T>& values, const std::vector<Triangle>& i
                     std::span<const Index> triangles, std::vector<T>& out_values, std::vector<Triangle>& out_indices) {
   const auto [first, last] = used_range(indices, triangles);
   std::vector<Index> number(last - first, k_no_value);
+  out_values.reserve(std::min(number.size(), triangles.size()));
   out_indices.reserve(triangles.size());
   for (const Index t : triangles) {
     Triangle corners = indices[t];

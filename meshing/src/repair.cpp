@@ -80,6 +80,38 @@ class SharedProgress {
   std::mutex mutex_;
 };
 
+/// The places of numbers in ascending order, equal ones in their own.
+std::vector<Index> order_of(std::span<const std::uint32_t> numbers) {
+  if (numbers.empty()) return {};
+  std::vector<Index> begin(*std::max_element(numbers.begin(), numbers.end()) + std::size_t{2}, 0);
+  for (const std::uint32_t number : numbers) ++begin[number + std::size_t{1}];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Index> order(numbers.size());
+  for (Index i = 0; i < numbers.size(); ++i) order[begin[numbers[i]]++] = i;
+  return order;
+}
+
+/// A number that tells edges apart, whichever way they run.
+std::uint64_t scattered(Index low, Index high) {
+  std::uint64_t bits = (std::uint64_t{high} << 32 | low) * 0x9e3779b97f4a7c15;
+  bits = (bits ^ bits >> 32) * 0xd6e8feb86659fd93;
+  return bits ^ bits >> 32;
+}
+
+/// True when each edge is run as often one way as the other, as on a closed surface of one orientation, and for one in
+/// 2^64 others. Reads the triangles once, where a table of the edges would look up every vertex.
+bool edges_cancel(const std::vector<Triangle>& all, std::span<const Index> triangles) {
+  std::uint64_t sum = 0;
+  for (const Index t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index from = all[t][k], to = all[t][next_corner(k)];
+      if (from == to) continue;
+      const std::uint64_t bits = scattered(std::min(from, to), std::max(from, to));
+      sum += from < to ? bits : -bits;
+    }
+  return sum == 0;
+}
+
 /// Repairs what does not depend on each other one by one, in caches and in parallel: closed solids, and then sets of
 /// surfaces with borders, or inside out, that lie apart.
 class SoupRepair {
@@ -114,7 +146,7 @@ class SoupRepair {
     pieces_.resize(components_.size());
     oneapi::tbb::parallel_for(std::size_t{0}, components_.size(), [&](std::size_t c) {
       const auto triangles = components_.of(c);
-      if (triangles.size() < k_least_solid) return;
+      if (triangles.size() < k_least_solid || !edges_cancel(mesh_.triangles, triangles)) return;
       pieces_[c] = repair_solid(piece(triangles), scale_);
       if (pieces_[c]) progress_.done(static_cast<double>(triangles.size()));
     });
@@ -139,17 +171,25 @@ class SoupRepair {
   }
 
   void repair_others() {
-    const std::vector<std::vector<std::size_t>> sets = parted_by_boxes(others(), margin_);
+    const std::vector<std::vector<Index>> sets = triangles_of_sets(parted_by_boxes(others(), margin_));
     const std::size_t before = pieces_.size();
     pieces_.resize(before + sets.size());
     oneapi::tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
-      std::vector<Index> triangles;
-      for (const std::size_t c : sets[s])
-        triangles.insert(triangles.end(), components_.of(c).begin(), components_.of(c).end());
-      std::sort(triangles.begin(), triangles.end());
       pieces_[before + s] =
-          std::make_unique<RepairResult>(repair_piece(piece(triangles), scale_, progress_.of_piece(triangles.size())));
+          std::make_unique<RepairResult>(repair_piece(piece(sets[s]), scale_, progress_.of_piece(sets[s].size())));
     });
+  }
+
+  /// The triangles of sets of components, ascending within each set.
+  std::vector<std::vector<Index>> triangles_of_sets(const std::vector<std::vector<std::size_t>>& sets) const {
+    std::vector<Index> set_of(mesh_.triangles.size(), k_none);
+    for (std::size_t s = 0; s < sets.size(); ++s)
+      for (const std::size_t c : sets[s])
+        for (const Index t : components_.of(c)) set_of[t] = static_cast<Index>(s);
+    std::vector<std::vector<Index>> triangles(sets.size());
+    for (Index t = 0; t < set_of.size(); ++t)
+      if (set_of[t] != k_none) triangles[set_of[t]].push_back(t);
+    return triangles;
   }
 
   /// All triangles in the order of those they come from.
@@ -161,10 +201,7 @@ class SoupRepair {
       if (piece) append_mesh(all, piece->mesh);
       piece.reset();
     }
-    std::vector<Index> order(all.triangles.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return all.face[a] < all.face[b]; });
-    TriangleMesh result = extract_triangles(all, order);
+    TriangleMesh result = extract_triangles(all, order_of(all.face));
     if (face.empty()) result.face.clear();
     for (std::uint32_t& f : result.face) f = face[f];
     return result;
