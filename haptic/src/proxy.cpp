@@ -15,10 +15,12 @@ namespace {
 constexpr double k_least_gain = 0.02;
 // Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
 constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
-constexpr double k_lead = 0.5;  // Of what is gathered: how far before the proxy its centre lies.
-constexpr int k_pieces = 3;     // Of a way, each with what is gathered where it begins; what is longer asks the tree.
-constexpr double k_far = 1.5;   // Of the probe's way: a proxy that goes farther slips down a slope.
-constexpr double k_anywhere = std::numeric_limits<double>::infinity();
+constexpr double k_lead = 0.5;   // Of what is gathered: how far before the proxy its centre lies.
+constexpr int k_pieces = 3;      // Of a way, each with what is gathered where it begins; what is longer asks the tree.
+constexpr double k_far = 1.5;    // Of the probe's way: a proxy that goes farther slips down a slope.
+constexpr int k_hops = 6;        // Down a slope.
+constexpr double k_lift = 0.25;  // Of the skin: how deep a hollow may be that holds no proxy.
+constexpr int k_leap_sweeps = 3 * k_hops;
 constexpr int k_few = 8;             // Sweeps; one that took more of them has felt its way.
 constexpr double k_held = 0.1;       // Of the probe's way: a proxy that goes no farther is held.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
@@ -27,10 +29,13 @@ constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting
 
 }  // namespace
 
-/// Where the proxy was, where the probe is seen from there, and how far that has come.
+/// What came of one hop: nothing nearer is there, the way is not free, or the proxy was moved.
+enum class Proxy::Hop { none, blocked, moved };
+
+/// Where the proxy was, where the probe is seen from there, how far that has come, and how far one hop may lead.
 struct Proxy::Tick {
   Vec3 start, goal;
-  double travel;
+  double travel, farthest;
 };
 
 /// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
@@ -109,9 +114,8 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
   next.material = planes.plane[loaded].material;
 }
 
-/// Sees to it that what the proxy can meet around `from` is gathered, unless that is too much.
-void Proxy::look_around(Vec3 from, double travel) noexcept {
-  const double needed = k_needed_travels * travel + surface_->skin_m();
+/// Sees to it that what lies within `needed` of `from` is gathered, unless that is too much.
+void Proxy::look_around(Vec3 from, double needed, double travel) noexcept {
   if (surface_->margin(from, near_) < needed) gather(from, needed, travel);
 }
 
@@ -131,7 +135,8 @@ void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
 std::optional<SweepHit> Proxy::sweep(Vec3 from, Vec3 way, double travel) noexcept {
   double seen = 0;
   for (int piece = 0; piece < k_pieces; ++piece) {
-    look_around(from + seen * way, std::min(travel, norm(way)));
+    const double here = std::min(travel, norm(way));
+    look_around(from + seen * way, k_needed_travels * here + surface_->skin_m(), here);
     const double before = seen;
     const auto hit = surface_->sweep(from, from + way, near_, seen);
     if (hit || seen >= 1) return hit;
@@ -175,27 +180,54 @@ void Proxy::touch(const SweepHit& hit, Vec3 way, Planes& planes, Vec3& x, ProxyS
   planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
 }
 
-/// Tries whether the nearest place of all, no farther off than `farthest`, can be reached by a free way along the
-/// surface, whose normal is given, and one down. @returns whether x was moved nearer to the goal; then `planes` is what
-/// it rests on there, as far as it is known.
-bool Proxy::leap(const Tick& tick, Vec3 normal, double farthest, Planes& planes, Vec3& x, ProxyState& next) noexcept {
+/// Goes towards a place to rest by a free way along the surface, whose normal is given, and one down, if that leads
+/// nearer to the goal; then `planes` is what the proxy rests on there, as far as it is known.
+Proxy::Hop Proxy::hop(const Tick& tick, const ContactSurface::Rest& aim, Vec3 normal, double lift_m, Planes& planes,
+                      Vec3& x, ProxyState& next) noexcept {
   const double now = norm(tick.goal - x), tolerance = surface_->tolerance_m();
-  const auto found = surface_->likely_rest(tick.start + tick.goal, now - 2 * tolerance, normal, near_);
-  if (!found) return false;
-  const Vec3 rest = *found - tick.start, over = rest - std::min(dot(normal, rest - x), 0.0) * normal;
+  const Vec3 rest = aim.place - tick.start, up = lift_m * normal;
+  Vec3 over = rest - std::min(dot(normal, rest - x), 0.0) * normal;
   const double way = norm(over - x);
-  if (way <= k_drop * tolerance || way > farthest) return false;
+  if (way <= k_drop * tolerance) return Hop::none;
+  if (way > tick.farthest) over = x + (tick.farthest / way) * (over - x);
+  over = over + up;
+  if (lift_m > 0) {
+    ++next.sweeps;
+    if (sweep(tick.start + x, up, tick.travel)) return Hop::blocked;
+  }
   ++next.sweeps;
-  if (sweep(tick.start + x, over - x, tick.travel)) return false;
+  if (sweep(tick.start + x + up, over - x - up, tick.travel)) return Hop::blocked;
   ++next.sweeps;
-  const Vec3 down = rest - over - 2 * tolerance * normal;
+  const Vec3 down = rest - over;
   const auto hit = sweep(tick.start + over, down, tick.travel);
   const Vec3 there = over + (hit ? hit->t : 1) * down;
-  if (norm(tick.goal - there) >= now - tolerance) return false;
+  if (norm(tick.goal - there) >= now - tolerance) return Hop::none;
   x = there;
   planes.count = 0;
-  if (hit) touch(*hit, down, planes, x, next);
-  return true;
+  next.in_contact = true;
+  if (hit) {
+    touch(*hit, down, planes, x, next);
+  } else {  // Nothing is nearer to the goal: it lies straight behind what is touched.
+    const Vec3 out = normalized(rest - tick.goal);
+    planes.add({out, dot(out, x), aim.material}, x);
+  }
+  return Hop::moved;
+}
+
+/// Tries whether the nearest place of all can be reached by hops. @returns how the last of them ended.
+Proxy::Hop Proxy::leap(const Tick& tick, Vec3 normal, double lift_m, Planes& planes, Vec3& x,
+                       ProxyState& next) noexcept {
+  // A hop's length around, or as much as is likely to fit.
+  look_around(tick.start + x, std::min(tick.farthest, (1 - k_lead) * widest_m_), tick.travel);
+  const double now = norm(tick.goal - x), tolerance = surface_->tolerance_m();
+  const auto aim = surface_->likely_rest(tick.start + tick.goal, now - 2 * tolerance, normal, near_);
+  if (!aim) return Hop::none;
+  Hop last = Hop::moved;
+  for (int i = 0; i < k_hops && last == Hop::moved; ++i) {
+    last = hop(tick, *aim, normal, lift_m, planes, x, next);
+    normal = normalized(x - tick.goal);
+  }
+  return last;
 }
 
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
@@ -217,9 +249,12 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   Vec3 normal = state_.normal;
   double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
   // Along smooth ground the nearest place is at hand most often: two ways lead there, whatever the edges between.
-  const Tick tick{start, goal, travel};
-  if (state_.in_contact && drop == 0 && travel > shortest)
-    if (leap(tick, state_.normal, k_far * travel, planes, x, next)) slid = x;
+  const Tick tick{start, goal, travel, k_far * travel + surface_->skin_m()};
+  bool blocked = false;
+  if (state_.in_contact && drop == 0 && travel > shortest) {
+    blocked = leap(tick, state_.normal, 0, planes, x, next) == Hop::blocked;
+    slid = x;
+  }
   double nearest = planes.count > 0 ? norm(goal - x) : std::numeric_limits<double>::infinity();
   for (;;) {
     const ConstrainedPoint aim = closest_point(goal, planes.plane, planes.count, shortest);
@@ -238,8 +273,10 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
           planes.count = 0;
           continue;
         }
-        const bool settled = leapt || held > 0 || next.sweeps > k_few || norm(x) <= k_far * travel;
-        if (settled || !leap(tick, next.normal, k_anywhere, planes, x, next)) {
+        const bool felt = next.sweeps > k_few || norm(x) <= k_far * travel;
+        const bool settled = leapt || held > 0 || (felt && !blocked) || next.sweeps + k_leap_sweeps > k_steps;
+        if (settled ||
+            leap(tick, next.normal, blocked ? k_lift * surface_->skin_m() : 0, planes, x, next) != Hop::moved) {
           if (aim.count > 1) remember(planes, aim.active, x);
           break;
         }

@@ -110,10 +110,16 @@ class ContactSurface {
   /// known there.
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept;
 
+  /// A place to try.
+  struct Rest {
+    Vec3 place;
+    std::uint32_t material = 0;
+  };
+
   /// Where a probe would rest that is drawn to `goal` and comes from the side of `normal`, if nothing but the nearest
-  /// of the triangles gathered were there: a place to try. Nothing with relief, and when there is no such place within
-  /// `radius_m` of the goal.
-  std::optional<Vec3> likely_rest(Vec3 goal, double radius_m, Vec3 normal, Neighbourhood& near) const noexcept;
+  /// of the triangles gathered were there. Nothing with relief, and when there is no such place within `radius_m` of
+  /// the goal.
+  std::optional<Rest> likely_rest(Vec3 goal, double radius_m, Vec3 normal, Neighbourhood& near) const noexcept;
 
   /// Shaded normals at a resting probe: with f_i the face normals of the triangles that it touches at `proxy` and s_i
   /// their corner normals, interpolated at the nearest points, writes the normal as Σ λ_i f_i with λ_i ≥ 0 and returns
@@ -200,7 +206,8 @@ class ContactSurface {
   Sweep sweep_between(Vec3 from, Vec3 to) const noexcept;
   void sweep_cluster(std::uint32_t cluster, Sweep& sweep) const noexcept;
   void sweep_prisms(Neighbourhood& near, double since, Sweep& sweep) const noexcept;
-  void nearest_in(std::uint32_t i, Vec3 x, const Neighbourhood& near, Vec3& away, double& best) const noexcept;
+  struct NearestSoFar;
+  void nearest_in(std::uint32_t i, Vec3 x, const Neighbourhood& near, NearestSoFar& nearest) const noexcept;
   void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;
   void sweep_one(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept;

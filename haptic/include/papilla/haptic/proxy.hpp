@@ -20,7 +20,7 @@ struct ProxyState {
   double load_m = 0;           ///< Depth along `normal`: distance of the probe behind the surfaces, without the skin.
   bool in_contact = false;     ///< At least one constraint acts.
   bool sliding = false;        ///< The proxy was moved along the surface in this tick.
-  int constraints = 0;         ///< Constraints that act: 1 to 3.
+  int constraints = 0;         ///< Constraints that act: 1 to 3. A crease flatter than the tolerance can be one.
   int sweeps = 0;              ///< Swept tests that the tick took.
   std::uint32_t material = 0;  ///< Of the surface that carries the load.
 };
@@ -74,6 +74,7 @@ class Proxy {
  private:
   struct Tick;
   struct Planes;
+  enum class Hop;
   /// A plane that holds the proxy, relative to it.
   struct Held {
     Vec3 normal;
@@ -85,10 +86,12 @@ class Proxy {
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
   void touch(const SweepHit& hit, Vec3 way, Planes& planes, Vec3& x, ProxyState& next) const noexcept;
-  bool leap(const Tick& tick, Vec3 normal, double farthest, Planes& planes, Vec3& x, ProxyState& next) noexcept;
+  Hop hop(const Tick& tick, const ContactSurface::Rest& aim, Vec3 normal, double lift_m, Planes& planes, Vec3& x,
+          ProxyState& next) noexcept;
+  Hop leap(const Tick& tick, Vec3 normal, double lift_m, Planes& planes, Vec3& x, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
   std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
-  void look_around(Vec3 from, double travel) noexcept;
+  void look_around(Vec3 from, double needed, double travel) noexcept;
   void gather(Vec3 from, double needed, double travel) noexcept;
 
   const ContactSurface* surface_;
