@@ -282,56 +282,6 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood&
   return sweep.best;
 }
 
-/// The nearest triangle of those looked at.
-struct ContactSurface::NearestSoFar {
-  double distance;  ///< Farther ones don't matter.
-  Vec3 away{};      ///< The way there; zero as long as there is none.
-  std::uint32_t place = 0;
-};
-
-/// Takes in the triangles of a block that are nearer. The most promising first: it rules out most of the others.
-void ContactSurface::nearest_in(std::uint32_t i, Vec3 x, const Neighbourhood& near,
-                                NearestSoFar& nearest) const noexcept {
-  const std::uint32_t block = near.block(i);
-  Neighbourhood::Lanes least;
-  std::uint32_t nearer = near.distances(i, x, nearest.distance, least) & ((1U << clusters_.triangles_in(block)) - 1);
-  while (nearer != 0) {
-    auto lane = static_cast<std::uint32_t>(std::countr_zero(nearer));
-    for (std::uint32_t others = nearer & (nearer - 1); others != 0; others &= others - 1) {
-      const auto other = static_cast<std::uint32_t>(std::countr_zero(others));
-      if (least[other] < least[lane]) lane = other;
-    }
-    if (static_cast<double>(least[lane]) >= nearest.distance) return;
-    nearer &= ~(1U << lane);
-    const std::uint32_t place = block * Neighbourhood::k_lanes + lane;
-    const Vec3 d = foot(corners(place), x).point - x;
-    if (norm(d) < nearest.distance) nearest = {norm(d), d, place};
-  }
-}
-
-std::optional<ContactSurface::Rest> ContactSurface::likely_rest(Vec3 goal, double radius_m, Vec3 normal,
-                                                                Neighbourhood& near) const noexcept {
-  if (tallest_ > 0) return std::nullopt;
-  const Vec3 x = goal - origin_;
-  const double contact = contact_radius_m();
-  Neighbourhood::Numbers blocks;
-  Neighbourhood::Distances least;
-  // A goal that is no deeper than the radius lies before the surface.
-  NearestSoFar nearest{radius_m > contact ? radius_m - contact : contact};
-  const std::uint32_t count = near.around(x, nearest.distance, blocks, least);
-  // What no way came near so far is looked at only where it may be nearer than all that is known.
-  for (const bool known : {true, false})
-    for (std::uint32_t b = 0; b < count; ++b) {
-      if (static_cast<double>(least[b]) >= nearest.distance || near.is_made(blocks[b]) != known) continue;
-      if (!known) make_prisms(blocks[b], near);
-      nearest_in(blocks[b], x, near, nearest);
-    }
-  const Vec3 away = nearest.away;
-  if (away == Vec3{}) return std::nullopt;
-  const double beyond = (dot(away, normal) >= 0 ? contact : -contact) / nearest.distance;
-  return Rest{goal + away + beyond * away, material_of(nearest.place)};
-}
-
 /// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
 /// hit. Nothing is met before `since`.
 void ContactSurface::sweep_prisms(Neighbourhood& near, double since, Sweep& sweep) const noexcept {

@@ -20,12 +20,16 @@ constexpr int k_pieces = 3;      // Of a way, each with what is gathered where i
 constexpr double k_far = 1.5;    // Of the probe's way: a proxy that goes farther slips down a slope.
 constexpr int k_hops = 6;        // Down a slope.
 constexpr double k_lift = 0.25;  // Of the skin: how deep a hollow may be that holds no proxy.
-constexpr int k_leap_sweeps = 3 * k_hops;
+constexpr int k_leap_sweeps = 4 * k_hops;
+// Radii aside for one down: a straight way around a rim that cuts 3 % of the radius off.
+constexpr double k_around = 4;
 constexpr int k_few = 8;             // Sweeps; one that took more of them has felt its way.
 constexpr double k_held = 0.1;       // Of the probe's way: a proxy that goes no farther is held.
 constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
 constexpr double k_same_normal = 0.95;
-constexpr double k_drop = 8;  // Of the shortest step: twice as far as a resting proxy can be off.
+constexpr double k_same_way = 0.9;      // Cosine of the angle between two steps along a crease.
+constexpr double k_longest_stride = 4;  // Of what the planes say, where a crease goes on and on.
+constexpr double k_drop = 8;            // Of the shortest step: twice as far as a resting proxy can be off.
 
 }  // namespace
 
@@ -36,6 +40,34 @@ enum class Proxy::Hop { none, blocked, moved };
 struct Proxy::Tick {
   Vec3 start, goal;
   double travel, farthest;
+};
+
+/// What came of a few hops: how the last one ended, and the place they were aimed at.
+struct Proxy::Leap {
+  Hop last = Hop::none;
+  Vec3 aim{};
+};
+
+/// The step before along a crease, which bends while the step is straight.
+struct Proxy::Stride {
+  Vec3 direction;
+  double length = 0, wanted = 0;  ///< As far as it went, and as far as the planes said.
+
+  void take(Vec3 step, double step_wanted) noexcept {
+    length = norm(step);
+    wanted = step_wanted;
+    direction = (1 / length) * step;
+  }
+
+  /// How much longer or shorter the next step has to be than the planes say. From one to the next, what they say
+  /// changes in proportion to the way that was gone, so that the secant leads to where they say that it is there.
+  /// @param farthest how far it may go at most.
+  double factor(Vec3 step, double step_wanted, double farthest) const noexcept {
+    const double along = dot(step, direction), fall = wanted - along;
+    if (length == 0 || std::abs(along) < k_same_way * step_wanted) return 1;
+    const double secant = fall > 0 ? std::abs(along) * length / fall : k_longest_stride * step_wanted;
+    return std::min(secant, farthest) / step_wanted;
+  }
 };
 
 /// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
@@ -180,6 +212,24 @@ void Proxy::touch(const SweepHit& hit, Vec3 way, Planes& planes, Vec3& x, ProxyS
   planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
 }
 
+/// What holds the proxy at the nearest place of all: the goal lies straight behind what is touched. Where that is the
+/// rim of a sheet nothing does, and the proxy slips around it.
+void Proxy::rest_on(const Tick& tick, const ContactSurface::Rest& aim, Planes& planes, Vec3& x,
+                    ProxyState& next) noexcept {
+  const Vec3 out = normalized(x - tick.goal);
+  const Vec3 aside = aim.off - dot(aim.off, out) * out;
+  if (!(aside == Vec3{})) {
+    const double radius = surface_->contact_radius_m();
+    const Vec3 around = (k_around / norm(aside) * radius) * aside - radius * out;
+    ++next.sweeps;
+    if (!sweep(tick.start + x, around, tick.travel)) {
+      if (norm(x + around - tick.goal) < norm(x - tick.goal)) x = x + around;
+      return;
+    }
+  }
+  planes.add({out, dot(out, x), aim.material}, x);
+}
+
 /// Goes towards a place to rest by a free way along the surface, whose normal is given, and one down, if that leads
 /// nearer to the goal; then `planes` is what the proxy rests on there, as far as it is known.
 Proxy::Hop Proxy::hop(const Tick& tick, const ContactSurface::Rest& aim, Vec3 normal, double lift_m, Planes& planes,
@@ -207,27 +257,26 @@ Proxy::Hop Proxy::hop(const Tick& tick, const ContactSurface::Rest& aim, Vec3 no
   next.in_contact = true;
   if (hit) {
     touch(*hit, down, planes, x, next);
-  } else {  // Nothing is nearer to the goal: it lies straight behind what is touched.
-    const Vec3 out = normalized(rest - tick.goal);
-    planes.add({out, dot(out, x), aim.material}, x);
+  } else {
+    rest_on(tick, aim, planes, x, next);
   }
   return Hop::moved;
 }
 
-/// Tries whether the nearest place of all can be reached by hops. @returns how the last of them ended.
-Proxy::Hop Proxy::leap(const Tick& tick, Vec3 normal, double lift_m, Planes& planes, Vec3& x,
-                       ProxyState& next) noexcept {
+/// Tries whether the nearest place of all can be reached by hops.
+Proxy::Leap Proxy::leap(const Tick& tick, Vec3 normal, double lift_m, Planes& planes, Vec3& x,
+                        ProxyState& next) noexcept {
   // A hop's length around, or as much as is likely to fit.
   look_around(tick.start + x, std::min(tick.farthest, (1 - k_lead) * widest_m_), tick.travel);
   const double now = norm(tick.goal - x), tolerance = surface_->tolerance_m();
   const auto aim = surface_->likely_rest(tick.start + tick.goal, now - 2 * tolerance, normal, near_);
-  if (!aim) return Hop::none;
-  Hop last = Hop::moved;
-  for (int i = 0; i < k_hops && last == Hop::moved; ++i) {
-    last = hop(tick, *aim, normal, lift_m, planes, x, next);
+  if (!aim) return {};
+  Leap leap{Hop::moved, aim->place - tick.start};
+  for (int i = 0; i < k_hops && leap.last == Hop::moved; ++i) {
+    leap.last = hop(tick, *aim, normal, lift_m, planes, x, next);
     normal = normalized(x - tick.goal);
   }
-  return last;
+  return leap;
 }
 
 const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
@@ -250,9 +299,10 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
   // Along smooth ground the nearest place is at hand most often: two ways lead there, whatever the edges between.
   const Tick tick{start, goal, travel, k_far * travel + surface_->skin_m()};
-  bool blocked = false;
+  Leap first;
+  Stride stride;
   if (state_.in_contact && drop == 0 && travel > shortest) {
-    blocked = leap(tick, state_.normal, 0, planes, x, next) == Hop::blocked;
+    first = leap(tick, state_.normal, 0, planes, x, next);
     slid = x;
   }
   double nearest = planes.count > 0 ? norm(goal - x) : std::numeric_limits<double>::infinity();
@@ -273,17 +323,22 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
           planes.count = 0;
           continue;
         }
-        const bool felt = next.sweeps > k_few || norm(x) <= k_far * travel;
-        const bool settled = leapt || held > 0 || (felt && !blocked) || next.sweeps + k_leap_sweeps > k_steps;
-        if (settled ||
-            leap(tick, next.normal, blocked ? k_lift * surface_->skin_m() : 0, planes, x, next) != Hop::moved) {
-          if (aim.count > 1) remember(planes, aim.active, x);
-          break;
+        const bool walled = first.last == Hop::blocked && norm(first.aim - x) > travel;
+        const bool slipped = next.sweeps <= k_few && norm(x) > k_far * travel;
+        if (!leapt && held == 0 && (walled || slipped) && next.sweeps + k_leap_sweeps <= k_steps) {
+          leapt = true;
+          const Vec3 before = x;
+          leap(tick, next.normal, walled ? k_lift * surface_->skin_m() : 0, planes, x, next);
+          if (!(x == before)) continue;
         }
-        leapt = true;
-        continue;
+        if (aim.count > 1) remember(planes, aim.active, x);
+        break;
       }
       step = (1 - held / wanted) * step;
+      // Beyond its aim by s the step rises by s²/2·depth: half a tolerance is let pass. Relief says too little from
+      // step to step.
+      if (aim.count > 1 && held == 0 && surface_->tallest_relief_m() == 0)
+        step = stride.factor(step, wanted, wanted + std::sqrt(norm(goal - x) * surface_->tolerance_m())) * step;
     } else {
       free = wanted == 0;
       // A round that started from here and came back no nearer: converged to within the tolerance. Only a proxy that is
@@ -309,6 +364,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
       if (friction(surface_->material(next.material)) > 0) drop = norm(step) + k_drop * shortest;
       normal = next.normal;
       crept = aim.count > 1 && norm(step) > 2 * shortest;
+      if (aim.count > 1) stride.take(step, wanted);
       planes.count = 0;
       continue;
     }

@@ -164,7 +164,8 @@ TEST(ContactAudit, ForgivesTheWayAroundARimButNoneThroughASheet) {
     return audit.lost(probe, k_free);
   };
   EXPECT_FALSE(lost_after(0.0999, {0.1005, 0.05, -0.002}));
-  EXPECT_FALSE(lost_after(0.0995, {0.0999, 0.05, -0.002}));  // Around the rim and back under the sheet.
+  EXPECT_FALSE(lost_after(0.0995, {0.0999, 0.05, -0.002}));    // Around the rim and back under the sheet.
+  EXPECT_FALSE(lost_after(0.09999, {0.09999, 0.05, -0.002}));  // Drawn straight against the rim.
   EXPECT_TRUE(lost_after(0.05, {0.0502, 0.05, -0.002}));
   EXPECT_TRUE(lost_after(0.05, {0.05, 0.05, -0.003}));
   EXPECT_TRUE(lost_after(0.09, {0.0902, 0.05, -0.002}));

@@ -73,6 +73,31 @@ TEST(Proxy, ACreaseIsFollowedInTwoOrThreeSweepsATick) {
   }
 }
 
+/// Nothing holds a proxy on the rim of an open sheet, however straight it is drawn against it.
+TEST(Proxy, SlipsAroundTheRimOfASheet) {
+  const ContactSurface surface(plate(10, 10, 0.1, 0.1), {spring(500)}, {}, 0);
+  for (const Vec3 way : {Vec3{1, 0, 0}, Vec3{0.8, 0.6, 0}, Vec3{0.6, 0.8, 0}}) {
+    for (const double depth : {3e-4, 1e-3, 5e-3}) {
+      Proxy proxy(surface);
+      proxy.reset({0.099, 0.053, 1e-3});
+      Vec3 probe{0.099, 0.053, -depth};
+      for (int i = 0; i < 400; ++i) {
+        proxy.update(probe, k_tick);
+        if (probe.x <= 0.1) {
+          EXPECT_TRUE(proxy.state().in_contact) << probe.x;
+          EXPECT_NEAR(proxy.state().proxy.z, surface.contact_radius_m(), surface.tolerance_m());
+        }
+        if (probe.x > 0.1001) {
+          EXPECT_FALSE(proxy.state().in_contact) << probe.x << ' ' << depth;
+          EXPECT_EQ(proxy.state().proxy, probe);
+        }
+        probe = probe + 1e-5 * way;
+      }
+      EXPECT_GT(probe.x, 0.1001);
+    }
+  }
+}
+
 TEST(Proxy, DampingActsAlongTheNormalAndNeverPulls) {
   ContactMaterial material = spring(500);
   material.damping = 2;

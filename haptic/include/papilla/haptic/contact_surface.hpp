@@ -113,6 +113,7 @@ class ContactSurface {
   /// A place to try.
   struct Rest {
     Vec3 place;
+    Vec3 off;  ///< Unit direction in which the surface seems to end there; zero where it goes on all around.
     std::uint32_t material = 0;
   };
 

@@ -74,7 +74,9 @@ class Proxy {
  private:
   struct Tick;
   struct Planes;
+  struct Stride;
   enum class Hop;
+  struct Leap;
   /// A plane that holds the proxy, relative to it.
   struct Held {
     Vec3 normal;
@@ -86,9 +88,10 @@ class Proxy {
   void hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept;
   bool all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept;
   void touch(const SweepHit& hit, Vec3 way, Planes& planes, Vec3& x, ProxyState& next) const noexcept;
+  void rest_on(const Tick& tick, const ContactSurface::Rest& aim, Planes& planes, Vec3& x, ProxyState& next) noexcept;
   Hop hop(const Tick& tick, const ContactSurface::Rest& aim, Vec3 normal, double lift_m, Planes& planes, Vec3& x,
           ProxyState& next) noexcept;
-  Hop leap(const Tick& tick, Vec3 normal, double lift_m, Planes& planes, Vec3& x, ProxyState& next) noexcept;
+  Leap leap(const Tick& tick, Vec3 normal, double lift_m, Planes& planes, Vec3& x, ProxyState& next) noexcept;
   double friction(const ContactMaterial& material) const noexcept;
   std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
   void look_around(Vec3 from, double needed, double travel) noexcept;
