@@ -15,7 +15,7 @@ namespace papilla {
 ///   - the probe's path since the last reset has gone through the triangles an odd number of times: it is behind a wall
 ///     without being held. That is forgiven when the proxy comes free around the rim of an open sheet: when from where
 ///     it was held a tick ago two straight pieces that meet no triangle lead to where it is now, the first along the
-///     surface the way the proxy was drawn, at most twice as long as the distance. Around a closed surface there is no
+///     surface in one of eight directions, at most twice as long as the distance. Around a closed surface there is no
 ///     such way; through a sheet, farther than that from its rim, neither.
 /// noexcept, no allocation. Costs one segment query, and one closest point when free near the surface.
 class ContactAudit {

@@ -36,11 +36,15 @@ struct ProxyState {
 /// again before the proxy stops. The tick ends when a step is shorter than a quarter of the surface's tolerance, or
 /// after k_steps sweeps; then the proxy still is outside and goes on in the next tick.
 ///
-/// A proxy without friction first tries whether ContactSurface::likely_rest() can be reached by a free way along the
-/// surface and one down, if that is about as far as the probe went: two sweeps instead of two for each facet on the
-/// way. One that went much farther than the probe, in a few sweeps, may have come to rest in the farther of two
-/// hollows: once a tick it tries the same, however far. One that two or three planes held starts from these; one that
-/// is held in a crease goes on for a round more than its gain is worth, as a wall may have fallen away.
+/// A proxy without friction first hops towards ContactSurface::likely_rest(): by a free way along the surface, no
+/// longer than about the probe's own, and one down, until it is there or the way is blocked; two sweeps instead of two
+/// for each facet. There it rests without asking what holds it, where the surface goes on all around; off the rim of a
+/// sheet it slips. Once a tick one that has come to rest elsewhere tries the same again: one that went much farther
+/// than the probe, as it may be in the farther of two hollows, and one that was blocked and is farther from that place
+/// than the probe went, from a quarter of the skin higher up: a hollow that is flatter holds no proxy. One that two or
+/// three planes held starts from these; one that is held in a crease goes on for a round more than its gain is worth,
+/// as a wall may have fallen away. Along a crease without relief, whose bend the planes don't know, steps are stretched
+/// by the secant of the two before: where it bends about the probe, each would be a small part of what is left.
 ///
 /// Friction is Coulomb's on the load: the proxy sticks while the step it wants is at most μ·load, and is moved only
 /// until it equals μ·load. μ fades from static to dynamic with the sliding speed v as μd + (μs − μd)·exp(−(v/vs)²)
