@@ -210,6 +210,9 @@ TEST_F(GltfReader, NamesThePlaceOfAMemberThatIsMissing) {
       {R"("bufferViews":[{"buffer":0,"byteLength":4,"byteStride":3}])",
        "bufferViews[0].byteStride is no multiple of 4"},
       {R"("skins":[{"joints":[0]},{}])", "skins[1].joints is missing"},
+      {R"("cameras":[{"type":"fisheye"}])", "cameras[0].type is no camera type"},
+      {R"("cameras":[{"type":"perspective"}])", "cameras[0].perspective is missing"},
+      {R"("cameras":[{"type":"orthographic","orthographic":1}])", "cameras[0].orthographic is no object"},
       {R"("nodes":[{},7])", "nodes[1] is no object"},
   };
   for (const auto& [json, place] : faults)

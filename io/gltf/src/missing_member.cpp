@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum class Kind { index, number, text, array, object, component_type, accessor_type, stride };
+enum class Kind { index, number, text, array, object, component_type, accessor_type, camera_type, stride };
 
 /// A member that tinygltf insists on. "[]" stands behind an array whose elements have it; what is on the way and not
 /// there requires nothing.
@@ -48,7 +48,7 @@ constexpr std::array k_required = {
     Required{"skins[].joints", Kind::array},
     Required{"animations[].samplers[].input", Kind::index},
     Required{"animations[].samplers[].output", Kind::index},
-    Required{"cameras[].type", Kind::text},
+    Required{"cameras[].type", Kind::camera_type},
     Required{"extensions.KHR_lights_punctual.lights[].type", Kind::text},
     Required{"cameras[].perspective.yfov", Kind::number},
     Required{"cameras[].perspective.znear", Kind::number},
@@ -76,6 +76,7 @@ std::pair<bool, std::string_view> is_of(const Json& value, Kind kind) {
       return {is_one_of(value, {5120, 5121, 5122, 5123, 5124, 5125, 5126, 5130}), "is no component type"};
     case Kind::accessor_type:
       return {is_one_of(value, {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}), "is no accessor type"};
+    case Kind::camera_type: return {is_one_of(value, {"perspective", "orthographic"}), "is no camera type"};
     case Kind::stride:
       return {is_index(value) && value.get<std::int64_t>() % 4 == 0 && value.get<std::int64_t>() <= 252,
               "is no multiple of 4 up to 252"};
@@ -106,12 +107,24 @@ std::string find_in(const Json& value, std::string_view path, const Required& re
   return path.empty() && !required.may_be_missing ? member + " is missing" : "";
 }
 
+/// A camera has the member that its type names.
+std::string find_camera_without_lens(const Json& document) {
+  const auto cameras = document.find("cameras");
+  if (cameras == document.end()) return "";
+  for (std::size_t i = 0; i < cameras->size(); ++i) {
+    const auto& camera = (*cameras)[i];
+    const std::string place = "cameras[" + std::to_string(i) + "]", lens = camera.at("type").get<std::string>();
+    if (std::string found = find_in(camera, lens, {"", Kind::object}, place); !found.empty()) return found;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string find_missing_member(const Json& document) {
   for (const Required& required : k_required)
     if (std::string found = find_in(document, required.path, required, ""); !found.empty()) return found;
-  return "";
+  return find_camera_without_lens(document);
 }
 
 }  // namespace papilla::gltf
