@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Puts large blocks of memory on huge pages: the arrays of a mesh of millions of triangles are walked out of order, and
 // with small pages a quarter of that time goes to page tables. Replaces the global operator new of a program that
-// links this file; where the kernel offers no huge pages nothing changes. Large blocks go back to the system when they
-// are freed: malloc would raise its limit for that to 32 MiB and keep what the tasks of a repair leave behind. What is
-// smaller stays: a heap that shrinks and grows with every chart of a part would be cleared page by page each time. The
-// large blocks freed last, 64 MiB of them, are handed out again instead, as the system clears what it gives.
+// links this file; where the kernel offers no huge pages nothing changes. The large blocks freed last, 64 MiB of them,
+// are handed out again, as the system clears what it gives; the others go back to it when they are freed: malloc would
+// raise its limit for that to 32 MiB and keep what the tasks of a repair leave behind. What is smaller stays: a heap
+// that shrinks and grows with every chart of a part would be cleared page by page each time.
 #include <malloc.h>
 #include <sys/mman.h>
 

@@ -20,7 +20,7 @@ constexpr int k_pieces = 3;      // Of a way, each with what is gathered where i
 constexpr double k_far = 1.5;    // Of the probe's way: a proxy that goes farther slips down a slope.
 constexpr int k_hops = 6;        // Down a slope.
 constexpr double k_lift = 0.25;  // Of the skin: how deep a hollow may be that holds no proxy.
-constexpr int k_leap_sweeps = 4 * k_hops;
+constexpr int k_leap_sweeps = 4 * k_hops;  // At most: up, along, down, and off a rim.
 // Radii aside for one down: a straight way around a rim that cuts 3 % of the radius off.
 constexpr double k_around = 4;
 constexpr int k_few = 8;             // Sweeps; one that took more of them has felt its way.

@@ -6,16 +6,10 @@
 #include <cstdint>
 
 #include "mesh_attributes.hpp"
+#include "scramble.hpp"
 
 namespace papilla::detail {
 namespace {
-
-constexpr std::uint64_t scramble(std::uint64_t x) noexcept {
-  x ^= x >> 32;
-  x *= 0xd6e8feb86659fd93u;
-  x ^= x >> 32;
-  return x;
-}
 
 std::uint64_t hash(const Vec3& p) noexcept {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0); };  // -0 + 0 is +0

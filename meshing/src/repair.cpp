@@ -17,6 +17,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "repair_piece.hpp"
+#include "scramble.hpp"
 #include "triangle_shape.hpp"
 
 namespace papilla {
@@ -91,23 +92,17 @@ std::vector<Index> order_of(std::span<const std::uint32_t> numbers) {
   return order;
 }
 
-/// A number that tells edges apart, whichever way they run.
-std::uint64_t scattered(Index low, Index high) {
-  std::uint64_t bits = (std::uint64_t{high} << 32 | low) * 0x9e3779b97f4a7c15;
-  bits = (bits ^ bits >> 32) * 0xd6e8feb86659fd93;
-  return bits ^ bits >> 32;
-}
-
-/// True when each edge is run as often one way as the other, as on a closed surface of one orientation, and for one in
-/// 2^64 others. Reads the triangles once, where a table of the edges would look up every vertex.
+/// True when each edge is run as often one way as the other, as on a closed surface of one orientation; else only by
+/// chance. Reads the triangles once, where a table of the edges would look up every vertex.
 bool edges_cancel(const std::vector<Triangle>& all, std::span<const Index> triangles) {
   std::uint64_t sum = 0;
   for (const Index t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index from = all[t][k], to = all[t][next_corner(k)];
       if (from == to) continue;
-      const std::uint64_t bits = scattered(std::min(from, to), std::max(from, to));
-      sum += from < to ? bits : -bits;
+      const auto [low, high] = std::minmax(from, to);
+      const std::uint64_t edge = scramble(scramble(std::uint64_t{high} << 32 | low));
+      sum += from < to ? edge : -edge;
     }
   return sum == 0;
 }

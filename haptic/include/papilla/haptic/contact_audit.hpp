@@ -17,7 +17,9 @@ namespace papilla {
 ///     it was held a tick ago two straight pieces that meet no triangle lead to where it is now, the first along the
 ///     surface in one of eight directions, at most twice as long as the distance. Around a closed surface there is no
 ///     such way; through a sheet, farther than that from its rim, neither.
-/// noexcept, no allocation. Costs one segment query, and one closest point when free near the surface.
+/// noexcept, no allocation. Costs one segment query, and one closest point when free near the surface; up to 224
+/// segment queries more in the one tick in which the proxy comes free behind a wall, among two million triangles 0.2 ms
+/// when no way around is found.
 class ContactAudit {
  public:
   explicit ContactAudit(const ContactSurface& surface) noexcept : surface_(&surface) {}
