@@ -20,12 +20,14 @@ void switch_off(const HidInfo& info, const std::vector<HidReport>& reports) {
 
 }  // namespace
 
-DeviceChoice parse_device(const std::string& text) {
+DeviceChoice parse_device(const std::string& text) try {
   if (text == "sim") return {&device_presets().front(), {}};
   if (text.starts_with("sim:")) return {&device_preset(text.substr(4)), {}};
   if (text == "hid") return {};
   if (text.starts_with("hid:")) return {nullptr, parse_hid_filter(text.substr(4))};
-  throw app::UsageError("--device " + text + ": is not sim, sim:PRESET, hid or hid:VID:PID[:SERIAL]");
+  throw InvalidInput("--device " + text + ": is not sim, sim:PRESET, hid or hid:VID:PID[:SERIAL]");
+} catch (const Error& error) {
+  throw app::UsageError(error.what());
 }
 
 OpenedDevice::OpenedDevice(const HidFilter& filter, Vec3 origin) {

@@ -19,7 +19,7 @@ struct DeviceChoice {
   HidFilter filter;
 };
 
-/// @throws app::UsageError for another form, InvalidInput for a wrong number, DeviceError for an unknown preset.
+/// @throws app::UsageError for another form, a wrong number, an unknown preset.
 DeviceChoice parse_device(const std::string& text);
 
 /// A force device on the bus and the process that switches it off when this one dies.

@@ -24,6 +24,8 @@ constexpr int k_priority = 80;  // Below the kernel's own threads at 99, above i
 constexpr std::uint64_t k_longest_recording = 20'000'000;
 constexpr double k_longest_frame_s = 0.05;    // A device that is silent for longer is seen by the guard.
 constexpr double k_largest_lag_periods = 10;  // After a longer stall the clock starts anew instead of catching up.
+// How long before a tick the loop is to be awake, of a period and at most: waking takes some of that, the rest is spun.
+constexpr double k_early_share = 0.05, k_longest_spin_ns = 5e4;
 
 double seconds_of(clockid_t clock) noexcept {
   timespec t{};
@@ -34,19 +36,26 @@ double seconds_of(clockid_t clock) noexcept {
 /// Absolute times of the ticks, in nanoseconds of the monotonic clock.
 class Pacer {
  public:
-  explicit Pacer(double period_s) noexcept : period_ns_(period_s * 1e9), start_ns_(now_ns()) {}
+  explicit Pacer(double period_s) noexcept
+      : period_ns_(period_s * 1e9),
+        early_ns_(std::min(k_early_share * period_ns_, k_longest_spin_ns)),
+        start_ns_(now_ns()) {}
 
-  /// Sleeps until tick `i` and returns how late it woke up, in microseconds; nothing when the tick is due already, so
-  /// that one stall counts once, as in cyclictest, and not for every tick that it has delayed.
+  /// Sleeps until just before tick `i`, spins until it is due and returns how late that ended, in microseconds; nothing
+  /// when the tick is due already, so that one stall counts once, as in cyclictest, and not for every tick that it has
+  /// delayed.
   std::optional<double> wait(std::uint64_t i) noexcept {
     const double due = due_ns(i);
     if (now_ns() >= due) return std::nullopt;
     timespec t{};
-    t.tv_sec = static_cast<time_t>(due / 1e9);
-    t.tv_nsec = static_cast<long>(due - 1e9 * static_cast<double>(t.tv_sec));
+    const double wake = due - early_ns_;
+    t.tv_sec = static_cast<time_t>(wake / 1e9);
+    t.tv_nsec = static_cast<long>(wake - 1e9 * static_cast<double>(t.tv_sec));
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
     }
-    return std::max(0.0, (now_ns() - due) * 1e-3);
+    double now = now_ns();
+    while (now < due) now = now_ns();
+    return (now - due) * 1e-3;
   }
 
   /// Whether tick i + 1 should have begun. After a long stall later ticks are moved.
@@ -64,7 +73,7 @@ class Pacer {
   }
   double due_ns(std::uint64_t i) const noexcept { return start_ns_ + period_ns_ * static_cast<double>(i + 1); }
 
-  double period_ns_, start_ns_;
+  double period_ns_, early_ns_, start_ns_;
 };
 
 /// Fixed priority and locked memory as long as it lives, where the system grants them.

@@ -16,6 +16,12 @@ void Histogram::add(double microseconds) noexcept {
   max_ = std::max(max_, value);
 }
 
+void Histogram::add(const Histogram& other) noexcept {
+  for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
+  count_ += other.count_;
+  max_ = std::max(max_, other.max_);
+}
+
 double Histogram::quantile(double q) const noexcept {
   if (count_ == 0) return 0;
   const double wanted = std::max(1.0, std::ceil(q * static_cast<double>(count_)));

@@ -42,11 +42,11 @@ CadRun cad_run(const Part& part, long ticks, int seeds);
 /// A sphere of 0.1 m; the reference is the global closest point.
 LongRun sphere_run(long triangles, long ticks, int seeds);
 
-/// p99.9 of the wake-up of our loop and of cyclictest, in turn, in microseconds; nothing without cyclictest.
+/// p99.9 of the wake-up of our loop and of cyclictest at 1 kHz, in turn; nothing without cyclictest.
 struct WakeUp {
   double ours_us = 0, cyclictest_us = 0;
 };
-std::optional<WakeUp> wake_up(int seconds);
+std::optional<WakeUp> wake_up();
 
 /// Length of a program without its symbols; nothing without strip.
 std::optional<long> stripped_bytes(const std::string& program);

@@ -56,6 +56,21 @@ TEST(HapticLoop, StrokeIsFeltAndNeverLost) {
   EXPECT_FALSE(run.result.device_lost);
 }
 
+/// The loop is awake before a tick is due, and waits.
+TEST(HapticLoop, TicksBeginWhenTheyAreDue) {
+  const ContactSurface surface = stable_plate();
+  const Trajectory hand = press_and_stroke(surface, 0, {0.05, 0.05, 0}, {});
+  for (const double rate : {100.0, 1000.0, 10000.0}) {
+    SimDevice device(device_preset("touch").caps(), hand, 1 / rate);
+    LoopOptions options;
+    options.rate_hz = rate;
+    options.ticks = 10;
+    const LoopResult result = run_haptic_loop(device, surface, options);
+    EXPECT_GE(result.seconds, 10 / rate);
+    EXPECT_LE(result.wakeup_us.count(), 10U);
+  }
+}
+
 TEST(HapticLoop, RecordingPlayedAgainGivesTheSameBits) {
   const ContactSurface surface = stable_plate();
   const Trajectory hand = press_and_stroke(surface, 0, {0.05, 0.05, 0}, {});
@@ -229,6 +244,15 @@ TEST(Histogram, QuantilesOfKnownNumbers) {
   EXPECT_EQ(h.max(), 1000);
   EXPECT_EQ(h.quantile(1), 1000);
   EXPECT_EQ(Histogram().quantile(0.5), 0);
+
+  Histogram slow, both;
+  for (int i = 1001; i <= 2000; ++i) slow.add(i);
+  both.add(h);
+  both.add(slow);
+  EXPECT_EQ(both.count(), 2000U);
+  EXPECT_EQ(both.max(), 2000);
+  EXPECT_NEAR(both.quantile(0.5), 1000, 1000 * 0.011);
+  EXPECT_NEAR(both.quantile(0.75), 1500, 1500 * 0.011);
 }
 
 }  // namespace

@@ -96,6 +96,31 @@ TEST(Proxy, SlipsAroundTheRimOfASheet) {
       }
 }
 
+/// The skin rounds a step of a sheet to a slope that a deep probe would not be drawn up until it is far beyond. One
+/// lower than a quarter of the skin, as between sheets that should be one, is passed as soon as the nearest place is.
+TEST(Proxy, LowStepsHoldNothing) {
+  constexpr double edge = 0.05, width = 0.1;
+  for (const double height : {1e-6, 3e-6, 4.8e-6}) {
+    ContactMesh mesh = height_grid(3, 10, width, 0.1, [=](double x, double) { return x > edge ? height : 0; });
+    for (Vec3& p : mesh.positions)
+      if (p.x > 0 && p.x < width) p.x = edge;
+    const ContactSurface surface(std::move(mesh), {spring(500)}, {}, 0);
+    ASSERT_LT(height, surface.skin_m() / 4);
+    for (const double depth : {1e-3, 5e-3})
+      for (const Vec3 way : {Vec3{1, 0, 0}, Vec3{0.6, 0.8, 0}}) {
+        constexpr double step = 2e-4;
+        Proxy proxy(surface);
+        proxy.reset({0.045, 0.03, 1e-3});
+        for (Vec3 probe{0.045, 0.03, -depth}; probe.x < 0.055; probe = probe + step * way) {
+          const ProxyState& state = proxy.update(probe, k_tick);
+          EXPECT_TRUE(state.in_contact);
+          EXPECT_LT(norm(state.proxy - Vec3{probe.x, probe.y, state.proxy.z}), 2 * step) << probe.x;
+        }
+        EXPECT_NEAR(proxy.state().proxy.z, height + surface.contact_radius_m(), surface.tolerance_m());
+      }
+  }
+}
+
 TEST(Proxy, DampingActsAlongTheNormalAndNeverPulls) {
   ContactMaterial material = spring(500);
   material.damping = 2;

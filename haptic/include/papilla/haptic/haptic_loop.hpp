@@ -47,8 +47,8 @@ struct LoopResult {
   double seconds = 0;  ///< Wall time of the loop.
   std::uint64_t passivity_interventions = 0;
   double max_force_n = 0;  ///< Largest force written.
-  Histogram wakeup_us;  ///< How late the loop woke up, of the ticks that it slept for: the others are missed deadlines.
-  Histogram tick_us;    ///< CPU time of the thread from reading the position to writing the force.
+  Histogram wakeup_us;     ///< How late ticks began, of those that the loop slept for: the others are missed deadlines.
+  Histogram tick_us;       ///< CPU time of the thread from reading the position to writing the force.
   bool fixed_priority = false, memory_locked = false;
   std::string realtime_note;  ///< Why one of them was refused; empty when both hold.
   bool device_lost = false;
@@ -59,9 +59,10 @@ struct LoopResult {
 /// lost or the guard reports a fault; then writes zero force and stops the device, on every way out.
 ///
 /// A device that is a clock paces the loop by its own frames instead; `rate_hz` then only says how long a tick is.
-/// Asks for SCHED_FIFO and locked memory and goes on without them. Wakes at absolute times, so that delays don't add
-/// up; a tick that ends after the next one should have begun is a missed deadline. With a simulated device the
-/// recording is the same bit for bit on every run, whatever the timing.
+/// Asks for SCHED_FIFO and locked memory and goes on without them. Ticks begin at absolute times, so that delays don't
+/// add up; the loop sleeps until 5 % of a period, at most 50 µs, before them and spins for the rest. A tick that ends
+/// after the next one should have begun is a missed deadline. With a simulated device the recording is the same bit for
+/// bit on every run, whatever the timing.
 /// @throws InvalidInput when the rate is not in [1, 100000] or a recording would need more than 20 million ticks.
 LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, const LoopOptions& options);
 

@@ -11,6 +11,7 @@ namespace papilla {
 class Histogram {
  public:
   void add(double microseconds) noexcept;
+  void add(const Histogram& other) noexcept;
   /// The value that a share q ∈ [0, 1] of the durations don't exceed; 0 when empty.
   double quantile(double q) const noexcept;
   double max() const noexcept { return max_; }
