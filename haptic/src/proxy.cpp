@@ -97,7 +97,7 @@ void Proxy::reset(Vec3 position) noexcept {
   state_.proxy = position;
   probe_ = position;
   near_.clear();
-  held_count_ = 0;
+  held_count_ = turn_count_ = 0;
   slide_speed_ = 0;
   started_ = true;
 }
@@ -145,6 +145,8 @@ void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, P
   next.load_m = std::max(0.0, depth - surface_->skin_m());
   next.material = planes.plane[loaded].material;
 }
+
+void Proxy::turn(Vec3 at) noexcept { turns_[static_cast<std::size_t>(turn_count_++)] = at; }
 
 /// Sees to it that what lies within `needed` of `from` is gathered, unless that is too much.
 void Proxy::look_around(Vec3 from, double needed, double travel) noexcept {
@@ -223,7 +225,9 @@ void Proxy::rest_on(const Tick& tick, const ContactSurface::Rest& aim, Planes& p
     const Vec3 around = (k_around / norm(aside) * radius) * aside - radius * out;
     ++next.sweeps;
     if (!sweep(tick.start + x, around, tick.travel)) {
-      if (norm(x + around - tick.goal) < norm(x - tick.goal)) x = x + around;
+      if (norm(x + around - tick.goal) >= norm(x - tick.goal)) return;
+      x = x + around;
+      turn(tick.start + x);
       return;
     }
   }
@@ -252,6 +256,9 @@ Proxy::Hop Proxy::hop(const Tick& tick, const ContactSurface::Rest& aim, Vec3 no
   const auto hit = sweep(tick.start + over, down, tick.travel);
   const Vec3 there = over + (hit ? hit->t : 1) * down;
   if (norm(tick.goal - there) >= now - tolerance) return Hop::none;
+  if (lift_m > 0) turn(tick.start + x + up);
+  turn(tick.start + over);
+  turn(tick.start + there);
   x = there;
   planes.count = 0;
   next.in_contact = true;
@@ -289,6 +296,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
   const Vec3 start = state_.proxy;  // Everything below is relative to it: small numbers, full precision.
   const Vec3 goal = probe - start;
 
+  turn_count_ = 0;
   ProxyState next;
   Planes planes;
   recall(goal, planes);
@@ -357,6 +365,7 @@ const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
     const Vec3 way = step;
     step = (hit ? hit->t : 1) * step;
     x = x + step;
+    turn(start + x);
     if (aim.count > 0) slid = slid + step;
     free = !hit && planes.count == 0;
     if (free) break;

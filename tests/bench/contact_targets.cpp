@@ -41,13 +41,13 @@ void run(const ContactSurface& surface, long ticks, Vec3 start, Probe&& probe, R
   auto proxy = std::make_unique<Proxy>(surface);
   ContactAudit audit(surface);
   proxy->reset(start);
-  audit.lost(start, proxy->state());
+  audit.lost(start, proxy->state(), {});
   Vec3 last_probe = start;
   for (long i = 0; i < ticks; ++i) {
     const Vec3 at = probe(i), before = proxy->state().proxy;
     const long allocated = allocations(), locked = locks();
     proxy->update(at, k_period);
-    const bool lost = audit.lost(at, proxy->state());
+    const bool lost = audit.lost(at, proxy->state(), proxy->turns());
     sum.allocations += allocations() - allocated;
     sum.locks += locks() - locked;
     sum.lost += lost;

@@ -150,12 +150,15 @@ TEST(HapticLoop, RefusesImpossibleRates) {
   }
 }
 
-const ProxyState k_free{};
+ProxyState free_at(Vec3 proxy) {
+  ProxyState state;
+  state.proxy = proxy;
+  return state;
+}
 
 ProxyState held_at(Vec3 proxy) {
-  ProxyState state;
+  ProxyState state = free_at(proxy);
   state.in_contact = true;
-  state.proxy = proxy;
   state.normal = {0, 0, 1};
   return state;
 }
@@ -163,27 +166,46 @@ ProxyState held_at(Vec3 proxy) {
 TEST(ContactAudit, SeesAProxyThatLetsGo) {
   const ContactSurface surface(testing::box({0, 0, 0}, {0.1, 0.1, 0.1}), {ContactMaterial{}}, {}, 0);
   ContactAudit audit(surface);
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.12}, k_free));
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.099}, held_at({0.03, 0.04, 0.10002})));
-  EXPECT_TRUE(audit.lost({0.03, 0.04, 0.098}, k_free));
-  EXPECT_TRUE(audit.lost({0.04, 0.04, 0.050}, k_free));
-  EXPECT_FALSE(audit.lost({0.04, 0.04, 0.12}, k_free));
+  const auto lost = [&](Vec3 probe, const ProxyState& state) { return audit.lost(probe, state, {}); };
+  const auto free = [&](Vec3 probe) { return lost(probe, free_at(probe)); };
+  EXPECT_FALSE(free({0.03, 0.04, 0.12}));
+  EXPECT_FALSE(lost({0.03, 0.04, 0.099}, held_at({0.03, 0.04, 0.10002})));
+  EXPECT_TRUE(free({0.03, 0.04, 0.098}));
+  EXPECT_TRUE(free({0.04, 0.04, 0.050}));
+  EXPECT_TRUE(free({0.04, 0.04, 0.12}));  // Not held from within either.
+  EXPECT_FALSE(free({0.04, 0.04, 0.13}));
+  EXPECT_TRUE(free({0.04, 0.04, -0.13}));  // Through both sides at once.
+  EXPECT_FALSE(free({0.04, 0.05, -0.13}));
 }
 
-TEST(ContactAudit, ForgivesTheWayAroundARimButNoneThroughASheet) {
+TEST(ContactAudit, SeesAProxyThatIsHeldBehindAWall) {
+  const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
+  ContactAudit audit(surface);
+  EXPECT_FALSE(audit.lost({0.03, 0.04, -0.001}, held_at({0.03, 0.04, 2e-5}), {}));
+  EXPECT_TRUE(audit.lost({0.03, 0.04, -0.001}, held_at({0.03, 0.04, -2e-5}), {}));
+}
+
+TEST(ContactAudit, SeesAFreeProxyThatDoesNotFollow) {
+  const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
+  ContactAudit audit(surface);
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.02}, free_at({0.03, 0.04, 0.02}), {}));
+  EXPECT_TRUE(audit.lost({0.03, 0.04, -0.02}, free_at({0.03, 0.04, 0.01}), {}));
+}
+
+/// Around a rim there is a free way, whatever the proxy says; a way through the sheet is none, whatever it says.
+TEST(ContactAudit, KnowsTheWayAroundARim) {
   const ContactSurface sheet(testing::plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
-  const auto lost_after = [&](double held_x, Vec3 probe) {
+  const auto lost_after = [&](Vec3 held, Vec3 probe, std::vector<Vec3> turns) {
     ContactAudit audit(sheet);
-    EXPECT_FALSE(audit.lost({held_x, 0.05, 0.01}, k_free));
-    EXPECT_FALSE(audit.lost({held_x, 0.05, -0.002}, held_at({held_x, 0.05, 2e-5})));
-    return audit.lost(probe, k_free);
+    EXPECT_FALSE(audit.lost({held.x, held.y, -0.002}, held_at(held), {}));
+    return audit.lost(probe, free_at(probe), turns);
   };
-  EXPECT_FALSE(lost_after(0.0999, {0.1005, 0.05, -0.002}));
-  EXPECT_FALSE(lost_after(0.0995, {0.0999, 0.05, -0.002}));    // Around the rim and back under the sheet.
-  EXPECT_FALSE(lost_after(0.09999, {0.09999, 0.05, -0.002}));  // Drawn straight against the rim.
-  EXPECT_TRUE(lost_after(0.05, {0.0502, 0.05, -0.002}));
-  EXPECT_TRUE(lost_after(0.05, {0.05, 0.05, -0.003}));
-  EXPECT_TRUE(lost_after(0.09, {0.0902, 0.05, -0.002}));
+  const Vec3 above{0.0995, 0.05, 2e-5}, under{0.0992, 0.05, -0.002}, beyond{0.1001, 0.05, 0};
+  EXPECT_FALSE(lost_after(above, {0.1005, 0.05, -0.002}, {{0.1001, 0.05, 2e-5}}));
+  EXPECT_FALSE(lost_after(above, under, {beyond}));
+  EXPECT_TRUE(lost_after(above, under, {}));
+  EXPECT_TRUE(lost_after(above, under, {{0.0999, 0.05, 0.001}}));
+  EXPECT_TRUE(lost_after({0.05, 0.05, 2e-5}, {0.05, 0.05, -0.002}, {}));
 }
 
 TEST(ContactAudit, SeesAProxyInTheRelief) {
@@ -193,8 +215,8 @@ TEST(ContactAudit, SeesAProxyInTheRelief) {
   options.scale_m = 1e-3;
   const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {material}, {HeightField(1, 1, {65535}, options)}, 0);
   ContactAudit audit(surface);
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 2e-3}, k_free));
-  EXPECT_TRUE(audit.lost({0.03, 0.04, 5e-4}, k_free));
+  EXPECT_FALSE(audit.lost({0.03, 0.04, 2e-3}, free_at({0.03, 0.04, 2e-3}), {}));
+  EXPECT_TRUE(audit.lost({0.03, 0.04, 5e-4}, free_at({0.03, 0.04, 5e-4}), {}));
 }
 
 TEST(Stroke, StaysAtItsDepthAndSpeedOnASphere) {

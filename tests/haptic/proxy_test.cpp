@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "haptic/contact_shapes.hpp"
+#include "papilla/haptic/contact_audit.hpp"
 #include "papilla/haptic/force_model.hpp"
 
 namespace papilla {
@@ -119,6 +121,40 @@ TEST(Proxy, LowStepsHoldNothing) {
         EXPECT_NEAR(proxy.state().proxy.z, height + surface.contact_radius_m(), surface.tolerance_m());
       }
   }
+}
+
+/// Loose triangles that cross each other have rims, wedges and narrow ends, and no inside.
+TEST(Proxy, NeverPassesATriangleOfASoup) {
+  for (const unsigned seed : {1U, 2U, 3U})
+    for (const double radius : {0.0, 1e-3})
+      for (const double step : {1e-4, 2e-3}) {
+        std::mt19937_64 random(seed);
+        const auto uniform = [&](double low, double high) {
+          return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11), -53);
+        };
+        const auto place = [&](double size) { return Vec3{uniform(0, size), uniform(0, size), uniform(0, size)}; };
+        ContactMesh mesh;
+        for (std::uint32_t t = 0; t < 200; ++t) {
+          const Vec3 at = place(0.1);
+          for (int k = 0; k < 3; ++k) mesh.positions.push_back(at + place(0.05));
+          mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+        }
+        const ContactSurface surface(std::move(mesh), {spring(500)}, {}, radius);
+        Proxy proxy(surface);
+        ContactAudit audit(surface);
+        Vec3 probe{-0.01, 0.05, 0.05}, way{step, 0, 0};
+        proxy.reset(probe);
+        int held = 0, lost = audit.lost(probe, proxy.state(), proxy.turns());
+        for (int i = 0; i < 5000; ++i) {
+          way = way + 0.3 * step * (place(2) - Vec3{1, 1, 1}) + 2 * step * (Vec3{0.075, 0.075, 0.075} - probe);
+          way = (step / norm(way)) * way;
+          probe = probe + way;
+          held += proxy.update(probe, k_tick).in_contact;
+          lost += audit.lost(probe, proxy.state(), proxy.turns());
+        }
+        EXPECT_GT(held, 500) << seed << ' ' << radius << ' ' << step;
+        EXPECT_EQ(lost, 0) << seed << ' ' << radius << ' ' << step;
+      }
 }
 
 TEST(Proxy, DampingActsAlongTheNormalAndNeverPulls) {

@@ -43,7 +43,7 @@ class HapticTick {
     last_ = probe;
     started_ = true;
     const ProxyState& state = proxy_.update(probe, period_);
-    lost_ = audit_.lost(probe, state);
+    lost_ = audit_.lost(probe, state, proxy_.turns());
     Vec3 force = heightfield_force(*surface_, state, probe, velocity_) + bristles(state, moved);
     if (stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
     if (passivity_) force = passivity_->apply(force, moved, period_);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "papilla/core/vec.hpp"
 #include "papilla/haptic/contact_surface.hpp"
@@ -75,6 +76,9 @@ class Proxy {
 
   const ProxyState& state() const noexcept { return state_; }
 
+  /// Where the proxy was between the pieces of its way in the last tick, each of which was swept.
+  std::span<const Vec3> turns() const noexcept { return {turns_.data(), static_cast<std::size_t>(turn_count_)}; }
+
  private:
   struct Tick;
   struct Planes;
@@ -100,6 +104,7 @@ class Proxy {
   std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
   void look_around(Vec3 from, double needed, double travel) noexcept;
   void gather(Vec3 from, double needed, double travel) noexcept;
+  void turn(Vec3 at) noexcept;
 
   const ContactSurface* surface_;
   ProxyState state_;
@@ -109,6 +114,8 @@ class Proxy {
   Vec3 ahead_;                  // Unit direction of the probe's way in this tick; zero when that is short.
   std::array<Held, 3> held_{};  // Planes of the tick before, relative to the proxy.
   int held_count_ = 0;
+  std::array<Vec3, k_steps> turns_{};  // One for each sweep at most.
+  int turn_count_ = 0;
   Neighbourhood near_;
   double widest_m_ = 1;  // Radius that is likely to fit into near_.
 };
