@@ -66,5 +66,32 @@ TEST(RenderTriangles, ShowsBordersAndNoEdgesBetweenTriangles) {
   EXPECT_GT(red_pixels(loose), red_pixels(joined) + 50);
 }
 
+/// The corners of large triangles lie behind a camera that is near: what is before it is drawn all the same, with the
+/// checker at the size that it has there.
+TEST(CloseUp, ShowsTrianglesThatGoOnBehindTheCamera) {
+  const auto dark_pixels = [](Vec3 third, Vec3 fourth) {
+    Part part;
+    part.mesh.positions = {{-1000, -1000, 0}, {1000, -1000, 0}, third, fourth};
+    part.mesh.triangles = part.mesh.uv.indices = {{0, 1, 2}, {0, 2, 3}};
+    for (const Vec3& p : part.mesh.positions) part.mesh.uv.values.push_back({p.x / 1000, p.y / 1000});
+    part.materials = {0};
+    Scene scene = single_part_scene(std::move(part), "test");
+    scene.materials.resize(1);
+    RenderOptions options{.mode = RenderMode::checker, .width = 200, .height = 200};
+    options.close_up = CloseUp{{3, 4, 0}, {0, 0, 1}, 100};
+    options.mm_per_uv = {{1000, 1000}};
+    const ColorImage picture = render_scene(scene, options);
+    int dark = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 3) {
+      EXPECT_LT(picture.pixels[i + 2], 200) << "background at pixel " << i / 3;
+      dark += picture.pixels[i] < picture.pixels[i + 2];
+    }
+    return dark;
+  };
+  const int square = dark_pixels({1000, 1000, 0}, {-1000, 1000, 0});
+  EXPECT_NEAR(square, 200 * 200 / 2, 2000);
+  EXPECT_EQ(dark_pixels({2000, 9000, 0}, {-900, 8000, 0}), square);
+}
+
 }  // namespace
 }  // namespace papilla::app

@@ -12,6 +12,7 @@
 #include "distortion_report.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/meshing/sight_lines.hpp"
 #include "pictures/relief.hpp"
 #include "pictures/scene_render.hpp"
 #include "pictures/uv_layout.hpp"
@@ -98,30 +99,36 @@ std::vector<const BakedSurface*> largest_surfaces(const std::vector<BakedSurface
   return order;
 }
 
-/// The spot of a surface that is nearest to the middle of its area, with the normal there, in the frame of the scene.
-std::optional<CloseUp> look_at(const Scene& scene, const BakedSurface& surface, double extent_mm) {
-  const TriangleMesh& mesh = surface.mesh;
+SightLines sight_lines(const Scene& scene, const std::vector<Instance>& uses) {
+  std::vector<PlacedMesh> parts;
+  for (const Instance& use : uses) parts.push_back({&scene.parts[use.part].mesh, multiply(to_y_up(scene.up), use.world)});
+  return SightLines(parts);
+}
+
+/// The spot of a surface nearest to the middle of its area before which nothing stands in the way, with the normal
+/// there, in the frame of the scene; the nearest of all when that is true of none.
+std::optional<CloseUp> look_at(const BakedSurface& surface, const std::vector<Instance>& uses, UpAxis up,
+                               const SightLines& sight, double extent_mm) {
+  const auto use = std::find_if(uses.begin(), uses.end(), [&](const Instance& u) { return u.part == surface.part; });
+  if (use == uses.end()) return std::nullopt;
+  std::vector<CloseUp> spots;
   Vec3 sum;
   double area = 0;
-  const auto center = [&](std::size_t t) { return (1.0 / 3) * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)); };
-  const auto area_vector = [&](std::size_t t) { return cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)); };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    sum = sum + norm(area_vector(t)) * center(t);
-    area += norm(area_vector(t));
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    const auto corner = [&](int k) { return transform_point(use->world, surface.mesh.corner(t, k)); };
+    const Vec3 twice = cross(corner(1) - corner(0), corner(2) - corner(0));
+    if (!(norm(twice) > 0)) continue;
+    spots.push_back({(1.0 / 3) * (corner(0) + corner(1) + corner(2)), normalized(twice), extent_mm});
+    sum = sum + norm(twice) * spots.back().point;
+    area += norm(twice);
   }
-  if (!(area > 0)) return std::nullopt;
-  std::size_t nearest = 0;
-  for (std::size_t t = 1; t < mesh.triangles.size(); ++t)
-    if (norm(center(t) - (1 / area) * sum) < norm(center(nearest) - (1 / area) * sum)) nearest = t;
-  for (const Instance& use : instances(scene)) {
-    if (use.part != surface.part) continue;
-    CloseUp close_up;
-    close_up.point = transform_point(use.world, center(nearest));
-    close_up.normal = normalized(transform_point(use.world, area_vector(nearest)) - transform_point(use.world, {}));
-    close_up.extent_mm = extent_mm;
-    return close_up;
-  }
-  return std::nullopt;
+  if (spots.empty()) return std::nullopt;
+  const auto aside = [&](const CloseUp& spot) { return norm(spot.point - (1 / area) * sum); };
+  std::stable_sort(spots.begin(), spots.end(), [&](const CloseUp& a, const CloseUp& b) { return aside(a) < aside(b); });
+  const auto seen = std::find_if(spots.begin(), spots.end(), [&](const CloseUp& spot) {
+    return sight.sees(camera_position(spot, up), transform_point(to_y_up(up), spot.point));
+  });
+  return seen == spots.end() ? spots.front() : *seen;
 }
 
 /// The largest surface of every grain, so near that three repeats fill the picture.
@@ -129,10 +136,12 @@ void add_close_ups(const BakeResult& result, const std::vector<const BakedSurfac
                    PictureFolder& pictures) {
   render.mode = RenderMode::material;
   render.width = render.height = 800;
+  const std::vector<Instance> uses = instances(result.scene);
+  const SightLines sight = sight_lines(result.scene, uses);
   for (const auto& [name, grain] : result.grains) {
     const auto largest = std::find_if(by_size.begin(), by_size.end(), [&](const BakedSurface* s) { return s->material == name; });
     if (largest == by_size.end()) continue;
-    render.close_up = look_at(result.scene, **largest, 3 * std::max(grain.size_mm[0], grain.size_mm[1]));
+    render.close_up = look_at(**largest, uses, result.scene.up, sight, 3 * std::max(grain.size_mm[0], grain.size_mm[1]));
     if (render.close_up) pictures.add("close-up-" + name, render_scene(result.scene, render));
   }
 }

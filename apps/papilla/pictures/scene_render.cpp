@@ -48,14 +48,14 @@ struct Sample {
   float r = 0.93F, g = 0.94F, b = 0.95F;  // background, linear
 };
 
-/// Constants of one triangle: its tangent frame and how many texels a sample covers.
+/// Constants of one triangle: its tangent frame and how much of the uv plane a sample covers.
 struct TriangleSetup {
   Vertex v[3];
   const Surface* surface = nullptr;
   double doubled_area = 0;  // in samples, signed
   Vec3 tangent, bitangent;
   bool has_uv = false;
-  double uv_area_per_sample = 0;
+  double uv_area_per_cubic_depth = 0;  // Of a sample.
   std::array<bool, 3> border{};  ///< From corner k to the next one; of RenderMode::triangles.
 };
 
@@ -142,12 +142,9 @@ void fit(Camera& camera, const std::vector<TriangleSetup>& triangles, const Rend
 
 Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triangles, const RenderOptions& options) {
   if (options.close_up) {
-    const Transform turn = to_y_up(scene.up);
-    const Vec3 point = transform_point(turn, options.close_up->point);
-    const Vec3 normal = normalized(transform_point(turn, options.close_up->normal));
-    // From above and a little aside, so that relief casts its shading.
-    const Vec3 towards = normalized(normal + Vec3{0.25, 0.45, 0.25});
-    return aim(point + (0.5 * options.close_up->extent_mm / std::tan(0.5 * k_field_of_view)) * towards, -towards, options);
+    const Vec3 position = camera_position(*options.close_up, scene.up);
+    const Vec3 point = transform_point(to_y_up(scene.up), options.close_up->point);
+    return aim(position, normalized(point - position), options);
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec3 low{infinity, infinity, infinity}, high = -low;
@@ -162,6 +159,50 @@ Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triang
   Camera camera = aim(0.5 * (low + high) + (radius / std::sin(0.5 * k_field_of_view)) * towards, -towards, options);
   fit(camera, triangles, options);
   return camera;
+}
+
+Vertex between(const Vertex& a, const Vertex& b, double t) {
+  const auto mix = [&](auto member) { return (1 - t) * (a.*member) + t * (b.*member); };
+  return {mix(&Vertex::world), mix(&Vertex::normal), mix(&Vertex::uv)};
+}
+
+/// Cuts away what lies nearer to the camera than `near` along its axis.
+void clip(std::vector<TriangleSetup>& triangles, const Camera& camera, double near) {
+  std::vector<TriangleSetup> cut;
+  std::erase_if(triangles, [&](const TriangleSetup& t) {
+    double ahead[3];
+    for (std::size_t k = 0; k < 3; ++k) ahead[k] = dot(t.v[k].world - camera.position, camera.forward) - near;
+    const auto inside = std::count_if(std::begin(ahead), std::end(ahead), [](double a) { return a > 0; });
+    if (inside == 3) return false;
+    if (inside == 0) return true;
+    // From the corner that is alone on its side; p and q lie on the edges to the next and the last.
+    std::size_t alone = 0;
+    while ((ahead[alone] > 0) != (inside == 1)) ++alone;
+    const std::size_t next = (alone + 1) % 3, last = (alone + 2) % 3;
+    const Vertex p = between(t.v[alone], t.v[next], ahead[alone] / (ahead[alone] - ahead[next]));
+    const Vertex q = between(t.v[alone], t.v[last], ahead[alone] / (ahead[alone] - ahead[last]));
+    const auto add = [&](const Vertex& a, const Vertex& b, const Vertex& c, std::array<bool, 3> border) {
+      TriangleSetup piece = t;
+      piece.v[0] = a, piece.v[1] = b, piece.v[2] = c;
+      piece.border = border;
+      cut.push_back(piece);
+    };
+    if (inside == 1) {
+      add(t.v[alone], p, q, {t.border[alone], false, t.border[last]});
+    } else {
+      add(p, t.v[next], t.v[last], {t.border[alone], t.border[next], false});
+      add(p, t.v[last], q, {false, t.border[last], false});
+    }
+    return true;
+  });
+  triangles.insert(triangles.end(), cut.begin(), cut.end());
+}
+
+/// Of the plane that a triangle lies in, a sample sees depth³/(focal²·distance of the plane).
+double uv_area_per_cubic_depth(const TriangleSetup& t, const Camera& camera) {
+  const Vec3 twice = cross(t.v[1].world - t.v[0].world, t.v[2].world - t.v[0].world);
+  const double volume = camera.focal * camera.focal * std::abs(dot(twice, t.v[0].world - camera.position));
+  return volume > 0 ? std::abs(cross(t.v[1].uv - t.v[0].uv, t.v[2].uv - t.v[0].uv)) / volume : 0;
 }
 
 void project(const Camera& camera, Vertex& vertex) {
@@ -201,15 +242,17 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
   if (options.mode == RenderMode::checker) {
     color = checker_color(t, uv, options.checker_mm);
   } else if (t.has_uv) {
+    const double depth = dot(position - camera.position, camera.forward);
+    const double uv_area = t.uv_area_per_cubic_depth * depth * depth * depth;
     if (surface.color_map) {
       const TextureTransform& map = surface.color_transform;
-      const double texels = t.uv_area_per_sample * std::abs(map.scale.x * map.scale.y) * surface.color_map->texel_count();
+      const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * surface.color_map->texel_count();
       const Vec3 texel = surface.color_map->sample(transform_uv(map, uv), texels);
       color = {color.x * texel.x, color.y * texel.y, color.z * texel.z};
     }
     if (surface.normal_map && norm(t.tangent) > 0) {
       const TextureTransform& map = surface.normal_transform;
-      const double texels = t.uv_area_per_sample * std::abs(map.scale.x * map.scale.y) * surface.normal_map->texel_count();
+      const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * surface.normal_map->texel_count();
       const Vec3 texel = surface.normal_map->sample(transform_uv(map, uv), texels);
       const Vec3 tangent = normalized(t.tangent - dot(t.tangent, normal) * normal);
       const Vec3 side = cross(normal, tangent);
@@ -340,6 +383,13 @@ ColorImage resolve(const std::vector<Sample>& samples, const RenderOptions& opti
 
 }  // namespace
 
+Vec3 camera_position(const CloseUp& close_up, UpAxis up) {
+  const Transform turn = to_y_up(up);
+  const Vec3 normal = normalized(transform_point(turn, close_up.normal));
+  const Vec3 towards = normalized(normal + Vec3{0.25, 0.45, 0.25});
+  return transform_point(turn, close_up.point) + (0.5 * close_up.extent_mm / std::tan(0.5 * k_field_of_view)) * towards;
+}
+
 ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
   if (options.width < 1 || options.height < 1 || options.samples < 1 || options.width > 16384 || options.height > 16384)
     throw InvalidInput("render_scene: width and height must be 1 to 16384, samples at least 1");
@@ -352,18 +402,11 @@ ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
   if (triangles.empty()) throw InvalidInput("render_scene: the scene has no triangle");
 
   const Camera camera = place_camera(scene, triangles, options);
-  // The nearest that is drawn; what is behind it or the camera is cut away triangle by triangle.
-  const double near = options.close_up ? 0.05 * options.close_up->extent_mm : 0;
-  std::erase_if(triangles, [&](const TriangleSetup& t) {
-    return std::any_of(std::begin(t.v), std::end(t.v), [&](const Vertex& v) {
-      return !(dot(v.world - camera.position, camera.forward) > near);
-    });
-  });
+  clip(triangles, camera, options.close_up ? 0.05 * options.close_up->extent_mm : 0);
   for (TriangleSetup& t : triangles) {
     for (Vertex& v : t.v) project(camera, v);
     t.doubled_area = cross(Vec2{t.v[1].x - t.v[0].x, t.v[1].y - t.v[0].y}, Vec2{t.v[2].x - t.v[0].x, t.v[2].y - t.v[0].y});
-    if (t.has_uv && t.doubled_area != 0)
-      t.uv_area_per_sample = std::abs(cross(t.v[1].uv - t.v[0].uv, t.v[2].uv - t.v[0].uv) / t.doubled_area);
+    if (t.has_uv) t.uv_area_per_cubic_depth = uv_area_per_cubic_depth(t, camera);
   }
   std::erase_if(triangles, [](const TriangleSetup& t) { return !(std::abs(t.doubled_area) > 0); });
 

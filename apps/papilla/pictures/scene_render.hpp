@@ -22,6 +22,10 @@ struct CloseUp {
   double extent_mm = 100;  ///< Height of what the picture shows there.
 };
 
+/// Where its camera stands: before the surface, from above and a little aside, so that relief casts its shading. In
+/// glTF axes. @param up of the scene.
+Vec3 camera_position(const CloseUp& close_up, UpAxis up);
+
 struct RenderOptions {
   RenderMode mode = RenderMode::material;
   int width = 1600, height = 1000;
