@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
@@ -39,12 +40,20 @@ Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& optio
   return scene;
 }
 
+/// The formats that state no unit.
+Scene read_mesh_scene(const std::string& extension, const std::filesystem::path& path, const ReadOptions& options) {
+  Scene scene = extension == ".stl"   ? read_stl(path, options)
+                : extension == ".obj" ? read_obj(path, options)
+                : extension == ".ply" ? read_ply(path, options)
+                                      : read_off(path, options);
+  warn_of_doubtful_unit(scene);
+  return scene;
+}
+
 Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
   const std::string extension = lower_extension(path);
-  if (extension == ".stl") return read_stl(path, options);
-  if (extension == ".obj") return read_obj(path, options);
-  if (extension == ".ply") return read_ply(path, options);
-  if (extension == ".off") return read_off(path, options);
+  if (extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off")
+    return read_mesh_scene(extension, path, options);
   if (extension == ".glb" || extension == ".gltf") {
     Scene scene = read_gltf(path);
     scene.up = options.up.value_or(scene.up);

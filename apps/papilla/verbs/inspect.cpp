@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "leave_out.hpp"
 #include "mesh_report.hpp"
@@ -71,6 +73,20 @@ Json textures_json(const Scene& scene, const Material& material) {
   return textures;
 }
 
+/// Edges of the box around all instances, along the file's axes.
+Json size_mm(const Scene& scene) {
+  std::optional<std::pair<Vec3, Vec3>> box;
+  for (const Instance& use : instances(scene))
+    for (const Vec3& at : scene.parts[use.part].mesh.positions) {
+      const Vec3 p = transform_point(use.world, at);
+      auto& [low, high] = box ? *box : box.emplace(p, p);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  const Vec3 size = box ? box->second - box->first : Vec3{};
+  return {size.x, size.y, size.z};
+}
+
 Json materials_json(const Scene& scene) {
   Json materials = Json::array();
   for (const Material& m : scene.materials)
@@ -95,7 +111,9 @@ void print_perception(const Console& console, const Json& parts) {
 
 void print_for_people(const Console& console, const Json& result, const Scene& scene,
                       const std::vector<MeshStatistics>& statistics) {
-  console.print(fmt::format("{}, units {}, {} parts\n\n", scene.format, scene.unit, scene.parts.size()));
+  const Json& size = result["size_mm"];
+  console.print(fmt::format("{}, units {}, {} parts, {:.4g} x {:.4g} x {:.4g} mm\n\n", scene.format, scene.unit,
+                            scene.parts.size(), size[0].get<double>(), size[1].get<double>(), size[2].get<double>()));
   console.print(header_row());
   for (std::size_t i = 0; i < statistics.size(); ++i) console.print(counters_row(scene.parts[i].name, statistics[i]));
   if (statistics.size() > 1) console.print(counters_row("all parts", total_statistics(statistics)));
@@ -117,6 +135,7 @@ Json inspect(VerbContext& context, const InspectOptions& options) {
   const std::vector<MeshStatistics> statistics = part_statistics(scene, context.progress);
   Json result{{"file", options.file}, {"format", scene.format}, {"units", scene.unit}};
   result["millimetres_per_unit"] = scene.millimetres_per_unit;
+  result["size_mm"] = size_mm(scene);
   result["parts"] = parts_json(scene, statistics);
   result["totals"] = counters_json(total_statistics(statistics));
   result["materials"] = materials_json(scene);
