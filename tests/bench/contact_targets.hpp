@@ -44,7 +44,10 @@ LongRun sphere_run(long triangles, long ticks, int seeds);
 
 /// p99.9 of the wake-up of our loop and of cyclictest at 1 kHz, in turn; nothing without cyclictest.
 struct WakeUp {
-  double ours_us = 0, cyclictest_us = 0;
+  struct Quantiles {
+    double median_us = 0, all_us = 0;
+  };
+  Quantiles ours, cyclictest;
 };
 std::optional<WakeUp> wake_up();
 
