@@ -12,6 +12,7 @@ namespace {
 constexpr double k_largest_texel = 1e9;  // Texel coordinates beyond are cut, so that they fit an integer.
 
 long wrapped(long i, long n, Wrap mode) noexcept {
+  if (i >= 0 && i < n) return i;
   switch (mode) {
     case Wrap::clamp: return std::clamp(i, 0L, n - 1);
     case Wrap::mirror: {
@@ -100,40 +101,62 @@ std::pair<double, double> HeightField::range() const {
   return {least, most};
 }
 
+/// Sums over k_taps × k_taps samples from (x, y) on, columns first, so that a processor takes several at once.
+template <std::size_t k_taps>
+HeightField::Weighted HeightField::weighted(long x, long y, const Weights& along_x,
+                                            const Weights& along_y) const noexcept {
+  // On maps that repeat most places lie within some copy.
+  const long left = options_.wrap[0] == Wrap::repeat ? wrapped(x, width_, Wrap::repeat) : x;
+  const long top = options_.wrap[1] == Wrap::repeat ? wrapped(y, height_, Wrap::repeat) : y;
+  const bool inside = left >= 0 && left + static_cast<long>(k_taps) <= width_;
+  long columns[k_taps];
+  if (!inside)
+    for (std::size_t i = 0; i < k_taps; ++i)
+      columns[i] = wrapped(left + static_cast<long>(i), width_, options_.wrap[0]);
+  double column[k_taps]{}, column_by_y[k_taps]{};
+  for (std::size_t j = 0; j < k_taps; ++j) {
+    const std::uint16_t* const row =
+        &samples_[static_cast<std::size_t>(wrapped(top + static_cast<long>(j), height_, options_.wrap[1])) *
+                  static_cast<std::size_t>(width_)];
+    double v[k_taps];
+    if (inside) {
+      for (std::size_t i = 0; i < k_taps; ++i)
+        v[i] = static_cast<double>(static_cast<std::int32_t>(row[static_cast<std::size_t>(left) + i]));
+    } else {
+      for (std::size_t i = 0; i < k_taps; ++i) v[i] = row[columns[i]];
+    }
+    for (std::size_t i = 0; i < k_taps; ++i) {
+      column[i] += along_y.value[j] * v[i];
+      column_by_y[i] += along_y.slope[j] * v[i];
+    }
+  }
+  Weighted sum;
+  for (std::size_t i = 0; i < k_taps; ++i) {
+    sum.value += along_x.value[i] * column[i];
+    sum.by_x += along_x.slope[i] * column[i];
+    sum.by_y += along_x.value[i] * column_by_y[i];
+  }
+  return sum;
+}
+
 HeightSample HeightField::sample(Vec2 uv) const noexcept {
   const double x = texel_coordinate(a_[0][0] * uv.x + a_[0][1] * uv.y + t_[0]);
   const double y = texel_coordinate(a_[1][0] * uv.x + a_[1][1] * uv.y + t_[1]);
   const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
   const long ix = static_cast<long>(x0), iy = static_cast<long>(y0);
-  double wx[4], dx[4], wy[4], dy[4];
-  int taps = 4, first = -1;
+  Weighted sum;
   if (options_.interpolation == Interpolation::bicubic) {
-    cubic_weights(fx, wx, dx);
-    cubic_weights(fy, wy, dy);
+    Weights along_x, along_y;
+    cubic_weights(fx, along_x.value, along_x.slope);
+    cubic_weights(fy, along_y.value, along_y.slope);
+    sum = weighted<4>(ix - 1, iy - 1, along_x, along_y);
   } else {
-    taps = 2, first = 0;
-    wx[0] = 1 - fx, wx[1] = fx, dx[0] = -1, dx[1] = 1;
-    wy[0] = 1 - fy, wy[1] = fy, dy[0] = -1, dy[1] = 1;
+    sum = weighted<2>(ix, iy, {{1 - fx, fx}, {-1, 1}}, {{1 - fy, fy}, {-1, 1}});
   }
-  const bool inside = ix + first >= 0 && ix + first + taps <= width_ && iy + first >= 0 && iy + first + taps <= height_;
-  double value = 0, by_x = 0, by_y = 0;
-  for (int j = 0; j < taps; ++j) {
-    double row = 0, row_by_x = 0;
-    const std::size_t start = inside ? static_cast<std::size_t>((iy + first + j) * width_ + ix + first) : 0;
-    for (int i = 0; i < taps; ++i) {
-      const double v = inside ? samples_[start + static_cast<std::size_t>(i)] : texel(ix + first + i, iy + first + j);
-      row += wx[i] * v;
-      row_by_x += dx[i] * v;
-    }
-    value += wy[j] * row;
-    by_x += wy[j] * row_by_x;
-    by_y += dy[j] * row;
-  }
-  const double h = base_m_ + metres_per_step_ * value;
+  const double h = base_m_ + metres_per_step_ * sum.value;
   if (h < min_m_) return {min_m_, {}};
   if (h > max_m_) return {max_m_, {}};
-  by_x *= metres_per_step_;
-  by_y *= metres_per_step_;
+  const double by_x = metres_per_step_ * sum.by_x, by_y = metres_per_step_ * sum.by_y;
   return {h, {by_x * a_[0][0] + by_y * a_[1][0], by_x * a_[0][1] + by_y * a_[1][1]}};
 }
 

@@ -80,7 +80,17 @@ class HeightField {
   std::array<Vec2, 2> texels_per_uv() const noexcept;
 
  private:
+  /// Of the samples along an axis, for the value and its derivative.
+  struct Weights {
+    double value[4], slope[4];
+  };
+  struct Weighted {
+    double value = 0, by_x = 0, by_y = 0;
+  };
+
   std::uint16_t texel(long x, long y) const noexcept;
+  template <std::size_t k_taps>
+  Weighted weighted(long x, long y, const Weights& along_x, const Weights& along_y) const noexcept;
   std::pair<double, double> range() const;
 
   int width_, height_;
