@@ -10,6 +10,7 @@
 #include "exit_code.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/levels_of_detail.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 
 namespace papilla::app {
 namespace {
@@ -19,24 +20,11 @@ constexpr double k_first_tolerance = 1e-4;  ///< Of the largest part's diagonal.
 constexpr double k_picture_height_px = 2000;
 constexpr double k_most_kept = 0.9;
 
-double diagonal(const TriangleMesh& mesh) {
-  Vec3 low, high;
-  bool any = false;
-  for (const Triangle& t : mesh.triangles)
-    for (const Index v : t) {
-      const Vec3& p = mesh.positions[v];
-      low = any ? Vec3{std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)} : p;
-      high = any ? Vec3{std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)} : p;
-      any = true;
-    }
-  return norm(high - low);
-}
-
 std::vector<double> tolerances(const Scene& scene, const LevelOptions& options, double finest_mm) {
   std::vector<double> result = options.tolerances_mm;
   if (options.count) {
     double largest = 0;
-    for (const Part& part : scene.parts) largest = std::max(largest, diagonal(part.mesh));
+    for (const Part& part : scene.parts) largest = std::max(largest, bounds_of(part.mesh).diagonal());
     double tolerance = finest_mm > 0 ? k_level_factor * finest_mm : k_first_tolerance * largest;
     for (int level = 0; level < *options.count && tolerance > 0; ++level, tolerance *= k_level_factor)
       result.push_back(tolerance);
@@ -103,7 +91,7 @@ Json add_levels(Scene& scene, std::vector<SimplifyResult>& results, const LevelO
   Json json = Json::array();
   for (std::size_t i = 0; i < levels.size(); ++i) {
     Part& part = scene.parts[i];
-    const double size = diagonal(part.mesh);
+    const double size = bounds_of(part.mesh).diagonal();
     part.mesh = std::move(results[i].mesh);
     part.levels.clear();
     for (Level& level : levels[i]) {

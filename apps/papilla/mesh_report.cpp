@@ -9,21 +9,6 @@
 #include "papilla/core/error.hpp"
 
 namespace papilla::app {
-namespace {
-
-constexpr std::size_t k_name_width = 32;
-
-/// At most k_name_width code points, the end of longer names cut off.
-std::string shortened(const std::string& name) {
-  std::size_t points = 0, end = 0;
-  for (; end < name.size(); ++end) {
-    const bool starts_point = (static_cast<unsigned char>(name[end]) & 0xc0) != 0x80;
-    if (starts_point && points++ == k_name_width) break;
-  }
-  return name.substr(0, end) + std::string(k_name_width - std::min(points, k_name_width), ' ');
-}
-
-}  // namespace
 
 std::vector<MeshStatistics> part_statistics(const Scene& scene, const Progress& progress) {
   std::vector<MeshStatistics> result(scene.parts.size());
@@ -74,16 +59,15 @@ MeshStatistics total_statistics(const std::vector<MeshStatistics>& parts) {
 }
 
 std::string header_row() {
-  return fmt::format("{:<{}} {:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>3}\n", "part",
-                     k_name_width, "triangles", "vertices", "comp", "loops", "genus", "nonman", "degen", "dupl",
-                     "flipped", "T-junc", "aspect", "uv");
+  return fmt::format("{:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>3}  part\n", "triangles",
+                     "vertices", "comp", "loops", "genus", "nonman", "degen", "dupl", "flipped", "T-junc", "aspect", "uv");
 }
 
 std::string counters_row(const std::string& name, const MeshStatistics& s) {
-  return fmt::format("{} {:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9.4g} {:>3}\n", shortened(name),
-                     s.triangles, s.vertices, s.components, s.boundary_loops, s.genus, s.nonmanifold_edges,
-                     s.degenerate_triangles, s.duplicate_triangles, s.flipped_edges, s.t_junctions, s.aspect_max,
-                     s.has_uv ? "yes" : "no");
+  return fmt::format("{:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9.4g} {:>3}  {}\n", s.triangles,
+                     s.vertices, s.components, s.boundary_loops, s.genus, s.nonmanifold_edges, s.degenerate_triangles,
+                     s.duplicate_triangles, s.flipped_edges, s.t_junctions, s.aspect_max, s.has_uv ? "yes" : "no",
+                     name);
 }
 
 }  // namespace papilla::app

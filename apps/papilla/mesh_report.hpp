@@ -17,7 +17,7 @@ std::vector<MeshStatistics> part_statistics(const Scene& scene, const Progress& 
 Json counters_json(const MeshStatistics& statistics);
 MeshStatistics total_statistics(const std::vector<MeshStatistics>& parts);
 
-/// A row for people: `name` and the counters; header_row() heads the columns.
+/// A row for people: the counters and `name`; header_row() heads the columns.
 std::string header_row();
 std::string counters_row(const std::string& name, const MeshStatistics& statistics);
 

@@ -37,10 +37,7 @@ ReadOptions SceneOptions::read_options() const {
   options.chord_mm = quality.empty() ? chord_mm : k_qualities.at(quality);
   options.angle_deg = angle_deg;
   options.max_edge_mm = max_edge_mm;
-  if (unit != "file") {
-    options.millimetres_per_unit = k_units.at(unit);
-    options.cad_millimetres_per_unit = k_units.at(unit);
-  }
+  if (unit != "file") options.millimetres_per_unit = k_units.at(unit);
   if (up != "file") options.up = up == "y" ? UpAxis::y : UpAxis::z;
   return options;
 }

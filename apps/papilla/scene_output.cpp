@@ -5,9 +5,14 @@
 
 namespace papilla::app {
 
+void print_notes(const Scene& scene, const Console& console) {
+  for (const std::string& warning : scene.warnings) console.print("warning: " + warning + "\n");
+  for (const std::string& loss : scene.losses) console.print("left out: " + loss + "\n");
+}
+
 void write_output(Scene& scene, const std::string& path, const Console& console) {
   for (const std::string& loss : write_scene(scene, path)) scene.losses.push_back(loss);
-  for (const std::string& loss : scene.losses) console.print("left out: " + loss + "\n");
+  print_notes(scene, console);
 }
 
 }  // namespace papilla::app

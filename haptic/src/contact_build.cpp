@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/contact_surface.hpp"
 #include "relief_base.hpp"
@@ -84,8 +85,7 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
   const std::size_t n = mesh.triangles.size();
   std::vector<std::uint32_t> kept;
   kept.reserve(n);
-  low_ = {1e300, 1e300, 1e300};
-  high_ = {-1e300, -1e300, -1e300};
+  Bounds3 bounds;
   for (std::size_t t = 0; t < n; ++t) {
     const Vec3* c = &base.corners[3 * t];
     const bool usable = is_finite(c[0]) && is_finite(c[1]) && is_finite(c[2]) &&
@@ -93,15 +93,14 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
                         norm(cross(c[1] - c[0], c[2] - c[0])) > 0;
     if (!usable) continue;
     kept.push_back(static_cast<std::uint32_t>(t));
-    for (int k = 0; k < 3; ++k) {
-      low_ = {std::min(low_.x, c[k].x), std::min(low_.y, c[k].y), std::min(low_.z, c[k].z)};
-      high_ = {std::max(high_.x, c[k].x), std::max(high_.y, c[k].y), std::max(high_.z, c[k].z)};
-    }
+    for (int k = 0; k < 3; ++k) bounds.add(c[k]);
   }
   skipped_ = n - kept.size();
   if (kept.empty()) throw InvalidInput("ContactSurface: no triangle with an area");
-  origin_ = 0.5 * (low_ + high_);
-  const double extent = norm(high_ - low_);
+  low_ = bounds.low;
+  high_ = bounds.high;
+  origin_ = bounds.middle();
+  const double extent = bounds.diagonal();
   if (!(extent < 1e6)) throw InvalidInput("ContactSurface: the scene is larger than 1000 km");
   skin_ = std::max(std::min(k_skin_m, k_skin_share * extent), k_least_skin_share * extent);
 

@@ -3,17 +3,17 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
-#include "unit_name.hpp"
+#include "papilla/core/unit_name.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 
 namespace papilla {
 
 Scene unitless_scene(std::string format, const ReadOptions& options, UpAxis habit) {
-  const double unit = options.millimetres_per_unit;
+  const double unit = options.millimetres_per_unit.value_or(1);
   if (!(unit > 0 && unit <= 1e9))
     throw InvalidInput(fmt::format("ReadOptions: millimetres_per_unit = {} is not in (0, 1e9]", unit));
   Scene scene;
@@ -26,15 +26,10 @@ Scene unitless_scene(std::string format, const ReadOptions& options, UpAxis habi
 
 void warn_of_doubtful_unit(Scene& scene) {
   constexpr double k_doubtful_mm = 10;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high = -low;
-  for (const Part& part : scene.parts)
-    for (const Vec3& p : part.mesh.positions) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  const Vec3 size = high - low;
-  if (scene.millimetres_per_unit != 1 || !(norm(size) < k_doubtful_mm)) return;
+  Bounds3 bounds;
+  for (const Part& part : scene.parts) bounds.add(bounds_of(part.mesh));
+  if (bounds.is_empty() || !(bounds.diagonal() < k_doubtful_mm)) return;
+  const Vec3 size = bounds.size();
   scene.warnings.push_back(
       fmt::format("the file states no unit; in millimetres all of it is {:.3g} x {:.3g} x {:.3g}: are these metres?",
                   size.x, size.y, size.z));

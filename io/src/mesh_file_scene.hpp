@@ -11,7 +11,7 @@ namespace papilla {
 /// @throws InvalidInput when `options.millimetres_per_unit` is not in (0, 1e9].
 Scene unitless_scene(std::string format, const ReadOptions& options, UpAxis habit);
 
-/// Warns of a scene so small in millimetres that it is likely to be in metres or inches.
+/// Warns of a scene in millimetres so small that it is likely to be in metres or inches.
 void warn_of_doubtful_unit(Scene& scene);
 
 /// Adds a root node of the part's name for every part, then the parts' ids. Parts without name get `fallback_name`.

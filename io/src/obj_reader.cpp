@@ -495,7 +495,7 @@ Scene read_obj(const std::filesystem::path& path, const ReadOptions& options) {
   ObjContent content = ObjParser(text, file, scene).parse();
   if (content.positions.empty()) throw InvalidInput(file + ": holds no vertices; is it an OBJ file?");
   check_indices(content, file);
-  assemble_parts(std::move(content), path, file, options.millimetres_per_unit, scene);
+  assemble_parts(std::move(content), path, file, scene.millimetres_per_unit, scene);
   add_part_nodes(scene, path.stem().string());
   return scene;
 }

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -298,7 +297,7 @@ Scene read_off(const std::filesystem::path& path, const ReadOptions& options) {
   Scene scene = unitless_scene("OFF", options, UpAxis::z);
   const std::string bytes = read_file(path);
   if (bytes.empty()) throw InvalidInput(file + ": is empty");
-  scene.parts.push_back(OffReader(bytes, file, options.millimetres_per_unit, scene).read());
+  scene.parts.push_back(OffReader(bytes, file, scene.millimetres_per_unit, scene).read());
   add_part_nodes(scene, path.stem().string());
   return scene;
 }

@@ -297,7 +297,7 @@ Scene read_ply(const std::filesystem::path& path, const ReadOptions& options) {
   Scene scene = unitless_scene("PLY", options, UpAxis::z);
   const std::string bytes = read_file(path);
   if (bytes.empty()) throw InvalidInput(path.string() + ": is empty");
-  scene.parts.push_back(PlyReader(path, bytes, options.millimetres_per_unit, scene).read());
+  scene.parts.push_back(PlyReader(path, bytes, scene.millimetres_per_unit, scene).read());
   add_part_nodes(scene, path.stem().string());
   return scene;
 }

@@ -34,7 +34,7 @@ Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& optio
   cad.chord_mm = options.chord_mm;
   cad.angle_deg = options.angle_deg;
   cad.max_edge_mm = options.max_edge_mm;
-  cad.millimetres_per_unit = options.cad_millimetres_per_unit;
+  cad.millimetres_per_unit = options.millimetres_per_unit;
   Scene scene = read_cad(path, cad, nullptr, progress);
   scene.up = options.up.value_or(scene.up);
   return scene;
@@ -46,7 +46,7 @@ Scene read_mesh_scene(const std::string& extension, const std::filesystem::path&
                 : extension == ".obj" ? read_obj(path, options)
                 : extension == ".ply" ? read_ply(path, options)
                                       : read_off(path, options);
-  warn_of_doubtful_unit(scene);
+  if (!options.millimetres_per_unit) warn_of_doubtful_unit(scene);
   return scene;
 }
 

@@ -40,8 +40,8 @@ Scene read_stl(const std::filesystem::path& path, const ReadOptions& options) {
   require_file(path);
   const std::uint64_t size = std::filesystem::file_size(path);
   if (size == 0) throw InvalidInput(path.string() + ": is empty");
-  const double unit = options.millimetres_per_unit;
   Scene scene = unitless_scene("STL", options, UpAxis::z);
+  const double unit = scene.millimetres_per_unit;
   const std::string head = read_head(path, size);
   if (is_binary(head, size))
     scene.parts.push_back(read_binary_stl(path, head, size, unit, scene.warnings));

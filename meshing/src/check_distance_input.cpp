@@ -4,11 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::detail {
 
-void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bounds& bounds) {
+void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bounds3& bounds) {
   constexpr double k_largest = 1e15;
   const auto usable = [](double x) { return std::abs(x) <= k_largest; };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

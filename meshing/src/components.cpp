@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "papilla/core/bounds.hpp"
 #include "union_find.hpp"
 
 namespace papilla::detail {
@@ -26,23 +27,22 @@ Components connected_triangles(const TriangleMesh& mesh) {
   return result;
 }
 
-Bounds bounds_of(const TriangleMesh& mesh, std::span<const Index> triangles) {
-  Bounds bounds;
+Bounds3 bounds_of(const TriangleMesh& mesh, std::span<const Index> triangles) {
+  Bounds3 bounds;
   for (const Index t : triangles)
     for (const Index v : mesh.triangles[t]) bounds.add(mesh.positions[v]);
   return bounds;
 }
 
-std::vector<std::vector<std::size_t>> parted_by_boxes(const std::vector<std::pair<std::size_t, Bounds>>& boxes,
+std::vector<std::vector<std::size_t>> parted_by_boxes(const std::vector<std::pair<std::size_t, Bounds3>>& boxes,
                                                       double margin) {
   constexpr std::size_t k_most_sets = 256;  // as each box is compared with that of each set
   struct Set {
     std::vector<std::size_t> members;
-    Bounds bounds;
+    Bounds3 bounds;
     void take(const Set& other) {
       members.insert(members.end(), other.members.begin(), other.members.end());
-      bounds.add(other.bounds.low);
-      bounds.add(other.bounds.high);
+      bounds.add(other.bounds);
     }
   };
   std::vector<Set> sets;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bounds.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
 namespace papilla::detail {
@@ -24,11 +24,11 @@ struct Components {
 Components connected_triangles(const TriangleMesh& mesh);
 
 /// The box around some triangles of a mesh.
-Bounds bounds_of(const TriangleMesh& mesh, std::span<const Index> triangles);
+Bounds3 bounds_of(const TriangleMesh& mesh, std::span<const Index> triangles);
 
 /// Parts boxes into sets so that no box, grown by `margin`, overlaps one of another set. Where that would be more than
 /// some hundred sets, some are one. Returns the numbers that came with the boxes. O(n) for n boxes.
-std::vector<std::vector<std::size_t>> parted_by_boxes(const std::vector<std::pair<std::size_t, Bounds>>& boxes,
+std::vector<std::vector<std::size_t>> parted_by_boxes(const std::vector<std::pair<std::size_t, Bounds3>>& boxes,
                                                       double margin);
 
 }  // namespace papilla::detail

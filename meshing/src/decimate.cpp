@@ -10,6 +10,7 @@
 
 #include "check_distance_input.hpp"
 #include "mesh_attributes.hpp"
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::detail {
 namespace {
@@ -89,7 +90,7 @@ class Decimator {
       append(place_of(c), c, c);
       ++degree_[place_of(c)];
     }
-    Bounds bounds;
+    Bounds3 bounds;
     for (const Vec3& p : wedges.positions) bounds.add(p);
     noise_altitude_ = k_noise_altitude * bounds.diagonal();
   }

@@ -9,6 +9,7 @@
 
 #include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "repair_steps.hpp"
 #include "triangle_shape.hpp"
 
@@ -246,7 +247,7 @@ DegenerateResult remove_degenerate(TriangleMesh mesh, const DegenerateOptions& o
                        " is not in [0, 0.1]");
   check_mesh(mesh, "remove_degenerate");
   DegenerateResult result;
-  resolve_degenerate(mesh, options.relative_altitude * bounding_diagonal(mesh), result);
+  resolve_degenerate(mesh, options.relative_altitude * bounds_of(mesh).diagonal(), result);
   result.mesh = std::move(mesh);
   return result;
 }

@@ -10,6 +10,7 @@
 #include "check_distance_input.hpp"
 #include "convex_piece.hpp"
 #include "one_sided_deviation.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "triangle_bvh.hpp"
 
@@ -434,7 +435,7 @@ OneSidedDeviation detail::one_sided_deviation(const TriangleMesh& from, const Tr
 
 DeviationResult surface_deviation(const TriangleMesh& from, const TriangleMesh& to, const DeviationOptions& options) {
   check(options);
-  detail::Bounds bounds;
+  Bounds3 bounds;
   detail::check_distance_input(from, "surface_deviation: from", bounds);
   detail::check_distance_input(to, "surface_deviation: to", bounds);
   DeviationResult result;

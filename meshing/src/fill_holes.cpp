@@ -9,6 +9,7 @@
 
 #include "boundary_loops.hpp"
 #include "check_mesh.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "repair_steps.hpp"
 #include "triangle_shape.hpp"
@@ -61,12 +62,9 @@ bool may_be_slit(const std::vector<Vec3>& polygon, double width) {
 }
 
 double diameter(const std::vector<Vec3>& polygon) {
-  Vec3 low = polygon[0], high = polygon[0];
-  for (const Vec3& p : polygon) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
+  Bounds3 bounds;
+  for (const Vec3& p : polygon) bounds.add(p);
+  return bounds.diagonal();
 }
 
 constexpr std::uint64_t edge_key(Index a, Index b) noexcept {

@@ -16,6 +16,7 @@
 #include "check_mesh.hpp"
 #include "exact_positions.hpp"
 #include "mesh_attributes.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "point_tree.hpp"
 
@@ -60,7 +61,7 @@ struct Shape {
   explicit Shape(const TriangleMesh& m) : mesh(&m) {
     const detail::ExactPositions exact = detail::exact_positions(m);
     for (const Index v : exact.first) places.push_back(m.positions[v]);
-    detail::Bounds bounds;
+    Bounds3 bounds;
     for (const Vec3& p : places) bounds.add(p);
     diagonal = bounds.diagonal();
     for (Index t = 0; t < m.triangles.size(); ++t) {
@@ -289,7 +290,7 @@ std::vector<PartCopy> find_identical_parts(std::span<const ComparedPart> parts, 
     const std::string name = "find_identical_parts: parts[" + std::to_string(i) + "]";
     if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
     detail::check_mesh(*parts[i].mesh, name);
-    detail::Bounds bounds;
+    Bounds3 bounds;
     detail::check_distance_input(*parts[i].mesh, name + ".mesh", bounds);
   }
   std::vector<std::unique_ptr<Shape>> shapes(parts.size());

@@ -15,6 +15,7 @@
 
 #include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "point_tree.hpp"
 #include "repair_steps.hpp"
 
@@ -377,7 +378,7 @@ ManifoldResult split_nonmanifold(TriangleMesh mesh, const ManifoldOptions& optio
                        " is not in [0, 0.01]");
   check_mesh(mesh, "split_nonmanifold");
   ManifoldResult result;
-  part_sheets(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), options.relative_gap * bounding_diagonal(mesh),
+  part_sheets(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), options.relative_gap * bounds_of(mesh).diagonal(),
               result);
   result.mesh = std::move(mesh);
   return result;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "bounds.hpp"
-
 namespace papilla::detail {
 namespace {
 
@@ -115,13 +113,6 @@ Index split_triangle(TriangleMesh& mesh, Index triangle, std::size_t k, Index ve
     if (!labels.empty()) labels.push_back(std::uint32_t{labels[triangle]});
   });
   return second;
-}
-
-double bounding_diagonal(const TriangleMesh& mesh) {
-  Bounds bounds;
-  for (const Triangle& t : mesh.triangles)
-    for (const Index v : t) bounds.add(mesh.positions[v]);
-  return bounds.diagonal();
 }
 
 }  // namespace papilla::detail

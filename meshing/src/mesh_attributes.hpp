@@ -48,9 +48,6 @@ void reverse_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& reve
 /// The triangle keeps the first half, the returned new one (at the end) takes the second; attributes are interpolated.
 Index split_triangle(TriangleMesh& mesh, Index triangle, std::size_t k, Index vertex, double s);
 
-/// The bounding diagonal of the positions that triangles name; 0 for an empty mesh.
-double bounding_diagonal(const TriangleMesh& mesh);
-
 /// Twice the area vector of a triangle.
 inline Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) noexcept { return cross(b - a, c - a); }
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "bounds.hpp"
 #include "check_mesh.hpp"
+#include "papilla/core/bounds.hpp"
 #include "repair_steps.hpp"
 #include "union_find.hpp"
 
@@ -22,7 +22,7 @@ struct Component {
   std::size_t turned = 0;
   bool closed = true, orientable = true;
   double volume = 0;
-  Bounds box;
+  Bounds3 box;
   bool turn_all = false;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "point_tree.hpp"
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::detail {
 namespace {
@@ -20,16 +21,12 @@ PointTree::PointTree(const std::vector<Vec3>& positions, const std::vector<Index
 
 Index PointTree::build(Index begin, Index end) {
   const Index index = static_cast<Index>(nodes_.size());
-  Vec3 low = members_[begin].position, high = low;
-  for (Index i = begin; i < end; ++i) {
-    const Vec3& p = members_[i].position;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  nodes_.push_back({low, high, begin, end, 0});
+  Bounds3 bounds;
+  for (Index i = begin; i < end; ++i) bounds.add(members_[i].position);
+  nodes_.push_back({bounds.low, bounds.high, begin, end, 0});
   if (end - begin <= k_leaf_size) return index;
 
-  const Vec3 size = high - low;
+  const Vec3 size = bounds.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const Index middle = begin + (end - begin) / 2;
   const auto at = [&](Index i) { return members_.begin() + static_cast<std::ptrdiff_t>(i); };

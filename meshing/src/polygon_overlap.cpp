@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "polygon_overlap.hpp"
+#include "papilla/core/bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,12 +60,8 @@ double overlap_fraction(std::span<const Vec2> polygon) {
 class EdgeGrid {
  public:
   explicit EdgeGrid(std::span<const Vec2> polygon) : polygon_(polygon) {
-    low_ = high_ = polygon.front();
-    for (const Vec2 p : polygon) {
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-    }
-    const double n = static_cast<double>(polygon.size()), width = high_.x - low_.x, height = high_.y - low_.y;
+    for (const Vec2 p : polygon) bounds_.add(p);
+    const double n = static_cast<double>(polygon.size()), width = bounds_.size().x, height = bounds_.size().y;
     cell_ = std::max({std::sqrt(width * height / n), width / n, height / n});
     if (!(cell_ > 0)) cell_ = 1;
     columns_ = static_cast<std::size_t>(width / cell_) + 1;
@@ -83,7 +80,7 @@ class EdgeGrid {
       // The part of the edge within the row.
       double from = std::min(a.x, b.x), to = std::max(a.x, b.x);
       if (a.y != b.y && first_row != last_row) {
-        const double y0 = low_.y + static_cast<double>(r) * cell_, slope = (b.x - a.x) / (b.y - a.y);
+        const double y0 = bounds_.low.y + static_cast<double>(r) * cell_, slope = (b.x - a.x) / (b.y - a.y);
         const double x0 = a.x + (y0 - a.y) * slope, x1 = x0 + cell_ * slope;
         from = std::max(from, std::min(x0, x1) - 1e-9 * cell_);
         to = std::min(to, std::max(x0, x1) + 1e-9 * cell_);
@@ -93,14 +90,14 @@ class EdgeGrid {
   }
 
  private:
-  std::size_t row(double y) const { return place(y - low_.y, rows_); }
-  std::size_t column(double x) const { return place(x - low_.x, columns_); }
+  std::size_t row(double y) const { return place(y - bounds_.low.y, rows_); }
+  std::size_t column(double x) const { return place(x - bounds_.low.x, columns_); }
   std::size_t place(double offset, std::size_t count) const {
     return std::min(count - 1, static_cast<std::size_t>(std::max(0.0, offset / cell_)));
   }
 
   std::span<const Vec2> polygon_;
-  Vec2 low_, high_;
+  Bounds2 bounds_;
   double cell_ = 1;
   std::size_t columns_ = 1, rows_ = 1;
   std::vector<std::vector<std::size_t>> cells_;

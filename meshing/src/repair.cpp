@@ -14,8 +14,10 @@
 
 #include "check_mesh.hpp"
 #include "components.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "repair_piece.hpp"
 #include "scramble.hpp"
 #include "triangle_shape.hpp"
@@ -148,14 +150,14 @@ class SoupRepair {
   }
 
   /// Those without a result so far, and solids around one of them: what is inside out may be a cavity.
-  std::vector<std::pair<std::size_t, Bounds>> others() {
-    std::vector<std::pair<std::size_t, Bounds>> result;
+  std::vector<std::pair<std::size_t, Bounds3>> others() {
+    std::vector<std::pair<std::size_t, Bounds3>> result;
     for (std::size_t c = 0; c < components_.size(); ++c)
       if (!pieces_[c]) result.emplace_back(c, bounds_of(mesh_, components_.of(c)));
     const std::size_t open = result.size();
     for (std::size_t c = 0; c < components_.size() && open > 0; ++c) {
       if (!pieces_[c]) continue;
-      const Bounds solid = bounds_of(mesh_, components_.of(c));
+      const Bounds3 solid = bounds_of(mesh_, components_.of(c));
       if (std::none_of(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(open),
                        [&](const auto& other) { return solid.contains(other.second, -margin_); }))
         continue;
@@ -222,7 +224,7 @@ void check_options(const RepairOptions& options) {
 }
 
 RepairScale scale_of(const TriangleMesh& mesh, const RepairOptions& options) {
-  const double diagonal = bounding_diagonal(mesh);
+  const double diagonal = bounds_of(mesh).diagonal();
   const WeldOptions weld;
   return {.diagonal_mm = diagonal,
           .weld = {options.weld_mm.value_or(weld.relative_tolerance * diagonal), weld.feature_fraction,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/units.hpp"
 #include "triangle_bvh.hpp"
 
@@ -52,14 +53,10 @@ std::vector<Index> choose_places(const Surface& surface) {
 
 std::vector<float> triangle_openness(const Surface& surface) {
   std::vector<float> open(surface.size(), -1);
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  Bounds3 bounds;
   for (const Triangle& t : surface.triangles)
-    for (const Index v : t) {
-      const Vec3& p = surface.positions[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  const double sight = k_sight * norm(high - low);
+    for (const Index v : t) bounds.add(surface.positions[v]);
+  const double sight = k_sight * bounds.diagonal();
   std::vector<Index> places = choose_places(surface);
   const TriangleBvh tree(surface.positions, surface.triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/meshing/sight_lines.hpp"
 
-#include "triangle_bvh.hpp"
 #include "world_scene.hpp"
 
 namespace papilla {
 
 SightLines::SightLines(std::span<const PlacedMesh> parts) {
-  const detail::WorldScene scene = detail::place(parts, "SightLines");
-  std::vector<Index> first;
-  const TriangleMesh opaque = detail::opaque_triangles(scene, parts, first);
-  bvh_ = std::make_shared<detail::TriangleBvh>(opaque.positions, opaque.triangles);
-  start_mm_ = 1e-5 * scene.bounds.diagonal();
+  const detail::Occluders occluders = detail::occluders(parts, "SightLines");
+  bvh_ = occluders.bvh;
+  start_mm_ = occluders.start_mm;
 }
 
 bool SightLines::sees(const Vec3& eye, const Vec3& point) const noexcept {

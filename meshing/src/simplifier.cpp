@@ -9,6 +9,7 @@
 #include "check_mesh.hpp"
 #include "decimate.hpp"
 #include "one_sided_deviation.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::detail {
@@ -54,7 +55,7 @@ Simplifier::Simplifier(const TriangleMesh& mesh, const SimplifyOptions& options,
     : mesh_(mesh), options_(options), bvh_({}, {}) {
   check(options, function);
   check_mesh(mesh, function);
-  Bounds bounds;
+  Bounds3 bounds;
   check_distance_input(mesh, std::string(function) + ": mesh", bounds);
   diagonal_ = bounds.diagonal();
   wedges_ = make_wedges(mesh, options.feature_angle_deg, options.keep_faces);

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "papilla/core/error.hpp"
-#include "triangle_bvh.hpp"
 #include "world_scene.hpp"
 
 namespace papilla {
@@ -14,11 +13,9 @@ SkyView::SkyView(std::span<const PlacedMesh> parts, const SkyOptions& options) {
   const double length = norm(options.up);
   if (options.rays == 0 || !(length > 0) || !std::isfinite(length))
     throw InvalidInput("SkyView: rays must be positive and up a direction");
-  const detail::WorldScene scene = detail::place(parts, "SkyView");
-  std::vector<Index> first;
-  const TriangleMesh opaque = detail::opaque_triangles(scene, parts, first);
-  bvh_ = std::make_shared<detail::TriangleBvh>(opaque.positions, opaque.triangles);
-  start_mm_ = 1e-5 * scene.bounds.diagonal(), reach_mm_ = 2 * scene.bounds.diagonal();
+  const detail::Occluders occluders = detail::occluders(parts, "SkyView");
+  bvh_ = occluders.bvh;
+  start_mm_ = occluders.start_mm, reach_mm_ = 2 * occluders.diagonal_mm;
   const Vec3 up = (1 / length) * options.up;
   const Vec3 across = normalized(cross(up, std::abs(up.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 0, 1}));
   const Vec3 along = cross(up, across);

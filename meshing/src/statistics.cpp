@@ -8,6 +8,7 @@
 #include "edge_table.hpp"
 #include "exact_positions.hpp"
 #include "find_t_junctions.hpp"
+#include "papilla/core/bounds.hpp"
 #include "same_triangles.hpp"
 #include "triangle_shape.hpp"
 #include "union_find.hpp"
@@ -38,11 +39,10 @@ Welded weld_exactly(const TriangleMesh& mesh) {
 
 void measure_box(const Welded& welded, MeshStatistics& result) {
   if (welded.positions.empty()) return;
-  result.low = result.high = welded.positions.front();
-  for (const Vec3& p : welded.positions) {
-    result.low = {std::min(result.low.x, p.x), std::min(result.low.y, p.y), std::min(result.low.z, p.z)};
-    result.high = {std::max(result.high.x, p.x), std::max(result.high.y, p.y), std::max(result.high.z, p.z)};
-  }
+  Bounds3 bounds;
+  for (const Vec3& p : welded.positions) bounds.add(p);
+  result.low = bounds.low;
+  result.high = bounds.high;
 }
 
 /// Degenerate triangles, aspect, area; returns the signed volume seen from the box's centre.

@@ -8,6 +8,7 @@
 #include "check_mesh.hpp"
 #include "find_t_junctions.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "repair_steps.hpp"
 
 namespace papilla {
@@ -90,7 +91,7 @@ TJunctionResult split_t_junctions(TriangleMesh mesh, const TJunctionOptions& opt
   check_mesh(mesh, "split_t_junctions");
   TJunctionResult result;
   split_borders(mesh, EdgeTable(mesh.triangles, mesh.positions.size()),
-                options.relative_tolerance * bounding_diagonal(mesh), result);
+                options.relative_tolerance * bounds_of(mesh).diagonal(), result);
   result.mesh = std::move(mesh);
   return result;
 }

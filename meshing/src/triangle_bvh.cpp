@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "triangle_bvh.hpp"
+#include "papilla/core/bounds.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
@@ -273,17 +274,12 @@ class BvhBuilder {
 };
 
 TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  constexpr double k_inf = std::numeric_limits<double>::infinity();
-  Vec3 low{k_inf, k_inf, k_inf}, high{-k_inf, -k_inf, -k_inf};
+  Bounds3 bounds;
   for (const Triangle& t : triangles)
-    for (const Index v : t) {
-      const Vec3& p = positions[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    for (const Index v : t) bounds.add(positions[v]);
   if (triangles.empty()) return;
-  centre_ = 0.5 * (low + high);
-  const Vec3 extent = high - low;
+  centre_ = bounds.middle();
+  const Vec3 extent = bounds.size();
   const double margin = k_margin * std::max({extent.x, extent.y, extent.z});
 
   const auto corners_of = [&](std::size_t i) {

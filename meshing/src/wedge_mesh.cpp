@@ -8,6 +8,7 @@
 #include "edge_table.hpp"
 #include "exact_positions.hpp"
 #include "mesh_attributes.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/units.hpp"
 #include "union_find.hpp"
 
@@ -36,7 +37,7 @@ class SmoothEdges {
         has_features_(feature_angle_deg < 180),
         keep_faces_(keep_faces),
         normals_(mesh.triangles.size()) {
-    Bounds bounds;
+    Bounds3 bounds;
     for (const Vec3& p : wedges.positions) bounds.add(p);
     // Below this altitude the single-precision noise of files turns a normal by more than about 3 degrees.
     const double least_altitude = 1e-6 * bounds.diagonal();

@@ -10,6 +10,7 @@
 #include "edge_table.hpp"
 #include "exact_positions.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "point_tree.hpp"
 #include "repair_steps.hpp"
 #include "triangle_shape.hpp"
@@ -131,7 +132,7 @@ WeldResult weld_equal(TriangleMesh mesh) {
 WeldResult weld(TriangleMesh mesh, const WeldOptions& options) {
   check_options(options);
   WeldResult result = weld_equal(std::move(mesh));
-  const double diagonal = bounding_diagonal(result.mesh);
+  const double diagonal = bounds_of(result.mesh).diagonal();
   result.tolerance_mm = options.tolerance_mm.value_or(options.relative_tolerance * diagonal);
   weld_borders(result.mesh, EdgeTable(result.mesh.triangles, result.mesh.positions.size()),
                {result.tolerance_mm, options.feature_fraction, k_degenerate_altitude * diagonal}, result);

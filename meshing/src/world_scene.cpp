@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "world_scene.hpp"
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::detail {
@@ -19,7 +20,7 @@ WorldScene place(std::span<const PlacedMesh> parts, const std::string& function)
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string name = function + ": parts[" + std::to_string(i) + "]";
     if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
-    Bounds own;
+    Bounds3 own;
     check_distance_input(*parts[i].mesh, name + ".mesh", own);
     TriangleMesh& world = scene.parts[i];
     world.triangles = parts[i].mesh->triangles;
@@ -41,6 +42,15 @@ TriangleMesh opaque_triangles(const WorldScene& scene, std::span<const PlacedMes
       opaque.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   }
   return opaque;
+}
+
+Occluders occluders(std::span<const PlacedMesh> parts, const std::string& function) {
+  constexpr double k_start = 1e-5;  // Of the scene's diagonal.
+  const WorldScene scene = place(parts, function);
+  std::vector<Index> first;
+  const TriangleMesh opaque = opaque_triangles(scene, parts, first);
+  const double diagonal = scene.bounds.diagonal();
+  return {std::make_shared<TriangleBvh>(opaque.positions, opaque.triangles), diagonal, k_start * diagonal};
 }
 
 }  // namespace papilla::detail

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "check_distance_input.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/meshing/placed_mesh.hpp"
+#include "triangle_bvh.hpp"
 
 namespace papilla::detail {
 
 /// The parts' triangles in the scene's space, one part after the other.
 struct WorldScene {
   std::vector<TriangleMesh> parts;
-  Bounds bounds;
+  Bounds3 bounds;
 };
 
 /// @throws InvalidInput naming function and part when a mesh is missing or has a bad index or coordinate, or is not
@@ -23,5 +26,15 @@ WorldScene place(std::span<const PlacedMesh> parts, const std::string& function)
 /// The triangles of the parts that are opaque as one list.
 /// @param first  becomes a number a part: where its triangles begin, or k_no_value when it is not opaque.
 TriangleMesh opaque_triangles(const WorldScene& scene, std::span<const PlacedMesh> parts, std::vector<Index>& first);
+
+/// What hides in a scene.
+struct Occluders {
+  std::shared_ptr<const TriangleBvh> bvh;
+  double diagonal_mm;  ///< Of the scene.
+  double start_mm;     ///< So far off its surface a ray starts.
+};
+
+/// @throws InvalidInput as place().
+Occluders occluders(std::span<const PlacedMesh> parts, const std::string& function);
 
 }  // namespace papilla::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "border_guard.hpp"
+#include "papilla/core/bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,19 +21,10 @@ constexpr double k_cells_per_edge = 16;
 
 double length(Vec2 a) { return std::sqrt(dot(a, a)); }
 
-struct Extent {
-  Vec2 low, high;
-  double size() const { return std::max(high.x - low.x, high.y - low.y); }
-};
-
-Extent extent_of(std::span<const BorderPair> border, std::span<const Vec2> uv) {
-  Extent e{uv[border[0][0]], uv[border[0][0]]};
-  for (const BorderPair& pair : border) {
-    const Vec2 p = uv[pair[0]];
-    e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y)};
-    e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y)};
-  }
-  return e;
+Bounds2 bounds_of(std::span<const BorderPair> border, std::span<const Vec2> uv) {
+  Bounds2 bounds;
+  for (const BorderPair& pair : border) bounds.add(uv[pair[0]]);
+  return bounds;
 }
 
 /// The point of a segment that is closest to a vertex.
@@ -52,11 +44,11 @@ Closest closest(Vec2 vertex, Vec2 from, Vec2 to) {
 
 BorderGuard::BorderGuard(std::vector<BorderPair> border, std::vector<Vec2> uv)
     : border_(std::move(border)), uv_(std::move(uv)), edges_of_(uv_.size(), {k_no_edge, k_no_edge}) {
-  const Extent extent = extent_of(border_, uv_);
+  const Bounds2 extent = bounds_of(border_, uv_);
   double total = 0;
   for (const BorderPair& pair : border_) total += length(uv_[pair[1]] - uv_[pair[0]]);
   const double edges = static_cast<double>(border_.size());
-  cell_ = std::max(total / edges, extent.size() / std::sqrt(k_cells_per_edge * edges));
+  cell_ = std::max(total / edges, std::max(extent.size().x, extent.size().y) / std::sqrt(k_cells_per_edge * edges));
   tolerance_ = k_contact * total / edges;
   low_ = extent.low;
   columns_ = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell_) + 1;
@@ -171,9 +163,10 @@ BorderBarrier::BorderBarrier(std::vector<BorderPair> border, std::span<const Vec
 
 std::vector<BorderBarrier::Pair> BorderBarrier::near_pairs(std::span<const Vec2> uv, double widening) const {
   if (border_.empty()) return {};
-  const Extent extent = extent_of(border_, uv);
+  const Bounds2 extent = bounds_of(border_, uv);
   const double edges = static_cast<double>(border_.size());
-  const double cell = std::max(most_reach_ / k_reach, extent.size() / std::sqrt(k_cells_per_edge * edges));
+  const double cell =
+      std::max(most_reach_ / k_reach, std::max(extent.size().x, extent.size().y) / std::sqrt(k_cells_per_edge * edges));
   const auto columns = static_cast<std::size_t>((extent.high.x - extent.low.x) / cell) + 1;
   const auto rows = static_cast<std::size_t>((extent.high.y - extent.low.y) / cell) + 1;
   const auto number = [cell](double distance, std::size_t count) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dissection.hpp"
+#include "papilla/core/bounds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -88,13 +89,9 @@ class Dissector {
   }
 
   Cut cut_along_longest_axis(std::span<const Index> members, std::uint32_t inside) {
-    Vec3 low = where_[members[0]], high = low;
-    for (const Index v : members) {
-      const Vec3 p = where_[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    const Vec3 extent = high - low;
+    Bounds3 bounds;
+    for (const Index v : members) bounds.add(where_[v]);
+    const Vec3 extent = bounds.size();
     double Vec3::*axis = &Vec3::x;
     if (extent.y > extent.*axis) axis = &Vec3::y;
     if (extent.z > extent.*axis) axis = &Vec3::z;

@@ -4,7 +4,9 @@
 
 #include "check_mesh.hpp"
 #include "mesh_frame.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/param/projections.hpp"
 
 namespace papilla {
@@ -15,7 +17,7 @@ CornerAttribute<Vec2> environment_uv(const TriangleMesh& mesh, const Environment
   constexpr const char* k_function = "environment_uv";
   check_mesh(mesh, k_function);
   if (options.eye && !is_finite(*options.eye)) throw InvalidInput(std::string(k_function) + ": eye is not finite");
-  const Bounds bounds = bounds_of(mesh);
+  const Bounds3 bounds = bounds_of(mesh);
   const UprightFrame world = upright_frame(options.up);
   const Vec3 eye = options.eye.value_or(bounds.middle() - (3 * std::max(bounds.diagonal(), 1e-300)) * world.back);
   Vec3 back = normalized(eye - bounds.middle());

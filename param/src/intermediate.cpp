@@ -7,7 +7,9 @@
 #include "check_mesh.hpp"
 #include "corner_charts.hpp"
 #include "mesh_frame.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/param/projections.hpp"
 
 namespace papilla {
@@ -37,9 +39,9 @@ struct Surroundings {
   double cone_radius(double z) const { return 2 * radius * (apex - z) / (4 * half.z); }
 };
 
-Surroundings surroundings_of(const Bounds& bounds, GrainUp up) {
+Surroundings surroundings_of(const Bounds3& bounds, GrainUp up) {
   const UprightFrame frame = upright_frame(up);
-  const Vec3 extent = bounds.high - bounds.low;
+  const Vec3 extent = bounds.size();
   const double least = k_least_extent * std::max(bounds.diagonal(), 1e-300);
   const auto half = [&](Vec3 axis) { return 0.5 * std::max(std::abs(dot(axis, extent)), least); };
   Surroundings s;
@@ -71,7 +73,7 @@ class Mapper {
  public:
   Mapper(const TriangleMesh& mesh, const IntermediateOptions& options)
       : mesh_(mesh), options_(options), frame_(upright_frame(options.up)), normals_(vertex_normals(mesh)) {
-    const Bounds bounds = bounds_of(mesh);
+    const Bounds3 bounds = bounds_of(mesh);
     middle_ = bounds.middle();
     around_ = surroundings_of(bounds, options.up);
     eye_ = options.eye ? to_own(*options.eye) : Vec3{0, -3 * std::max(bounds.diagonal(), 1e-300), 0};

@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_frame.hpp"
 
-#include <algorithm>
-
 namespace papilla::param_detail {
 
 UprightFrame upright_frame(GrainUp up) {
   if (up == GrainUp::z) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-}
-
-Bounds bounds_of(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return {};
-  Bounds bounds{mesh.corner(0, 0), mesh.corner(0, 0)};
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = mesh.corner(t, k);
-      bounds.low = {std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y), std::min(bounds.low.z, p.z)};
-      bounds.high = {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
-    }
-  return bounds;
 }
 
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {

@@ -14,14 +14,6 @@ struct UprightFrame {
 };
 UprightFrame upright_frame(GrainUp up);
 
-struct Bounds {
-  Vec3 low, high;
-  Vec3 middle() const { return 0.5 * (low + high); }
-  double diagonal() const { return norm(high - low); }
-};
-/// Of the vertices that triangles use; zero for a mesh without triangles.
-Bounds bounds_of(const TriangleMesh& mesh);
-
 /// Area-weighted normals of the vertices; zero where triangles cancel out.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 

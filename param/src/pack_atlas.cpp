@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/pack.hpp"
 #include "place_charts.hpp"
@@ -19,11 +20,8 @@ constexpr const char* k_function = "pack_atlas";
 /// Widths that are tried, relative to the root of the total box area.
 constexpr double k_widths[] = {1.0, 1.04, 1.08, 1.12, 1.18, 1.25, 1.35, 1.5};
 
-struct Box {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+struct Box : Bounds2 {
   double triangle_area = 0;
-  bool empty() const { return !(low.x <= high.x); }
 };
 
 std::vector<Box> boxes_of(const CornerAttribute<Vec2>& uv, const ChartSet& charts) {
@@ -31,10 +29,7 @@ std::vector<Box> boxes_of(const CornerAttribute<Vec2>& uv, const ChartSet& chart
   for (std::size_t t = 0; t < uv.indices.size(); ++t) {
     Box& box = boxes[charts.of_triangle[t]];
     const Vec2 corner[3] = {uv.values[uv.indices[t][0]], uv.values[uv.indices[t][1]], uv.values[uv.indices[t][2]]};
-    for (const Vec2 p : corner) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
+    for (const Vec2 p : corner) box.add(p);
     box.triangle_area += 0.5 * std::abs(cross(corner[1] - corner[0], corner[2] - corner[0]));
   }
   return boxes;
@@ -144,7 +139,7 @@ Atlas pack_atlas(const CornerAttribute<Vec2>& uv, const ChartSet& charts, const 
   const std::vector<Box> boxes = boxes_of(uv, charts);
   std::vector<Item> items;
   for (std::uint32_t c = 0; c < charts.count; ++c) {
-    if (boxes[c].empty()) continue;
+    if (boxes[c].is_empty()) continue;
     items.push_back({c, boxes[c].high.x - boxes[c].low.x + options.gutter_mm + options.tile_mm.x,
                      boxes[c].high.y - boxes[c].low.y + options.gutter_mm + options.tile_mm.y});
   }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "place_charts.hpp"
 
@@ -102,15 +103,12 @@ void add_segment(Vec2 a, Vec2 b, double cell, std::vector<double>& low, std::vec
 
 Outline outline_of(const Chart& chart, int quarters, double cell, double gutter) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec2 min{infinity, infinity}, max = -1.0 * min;
+  Bounds2 bounds;
   for (const PlaneTriangle& t : chart.triangles)
-    for (const Vec2 corner : t) {
-      const Vec2 p = turn(corner, quarters);
-      min = {std::min(min.x, p.x), std::min(min.y, p.y)}, max = {std::max(max.x, p.x), std::max(max.y, p.y)};
-    }
+    for (const Vec2 corner : t) bounds.add(turn(corner, quarters));
   Outline o;
-  o.origin = min - Vec2{0.5 * gutter, 0.5 * gutter};
-  const auto columns = static_cast<std::size_t>(std::ceil((max.x - min.x + gutter) / cell)) + 1;
+  o.origin = bounds.low - Vec2{0.5 * gutter, 0.5 * gutter};
+  const auto columns = static_cast<std::size_t>(std::ceil((bounds.size().x + gutter) / cell)) + 1;
   std::vector<double> low(columns, infinity), high(columns, -infinity);
   for (const PlaneTriangle& t : chart.triangles)
     for (std::size_t k = 0; k < 3; ++k)
@@ -197,12 +195,10 @@ class Packer {
 
  private:
   static double extent_of(const Chart& chart) {
-    Vec2 min = chart.triangles.front()[0], max = min;
+    Bounds2 bounds;
     for (const PlaneTriangle& t : chart.triangles)
-      for (const Vec2 p : t) {
-        min = {std::min(min.x, p.x), std::min(min.y, p.y)}, max = {std::max(max.x, p.x), std::max(max.y, p.y)};
-      }
-    return std::max(max.x - min.x, max.y - min.y);
+      for (const Vec2 p : t) bounds.add(p);
+    return std::max(bounds.size().x, bounds.size().y);
   }
 
   Placement pack_into(double width, double gutter) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "papilla/core/bounds.hpp"
 #include "vertex_step.hpp"
 
 namespace papilla::param_detail {
@@ -62,11 +63,10 @@ Polygon clip(const Polygon& polygon, Vec2 a, Vec2 b) {
 
 /// The middle of all places that see every edge of the ring from the left.
 bool middle_of_kernel(std::span<const RingEdge> ring, bool closed_by_chord, Vec2& middle) {
-  Vec2 low = ring.front().from, high = low;
-  for (const RingEdge& e : ring) {
-    low = {std::min(low.x, e.to.x), std::min(low.y, e.to.y)};
-    high = {std::max(high.x, e.to.x), std::max(high.y, e.to.y)};
-  }
+  Bounds2 bounds;
+  bounds.add(ring.front().from);
+  for (const RingEdge& e : ring) bounds.add(e.to);
+  const auto [low, high] = bounds;
   Polygon kernel{low, {high.x, low.y}, high, {low.x, high.y}};
   for (const RingEdge& e : ring) kernel = clip(kernel, e.from, e.to);
   if (closed_by_chord) kernel = clip(kernel, ring.back().to, ring.front().from);

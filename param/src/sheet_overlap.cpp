@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "adjacency.hpp"
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -14,13 +14,7 @@ namespace {
 /// coordinates, which are taken as exact, and far below anything that can be seen.
 constexpr double k_contact = 1e-13;
 
-struct Box {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  void add(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+struct Box : Bounds2 {
   double width() const { return high.x - low.x; }
   double height() const { return high.y - low.y; }
   double extent() const { return std::max(width(), height()); }

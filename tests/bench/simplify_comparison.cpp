@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "papilla/meshing/deviation.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/simplify.hpp"
 #include "support/formula_meshes.hpp"
 #include "support/solid_meshes.hpp"
@@ -54,12 +54,8 @@ double deviation_mm(const TriangleMesh& input, const TriangleMesh& result) {
 }
 
 Shape shape_of(std::string name, TriangleMesh mesh) {
-  Vec3 low = mesh.positions.front(), high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return {std::move(name), std::move(mesh), norm(high - low)};
+  const double diagonal = bounds_of(mesh).diagonal();
+  return {std::move(name), std::move(mesh), diagonal};
 }
 
 #ifdef PAPILLA_HAVE_MESHOPTIMIZER

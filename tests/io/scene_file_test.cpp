@@ -37,16 +37,17 @@ TEST(SceneFile, TheUpAxisCanBeOverridden) {
 
 TEST(SceneFile, MillimetresAreDoubtedWhereNothingIsThatSmall) {
   const TemporaryFolder folder;
-  const auto warnings_of = [&](const std::string& high, double unit) {
+  const auto warnings_of = [&](const std::string& high, std::optional<double> unit) {
     ReadOptions options;
     options.millimetres_per_unit = unit;
     return read_scene(folder.write("a.obj", "v 0 0 0\nv 4.1 0 0\nv 0 2.2 " + high + "\nf 1 2 3\n"), options).warnings;
   };
-  const auto small = warnings_of("1.3", 1);
+  const auto small = warnings_of("1.3", std::nullopt);
   ASSERT_EQ(small.size(), 1U);
   EXPECT_NE(small[0].find("4.1 x 2.2 x 1.3"), std::string::npos) << small[0];
+  EXPECT_TRUE(warnings_of("1.3", 1).empty()) << "said so by the user";
   EXPECT_TRUE(warnings_of("1.3", 1000).empty());
-  EXPECT_TRUE(warnings_of("9.3", 1).empty());
+  EXPECT_TRUE(warnings_of("9.3", std::nullopt).empty());
 }
 
 TEST(SceneFile, UnknownExtensionsListTheKnownOnes) {

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "bake/surface_uv.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
@@ -38,17 +39,17 @@ struct Work {
 CornerAttribute<Vec2> repeats_of(const Flattening& flattening, const double (&size_mm)[2]) {
   CornerAttribute<Vec2> uv = flattening.uv;
   for (Vec2& value : uv.values) value = {value.x / size_mm[0], value.y / size_mm[1]};
-  std::vector<Vec2> low(flattening.charts.count, {HUGE_VAL, HUGE_VAL});
+  std::vector<Bounds2> bounds(flattening.charts.count);
   std::vector<std::uint32_t> chart_of_value(uv.values.size(), 0);
   for (std::size_t t = 0; t < uv.indices.size(); ++t) {
     const std::uint32_t chart = flattening.charts.of_triangle[t];
     for (const Index i : uv.indices[t]) {
       chart_of_value[i] = chart;
-      low[chart] = {std::min(low[chart].x, uv.values[i].x), std::min(low[chart].y, uv.values[i].y)};
+      bounds[chart].add(uv.values[i]);
     }
   }
   for (std::size_t i = 0; i < uv.values.size(); ++i) {
-    const Vec2 whole{std::floor(low[chart_of_value[i]].x), std::floor(low[chart_of_value[i]].y)};
+    const Vec2 low = bounds[chart_of_value[i]].low, whole{std::floor(low.x), std::floor(low.y)};
     uv.values[i] = uv.values[i] - whole;
   }
   return uv;

@@ -16,6 +16,7 @@
 #include "pictures/relief.hpp"
 #include "pictures/scene_render.hpp"
 #include "pictures/uv_layout.hpp"
+#include "placed_meshes.hpp"
 
 namespace papilla::app {
 namespace {
@@ -99,12 +100,6 @@ std::vector<const BakedSurface*> largest_surfaces(const std::vector<BakedSurface
   return order;
 }
 
-SightLines sight_lines(const Scene& scene, const std::vector<Instance>& uses) {
-  std::vector<PlacedMesh> parts;
-  for (const Instance& use : uses) parts.push_back({&scene.parts[use.part].mesh, multiply(to_y_up(scene.up), use.world)});
-  return SightLines(parts);
-}
-
 /// The spot of a surface nearest to the middle of its area before which nothing stands in the way, with the normal
 /// there, in the frame of the scene; the nearest of all when that is true of none.
 std::optional<CloseUp> look_at(const BakedSurface& surface, const std::vector<Instance>& uses, UpAxis up,
@@ -137,7 +132,7 @@ void add_close_ups(const BakeResult& result, const std::vector<const BakedSurfac
   render.mode = RenderMode::material;
   render.width = render.height = 800;
   const std::vector<Instance> uses = instances(result.scene);
-  const SightLines sight = sight_lines(result.scene, uses);
+  const SightLines sight(placed_y_up(result.scene, uses));
   for (const auto& [name, grain] : result.grains) {
     const auto largest = std::find_if(by_size.begin(), by_size.end(), [&](const BakedSurface* s) { return s->material == name; });
     if (largest == by_size.end()) continue;

@@ -7,6 +7,7 @@
 
 #include "evaluate/evaluation_files.hpp"
 #include "evaluate/pareto.hpp"
+#include "papilla/core/bounds.hpp"
 #include "pictures/plot.hpp"
 
 namespace papilla::app {
@@ -55,13 +56,11 @@ double room_for(const std::vector<std::string>& names) {
 void name_front(const EvaluationGroup& group, double floor, Plot& plot) {
   constexpr double k_room_y = 0.15, k_line = 0.045;  // of what the points take
   const double room_x = room_for(group.on_front);
-  Vec2 low{INFINITY, INFINITY}, high{0, 0};
+  Bounds2 bounds;
   for (const PlotSeries& series : plot.series)
-    for (const Vec2 p : series.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-  if (group.front.empty() || !std::isfinite(low.x)) return;
+    for (const Vec2 p : series.points) bounds.add(p);
+  if (group.front.empty() || bounds.is_empty()) return;
+  const auto [low, high] = bounds;
   const double decades = std::max(std::log10(high.y / low.y), 0.3),
                decades_x = std::max(std::log10(high.x / low.x), 1.0);
   plot.low = {low.x * std::pow(10, -room_x * decades_x), low.y * std::pow(10, -k_room_y * decades)};

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/simplify_ladder.hpp"
 
 namespace papilla::app {
@@ -18,7 +18,7 @@ constexpr std::array<double, 7> k_tolerances = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e
 /// Two curves over the ladder, and one a tolerance over the passes.
 void add_runs(const std::string& name, const TriangleMesh& mesh, int passes, const Budget& budget,
               std::vector<EvaluationRun>& runs) {
-  const double diagonal = bounding_diagonal_mm(mesh);
+  const double diagonal = bounds_of(mesh).diagonal();
   if (!(diagonal > 0)) return;
   std::vector<double> tolerances;
   for (const double relative : k_tolerances) tolerances.push_back(relative * diagonal);

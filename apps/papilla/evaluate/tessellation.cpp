@@ -19,7 +19,7 @@ constexpr double k_growth = 2.2;
 CadReadOptions cad_options(const ReadOptions& read) {
   CadReadOptions options;
   options.angle_deg = read.angle_deg;
-  options.millimetres_per_unit = read.cad_millimetres_per_unit;
+  options.millimetres_per_unit = read.millimetres_per_unit;
   return options;
 }
 

@@ -5,9 +5,9 @@
 
 #include <array>
 
-#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 
 namespace papilla::app {
 namespace {
@@ -29,7 +29,7 @@ std::vector<EvaluationRun> evaluate_weld(const EvaluationInput& input) {
   std::vector<EvaluationRun> runs;
   for (const std::uint32_t number : largest_parts(scene, k_most_parts)) {
     const Part& part = scene.parts[number];
-    const double diagonal = bounding_diagonal_mm(part.mesh);
+    const double diagonal = bounds_of(part.mesh).diagonal();
     if (!(diagonal > 0)) continue;
     std::vector<double> tolerances;
     for (const double relative : k_tolerances) tolerances.push_back(relative * diagonal);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "pictures/border_edges.hpp"
@@ -123,21 +123,18 @@ Camera aim(Vec3 position, Vec3 forward, const RenderOptions& options) {
 /// Shifts and scales the picture so that all vertices fill it but for a margin.
 void fit(Camera& camera, const std::vector<TriangleSetup>& triangles, const RenderOptions& options) {
   constexpr double k_filled = 0.94;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec2 low{infinity, infinity}, high{-infinity, -infinity};
+  Bounds2 bounds;
   for (const TriangleSetup& t : triangles)
     for (const Vertex& v : t.v) {
       const Vec3 d = v.world - camera.position;
       const double depth = dot(d, camera.forward);
-      const Vec2 p{dot(d, camera.right) / depth, dot(d, camera.up) / depth};
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      bounds.add(Vec2{dot(d, camera.right) / depth, dot(d, camera.up) / depth});
     }
   const double width = options.width * options.samples, height = options.height * options.samples;
-  const Vec2 extent{std::max(high.x - low.x, 1e-9), std::max(high.y - low.y, 1e-9)};
+  const Vec2 extent = upper(bounds.size(), {1e-9, 1e-9}), middle = bounds.middle();
   camera.focal = k_filled * std::min(width / extent.x, height / extent.y);
-  camera.center_x = 0.5 * width - 0.5 * camera.focal * (low.x + high.x);
-  camera.center_y = 0.5 * height + 0.5 * camera.focal * (low.y + high.y);
+  camera.center_x = 0.5 * width - camera.focal * middle.x;
+  camera.center_y = 0.5 * height + camera.focal * middle.y;
 }
 
 Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triangles, const RenderOptions& options) {
@@ -146,17 +143,13 @@ Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triang
     const Vec3 point = transform_point(to_y_up(scene.up), options.close_up->point);
     return aim(position, normalized(point - position), options);
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity}, high = -low;
+  Bounds3 bounds;
   for (const TriangleSetup& t : triangles)
-    for (const Vertex& v : t.v) {
-      low = {std::min(low.x, v.world.x), std::min(low.y, v.world.y), std::min(low.z, v.world.z)};
-      high = {std::max(high.x, v.world.x), std::max(high.y, v.world.y), std::max(high.z, v.world.z)};
-    }
+    for (const Vertex& v : t.v) bounds.add(v.world);
   const Vec3 towards = normalized(options.towards_camera);
   if (norm(towards) == 0) throw InvalidInput("render_scene: towards_camera is the zero vector");
-  const double radius = std::max(0.5 * norm(high - low), 1e-9);
-  Camera camera = aim(0.5 * (low + high) + (radius / std::sin(0.5 * k_field_of_view)) * towards, -towards, options);
+  const double radius = std::max(0.5 * bounds.diagonal(), 1e-9);
+  Camera camera = aim(bounds.middle() + (radius / std::sin(0.5 * k_field_of_view)) * towards, -towards, options);
   fit(camera, triangles, options);
   return camera;
 }

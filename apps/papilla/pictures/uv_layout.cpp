@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "papilla/core/bounds.hpp"
 #include "pictures/border_edges.hpp"
 #include "pictures/pixel_text.hpp"
 
@@ -110,21 +111,12 @@ void shrink(const Canvas& fine, int samples, Canvas& target) {
     }
 }
 
-struct Bounds {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-};
-
-Bounds bounds_of(const CornerAttribute<Vec2>& uv) {
-  Bounds b;
-  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
-    if (!uv.has_value(t)) continue;
-    for (const Index i : uv.indices[t]) {
-      b.low = {std::min(b.low.x, uv.values[i].x), std::min(b.low.y, uv.values[i].y)};
-      b.high = {std::max(b.high.x, uv.values[i].x), std::max(b.high.y, uv.values[i].y)};
-    }
-  }
-  return b.low.x <= b.high.x ? b : Bounds{{0, 0}, {1, 1}};
+Bounds2 bounds_of(const CornerAttribute<Vec2>& uv) {
+  Bounds2 bounds;
+  for (std::size_t t = 0; t < uv.indices.size(); ++t)
+    if (uv.has_value(t))
+      for (const Index i : uv.indices[t]) bounds.add(uv.values[i]);
+  return bounds.is_empty() ? Bounds2{{0, 0}, {1, 1}} : bounds;
 }
 
 }  // namespace
@@ -136,8 +128,8 @@ Rgb distortion_colour(const TriangleDistortion& distortion, double worst) {
 
 ColorImage draw_uv_layout(const CornerAttribute<Vec2>& uv, const DistortionReport& report,
                           const UvLayoutOptions& options) {
-  const Bounds b = bounds_of(uv);
-  const Vec2 size = b.high - b.low;
+  const Bounds2 b = bounds_of(uv);
+  const Vec2 size = b.size();
   const double larger = std::max({size.x, size.y, std::numeric_limits<double>::min()});
   const double inner = options.side_px - 2 * k_margin;
   const int width = std::max(256, static_cast<int>(std::lround(inner * size.x / larger)) + 2 * k_margin);

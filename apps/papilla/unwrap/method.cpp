@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "bounding_diagonal.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/param/components.hpp"
 #include "papilla/param/grain_direction.hpp"
 #include "papilla/param/grain_frame.hpp"
@@ -202,7 +202,7 @@ FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context,
   MethodOptions o = prepare(mesh, options, context);
   FlattenedPart part;
   if (o.method == UnwrapMethod::automatic && o.charts == ChartSource::automatic) {
-    part.reason = reason_for_triplanar(bounding_diagonal_mm(mesh), context);
+    part.reason = reason_for_triplanar(bounds_of(mesh).diagonal(), context);
     if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;
   }
   part.method = unwrap_method_name(o.method);

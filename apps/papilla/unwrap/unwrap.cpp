@@ -6,8 +6,8 @@
 #include <exception>
 #include <utility>
 
-#include "bounding_diagonal.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/pack.hpp"
 
@@ -123,7 +123,7 @@ PartContext context_of(const Scene& scene, const UnwrapOptions& options) {
   TriangleMesh all;
   for (const Part& part : scene.parts)
     all.positions.insert(all.positions.end(), part.mesh.positions.begin(), part.mesh.positions.end());
-  context.scene_extent_mm = bounding_diagonal_mm(all);
+  context.scene_extent_mm = bounds_of(all).diagonal();
   return context;
 }
 

@@ -19,6 +19,7 @@
 #include "recipe_source.hpp"
 #include "scene_budget.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -96,8 +97,7 @@ Json run_bake(const Options& options, VerbContext& context) {
   const std::size_t triangles = drawn_triangles(result.scene);
   json["output"] = {{"file", options.output}, {"bytes", fs::file_size(options.output)}, {"triangles", triangles}};
   context.console.print(bake_table(result));
-  for (const std::string& loss : result.scene.losses) context.console.print("left out: " + loss + "\n");
-  for (const std::string& warning : result.scene.warnings) context.console.print("warning: " + warning + "\n");
+  print_notes(result.scene, context.console);
   context.console.print(fmt::format("{}: {} triangles, {:.1f} MB\n", options.output, triangles,
                                     static_cast<double>(fs::file_size(options.output)) / 1e6));
   if (options.pictures) {

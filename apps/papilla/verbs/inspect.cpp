@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <set>
@@ -9,11 +8,13 @@
 
 #include "leave_out.hpp"
 #include "mesh_report.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "pictures/scene_render.hpp"
 #include "scene_budget.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -75,15 +76,10 @@ Json textures_json(const Scene& scene, const Material& material) {
 
 /// Edges of the box around all instances, along the file's axes.
 Json size_mm(const Scene& scene) {
-  std::optional<std::pair<Vec3, Vec3>> box;
+  Bounds3 bounds;
   for (const Instance& use : instances(scene))
-    for (const Vec3& at : scene.parts[use.part].mesh.positions) {
-      const Vec3 p = transform_point(use.world, at);
-      auto& [low, high] = box ? *box : box.emplace(p, p);
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  const Vec3 size = box ? box->second - box->first : Vec3{};
+    for (const Vec3& p : scene.parts[use.part].mesh.positions) bounds.add(transform_point(use.world, p));
+  const Vec3 size = bounds.size();
   return {size.x, size.y, size.z};
 }
 
@@ -126,8 +122,7 @@ void print_for_people(const Console& console, const Json& result, const Scene& s
     console.print(line + "\n");
   }
   if (result.contains("perception")) print_perception(console, result["perception"]);
-  for (const std::string& warning : scene.warnings) console.print("warning: " + warning + "\n");
-  for (const std::string& loss : scene.losses) console.print("left out: " + loss + "\n");
+  print_notes(scene, console);
 }
 
 Json inspect(VerbContext& context, const InspectOptions& options) {

@@ -110,10 +110,14 @@ Json run(const Options& options, VerbContext& context) {
   result["histogram"] = histogram_json(distortion.report);
   if (options.histogram) context.console.print(histogram_text(distortion.report));
   if (scene.parts.size() > 1) result["parts"] = parts_json(scene, measure);
-  if (!options.colored.empty()) {
+  if (options.colored.empty()) {
+    print_notes(scene, context.console);
+  } else {
     colour_by_distortion(distortion, options.worst, scene);
     write_output(scene, options.colored, context.console);
   }
+  result["losses"] = scene.losses;
+  result["warnings"] = scene.warnings;
   result["failed"] = check_gates(gates, result, context);
   return result;
 }

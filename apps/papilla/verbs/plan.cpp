@@ -3,6 +3,7 @@
 
 #include "bake/surfaces.hpp"
 #include "scene_options.hpp"
+#include "scene_output.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -26,8 +27,11 @@ void add_plan(CLI::App& program) {
         const LeaveOutResult perception = measure_perception(scene, options->leave_out, context.progress);
         const std::vector<Surface> surfaces = plan_surfaces(scene, rules, perception.parts);
         context.console.print(plan_table(surfaces) + left_out_table(scene, perception));
+        print_notes(scene, context.console);
         Json json{{"scene", options->input}, {"materials", options->materials}, {"stages", plan_json(surfaces)}};
         json["identical_parts"] = shared_parts_json(shared, scene);
+        json["losses"] = scene.losses;
+        json["warnings"] = scene.warnings;
         if (options->leave_out.asked()) json["perception"] = perception_json(scene, perception);
         return json;
       });

@@ -150,6 +150,7 @@ Json simplify_file(VerbContext& context, SimplifyVerbOptions options) {
   write_output(scene, options.out, context.console);
   json["parts"] = parts;
   json["losses"] = scene.losses;
+  json["warnings"] = scene.warnings;
   json["seconds"] = clock.seconds();
   json["output"] = options.out;
   return json;

@@ -32,7 +32,7 @@ CadReadOptions cad_options(const TessellateVerbOptions& options) {
   cad.angle_deg = read.angle_deg;
   cad.relative = options.relative;
   cad.max_edge_mm = read.max_edge_mm;
-  cad.millimetres_per_unit = read.cad_millimetres_per_unit;
+  cad.millimetres_per_unit = read.millimetres_per_unit;
   return cad;
 }
 

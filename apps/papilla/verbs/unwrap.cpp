@@ -227,7 +227,8 @@ Json run(const Options& options, VerbContext& context) {
           {"distortion", distortion_json(distortion.report)},
           {"worst_chart", worst_chart},
           {"parts", parts_json(scene, report)},
-          {"losses", scene.losses}};
+          {"losses", scene.losses},
+          {"warnings", scene.warnings}};
 }
 
 template <class Value>

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "papilla/core/units.hpp"
+#include "placed_meshes.hpp"
 
 namespace papilla::app {
 namespace {
@@ -36,12 +37,9 @@ Vec3 vector_at(const std::vector<float>& values, std::ptrdiff_t at) {
 }  // namespace
 
 SkyView sky_of(const Scene& scene, std::span<const Instance> all, int rays) {
-  std::vector<PlacedMesh> parts;
-  for (const Instance& instance : all)
-    parts.push_back({&scene.parts[instance.part].mesh, multiply(to_y_up(scene.up), instance.world)});
   SkyOptions options;
   options.rays = static_cast<std::uint32_t>(rays);
-  return SkyView(parts, options);
+  return SkyView(placed_y_up(scene, all), options);
 }
 
 std::vector<float> sky_texels(const SurfaceTexels& texels, const SkyView& sky) {

@@ -21,6 +21,7 @@
 #include "isolated.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/unit_name.hpp"
 
 namespace papilla {
 namespace {
@@ -126,8 +127,10 @@ CadReadOptions in_file_units(CadReadOptions options, double scale) {
 }
 
 /// Takes the file's numbers as ones of another unit.
-void rescale(Scene& scene, CadReport& report, double scale) {
-  scene.millimetres_per_unit *= scale;
+void rescale(Scene& scene, CadReport& report, double millimetres_per_unit) {
+  const double scale = millimetres_per_unit / scene.millimetres_per_unit;
+  scene.millimetres_per_unit = millimetres_per_unit;
+  scene.unit = unit_name(millimetres_per_unit);
   for (Part& part : scene.parts)
     for (Vec3& p : part.mesh.positions) p = scale * p;
   for (Node& node : scene.nodes)
@@ -142,11 +145,10 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   if (progress) progress("read", 0);
   cad::allow_processor_time(reading_seconds(path));
   cad::CadTree tree = cad::build_tree(cad::read_document(path, progress));
-  const double scale =
-      options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit) / tree.scene.millimetres_per_unit;
+  const double unit = options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit);
   if (tree.scene.format == "BREP" && !options.millimetres_per_unit)
     tree.scene.warnings.push_back("BREP carries no unit: taken as mm");
-  const CadReadOptions unscaled = in_file_units(options, scale);
+  const CadReadOptions unscaled = in_file_units(options, unit / tree.scene.millimetres_per_unit);
   check_size(path, tree.shapes, unscaled);
   report.seconds_read = watch.lap();
 
@@ -161,7 +163,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   }
   if (report.triangles == 0) throw InvalidInput(path.string() + ": none of its faces can be tessellated");
   warn_of_faces(report, tree.scene);
-  if (scale != 1) rescale(tree.scene, report, scale);
+  if (unit != tree.scene.millimetres_per_unit) rescale(tree.scene, report, unit);
   report.seconds_convert = watch.lap();
   if (progress) progress("convert", 1);
   return std::move(tree.scene);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "polygon_patch.hpp"
+#include "papilla/core/bounds.hpp"
 
 #include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
@@ -149,12 +150,9 @@ void bridge(Loop& outer, const Loop& hole, const std::vector<Vec2>& at) {
 
 /// Parameters scaled so that lengths are about those on the surface.
 std::vector<Vec2> scaled_parameters(const FaceMesh& mesh, const FaceSurface& surface) {
-  Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
-  for (const PatchNode& node : mesh.patch.nodes) {
-    low = {std::min(low.x, node.uv.x), std::min(low.y, node.uv.y)};
-    high = {std::max(high.x, node.uv.x), std::max(high.y, node.uv.y)};
-  }
-  const SurfaceSample middle = surface.at(0.5 * (low + high));
+  Bounds2 bounds;
+  for (const PatchNode& node : mesh.patch.nodes) bounds.add(node.uv);
+  const SurfaceSample middle = surface.at(bounds.middle());
   const auto usable = [](double scale) { return std::isfinite(scale) && scale > 0 ? scale : 1; };
   const double su = usable(norm(middle.du)), sv = usable(norm(middle.dv));
   std::vector<Vec2> result;

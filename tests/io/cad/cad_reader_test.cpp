@@ -160,6 +160,7 @@ TEST_F(CadReader, GivenUnitReplacesTheFilesAndKeepsTheTolerance) {
   how.millimetres_per_unit = 10;
   const Scene scene = read_cad(folder_ / "torus.step", how, &report_);
   EXPECT_EQ(scene.millimetres_per_unit, 10);
+  EXPECT_EQ(scene.unit, "cm");
   double widest = 0;
   for (const Vec3& p : scene.parts.at(0).mesh.positions) widest = std::max(widest, p.x);
   EXPECT_NEAR(widest, 25 / 25.4 * 10, 1e-9);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "evaluate/stability/extreme_meshes.hpp"
 #include "evaluate/stability/stability.hpp"
 #include "papilla/meshing/chart_topology.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/meshing/simplify.hpp"
@@ -38,7 +38,7 @@ double defects_of(const TriangleMesh& mesh) {
 }
 
 void weld_soup(const TriangleMesh& mesh, StabilityCell& cell) {
-  const double diagonal = bounding_diagonal_mm(mesh);
+  const double diagonal = bounds_of(mesh).diagonal();
   const std::size_t before = mesh.triangles.size();
   const WeldResult result = weld(soup_of(mesh));
   cell.error = result.max_deviation_mm / diagonal;
@@ -48,7 +48,7 @@ void weld_soup(const TriangleMesh& mesh, StabilityCell& cell) {
 }
 
 void repair_soup(const TriangleMesh& mesh, StabilityCell& cell) {
-  const double diagonal = bounding_diagonal_mm(mesh);
+  const double diagonal = bounds_of(mesh).diagonal();
   const RepairResult result = repair(soup_of(mesh));
   cell.error = result.max_deviation_mm / diagonal;
   cell.residual = defects_of(result.mesh);
@@ -70,7 +70,7 @@ void chart(const TriangleMesh& mesh, StabilityCell& cell) {
 }
 
 void simplify_within(const TriangleMesh& mesh, StabilityCell& cell) {
-  const double diagonal = bounding_diagonal_mm(mesh);
+  const double diagonal = bounds_of(mesh).diagonal();
   SimplifyOptions options;
   options.tolerance_mm = k_tolerance * diagonal;
   const SimplifyResult result = simplify(mesh, options);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "bounding_diagonal.hpp"
 #include "evaluate/evaluation.hpp"
 #include "evaluate/stability/extreme_meshes.hpp"
 #include "evaluate/stability/stability.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"
 #include "unwrap/method.hpp"
@@ -45,7 +45,7 @@ std::vector<Variant> variants() {
 
 void map(const TriangleMesh& mesh, MethodOptions options, StabilityCell& cell) {
   PartContext context;
-  context.scene_extent_mm = bounding_diagonal_mm(mesh);
+  context.scene_extent_mm = bounds_of(mesh).diagonal();
   if (!takes_charts(options.method)) options.charts = ChartSource::automatic;
   const FlattenedPart part = flatten_part(mesh, context, options);
   const Flattening& f = part.flattening;
