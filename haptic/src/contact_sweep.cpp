@@ -15,9 +15,16 @@ constexpr double k_same_direction = 1 - 1e-9;
 constexpr double k_short_way = 16;  // Skins; and how much farther each piece of a long way leads than the one before.
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
-constexpr int k_bisections = 24;
+constexpr int k_sink_steps = 24;
+constexpr double k_above_level = 1e-4;  // Of the tolerance.
 
 }  // namespace
+
+/// A place on a way.
+struct ContactSurface::Sunk {
+  double t;
+  Clearance clearance;
+};
 
 /// How many texels of the relief a way over the triangle crosses.
 double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept {
@@ -140,7 +147,8 @@ void ContactSurface::sweep_plain(std::uint32_t place, Sweep& sweep) const noexce
   sweep.take({touch.t, normal, contact - touch.distance, source_of(place), material_of(place), {}}, touch.above);
 }
 
-/// Steps over the relief, at most half a texel at a time while it is near, and bisects the step that goes in.
+/// Steps over the relief, at most half a texel at a time while it is near, and finds the level in the step that goes
+/// in.
 void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
   const Corners t = corners(place);
   const Vec3 from = sweep.from, way = sweep.way;
@@ -153,29 +161,54 @@ void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexc
 
   // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
   const double level = -0.5 * tolerance_m();
-  double outside = entry.t, at = entry.t, allowed = -tolerance_m();
+  Sunk outside{entry.t, clearance_of(place, t, from + entry.t * way)}, inside = outside;
+  double allowed = -tolerance_m();
   for (bool first = true;; first = false) {
-    const Vec3 x = from + at * way;
-    const Clearance now = clearance_of(place, t, x);
+    const Clearance& now = inside.clearance;
     // A probe that is too deep already may rise.
     if (now.value < allowed && (!first || dot(now.gradient, way) < 0)) break;
     allowed = std::min(-tolerance_m(), now.value);
-    if (now.value >= level) outside = at;
-    if (at >= t_max) return;
+    if (now.value >= level) outside = inside;
+    if (inside.t >= t_max) return;
     // Above the highest point and leaving: the rest of the way is free.
+    const Vec3 x = from + inside.t * way;
     if (now.distance > contact + top && dot(x - foot(t, x).point, way) >= 0) return;
     // Not past the base either: behind it the clearance grows again.
     const double base = std::max(0.5 * now.distance, tolerance_m());
-    const double next = std::min(t_max, at + std::min(std::max(finest, 0.5 * now.value / length), base / length));
-    if (!(next > at)) break;  // Too small a step for a number: it stops here.
-    at = next;
+    const double next = std::min(t_max, inside.t + std::min(std::max(finest, 0.5 * now.value / length), base / length));
+    if (!(next > inside.t)) break;  // Too small a step for a number: it stops here.
+    inside = {next, clearance_of(place, t, from + next * way)};
   }
-  for (int i = 0; i < k_bisections && at - outside > 1e-9; ++i) {
-    const double middle = 0.5 * (outside + at);
-    (clearance_of(place, t, from + middle * way).value >= level ? outside : at) = middle;
+  const Sunk there = sink(place, t, from, way, level, outside, inside);
+  sweep.take(
+      {there.t, normalized(there.clearance.gradient), -there.clearance.value, source_of(place), material_of(place), {}},
+      false);
+}
+
+/// A place between the two, from + t·way, that is at the level and no more than a little above it: regula falsi, where
+/// an end that stays counts half each time [Dowell and Jarratt, BIT 11, 1971].
+ContactSurface::Sunk ContactSurface::sink(std::uint32_t place, const Corners& t, Vec3 from, Vec3 way, double level,
+                                          Sunk outside, const Sunk& inside) const noexcept {
+  const double close = k_above_level * tolerance_m(), target = level + close;
+  double above = outside.clearance.value - target, below = inside.clearance.value - target, end = inside.t;
+  bool moved_outside = false, moved_inside = false;
+  for (int step = 0; step < k_sink_steps && outside.clearance.value > target + close && end - outside.t > 1e-9;
+       ++step) {
+    const double at = outside.t + (end - outside.t) * above / (above - below);
+    const Sunk now{at, clearance_of(place, t, from + at * way)};
+    if (now.clearance.value >= level) {
+      if (moved_outside) below *= 0.5;
+      outside = now;
+      above = now.clearance.value - target;
+    } else {
+      if (moved_inside) above *= 0.5;
+      end = at;
+      below = now.clearance.value - target;
+    }
+    moved_outside = outside.t == at;
+    moved_inside = !moved_outside;
   }
-  const Clearance there = clearance_of(place, t, from + outside * way);
-  sweep.take({outside, normalized(there.gradient), -there.value, source_of(place), material_of(place), {}}, false);
+  return outside;
 }
 
 bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcept {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "bench/bench_json.hpp"
@@ -24,40 +26,58 @@ using bench::Recorder;
 
 constexpr double k_size = 0.2, k_speed = 0.2, k_period = 1e-3;
 
-/// The probe wanders at 0.2 m/s, 1 to 3 mm deep.
-class ReliefProbe {
- public:
-  explicit ReliefProbe(std::uint64_t seed) : wanderer_(seed, k_size, 0.1 * k_size, k_speed * k_period) {}
-  Vec3 next() {
-    const Vec2 at = wanderer_.next();
-    return {at.x, at.y, testing::rough_relief(at.x, at.y) - 0.002 + 0.001 * std::cos(0.01 * tick_++)};
-  }
+/// Where the probe is, tick by tick; a copy goes the same way.
+using Probe = std::function<Vec3()>;
 
- private:
-  testing::Wanderer wanderer_;
-  int tick_ = 0;
-};
-
-class SphereProbe {
- public:
-  explicit SphereProbe(std::uint64_t seed) : wanderer_(seed, 2 * k_size, 0.1, k_speed * k_period) {}
-  Vec3 next() {
-    const Vec2 at = wanderer_.next();
+/// Wanders at 0.2 m/s, 1 to 3 mm deep.
+template <class Height>
+Probe over_heights(std::uint64_t seed, const Height& height) {
+  return [=, wanderer = testing::Wanderer(seed, k_size, 0.1 * k_size, k_speed * k_period), tick = 0]() mutable {
+    const Vec2 at = wanderer.next();
+    return Vec3{at.x, at.y, height(at.x, at.y) - 0.002 + 0.001 * std::cos(0.01 * tick++)};
+  };
+}
+Probe over_relief(std::uint64_t seed) { return over_heights(seed, testing::rough_relief); }
+Probe over_plate(std::uint64_t seed) {
+  return over_heights(seed, [](double, double) { return 0.0; });
+}
+Probe over_sphere(std::uint64_t seed) {
+  return [wanderer = testing::Wanderer(seed, 2 * k_size, 0.1, k_speed * k_period), tick = 0]() mutable {
+    const Vec2 at = wanderer.next();
     const double around = at.x / 0.1, up = 0.5 * std::sin(at.y / 0.1);
-    return (0.098 + 0.001 * std::cos(0.01 * tick_++)) *
+    return (0.098 + 0.001 * std::cos(0.01 * tick++)) *
            Vec3{std::cos(around) * std::cos(up), std::sin(around) * std::cos(up), std::sin(up)};
-  }
-
- private:
-  testing::Wanderer wanderer_;
-  int tick_ = 0;
-};
+  };
+}
 
 struct Shape {
   std::string name;
   ContactMesh mesh;
-  bool relief;
+  Probe (*probe)(std::uint64_t seed);
+  std::vector<HeightField> heights;
 };
+
+/// Waves of 1.6 mm and longer in all directions, 0.2 mm high: one tile of 25.6 mm, eight of them side by side.
+HeightField grain() {
+  constexpr int pixels = 512, longest = 4, shortest = 16;
+  std::vector<double> height(pixels * pixels, 0.0);
+  for (int k = longest; k <= shortest; ++k) {
+    const double around = 2.4 * k;  // The golden angle.
+    const double u = std::round(k * std::cos(around)), v = std::round(k * std::sin(around));
+    for (int j = 0; j < pixels; ++j)
+      for (int i = 0; i < pixels; ++i)
+        height[static_cast<std::size_t>(j * pixels + i)] +=
+            std::cos(2 * std::numbers::pi * (u * i + v * j) / pixels + k * k) / k;
+  }
+  const auto [low, high] = std::minmax_element(height.begin(), height.end());
+  std::vector<std::uint16_t> samples;
+  for (const double h : height)
+    samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * (h - *low) / (*high - *low))));
+  HeightFieldOptions options;
+  options.scale_m = 2e-4;
+  options.uv_transform.scale = {8, 8};
+  return HeightField(pixels, pixels, samples, options);
+}
 
 /// Thread CPU time of every tick: of `runs` runs of the same ticks the least, so that what interrupts add is left out.
 /// As much as the largest cache holds is written before each run, so that none finds more in it than the first.
@@ -66,7 +86,7 @@ class TickTimes {
   static constexpr int k_runs = 3;
 
   /// `start` makes what a run needs and returns it; `tick` is timed, `after` is not.
-  template <class Probe, class Start, class Tick, class After>
+  template <class Start, class Tick, class After>
   void measure(const Probe& probe, int ticks, const Start& start, const Tick& tick, const After& after) {
     least_.assign(static_cast<std::size_t>(ticks), std::numeric_limits<double>::infinity());
     for (int run = 0; run < k_runs; ++run) {
@@ -74,7 +94,7 @@ class TickTimes {
       auto state = start();
       Probe moving = probe;
       for (double& least : least_) {
-        const Vec3 at = moving.next();
+        const Vec3 at = moving();
         const double before = bench::thread_cpu_seconds();
         tick(state, at);
         const double us = 1e6 * (bench::thread_cpu_seconds() - before);
@@ -108,14 +128,13 @@ struct Touching {
   ContactAudit audit;
 };
 
-template <class Probe>
-void run_proxy(const ContactSurface& surface, std::uint64_t seed, int ticks, Recorder& recorder) {
-  const Vec3 first = Probe(seed).next();
+void run_proxy(const ContactSurface& surface, const Probe& probe, int ticks, Recorder& recorder) {
+  const Vec3 first = Probe(probe)();
   const Vec3 outside = first + 0.02 * (surface.low().z < -0.05 ? normalized(first) : Vec3{0, 0, 1});
   int lost = 0, contact = 0;
   TickTimes times;
   times.measure(
-      Probe(seed), ticks,
+      probe, ticks,
       [&] {
         Touching touching{std::make_unique<Proxy>(surface), ContactAudit(surface)};
         touching.proxy->reset(outside);
@@ -141,32 +160,30 @@ struct Inputs {
 
 void add_shape(bench::BenchReport& report, Inputs& inputs, Shape shape, int ticks) {
   const Shape& kept = *inputs.shapes.emplace_back(std::make_unique<Shape>(std::move(shape)));
+  ContactMaterial material;
+  if (!kept.heights.empty()) material.height = 0;
   for (const double radius : {0.0, 1e-3}) {
-    const ContactSurface& surface = *inputs.surfaces.emplace_back(std::make_unique<ContactSurface>(
-        kept.mesh, std::vector<ContactMaterial>(1), std::vector<HeightField>{}, radius));
+    const ContactSurface& surface = *inputs.surfaces.emplace_back(
+        std::make_unique<ContactSurface>(kept.mesh, std::vector<ContactMaterial>{material}, kept.heights, radius));
     report.add(
         {.method = "proxy",
          .solver = radius > 0 ? "ball 1 mm" : "point",
          .input = kept.name,
          .options = {{"triangles", surface.triangles()}, {"bytes", surface.bytes()}, {"speed_m_per_s", k_speed}},
          .notes = "CPU time of the thread, with what its clock takes; of three runs of the same ticks the least"},
-        [&surface, relief = kept.relief, ticks, seed = std::uint64_t{1}](Recorder& recorder) mutable {
-          relief ? run_proxy<ReliefProbe>(surface, seed++, ticks, recorder)
-                 : run_proxy<SphereProbe>(surface, seed++, ticks, recorder);
+        [&surface, probe = kept.probe, ticks, seed = std::uint64_t{1}](Recorder& recorder) mutable {
+          run_proxy(surface, probe(seed++), ticks, recorder);
         });
   }
 #ifdef PAPILLA_HAVE_EMBREE
   auto embree = std::make_shared<bench::EmbreeClosest>(kept.mesh);
   report.add(
       {.method = "closest-point", .solver = "embree", .input = kept.name, .notes = "lower bound: one query a tick"},
-      [embree, relief = kept.relief, ticks, seed = std::uint64_t{1}](Recorder& recorder) mutable {
+      [embree, probe = kept.probe, ticks, seed = std::uint64_t{1}](Recorder& recorder) mutable {
         TickTimes times;
-        const auto run = [&](const auto& probe) {
-          times.measure(
-              probe, ticks, [] { return 0; }, [&](int, Vec3 at) { bench::keep(embree->distance(at, 6e-3)); },
-              [](int, Vec3) {});
-        };
-        relief ? run(ReliefProbe(seed++)) : run(SphereProbe(seed++));
+        times.measure(
+            probe(seed++), ticks, [] { return 0; }, [&](int, Vec3 at) { bench::keep(embree->distance(at, 6e-3)); },
+            [](int, Vec3) {});
         times.record(recorder);
       });
 #endif
@@ -183,10 +200,10 @@ void add_twenty_million(bench::BenchReport& report) {
       }(),
       {ContactMaterial{}}, {}, 0);
   auto proxy = std::make_unique<Proxy>(surface);
-  ReliefProbe probe(1);
+  Probe probe = over_relief(1);
   Histogram times;
   for (int i = 0; i < ticks; ++i) {
-    const Vec3 at = probe.next();
+    const Vec3 at = probe();
     if (i == 0) proxy->reset(at + Vec3{0, 0, 0.02});
     const double before = bench::thread_cpu_seconds();
     proxy->update(at, k_period);
@@ -247,9 +264,14 @@ void body(bench::BenchReport& report) {
   for (const int n : quick ? std::vector<int>{20} : std::vector<int>{100, 316, 1000}) {
     const std::string size = std::to_string(2 * n * n / 1000) + "k";
     add_shape(report, inputs,
-              {"relief " + size, testing::height_grid(n, n, k_size, k_size, testing::rough_relief), true}, ticks);
-    add_shape(report, inputs, {"sphere " + size, testing::sphere(n, 0.1), false}, ticks);
+              {"relief " + size, testing::height_grid(n, n, k_size, k_size, testing::rough_relief), over_relief, {}},
+              ticks);
+    add_shape(report, inputs, {"sphere " + size, testing::sphere(n, 0.1), over_sphere, {}}, ticks);
   }
+  const int squares = quick ? 20 : 200;
+  const ContactMesh plate = testing::plate(squares, squares, k_size, k_size);
+  add_shape(report, inputs, {"plate", plate, over_plate, {}}, ticks);
+  add_shape(report, inputs, {"plate with a grain", plate, over_plate, {grain()}}, ticks);
 #ifdef PAPILLA_HAVE_EMBREE
   report.compare("proxy/point", "closest-point/embree", "tick_us_p50");
 #endif

@@ -174,6 +174,7 @@ class ContactSurface {
   struct Foot;
   struct Approach;
   struct Clearance;
+  struct Sunk;
   struct Sweep;
   struct Nearest;
 
@@ -213,6 +214,8 @@ class ContactSurface {
   void sweep_one(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept;
+  Sunk sink(std::uint32_t place, const Corners& t, Vec3 from, Vec3 way, double level, Sunk outside,
+            const Sunk& inside) const noexcept;
   template <class Accept>
   std::optional<Nearest> nearest(Vec3 x, double radius, Accept&& accept) const noexcept;
   std::optional<SurfacePoint> surface_point(const std::optional<Nearest>& near) const noexcept;
