@@ -19,80 +19,88 @@ double ContactSurface::top_of(std::uint32_t place) const noexcept {
   return std::max(0.0, (height ? heights_[*height].max_m() : 0.0) - static_cast<double>(lowest));
 }
 
-/// Weights of b and c of a way within the triangle's plane; zero on a needle.
-Vec2 ContactSurface::weights_of(const Corners& t, Vec3 way) noexcept {
-  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
-  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
-  if (!(det > 0)) return {};
-  const double p = dot(way, ab), q = dot(way, ac);
-  return {(p * bb - q * c) / det, (q * aa - p * c) / det};
-}
+ContactSurface::Face ContactSurface::face(std::uint32_t place) const noexcept {
+  Face face;
+  face.t = corners(place);
+  face.ab = face.t.b - face.t.a;
+  face.ac = face.t.c - face.t.a;
+  face.normal = normalized(cross(face.ab, face.ac));
+  face.ab_ab = dot(face.ab, face.ab);
+  face.ab_ac = dot(face.ab, face.ac);
+  face.ac_ac = dot(face.ac, face.ac);
+  const double det = face.ab_ab * face.ac_ac - face.ab_ac * face.ab_ac;
+  if (det > 0) face.inverse_det = 1 / det;
+  face.has_relief = has_relief(place);
+  if (!face.has_relief) return face;
 
-/// ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane; zero on a needle.
-Vec3 ContactSurface::in_plane(const Corners& t, double by_v, double by_w) noexcept {
-  const Vec3 ab = t.b - t.a, ac = t.c - t.a;
-  const double aa = dot(ab, ab), bb = dot(ac, ac), c = dot(ab, ac), det = aa * bb - c * c;
-  if (!(det > 0)) return {};
-  return (1 / det) * ((by_v * bb - by_w * c) * ab + (by_w * aa - by_v * c) * ac);
-}
-
-/// Height of the relief above the base at a foot, and its gradient within the triangle's plane.
-double ContactSurface::relief_at(std::uint32_t place, const Corners& t, const Foot& foot,
-                                 Vec3* gradient) const noexcept {
-  const auto corner = [&](std::size_t k) {
+  if (const auto& height = materials_[material_of(place)].height) face.height = &heights_[*height];
+  const auto uv = [&](std::size_t k) {
     return Vec2{static_cast<double>(relief(place, k).u), static_cast<double>(relief(place, k).v)};
   };
   const auto shift = [&](std::size_t k) { return static_cast<double>(relief(place, k).shift); };
-  const double s0 = shift(0), sv = shift(1) - s0, sw = shift(2) - s0;
-  const Vec2 by_v = corner(1) - corner(0), by_w = corner(2) - corner(0);
+  face.uv = uv(0);
+  face.uv_v = uv(1) - face.uv;
+  face.uv_w = uv(2) - face.uv;
+  face.shift = shift(0);
+  face.shift_v = shift(1) - face.shift;
+  face.shift_w = shift(2) - face.shift;
+  face.top = top_of(place);
+  return face;
+}
+
+/// Height of the relief above the base at a foot, and its gradient within the triangle's plane.
+double ContactSurface::relief_at(const Face& face, const Foot& foot, Vec3* gradient) noexcept {
   HeightSample sample;
-  if (const auto& height = materials_[material_of(place)].height)
-    sample = heights_[*height].sample(corner(0) + foot.v * by_v + foot.w * by_w);
-  const double height = sample.height_m - (s0 + foot.v * sv + foot.w * sw);
+  if (face.height != nullptr) sample = face.height->sample(face.uv + foot.v * face.uv_v + foot.w * face.uv_w);
+  const double height = sample.height_m - (face.shift + foot.v * face.shift_v + foot.w * face.shift_w);
   if (gradient == nullptr) return std::max(0.0, height);
   *gradient = {};
   if (height <= 0) return 0;
-  *gradient = in_plane(t, dot(sample.gradient_m, by_v) - sv, dot(sample.gradient_m, by_w) - sw);
+  *gradient =
+      face.in_plane(dot(sample.gradient_m, face.uv_v) - face.shift_v, dot(sample.gradient_m, face.uv_w) - face.shift_w);
   return height;
 }
 
 /// The relief with the skin on it along its normal, less the skin: how much farther than over the base a probe above
 /// the foot stands. Touched there is the point c + s·∇h/√(1 + |∇h|²) of a relief with a slope ∇h. By the height alone
 /// the nearest point of a curved relief would move by the slope times the skin.
-double ContactSurface::lift_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* slope) const noexcept {
-  const double height = relief_at(place, t, foot, slope);
+double ContactSurface::lift_at(const Face& face, const Foot& foot, Vec3* slope) const noexcept {
+  const double height = relief_at(face, foot, slope);
   const double steep = dot(*slope, *slope);
   if (!(steep > k_level)) return height;
-  const Vec2 way = weights_of(t, (skin_ / std::sqrt(1 + steep)) * *slope);
+  const Vec2 way = face.weights_of((skin_ / std::sqrt(1 + steep)) * *slope);
   Foot touched = foot;
   touched.v += way.x;
   touched.w += way.y;
-  const double there = relief_at(place, t, touched, slope);
+  const double there = relief_at(face, touched, slope);
   return std::max(0.0, there + skin_ / std::sqrt(1 + dot(*slope, *slope)) - skin_);
 }
 
-ContactSurface::Clearance ContactSurface::clearance_of(std::uint32_t place, const Corners& t, Vec3 x) const noexcept {
-  const Foot f = foot(t, x);
-  const Vec3 d = x - f.point;
+ContactSurface::Clearance ContactSurface::clearance_of(const Face& face, Vec3 x) const noexcept {
+  const Foot f = foot(face.t, x);
   Clearance result;
-  result.distance = norm(d);
+  result.d = x - f.point;
+  result.distance = norm(result.d);
   const double contact = contact_radius_m();
   if (result.distance == 0) {
-    result.gradient = normalized(cross(t.b - t.a, t.c - t.a));
+    result.gradient = face.normal;
     result.value = -contact;
     return result;
   }
-  const Vec3 out = (1 / result.distance) * d;
+  const Vec3 out = (1 / result.distance) * result.d;
   result.gradient = out;
   result.value = result.distance - contact;
-  if (!has_relief(place)) return result;
+  if (!face.has_relief) return result;
 
-  const Vec3 area = cross(t.b - t.a, t.c - t.a);
-  double cosine = dot(area, out);
-  if (cosine <= 0) return result;
-  cosine = f.on == Foot::On::face ? 1 : std::min(1.0, cosine / norm(area));
+  double cosine = dot(face.normal, out);
+  if (cosine <= 0) {
+    result.lift = face.top;
+    return result;
+  }
+  cosine = f.on == Foot::On::face ? 1 : std::min(1.0, cosine);
   Vec3 slope;
-  result.value -= cosine * lift_at(place, t, f, &slope);
+  result.lift = lift_at(face, f, &slope);
+  result.value -= cosine * result.lift;
   // Beside the triangle the foot moves along its edge only, or not at all. Right above the edge it moves both ways:
   // there a neighbour goes on.
   const bool above = f.on == Foot::On::face || cosine > k_above;

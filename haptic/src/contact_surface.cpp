@@ -48,7 +48,7 @@ std::optional<SurfacePoint> ContactSurface::surface_point(const std::optional<Ne
   point.point = near->foot.point + origin_;
   point.face_normal = normalized(cross(t.b - t.a, t.c - t.a));
   point.distance_m = near->distance;
-  point.height_m = has_relief(near->place) ? relief_at(near->place, t, near->foot, nullptr) : 0;
+  point.height_m = has_relief(near->place) ? relief_at(face(near->place), near->foot, nullptr) : 0;
   point.on_border = near->foot.on != Foot::On::face;
   point.triangle = source_of(near->place);
   point.material = material_of(near->place);
@@ -71,25 +71,24 @@ std::optional<StimulusSample> ContactSurface::stimulus(Vec3 p, double radius_m) 
   if (!near) return std::nullopt;
   const std::uint32_t found = near->place;
   const Foot& at = near->foot;
-  const Corners t = corners(found);
+  const Face f = face(found);
   const HeightField& field = heights_[*materials_[material_of(found)].stimulus];
   const auto uv = [&](std::size_t k) {
     return Vec2{static_cast<double>(relief(found, k).u), static_cast<double>(relief(found, k).v)};
   };
   const Vec2 by_v = uv(1) - uv(0), by_w = uv(2) - uv(0);
   const HeightSample height = field.sample(uv(0) + at.v * by_v + at.w * by_w);
-  const Vec3 area = cross(t.b - t.a, t.c - t.a);
   const auto texels = field.texels_per_uv();
   const double texel_area =
       std::abs(cross(by_v.x * texels[0] + by_v.y * texels[1], by_w.x * texels[0] + by_w.y * texels[1]));
   StimulusSample sample;
   sample.point = at.point + origin_;
-  sample.normal = normalized(area);
+  sample.normal = f.normal;
   sample.height_m = height.height_m;
   sample.grey = field.greys_per_m() * height.height_m;
-  sample.slope = field.greys_per_m() * in_plane(t, dot(height.gradient_m, by_v), dot(height.gradient_m, by_w));
-  sample.along_u = normalized(in_plane(t, by_v.x, by_w.x));
-  sample.pixel_m = texel_area > 0 ? std::sqrt(norm(area) / texel_area) : 0;
+  sample.slope = field.greys_per_m() * f.in_plane(dot(height.gradient_m, by_v), dot(height.gradient_m, by_w));
+  sample.along_u = normalized(f.in_plane(by_v.x, by_w.x));
+  sample.pixel_m = texel_area > 0 ? std::sqrt(norm(cross(f.ab, f.ac)) / texel_area) : 0;
   sample.material = material_of(found);
   return sample;
 }
@@ -123,7 +122,7 @@ double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {
   double least = radius_m - contact_radius_m(), reach = radius_m;
   clusters_.within(y, reach, [&](std::uint32_t cluster) noexcept {
     clusters_.in_box(cluster, box_around(y, y, reach), [&](std::uint32_t place) noexcept {
-      least = std::min(least, clearance_of(place, corners(place), y).value);
+      least = std::min(least, clearance_of(face(place), y).value);
     });
     // Boxes hold the relief: what is farther than least + r + s from the box has more clearance than `least`.
     reach = std::min(reach, std::max(0.0, least + contact_radius_m()));

@@ -15,6 +15,7 @@ constexpr double k_same_direction = 1 - 1e-9;
 constexpr double k_short_way = 16;  // Skins; and how much farther each piece of a long way leads than the one before.
 constexpr int k_newton_steps = 40;
 constexpr int k_march_steps = 512;
+constexpr double k_nearer = 0.5;
 constexpr int k_sink_steps = 24;
 constexpr double k_above_level = 1e-4;  // Of the tolerance.
 
@@ -25,20 +26,6 @@ struct ContactSurface::Sunk {
   double t;
   Clearance clearance;
 };
-
-/// How many texels of the relief a way over the triangle crosses.
-double ContactSurface::texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept {
-  const auto& height = materials_[material_of(place)].height;
-  if (!height) return 0;
-  const Vec2 weights = weights_of(t, way);
-  const auto along = [&](float Relief::*axis) {
-    const double u0 = static_cast<double>(relief(place, 0).*axis);
-    return weights.x * (static_cast<double>(relief(place, 1).*axis) - u0) +
-           weights.y * (static_cast<double>(relief(place, 2).*axis) - u0);
-  };
-  const std::array<Vec2, 2> per_uv = heights_[*height].texels_per_uv();
-  return norm(along(&Relief::u) * per_uv[0] + along(&Relief::v) * per_uv[1]);
-}
 
 /// The way of a probe, from + t·way up to t_max, and what it has met.
 struct ContactSurface::Sweep {
@@ -147,21 +134,55 @@ void ContactSurface::sweep_plain(std::uint32_t place, Sweep& sweep) const noexce
   sweep.take({touch.t, normal, contact - touch.distance, source_of(place), material_of(place), {}}, touch.above);
 }
 
-/// Steps over the relief, at most half a texel at a time while it is near, and finds the level in the step that goes
-/// in.
+/// A way as a triangle with relief sees it.
+struct ContactSurface::WayOver {
+  const Face& face;
+  Vec3 way;
+  double rise, slide;   ///< How far it leads along the normal and along the face.
+  double texels = 0;    ///< How many of the relief it crosses.
+  double steepest = 0;  ///< As the relief, with its base, is at most.
+
+  WayOver(const Face& f, Vec3 w) noexcept
+      : face(f), way(w), rise(dot(f.normal, w)), slide(std::sqrt(std::max(0.0, dot(w, w) - rise * rise))) {
+    if (f.height == nullptr) return;
+    const auto [per_u, per_v] = f.height->texels_per_uv();
+    const Vec2 by_v = f.uv_v.x * per_u + f.uv_v.y * per_v, by_w = f.uv_w.x * per_u + f.uv_w.y * per_v;
+    const Vec2 weights = f.weights_of(w), steep = f.height->steepest_m();
+    texels = norm(weights.x * by_v + weights.y * by_w);
+    steepest = steep.x * norm(f.in_plane(by_v.x, by_w.x)) + steep.y * norm(f.in_plane(by_v.y, by_w.y)) +
+               norm(f.in_plane(f.shift_v, f.shift_w));
+  }
+};
+
+/// Whether a share of the way from where the clearance is `now` stays clear. The triangle lies behind the plane through
+/// the foot that looks at the probe, so that the distance is at least that from this plane; the foot goes no farther
+/// than the way does along the face; and the relief counts by at most the cosine that the highest point of the way has
+/// at that distance. With the skin on it the relief is no steeper than without.
+bool ContactSurface::stays_clear(const WayOver& over, const Clearance& now, double share) const noexcept {
+  const double nearest = now.distance + std::min(0.0, share * dot(now.d, over.way) / now.distance);
+  const double room = nearest - contact_radius_m();
+  if (!(room > 0)) return false;
+  const double highest = dot(over.face.normal, now.d) + std::max(0.0, share * over.rise);
+  const double cosine = std::clamp(highest / nearest, 0.0, 1.0);
+  return room > cosine * std::min(over.face.top, now.lift + share * over.steepest * over.slide) + tolerance_m();
+}
+
+/// Steps over the relief, as far as the way surely stays clear or half a texel, and finds the level in the step that
+/// goes in.
 void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
-  const Corners t = corners(place);
   const Vec3 from = sweep.from, way = sweep.way;
   const double t_max = sweep.until();
-  const double length = norm(way), contact = contact_radius_m(), top = top_of(place);
+  const double length = norm(way), reach = contact_radius_m() + top_of(place);
   Approach entry;
-  look(t, from, way, 0, entry);
-  if (!approach(t, from, way, contact + top, contact + top - tolerance_m(), t_max, entry)) return;
-  const double finest = std::max(0.5 / std::max(texels_on(place, t, way), 0.5), 1.0 / k_march_steps);
+  look(corners(place), from, way, 0, entry);
+  if (!approach(corners(place), from, way, reach, reach - tolerance_m(), t_max, entry)) return;
+  const Face face = this->face(place);
+  const WayOver over(face, way);
+  const double finest = std::max(0.5 / std::max(over.texels, 0.5), 1.0 / k_march_steps);
 
   // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
   const double level = -0.5 * tolerance_m();
-  Sunk outside{entry.t, clearance_of(place, t, from + entry.t * way)}, inside = outside;
+  Sunk outside{entry.t, clearance_of(face, from + entry.t * way)}, inside = outside;
   double allowed = -tolerance_m();
   for (bool first = true;; first = false) {
     const Clearance& now = inside.clearance;
@@ -170,16 +191,20 @@ void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexc
     allowed = std::min(-tolerance_m(), now.value);
     if (now.value >= level) outside = inside;
     if (inside.t >= t_max) return;
-    // Above the highest point and leaving: the rest of the way is free.
-    const Vec3 x = from + inside.t * way;
-    if (now.distance > contact + top && dot(x - foot(t, x).point, way) >= 0) return;
-    // Not past the base either: behind it the clearance grows again.
+    // Not past the base: behind it the clearance grows again.
     const double base = std::max(0.5 * now.distance, tolerance_m());
-    const double next = std::min(t_max, inside.t + std::min(std::max(finest, 0.5 * now.value / length), base / length));
+    double next = std::min(t_max, inside.t + std::min(finest, base / length));
     if (!(next > inside.t)) break;  // Too small a step for a number: it stops here.
-    inside = {next, clearance_of(place, t, from + next * way)};
+    if (now.value > tolerance_m()) {
+      const double rest = t_max - inside.t;
+      if (stays_clear(over, now, rest)) return;
+      double clear = k_nearer * rest;
+      while (inside.t + clear > next && !stays_clear(over, now, clear)) clear *= k_nearer;
+      next = std::max(next, inside.t + clear);
+    }
+    inside = {next, clearance_of(face, from + next * way)};
   }
-  const Sunk there = sink(place, t, from, way, level, outside, inside);
+  const Sunk there = sink(face, from, way, level, outside, inside);
   sweep.take(
       {there.t, normalized(there.clearance.gradient), -there.clearance.value, source_of(place), material_of(place), {}},
       false);
@@ -187,15 +212,15 @@ void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexc
 
 /// A place between the two, from + t·way, that is at the level and no more than a little above it: regula falsi, where
 /// an end that stays counts half each time [Dowell and Jarratt, BIT 11, 1971].
-ContactSurface::Sunk ContactSurface::sink(std::uint32_t place, const Corners& t, Vec3 from, Vec3 way, double level,
-                                          Sunk outside, const Sunk& inside) const noexcept {
+ContactSurface::Sunk ContactSurface::sink(const Face& face, Vec3 from, Vec3 way, double level, Sunk outside,
+                                          const Sunk& inside) const noexcept {
   const double close = k_above_level * tolerance_m(), target = level + close;
   double above = outside.clearance.value - target, below = inside.clearance.value - target, end = inside.t;
   bool moved_outside = false, moved_inside = false;
   for (int step = 0; step < k_sink_steps && outside.clearance.value > target + close && end - outside.t > 1e-9;
        ++step) {
     const double at = outside.t + (end - outside.t) * above / (above - below);
-    const Sunk now{at, clearance_of(place, t, from + at * way)};
+    const Sunk now{at, clearance_of(face, from + at * way)};
     if (now.clearance.value >= level) {
       if (moved_outside) below *= 0.5;
       outside = now;

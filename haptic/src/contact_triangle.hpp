@@ -35,7 +35,31 @@ struct ContactSurface::Approach {
 struct ContactSurface::Clearance {
   double value = 0;
   double distance = 0;
+  Vec3 d;           ///< From the nearest point.
+  double lift = 0;  ///< Of the relief there; at most, where the triangle is seen from behind.
   Vec3 gradient;
+};
+
+/// A triangle with what is needed to look at its clearance in many places.
+struct ContactSurface::Face {
+  Corners t;
+  Vec3 ab, ac, normal;                                      ///< Zero on a needle, as inverse_det is.
+  double ab_ab = 0, ab_ac = 0, ac_ac = 0, inverse_det = 0;  ///< Of the edges' products.
+  bool has_relief = false;
+  const HeightField* height = nullptr;
+  Vec2 uv, uv_v, uv_w;                         ///< At a, and how they change with the weights of b and c.
+  double shift = 0, shift_v = 0, shift_w = 0;  ///< The same of the base.
+  double top = 0;                              ///< The highest that the relief can be above the base.
+
+  /// Weights of b and c of a way within the triangle's plane; zero on a needle.
+  Vec2 weights_of(Vec3 way) const noexcept {
+    const double p = dot(way, ab), q = dot(way, ac);
+    return inverse_det * Vec2{p * ac_ac - q * ab_ac, q * ab_ab - p * ab_ac};
+  }
+  /// ∇h = (∂h/∂v) ∇v + (∂h/∂w) ∇w with the gradients of the barycentric weights in the plane; zero on a needle.
+  Vec3 in_plane(double by_v, double by_w) const noexcept {
+    return inverse_det * ((by_v * ac_ac - by_w * ab_ac) * ab + (by_w * ab_ab - by_v * ab_ac) * ac);
+  }
 };
 
 inline ContactSurface::Corners ContactSurface::corners(std::uint32_t place) const noexcept {

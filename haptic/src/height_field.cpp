@@ -61,6 +61,7 @@ HeightField::HeightField(int width, int height, std::vector<std::uint16_t> sampl
   const double one = base_m_ + metres_per_step_ * low, other = base_m_ + metres_per_step_ * high;
   min_m_ = std::min(one, other);
   max_m_ = std::max(one, other);
+  steepest_m_ = std::abs(metres_per_step_) * steepest();
 
   // glTF: u' = cos·su·u + sin·sv·v + ou, v' = −sin·su·u + cos·sv·v + ov.
   const double c = std::cos(t.rotation), s = std::sin(t.rotation);
@@ -99,6 +100,28 @@ std::pair<double, double> HeightField::range() const {
       take(halfway(row[0], row[1], row[2], row[3]));
     }
   return {least, most};
+}
+
+/// Along rows and columns of samples. A cubic between its samples p1 and p2, p0 and p3 beside them, is the Bézier curve
+/// of the points p1, p1 + (p2 − p0)/6, p2 − (p3 − p1)/6 and p2: it is nowhere steeper than three times the longest step
+/// between them. Between the rows slopes are mixed by the cubic's weights, the sum of whose sizes is 5/4 at most.
+Vec2 HeightField::steepest() const {
+  const bool cubic = options_.interpolation == Interpolation::bicubic;
+  const auto along = [&](const auto& at, long size) {
+    // Shifted along, each sample is read once.
+    double p0 = at(-1), p1 = at(0), p2 = at(1), most = 0;
+    for (long i = 0; i < size; ++i) {
+      const double p3 = at(i + 2), start = (p2 - p0) / 6, end = (p3 - p1) / 6;
+      most = std::max(most, cubic ? 3 * std::max({std::abs(start), std::abs(end), std::abs(p2 - p1 - start - end)})
+                                  : std::abs(p2 - p1));
+      p0 = p1, p1 = p2, p2 = p3;
+    }
+    return most;
+  };
+  Vec2 most;
+  for (long y = 0; y < height_; ++y) most.x = std::max(most.x, along([&](long x) { return texel(x, y); }, width_));
+  for (long x = 0; x < width_; ++x) most.y = std::max(most.y, along([&](long y) { return texel(x, y); }, height_));
+  return (cubic ? 1.25 : 1.0) * most;
 }
 
 /// Sums over k_taps × k_taps samples from (x, y) on, columns first, so that a processor takes several at once.

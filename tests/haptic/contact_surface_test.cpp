@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <random>
 
 #include "haptic/contact_shapes.hpp"
 #include "papilla/core/error.hpp"
@@ -111,6 +113,50 @@ TEST(ContactSurface, ReliefReachesBelowThePlate) {
   const auto hit = surface.sweep({0.075, 0.05, 0.01}, {0.075, 0.05, -0.01});
   ASSERT_TRUE(hit);
   EXPECT_NEAR(0.01 - 0.02 * hit->t, s + 1e-4, surface.tolerance_m());
+}
+
+/// Ways over a relief end where it is met: nowhere before does a sweep sink in by more than the tolerance, and there it
+/// touches. Steps of 1/16 texel look for what it may have passed.
+TEST(ContactSurface, SweepsOverReliefPassNothing) {
+  constexpr int k_texels = 64, k_looks = 16;
+  constexpr double k_size = 6.4e-3;
+  std::mt19937 random(1);
+  std::vector<std::uint16_t> samples;
+  for (int y = 0; y < k_texels; ++y)
+    for (int x = 0; x < k_texels; ++x) {
+      const double u = 2 * std::numbers::pi * x / k_texels, v = 2 * std::numbers::pi * y / k_texels;
+      const double waves = std::sin(4 * u + 3 * v) + std::sin(3 * v - 5 * u) + std::sin(7 * v);
+      samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * (waves + 3) / 6)));
+    }
+  HeightFieldOptions options;
+  options.scale_m = 2e-4;
+  options.offset_m = -5e-5;  // So that the base lies below the plate.
+  ContactMaterial material;
+  material.height = 0;
+  std::uniform_real_distribution<double> place(0.2 * k_size, 0.8 * k_size), over(1.6e-4, 1e-3), down(-3e-4, 4e-4);
+  int hits = 0;
+  for (const int squares : {1, 8, 40})
+    for (const double radius : {0.0, 4e-4}) {
+      const ContactSurface surface(plate(squares, squares, k_size, k_size), {material},
+                                   {HeightField(k_texels, k_texels, samples, options)}, radius);
+      const double tolerance = surface.tolerance_m();
+      const auto clearance = [&](Vec3 x) { return surface.clearance(x, 5e-3); };
+      for (int i = 0; i < 40; ++i) {
+        const Vec3 from{place(random), place(random), radius + over(random)};
+        const Vec3 to{place(random), place(random), radius + down(random)};
+        if (clearance(from) < 0) continue;
+        const auto hit = surface.sweep(from, to);
+        hits += hit.has_value();
+        const double end = hit ? hit->t : 1;
+        const int looks = static_cast<int>(end * norm(to - from) / k_size * k_texels * k_looks);
+        for (int k = 0; k < looks; ++k)
+          ASSERT_GT(clearance(from + (end * k / looks) * (to - from)), -1.05 * tolerance) << squares << ' ' << k;
+        if (hit) {
+          EXPECT_NEAR(clearance(from + hit->t * (to - from)), 0, tolerance);
+        }
+      }
+    }
+  EXPECT_GT(hits, 100);
 }
 
 TEST(ContactSurface, CrossingsCountWallsOnceAtEdgesAndDuplicates) {

@@ -57,6 +57,24 @@ TEST_P(Gradient, EqualsFiniteDifferences) {
   EXPECT_GT(compared, 450);
 }
 
+TEST_P(Gradient, IsNowhereSteeperThanItIsSaidToBe) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const HeightField field(12, 16, noise(12, 16, seed), options(GetParam()));
+    const Vec2 most = field.steepest_m();
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uv(0, 1);
+    Vec2 found;
+    for (int i = 0; i < 20000; ++i) {
+      const Vec2 slope = field.sample({uv(random), uv(random)}).gradient_m;
+      found = {std::max(found.x, std::abs(slope.x) / 12), std::max(found.y, std::abs(slope.y) / 16)};
+    }
+    EXPECT_LE(found.x, most.x);
+    EXPECT_LE(found.y, most.y);
+    EXPECT_GT(found.x, 0.4 * most.x);
+    EXPECT_GT(found.y, 0.4 * most.y);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(HeightField, Gradient, ::testing::Values(Interpolation::bilinear, Interpolation::bicubic));
 
 TEST(HeightField, TexelCentresHaveTheSamplesHeight) {

@@ -172,10 +172,12 @@ class ContactSurface {
   using PackedNormal = std::array<std::int16_t, 2>;
   static constexpr std::uint16_t k_relief_bit = 0x8000;
   struct Foot;
+  struct Face;
   struct Approach;
   struct Clearance;
   struct Sunk;
   struct Sweep;
+  struct WayOver;
   struct Nearest;
 
   std::uint16_t packed_material(std::uint32_t place) const noexcept { return material_[clusters_.slot(place)]; }
@@ -193,12 +195,10 @@ class ContactSurface {
   double top_of(std::uint32_t place) const noexcept;
   Corners corners(std::uint32_t place) const noexcept;
   static Foot foot(const Corners& t, Vec3 x) noexcept;
-  Clearance clearance_of(std::uint32_t place, const Corners& t, Vec3 x) const noexcept;
-  double relief_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* gradient) const noexcept;
-  double lift_at(std::uint32_t place, const Corners& t, const Foot& foot, Vec3* slope) const noexcept;
-  static Vec2 weights_of(const Corners& t, Vec3 way) noexcept;
-  static Vec3 in_plane(const Corners& t, double by_v, double by_w) noexcept;
-  double texels_on(std::uint32_t place, const Corners& t, Vec3 way) const noexcept;
+  Face face(std::uint32_t place) const noexcept;
+  Clearance clearance_of(const Face& face, Vec3 x) const noexcept;
+  static double relief_at(const Face& face, const Foot& foot, Vec3* gradient) noexcept;
+  double lift_at(const Face& face, const Foot& foot, Vec3* slope) const noexcept;
   static void look(const Corners& t, Vec3 from, Vec3 way, double at, Approach& state) noexcept;
   bool approach(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
                 Approach& state) const noexcept;
@@ -213,9 +213,9 @@ class ContactSurface {
   void make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept;
   void sweep_one(std::uint32_t place, Sweep& sweep) const noexcept;
   void sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept;
+  bool stays_clear(const WayOver& over, const Clearance& now, double share) const noexcept;
   void sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept;
-  Sunk sink(std::uint32_t place, const Corners& t, Vec3 from, Vec3 way, double level, Sunk outside,
-            const Sunk& inside) const noexcept;
+  Sunk sink(const Face& face, Vec3 from, Vec3 way, double level, Sunk outside, const Sunk& inside) const noexcept;
   template <class Accept>
   std::optional<Nearest> nearest(Vec3 x, double radius, Accept&& accept) const noexcept;
   std::optional<SurfacePoint> surface_point(const std::optional<Nearest>& near) const noexcept;

@@ -78,6 +78,8 @@ class HeightField {
   double greys_per_m() const noexcept { return options_.scale_m != 0 ? 256 / std::abs(options_.scale_m) : 0; }
   /// Samples met per unit of untransformed u and v: the columns of the map from uv to texels.
   std::array<Vec2, 2> texels_per_uv() const noexcept;
+  /// The most that the height changes from texel to texel along x and along y, in metres: nowhere is it steeper.
+  Vec2 steepest_m() const noexcept { return steepest_m_; }
 
  private:
   /// Of the samples along an axis, for the value and its derivative.
@@ -92,6 +94,7 @@ class HeightField {
   template <std::size_t k_taps>
   Weighted weighted(long x, long y, const Weights& along_x, const Weights& along_y) const noexcept;
   std::pair<double, double> range() const;
+  Vec2 steepest() const;
 
   int width_, height_;
   std::vector<std::uint16_t> samples_;
@@ -99,6 +102,7 @@ class HeightField {
   double base_m_ = 0, metres_per_step_ = 0;            // h = base + step · v.
   double a_[2][2] = {{1, 0}, {0, 1}}, t_[2] = {0, 0};  // texel coordinates = A uv + t.
   double min_m_ = 0, max_m_ = 0;
+  Vec2 steepest_m_;
 };
 
 }  // namespace papilla

@@ -57,8 +57,8 @@ struct ProxyState {
 /// where it lands depends on the rate all the same.
 ///
 /// Guarantees: noexcept, no allocation, no lock; never passes a triangle; deterministic.
-/// Limits: relief is stepped at half a texel, so a spike of one texel can be missed by a sweep that goes across it far
-/// above, never by one that ends in it. The start of reset() is taken as free even when it lies within a solid.
+/// Limits: where a map's steepest slope leaves doubt, a relief is looked at every half texel; what rises and falls
+/// between two looks is passed. The start of reset() is taken as free even when it lies within a solid.
 class Proxy {
  public:
   static constexpr int k_planes = 8;
