@@ -8,6 +8,7 @@
 #include "bake/plan.hpp"
 #include "exit_code.hpp"
 #include "papilla/core/error.hpp"
+#include "placed_meshes.hpp"
 #include "volume_option.hpp"
 
 namespace papilla::app {
@@ -21,21 +22,6 @@ void check(const LeaveOutOptions& options) {
   if (wants(options, "unreachable") && options.reach.empty())
     throw UsageError("--leave-out: 'unreachable' needs --reach");
   if (wants(options, "unseen") && options.view.empty()) throw UsageError("--leave-out: 'unseen' needs --view");
-}
-
-bool is_opaque(const Scene& scene, const Part& part) {
-  return std::none_of(part.materials.begin(), part.materials.end(), [&](std::uint32_t m) {
-    return m < scene.materials.size() && scene.materials[m].alpha_mode == "BLEND";
-  });
-}
-
-std::vector<PlacedMesh> placed_meshes(const Scene& scene, const std::vector<Instance>& uses) {
-  std::vector<PlacedMesh> placed;
-  for (const Instance& use : uses) {
-    const Part& part = scene.parts[use.part];
-    placed.push_back({&part.mesh, use.world, is_opaque(scene, part)});
-  }
-  return placed;
 }
 
 void measure_reaches(const std::vector<PlacedMesh>& placed, const std::vector<Volume>& volumes,

@@ -9,7 +9,8 @@
 
 namespace papilla::app {
 
-/// The parts where they stand in the scene, y up; all of them hide what lies behind, glass too.
-std::vector<PlacedMesh> placed_y_up(const Scene& scene, std::span<const Instance> uses);
+/// The parts where they stand in the scene, then turned; those with a material that is blended are not opaque.
+std::vector<PlacedMesh> placed_meshes(const Scene& scene, std::span<const Instance> uses,
+                                      const Transform& turn = k_identity);
 
 }  // namespace papilla::app

@@ -66,6 +66,50 @@ TEST(RenderTriangles, ShowsBordersAndNoEdgesBetweenTriangles) {
   EXPECT_GT(red_pixels(loose), red_pixels(joined) + 50);
 }
 
+/// Linear colour in the middle of a picture of squares seen from z, of one material each.
+Vec3 middle_of(const std::vector<double>& heights, const std::vector<std::array<double, 4>>& colors) {
+  Part part;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const auto first = static_cast<Index>(part.mesh.positions.size());
+    for (const Vec2 corner : {Vec2{-100, -100}, Vec2{100, -100}, Vec2{100, 100}, Vec2{-100, 100}})
+      part.mesh.positions.push_back({corner.x, corner.y, heights[i]});
+    part.mesh.triangles.push_back({first, first + 1, first + 2});
+    part.mesh.triangles.push_back({first, first + 2, first + 3});
+    part.mesh.material.insert(part.mesh.material.end(), 2, static_cast<std::uint32_t>(i));
+    part.materials.push_back(static_cast<std::uint32_t>(i));
+  }
+  Scene scene = single_part_scene(std::move(part), "test");
+  scene.up = UpAxis::y;
+  scene.materials.clear();
+  for (const auto& color : colors) {
+    Material material;
+    material.base_color = color;
+    material.roughness = 1;
+    if (color[3] < 1) material.alpha_mode = "BLEND";
+    scene.materials.push_back(std::move(material));
+  }
+  const ColorImage picture = render_scene(scene, {.width = 41, .height = 41, .towards_camera = {0, 0, 1}});
+  const auto linear = [&](std::size_t channel) {
+    const double c = picture.pixels[3 * (20 * 41 + 20) + channel] / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return {linear(0), linear(1), linear(2)};
+}
+
+TEST(RenderScene, GlassLetsShineThroughWhatLiesBehind) {
+  const std::array<double, 4> red{0.4, 0, 0, 1}, green{0, 0.4, 0, 1}, glass{0, 0.4, 0, 0.25}, blue{0, 0, 0.4, 0.5};
+  const Vec3 behind = middle_of({0}, {red}), before = middle_of({0}, {green});
+  const Vec3 through = middle_of({1, 0}, {glass, red});
+  EXPECT_LT(norm(through - (0.75 * behind + 0.25 * before)), 0.01);
+  EXPECT_GT(through.x, 3 * through.y / 2);
+  // What is behind stays hidden, and the order in the file does not matter.
+  EXPECT_LT(norm(middle_of({0, -1}, {red, glass}) - behind), 0.01);
+  const Vec3 stack = middle_of({2, 1, 0}, {glass, blue, red});
+  EXPECT_LT(norm(middle_of({1, 0, 2}, {blue, red, glass}) - stack), 0.002);
+  EXPECT_LT(norm(middle_of({2, 1, 0}, {blue, glass, red}) - stack), 0.3);
+  EXPECT_GT(middle_of({2, 1, 0}, {blue, glass, red}).z, stack.z + 0.03);
+}
+
 /// The corners of large triangles lie behind a camera that is near: what is before it is drawn all the same, with the
 /// checker at the size that it has there.
 TEST(CloseUp, ShowsTrianglesThatGoOnBehindTheCamera) {

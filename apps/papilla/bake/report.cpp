@@ -132,7 +132,7 @@ void add_close_ups(const BakeResult& result, const std::vector<const BakedSurfac
   render.mode = RenderMode::material;
   render.width = render.height = 800;
   const std::vector<Instance> uses = instances(result.scene);
-  const SightLines sight(placed_y_up(result.scene, uses));
+  const SightLines sight(placed_meshes(result.scene, uses, to_y_up(result.scene.up)));
   for (const auto& [name, grain] : result.grains) {
     const auto largest = std::find_if(by_size.begin(), by_size.end(), [&](const BakedSurface* s) { return s->material == name; });
     if (largest == by_size.end()) continue;

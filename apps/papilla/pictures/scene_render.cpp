@@ -31,6 +31,7 @@ struct Camera {
 struct Surface {
   Vec3 color{1, 1, 1};
   double roughness = 0.8, metallic = 0;
+  double opacity = 1;
   std::shared_ptr<const MipPyramid> color_map = {}, normal_map = {};
   TextureTransform color_transform = {}, normal_transform = {};
   double normal_scale = 1;
@@ -95,6 +96,7 @@ Surface make_surface(const Scene& scene, std::size_t index, const RenderOptions&
   if (index < options.mm_per_uv.size()) surface.mm_per_uv = options.mm_per_uv[index];
   if (options.mode == RenderMode::triangles) return {.color = k_clay};
   if (options.mode != RenderMode::material) return surface;
+  if (material.alpha_mode == "BLEND") surface.opacity = std::clamp(material.base_color[3], 0.0, 1.0);
   surface.color_map = pyramids.get(material.base_color_texture, true);
   surface.normal_map = pyramids.get(material.normal_texture, false);
   if (material.base_color_texture && material.base_color_texture->transform)
@@ -280,7 +282,11 @@ Vec3 with_edges(const TriangleSetup& t, const double (&screen)[3], Vec3 color, i
   return color;
 }
 
-/// Fills the samples of the rows [row_begin, row_end) that the triangle covers and nothing nearer does.
+/// Samples on an edge belong to one of the two triangles that share it, which see it in opposite directions.
+bool owns_edge(const Vertex& a, const Vertex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
+
+/// Fills the samples of the rows [row_begin, row_end) that the triangle covers and nothing nearer does. What lies behind
+/// glass shines through in the share that it lets pass, so that glass comes last, the farthest first.
 void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions& options, int width, int row_begin,
                int row_end, std::vector<Sample>& samples) {
   const auto [low_x, high_x] = std::minmax({t.v[0].x, t.v[1].x, t.v[2].x});
@@ -298,7 +304,7 @@ void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions
       for (int k = 0; k < 3; ++k) {
         const Vertex &a = t.v[(k + 1) % 3], &b = t.v[(k + 2) % 3];
         screen[k] = cross(Vec2{a.x, a.y} - p, Vec2{b.x, b.y} - p) / t.doubled_area;
-        inside = inside && screen[k] >= 0;
+        inside = inside && (screen[k] > 0 || (screen[k] == 0 && owns_edge(a, b) == (t.doubled_area > 0)));
       }
       if (!inside) continue;
       double inverse_depth = 0;
@@ -309,7 +315,11 @@ void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions
       for (int k = 0; k < 3; ++k) weight[k] = screen[k] * t.v[k].inverse_depth / inverse_depth;
       Vec3 color = shade(t, weight, camera, options);
       if (options.mode == RenderMode::triangles) color = with_edges(t, screen, color, options.samples);
-      sample = {static_cast<float>(inverse_depth), static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
+      const auto mixed = [opacity = t.surface->opacity](float behind, double own) {
+        return static_cast<float>((1 - opacity) * static_cast<double>(behind) + opacity * own);
+      };
+      sample = {t.surface->opacity < 1 ? sample.inverse_depth : static_cast<float>(inverse_depth), mixed(sample.r, color.x),
+                mixed(sample.g, color.y), mixed(sample.b, color.z)};
     }
   }
 }
@@ -346,6 +356,17 @@ std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vecto
     }
   }
   return triangles;
+}
+
+/// Moves glass to the end, the farthest first.
+void sort_glass(std::vector<TriangleSetup>& triangles) {
+  const auto glass = std::stable_partition(triangles.begin(), triangles.end(),
+                                           [](const TriangleSetup& t) { return t.surface->opacity >= 1; });
+  const auto nearness = [](const TriangleSetup& t) {
+    return t.v[0].inverse_depth + t.v[1].inverse_depth + t.v[2].inverse_depth;
+  };
+  std::stable_sort(glass, triangles.end(),
+                   [&](const TriangleSetup& a, const TriangleSetup& b) { return nearness(a) < nearness(b); });
 }
 
 unsigned char encode(double linear) {
@@ -402,6 +423,7 @@ ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
     if (t.has_uv) t.uv_area_per_cubic_depth = uv_area_per_cubic_depth(t, camera);
   }
   std::erase_if(triangles, [](const TriangleSetup& t) { return !(std::abs(t.doubled_area) > 0); });
+  sort_glass(triangles);
 
   const int width = options.width * options.samples, height = options.height * options.samples;
   std::vector<Sample> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

@@ -38,6 +38,7 @@ struct RenderOptions {
 };
 
 /// A picture of the scene by perspective projection with a depth buffer, mip-mapped textures, one key and one fill light.
+/// Materials whose alpha mode is BLEND are see-through; sorted by triangles, not by samples.
 /// Deterministic. Cost: proportional to triangles and pixels; memory 16 bytes a sample.
 /// @throws InvalidInput when the scene has no triangle or a texture can't be decoded.
 ColorImage render_scene(const Scene& scene, const RenderOptions& options);

@@ -37,9 +37,11 @@ Vec3 vector_at(const std::vector<float>& values, std::ptrdiff_t at) {
 }  // namespace
 
 SkyView sky_of(const Scene& scene, std::span<const Instance> all, int rays) {
+  std::vector<PlacedMesh> parts = placed_meshes(scene, all, to_y_up(scene.up));
+  for (PlacedMesh& part : parts) part.opaque = true;  // Glass keeps snow and dust off as well.
   SkyOptions options;
   options.rays = static_cast<std::uint32_t>(rays);
-  return SkyView(placed_y_up(scene, all), options);
+  return SkyView(parts, options);
 }
 
 std::vector<float> sky_texels(const SurfaceTexels& texels, const SkyView& sky) {
