@@ -57,11 +57,11 @@ HeightField::HeightField(int width, int height, std::vector<std::uint16_t> sampl
 
   metres_per_step_ = (options.white_is_outward ? 1 : -1) * options.scale_m / 65535;
   base_m_ = options.offset_m + (options.white_is_outward ? 0 : options.scale_m);
-  const auto [low, high] = range();
-  const double one = base_m_ + metres_per_step_ * low, other = base_m_ + metres_per_step_ * high;
+  const Extremes found = extremes();
+  const double one = base_m_ + metres_per_step_ * found.least, other = base_m_ + metres_per_step_ * found.most;
   min_m_ = std::min(one, other);
   max_m_ = std::max(one, other);
-  steepest_m_ = std::abs(metres_per_step_) * steepest();
+  steepest_m_ = std::abs(metres_per_step_) * found.steepest;
 
   // glTF: u' = cos·su·u + sin·sv·v + ou, v' = −sin·su·u + cos·sv·v + ov.
   const double c = std::cos(t.rotation), s = std::sin(t.rotation);
@@ -79,49 +79,59 @@ std::uint16_t HeightField::texel(long x, long y) const noexcept {
 }
 
 /// Least and largest sample; with bicubic interpolation also of the values halfway between samples, where it goes
-/// beyond them the most.
-std::pair<double, double> HeightField::range() const {
-  const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
-  double least = *low, most = *high;
-  if (options_.interpolation != Interpolation::bicubic) return {least, most};
-  const auto halfway = [](double a, double b, double c, double d) { return (9 * (b + c) - a - d) / 16; };
-  const auto take = [&](double v) {
-    least = std::min(least, v);
-    most = std::max(most, v);
+/// beyond them the most. Steepest along rows and columns: a cubic between its samples p1 and p2, p0 and p3 beside them,
+/// is the Bézier curve of the points p1, p1 + (p2 − p0)/6, p2 − (p3 − p1)/6 and p2, nowhere steeper than three times
+/// the longest step between them. Between rows slopes are mixed by the cubic's weights, the sum of whose sizes is 5/4
+/// at most.
+HeightField::Extremes HeightField::extremes() const {
+  // Whole numbers: 16 times what is halfway between samples, 256 times what is between four rows of those.
+  const auto halfway = [](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+    return 9 * (b + c) - a - d;
   };
-  for (long y = 0; y < height_; ++y)
-    for (long x = 0; x < width_; ++x) {
-      double row[4];
-      for (long j = 0; j < 4; ++j)
-        row[j] =
-            halfway(texel(x - 1, y + j - 1), texel(x, y + j - 1), texel(x + 1, y + j - 1), texel(x + 2, y + j - 1));
-      take(row[1]);
-      take(halfway(texel(x, y - 1), texel(x, y), texel(x, y + 1), texel(x, y + 2)));
-      take(halfway(row[0], row[1], row[2], row[3]));
-    }
-  return {least, most};
-}
+  const auto doubled_slope = [](std::int32_t p0, std::int32_t p1, std::int32_t p2, std::int32_t p3) {
+    const std::int32_t start = p2 - p0, end = p3 - p1;
+    return std::max({std::abs(start), std::abs(end), std::abs(6 * (p2 - p1) - start - end)});
+  };
+  struct Row {
+    std::vector<std::int32_t> at, between;  ///< From column −1 to two beyond the last; from each column to the next.
+  };
+  const auto n = static_cast<std::size_t>(width_);
+  const auto fill = [&](long y, Row& row) {
+    const auto first = static_cast<std::size_t>(wrapped(y, height_, options_.wrap[1])) * n;
+    std::copy_n(samples_.begin() + static_cast<std::ptrdiff_t>(first), n, row.at.begin() + 1);
+    for (const long x : {-1L, long{width_}, long{width_} + 1}) row.at[static_cast<std::size_t>(x + 1)] = texel(x, y);
+    for (std::size_t x = 0; x < n; ++x)
+      row.between[x] = halfway(row.at[x], row.at[x + 1], row.at[x + 2], row.at[x + 3]);
+  };
+  std::array<Row, 4> rows;
+  for (Row& row : rows) row = {std::vector<std::int32_t>(n + 3), std::vector<std::int32_t>(n)};
+  for (const long j : {-1L, 0L, 1L}) fill(j, rows[static_cast<std::size_t>(j + 2)]);
 
-/// Along rows and columns of samples. A cubic between its samples p1 and p2, p0 and p3 beside them, is the Bézier curve
-/// of the points p1, p1 + (p2 − p0)/6, p2 − (p3 − p1)/6 and p2: it is nowhere steeper than three times the longest step
-/// between them. Between the rows slopes are mixed by the cubic's weights, the sum of whose sizes is 5/4 at most.
-Vec2 HeightField::steepest() const {
-  const bool cubic = options_.interpolation == Interpolation::bicubic;
-  const auto along = [&](const auto& at, long size) {
-    // Shifted along, each sample is read once.
-    double p0 = at(-1), p1 = at(0), p2 = at(1), most = 0;
-    for (long i = 0; i < size; ++i) {
-      const double p3 = at(i + 2), start = (p2 - p0) / 6, end = (p3 - p1) / 6;
-      most = std::max(most, cubic ? 3 * std::max({std::abs(start), std::abs(end), std::abs(p2 - p1 - start - end)})
-                                  : std::abs(p2 - p1));
-      p0 = p1, p1 = p2, p2 = p3;
+  const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
+  std::int32_t least = 256 * *low, most = 256 * *high;
+  std::int32_t steps[2] = {0, 0}, slopes[2] = {0, 0};
+  for (long y = 0; y < height_; ++y) {
+    std::rotate(rows.begin(), rows.begin() + 1, rows.end());
+    fill(y + 2, rows[3]);
+    const std::int32_t *r0 = &rows[0].at[1], *r1 = &rows[1].at[1], *r2 = &rows[2].at[1], *r3 = &rows[3].at[1];
+    const std::int32_t *b0 = rows[0].between.data(), *b1 = rows[1].between.data(), *b2 = rows[2].between.data(),
+                       *b3 = rows[3].between.data(), *left = rows[1].at.data();
+    for (std::size_t x = 0; x < n; ++x) {
+      const std::int32_t along_x = 16 * b1[x], along_y = 16 * halfway(r0[x], r1[x], r2[x], r3[x]),
+                         both = halfway(b0[x], b1[x], b2[x], b3[x]);
+      least = std::min({least, along_x, along_y, both});
+      most = std::max({most, along_x, along_y, both});
+      steps[0] = std::max(steps[0], std::abs(r1[x + 1] - r1[x]));
+      steps[1] = std::max(steps[1], std::abs(r2[x] - r1[x]));
+      slopes[0] = std::max(slopes[0], doubled_slope(left[x], left[x + 1], left[x + 2], left[x + 3]));
+      slopes[1] = std::max(slopes[1], doubled_slope(r0[x], r1[x], r2[x], r3[x]));
     }
-    return most;
-  };
-  Vec2 most;
-  for (long y = 0; y < height_; ++y) most.x = std::max(most.x, along([&](long x) { return texel(x, y); }, width_));
-  for (long x = 0; x < width_; ++x) most.y = std::max(most.y, along([&](long y) { return texel(x, y); }, height_));
-  return (cubic ? 1.25 : 1.0) * most;
+  }
+  if (options_.interpolation == Interpolation::bicubic)
+    return {least / 256.0, most / 256.0, {1.25 * 0.5 * slopes[0], 1.25 * 0.5 * slopes[1]}};
+  return {static_cast<double>(*low),
+          static_cast<double>(*high),
+          {static_cast<double>(steps[0]), static_cast<double>(steps[1])}};
 }
 
 /// Sums over k_taps × k_taps samples from (x, y) on, columns first, so that a processor takes several at once.

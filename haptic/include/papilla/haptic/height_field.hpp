@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
@@ -90,11 +89,16 @@ class HeightField {
     double value = 0, by_x = 0, by_y = 0;
   };
 
+  /// Of the samples' values, per texel.
+  struct Extremes {
+    double least, most;
+    Vec2 steepest;
+  };
+
   std::uint16_t texel(long x, long y) const noexcept;
   template <std::size_t k_taps>
   Weighted weighted(long x, long y, const Weights& along_x, const Weights& along_y) const noexcept;
-  std::pair<double, double> range() const;
-  Vec2 steepest() const;
+  Extremes extremes() const;
 
   int width_, height_;
   std::vector<std::uint16_t> samples_;
