@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "point_tree.hpp"
+
 #include "papilla/core/bounds.hpp"
 
 namespace papilla::detail {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "polygon_overlap.hpp"
-#include "papilla/core/bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
+
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::detail {
 namespace {

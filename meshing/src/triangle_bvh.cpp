@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "triangle_bvh.hpp"
-#include "papilla/core/bounds.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
@@ -8,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::detail {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "border_guard.hpp"
-#include "papilla/core/bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::param_detail {
 namespace {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "dissection.hpp"
-#include "papilla/core/bounds.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::param_detail {
 namespace {

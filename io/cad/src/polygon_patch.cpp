@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "polygon_patch.hpp"
-#include "papilla/core/bounds.hpp"
 
 #include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
@@ -13,6 +12,8 @@
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "papilla/core/bounds.hpp"
 
 namespace papilla::cad {
 namespace {

@@ -8,6 +8,7 @@
 
 namespace papilla {
 
+/// The lesser, or greater, of each coordinate.
 constexpr Vec2 lower(Vec2 a, Vec2 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y)}; }
 constexpr Vec2 upper(Vec2 a, Vec2 b) noexcept { return {std::max(a.x, b.x), std::max(a.y, b.y)}; }
 constexpr Vec3 lower(Vec3 a, Vec3 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
