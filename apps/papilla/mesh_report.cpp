@@ -60,7 +60,8 @@ MeshStatistics total_statistics(const std::vector<MeshStatistics>& parts) {
 
 std::string header_row() {
   return fmt::format("{:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>3}  part\n", "triangles",
-                     "vertices", "comp", "loops", "genus", "nonman", "degen", "dupl", "flipped", "T-junc", "aspect", "uv");
+                     "vertices", "comp", "loops", "genus", "nonman", "degen", "dupl", "flipped", "T-junc", "aspect",
+                     "uv");
 }
 
 std::string counters_row(const std::string& name, const MeshStatistics& s) {

@@ -54,7 +54,8 @@ class ProgressPrinter {
     const double spent = stage_clock_.seconds();
     std::string line = fmt::format("{} {:3.0f} %", stage, 100 * fraction);
     if (fraction > 0.01 && fraction < 1)
-      line += fmt::format("  {:.2g} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3), spent * (1 - fraction) / fraction);
+      line += fmt::format("  {:.2g} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3),
+                          spent * (1 - fraction) / fraction);
     fmt::print(stderr, "\r\033[K{}", line);
     std::fflush(stderr);
     drawn_ = true;
@@ -104,13 +105,21 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
   verb->footer("Example:\n  " + info.example);
   auto common = std::make_shared<CommonOptions>();
   verb->add_option("--json", common->json, "Write the machine-readable result to FILE, or to stdout with -")
-      ->type_name("FILE|-")->group("Common");
+      ->type_name("FILE|-")
+      ->group("Common");
   verb->add_flag("-q,--quiet", common->quiet, "Print nothing but errors")->group("Common");
   verb->add_option("--threads", common->threads, "Use N threads; 0 takes all cores")
-      ->type_name("N")->check(CLI::Range(0, 1024))->group("Common");
-  verb->add_option("--seed", common->seed, "Seed of everything random")->type_name("N")->capture_default_str()->group("Common");
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->group("Common");
+  verb->add_option("--seed", common->seed, "Seed of everything random")
+      ->type_name("N")
+      ->capture_default_str()
+      ->group("Common");
   verb->add_option("--progress", common->progress, "auto (a line on a terminal), json (a JSON object a line), none")
-      ->check(CLI::IsMember({"auto", "json", "none"}))->capture_default_str()->group("Common");
+      ->check(CLI::IsMember({"auto", "json", "none"}))
+      ->capture_default_str()
+      ->group("Common");
   verb->callback([common, body = std::move(body)] { run_verb(*common, body); });
   return verb;
 }

@@ -14,10 +14,10 @@
 #include "glb_buffer.hpp"
 #include "glb_material.hpp"
 #include "glb_mesh.hpp"
+#include "haptic_mirror.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
-#include "haptic_mirror.hpp"
 #include "scene_losses.hpp"
 #include "trs.hpp"
 

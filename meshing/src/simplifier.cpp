@@ -17,7 +17,8 @@ namespace {
 
 /// Of the first pass, relative to the tolerance: most parts hold it at once, and what exceeds it is local.
 constexpr double k_first_error = 1;
-constexpr double k_less = 0.7;   ///< A pass that does not hold the tolerance is tried once more with this much of its error.
+constexpr double k_less =
+    0.7;  ///< A pass that does not hold the tolerance is tried once more with this much of its error.
 constexpr int k_rounds = 5;  ///< Of keeping vertices at the worst places, a pass.
 constexpr int k_most_halvings = 5;
 /// Distances below this fraction of the tolerance are not told apart while checking.

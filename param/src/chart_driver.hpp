@@ -22,8 +22,8 @@ struct ChartMap {
   std::vector<Vec2> uv;  ///< Per vertex of the chart; empty when `failure` says why.
   std::string failure;
   StopReason stop = StopReason::direct;
-  Trace trace;              ///< Error: what the method minimises, summed over the chart; seconds since its start.
-  bool keep_place = false;  ///< Do not scale and turn: the caller said where it goes.
+  Trace trace;               ///< Error: what the method minimises, summed over the chart; seconds since its start.
+  bool keep_place = false;   ///< Do not scale and turn: the caller said where it goes.
   MethodChoice choice = {};  ///< Of methods that choose.
 };
 

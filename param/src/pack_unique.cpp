@@ -248,8 +248,7 @@ Placement pack_with_gutters(const Packer& packer, const UniqueAtlasOptions& o, d
     gutter = 1.01 * o.gutter_px * placement.side / o.texture_px;
     placement = packer.pack(gutter);
   }
-  if (!std::isfinite(placement.side) || gutter * o.texture_px < o.gutter_px * placement.side)
-    refuse_gutters(packer, o);
+  if (!std::isfinite(placement.side) || gutter * o.texture_px < o.gutter_px * placement.side) refuse_gutters(packer, o);
   return placement;
 }
 

@@ -75,9 +75,7 @@ struct Wall {
 
  private:
   static Index following(Index corner) { return corner - corner % 3 + (corner + 1) % 3; }
-  static Index next(const FilledDisk& disk, Index corner) {
-    return disk.triangles[corner / 3][following(corner) % 3];
-  }
+  static Index next(const FilledDisk& disk, Index corner) { return disk.triangles[corner / 3][following(corner) % 3]; }
 
   /// The corners at v counter-clockwise from the edge to `in` to the edge to `out`, or to the border.
   void turn_left(const FilledDisk& disk, const CornersOfVertices& corners, Index v, Index in, Index out) {

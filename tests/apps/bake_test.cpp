@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "papilla/core/error.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
-#include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/read_file.hpp"
 #include "papilla/texture/grain.hpp"
@@ -82,7 +82,9 @@ class BakeTest : public testing::Test {
     return bake(std::move(scene), surfaces_, {});
   }
 
-  static nlohmann::json tag_of(const Material& material) { return nlohmann::json::parse(material.extras_json).at("haptic"); }
+  static nlohmann::json tag_of(const Material& material) {
+    return nlohmann::json::parse(material.extras_json).at("haptic");
+  }
 
   const fs::path folder_ = fs::temp_directory_path() / ("papilla-bake-" + std::to_string(::getpid()));
   MaterialsFile rules_;
@@ -135,7 +137,8 @@ TEST_F(BakeTest, TheTagDecodesToTheReliefThatTheNormalMapShows) {
   ASSERT_EQ(samples.values.size(), grain.relief.mm.size());
   const double scale_mm = 1e3 * height.at("scale").get<double>(), offset_mm = 1e3 * height.at("offset").get<double>();
   for (std::size_t i = 0; i < samples.values.size(); ++i)
-    ASSERT_NEAR(offset_mm + scale_mm * samples.values[i] / 65535, static_cast<double>(grain.relief.mm[i]), scale_mm / 60000);
+    ASSERT_NEAR(offset_mm + scale_mm * samples.values[i] / 65535, static_cast<double>(grain.relief.mm[i]),
+                scale_mm / 60000);
   ASSERT_TRUE(result.scene.materials[0].normal_texture.has_value());
   const Texture& texture = result.scene.textures.at(result.scene.materials[0].normal_texture->texture);
   const ColorImage normals = decode_color_image(result.scene.images.at(*texture.image).bytes, "normals");
@@ -178,7 +181,8 @@ TEST_F(BakeTest, OnlyTheGrainSurfaceOfAPartGetsUv) {
   const Scene back = read_gltf(folder_ / "out.glb");
   ASSERT_EQ(back.parts.size(), 1U);
   for (std::size_t t = 0; t < 2; ++t)
-    EXPECT_EQ(back.parts[0].mesh.uv.has_value(t), back.materials[back.parts[0].materials[back.parts[0].mesh.material[t]]].name == "skin");
+    EXPECT_EQ(back.parts[0].mesh.uv.has_value(t),
+              back.materials[back.parts[0].materials[back.parts[0].mesh.material[t]]].name == "skin");
 }
 
 TEST_F(BakeTest, TheSameInputGivesTheSameScene) {
@@ -188,7 +192,8 @@ TEST_F(BakeTest, TheSameInputGivesTheSameScene) {
     part.mesh = test::uv_sphere(50, 24, 12);
     return part;
   }();
-  for (const char* name : {"a.glb", "b.glb"}) write_glb(run(scene_of({patch, square("knob")})).scene, folder_ / name, {});
+  for (const char* name : {"a.glb", "b.glb"})
+    write_glb(run(scene_of({patch, square("knob")})).scene, folder_ / name, {});
   EXPECT_TRUE(read_file(folder_ / "a.glb") == read_file(folder_ / "b.glb"));
 }
 

@@ -96,13 +96,17 @@ TEST_F(MaterialsFileTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {
 }
 
 TEST_F(MaterialsFileTest, NamesTheJsonPointerOfWhatIsWrong) {
-  EXPECT_NE(complaint(R"({"materials": {"a/b": {"stiffness": -3}}})").find("/materials/a~1b/stiffness"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a/b": {"stiffness": -3}}})").find("/materials/a~1b/stiffness"),
+            std::string::npos);
   EXPECT_NE(complaint(R"({"materials": {"a": {"size_mm": [40]}}})").find("/materials/a/size_mm"), std::string::npos);
   EXPECT_NE(complaint(R"({"materials": {"a": {"textur": "x"}}})").find("unknown key 'textur'"), std::string::npos);
-  EXPECT_NE(complaint(R"({"materials": {}, "assign": [{"part": "x", "material": "a"}]})").find("/assign/0/material"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {}, "assign": [{"part": "x", "material": "a"}]})").find("/assign/0/material"),
+            std::string::npos);
   EXPECT_NE(complaint(R"({"materials": {}, "assign": [{"material": null}]})").find("/assign/0"), std::string::npos);
-  EXPECT_NE(complaint(R"({"materials": {"a": {"height": {"method": "magic"}}}})").find("/materials/a/height/method"), std::string::npos);
-  EXPECT_NE(complaint(R"({"materials": {"a": {"staticFriction": 0.2, "dynamicFriction": 0.3}}})").find("/materials/a"), std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"height": {"method": "magic"}}}})").find("/materials/a/height/method"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"staticFriction": 0.2, "dynamicFriction": 0.3}}})").find("/materials/a"),
+            std::string::npos);
   EXPECT_NE(complaint(R"({"version": 2, "materials": {}})").find("/version"), std::string::npos);
   EXPECT_NE(complaint("[1, 2").find("is no valid JSON"), std::string::npos);
   EXPECT_NE(complaint("[]").find("must be an object"), std::string::npos);

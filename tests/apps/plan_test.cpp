@@ -16,7 +16,8 @@ TEST(Plan, ASurfaceWithoutMaterialNeedsNothing) {
 
 TEST(Plan, HapticConstantsWithoutGrainNeedOnlyTheTag) {
   const SurfacePlan plan = make_plan({.grain = false, .feel = true}, {});
-  for (const StageRule& rule : k_stages) EXPECT_EQ(decision(plan, rule.stage).run, rule.stage == Stage::tag) << rule.name;
+  for (const StageRule& rule : k_stages)
+    EXPECT_EQ(decision(plan, rule.stage).run, rule.stage == Stage::tag) << rule.name;
 }
 
 TEST(Plan, GrainWithoutUvRunsEverythingButTessellation) {
@@ -36,7 +37,8 @@ TEST(Plan, UsableUvIsKept) {
 }
 
 TEST(Plan, UnusableUvIsReplaced) {
-  EXPECT_TRUE(decision(make_plan({.grain = true, .feel = true}, {.cad = false, .uv = UvState::unusable}), Stage::unwrap).run);
+  EXPECT_TRUE(
+      decision(make_plan({.grain = true, .feel = true}, {.cad = false, .uv = UvState::unusable}), Stage::unwrap).run);
 }
 
 TEST(Plan, OnlyCadIsTessellated) {

@@ -87,7 +87,8 @@ TEST(Surfaces, APartWithTwoMaterialsHasTwoSurfaces) {
 }
 
 TEST(Surfaces, ColoursRoundTripThroughSrgb) {
-  for (const std::string hex : {"#000000", "#ffffff", "#20a0c8", "#010203"}) EXPECT_EQ(hex_colour(linear_colour(hex)), hex);
+  for (const std::string hex : {"#000000", "#ffffff", "#20a0c8", "#010203"})
+    EXPECT_EQ(hex_colour(linear_colour(hex)), hex);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// What all fuzz targets share. A target is a function LLVMFuzzerTestOneInput(); libFuzzer's main() calls it with inputs
-/// that it invents (preset `fuzz`), the replay program's with the files of the corpus (every other build).
+/// What all fuzz targets share. A target is a function LLVMFuzzerTestOneInput(); libFuzzer's main() calls it with
+/// inputs that it invents (preset `fuzz`), the replay program's with the files of the corpus (every other build).
 namespace papilla::fuzz {
 
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {

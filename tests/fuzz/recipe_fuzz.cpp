@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const ProceduralTexture texture = compile_texture(text, builtin);
     const std::vector<double> x = {-1e300, 0, 0.3, 1, 7}, y = {0.2, 0, 0.9, 1, -4};
     const std::vector<std::uint32_t> places = {5, 0, 1, 3, 4};
-    const TextureValues values = evaluate_texture(texture, {x, y, {}, {}, {}, {}, {}, {3, 2, true, places}}, k_all, 0.01);
+    const TextureValues values =
+        evaluate_texture(texture, {x, y, {}, {}, {}, {}, {}, {3, 2, true, places}}, k_all, 0.01);
     for (const auto& channel : values.channels)
       for (const float v : channel) fuzz::require(std::isfinite(v), "a value is finite");
   });

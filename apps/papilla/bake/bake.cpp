@@ -147,7 +147,8 @@ class SceneMaterials {
     result_.mm_per_uv.resize(scene_.materials.size());
     if (grain) {
       const Grain& relief = result_.grains.at(rule.name);
-      result_.mm_per_uv.back() = kept_mm_per_unit > 0 ? Vec2{kept_mm_per_unit, kept_mm_per_unit} : Vec2{relief.size_mm[0], relief.size_mm[1]};
+      result_.mm_per_uv.back() =
+          kept_mm_per_unit > 0 ? Vec2{kept_mm_per_unit, kept_mm_per_unit} : Vec2{relief.size_mm[0], relief.size_mm[1]};
     }
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
   }
@@ -162,7 +163,8 @@ class SceneMaterials {
   void attach_to_new_uv(Material& material, const Grain& grain) {
     const auto drop = [&](std::optional<TextureReference>& reference, const char* what) {
       if (reference && reference->tex_coord == 0) {
-        scene_.losses.push_back("material '" + material.name + "': its " + what + " is left out, because its uv is new");
+        scene_.losses.push_back("material '" + material.name + "': its " + what +
+                                " is left out, because its uv is new");
         reference.reset();
       }
     };
@@ -254,7 +256,8 @@ void make_names_unique(std::vector<Material>& materials) {
   std::set<std::string> names;
   for (Material& material : materials) {
     const std::string name = material.name;
-    for (int i = 2; !name.empty() && !names.insert(material.name).second; ++i) material.name = fmt::format("{} {}", name, i);
+    for (int i = 2; !name.empty() && !names.insert(material.name).second; ++i)
+      material.name = fmt::format("{} {}", name, i);
   }
 }
 
@@ -285,15 +288,16 @@ void drop_unused_textures(Scene& scene) {
     reference->texture = *number;
   };
   for (Material& material : scene.materials)
-    for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-                            &material.occlusion_texture, &material.emissive_texture})
+    for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture,
+                            &material.normal_texture, &material.occlusion_texture, &material.emissive_texture})
       move_texture(*reference);
   scene.textures = std::move(textures);
   scene.images = std::move(images);
 }
 
 /// Makes the grains that the surfaces use.
-std::map<std::string, Grain> make_grains(const std::vector<Surface>& surfaces, const RecipeLibrary& library, const Progress& progress) {
+std::map<std::string, Grain> make_grains(const std::vector<Surface>& surfaces, const RecipeLibrary& library,
+                                         const Progress& progress) {
   std::map<std::string, const MaterialRule*> rules;
   for (const Surface& surface : surfaces)
     if (runs(surface, Stage::height)) rules[surface.rule->name] = surface.rule;
@@ -315,7 +319,8 @@ void reassemble(Scene& scene, const std::vector<Surface>& surfaces, std::vector<
     TriangleMesh mesh;
     for (const Surface& surface : surfaces) {
       if (surface.part != number) continue;
-      const auto work = std::find_if(changed.begin(), changed.end(), [&](const Work* w) { return w->surface == &surface; });
+      const auto work =
+          std::find_if(changed.begin(), changed.end(), [&](const Work* w) { return w->surface == &surface; });
       append_mesh(mesh, work != changed.end() ? (*work)->mesh : extract_triangles(part.mesh, surface.triangles));
     }
     part.mesh = std::move(mesh);
@@ -324,7 +329,8 @@ void reassemble(Scene& scene, const std::vector<Surface>& surfaces, std::vector<
 
 }  // namespace
 
-BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress, const RecipeLibrary& library) {
+BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress,
+                const RecipeLibrary& library) {
   BakeResult result;
   result.scene = std::move(scene);
   result.grains = make_grains(surfaces, library, progress);

@@ -27,11 +27,11 @@ struct BakedSurface {
 };
 
 struct BakeResult {
-  Scene scene;                               ///< With uv, textures and haptic tags; ready to be written.
-  std::map<std::string, Grain> grains;       ///< By rule.
-  std::vector<BakedSurface> surfaces;        ///< Those with grain.
-  std::vector<Vec2> mm_per_uv;               ///< Per material of `scene`; 0 when unknown.
-  std::map<std::string, double> seconds;     ///< Per stage.
+  Scene scene;                            ///< With uv, textures and haptic tags; ready to be written.
+  std::map<std::string, Grain> grains;    ///< By rule.
+  std::vector<BakedSurface> surfaces;     ///< Those with grain.
+  std::vector<Vec2> mm_per_uv;            ///< Per material of `scene`; 0 when unknown.
+  std::map<std::string, double> seconds;  ///< Per stage.
 };
 
 /// Does for every surface what its plan says, and nothing else.

@@ -68,12 +68,14 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, Grain& g
   if (relief.width > k_most_samples || relief.height > k_most_samples)
     relief = resample(relief, std::min(relief.width, k_most_samples), std::min(relief.height, k_most_samples));
   for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
-  grain.report["height"] = {{"method", to_string(result.method)}, {"reason", result.reason},
+  grain.report["height"] = {{"method", to_string(result.method)},
+                            {"reason", result.reason},
                             {"light", {result.light.x, result.light.y, result.light.z}},
                             {"light_estimated", result.light_estimated},
                             {"depth_mm", result.depth_mm * rule.height.scale},
                             {"rms_mm", result.rms_mm * rule.height.scale},
-                            {"periodic", relief.periodic}, {"stop", to_string(result.stop)}};
+                            {"periodic", relief.periodic},
+                            {"stop", to_string(result.stop)}};
   return relief;
 }
 
@@ -92,7 +94,7 @@ HeightTag height_tag(const Grain& grain, const EncodedHeight& encoded) {
 
 /// The picture of a material, from a file or computed.
 struct Source {
-  GreyImage grey;            ///< Of a recipe: the height channel.
+  GreyImage grey;  ///< Of a recipe: the height channel.
   ColorImage color;
   bool recipe = false;
   double friction = 0, stiffness = 1;  ///< Of a recipe: means of the channels.
@@ -109,7 +111,8 @@ Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
   options.time = rule.time;
   RenderOptions render;
   render.width = render.height = k_recipe_samples;
-  for (const Channel c : {Channel::bump, Channel::color, Channel::friction, Channel::stiffness}) render.channels |= 1U << static_cast<unsigned>(c);
+  for (const Channel c : {Channel::bump, Channel::color, Channel::friction, Channel::stiffness})
+    render.channels |= 1U << static_cast<unsigned>(c);
   RenderedTexture texture = render_texture(compile_texture(rule.recipe, library, options), render);
   Source source;
   source.recipe = true;
@@ -123,17 +126,26 @@ Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
 /// A file of that name wins over a recipe of that name.
 Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   std::error_code error;
-  if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library)) return computed_source(rule, library);
+  if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
+    return computed_source(rule, library);
   return {read_grey_image(rule.texture), read_color_image(rule.texture)};
 }
 
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.
 HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain& grain) {
   const double depth = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
-  HeightMap relief{source.grey.width, source.grey.height, source.grey.pixels, grain.size_mm[0] / source.grey.width, grain.size_mm[1] / source.grey.height, true};
+  HeightMap relief{source.grey.width,
+                   source.grey.height,
+                   source.grey.pixels,
+                   grain.size_mm[0] / source.grey.width,
+                   grain.size_mm[1] / source.grey.height,
+                   true};
   for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
-  grain.report["height"] = {{"method", "recipe"}, {"reason", "the height channel of the recipe"}, {"depth_mm", depth * rule.height.scale},
-                            {"rms_mm", rms_height_mm(relief)}, {"periodic", true}};
+  grain.report["height"] = {{"method", "recipe"},
+                            {"reason", "the height channel of the recipe"},
+                            {"depth_mm", depth * rule.height.scale},
+                            {"rms_mm", rms_height_mm(relief)},
+                            {"periodic", true}};
   return relief;
 }
 
@@ -141,10 +153,13 @@ void describe_relief(Grain& grain) {
   const Roughness roughness = measure_roughness(grain.relief);
   RoughnessTag tag;
   tag.rms_height_m = roughness.rms_mm * k_metres_per_mm;
-  tag.wavelength_range_m = {roughness.shortest_wavelength_mm * k_metres_per_mm, roughness.longest_wavelength_mm * k_metres_per_mm};
+  tag.wavelength_range_m = {roughness.shortest_wavelength_mm * k_metres_per_mm,
+                            roughness.longest_wavelength_mm * k_metres_per_mm};
   if (roughness.fractal) tag.fractal_dimension = std::clamp(roughness.fractal->dimension, 2.0, 3.0);
   grain.tag.roughness = tag;
-  grain.report["roughness"] = {{"rms_mm", roughness.rms_mm}, {"fractal_dimension", roughness.fractal ? ordered_json(roughness.fractal->dimension) : nullptr}};
+  grain.report["roughness"] = {
+      {"rms_mm", roughness.rms_mm},
+      {"fractal_dimension", roughness.fractal ? ordered_json(roughness.fractal->dimension) : nullptr}};
 }
 
 void analyze(const MaterialRule& rule, const GreyImage& image, const ColorImage& color, Grain& grain) {
@@ -154,11 +169,17 @@ void analyze(const MaterialRule& rule, const GreyImage& image, const ColorImage&
   const bool monochrome = is_monochrome(color);
   const bool show = rule.show == "picture" || (rule.show == "auto" && !monochrome);
   if (show) grain.picture = png("grain." + rule.name, encode_png(color));
-  grain.report["picture"] = {{"file", rule.texture.string()}, {"width", image.width}, {"height", image.height},
-                             {"size_mm", {grain.size_mm[0], grain.size_mm[1]}}, {"tiles", tiling.tiles},
-                             {"monochrome", monochrome}, {"shown", show}};
-  grain.report["class"] = {{"name", to_string(kind.kind)}, {"disordered", kind.disordered},
-                           {"weakly_ordered", kind.weakly_ordered}, {"strongly_ordered", kind.strongly_ordered}};
+  grain.report["picture"] = {{"file", rule.texture.string()},
+                             {"width", image.width},
+                             {"height", image.height},
+                             {"size_mm", {grain.size_mm[0], grain.size_mm[1]}},
+                             {"tiles", tiling.tiles},
+                             {"monochrome", monochrome},
+                             {"shown", show}};
+  grain.report["class"] = {{"name", to_string(kind.kind)},
+                           {"disordered", kind.disordered},
+                           {"weakly_ordered", kind.weakly_ordered},
+                           {"strongly_ordered", kind.strongly_ordered}};
   grain.report["lattice"] = symmetry.lattice.found;
   if (!symmetry.lattice.found) return;
   const Vec2 mm_per_px{grain.size_mm[0] / image.width, grain.size_mm[1] / image.height};

@@ -20,9 +20,12 @@ using Json = nlohmann::json;
 std::string escaped(std::string_view key) {
   std::string out;
   for (const char c : key) {
-    if (c == '~') out += "~0";
-    else if (c == '/') out += "~1";
-    else out += c;
+    if (c == '~')
+      out += "~0";
+    else if (c == '/')
+      out += "~1";
+    else
+      out += c;
   }
   return out;
 }
@@ -90,10 +93,12 @@ class Value {
   }
   std::string hex_colour() const {
     std::string value = text();
-    const bool good = value.size() == 7 && value[0] == '#' &&
-                      std::all_of(value.begin() + 1, value.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+    const bool good =
+        value.size() == 7 && value[0] == '#' &&
+        std::all_of(value.begin() + 1, value.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
     if (!good) fail("'" + value + "' must be a colour such as #20a0FF");
-    std::transform(value.begin(), value.end(), value.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(value.begin(), value.end(), value.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return value;
   }
 
@@ -105,7 +110,8 @@ class Value {
 HeightRule read_height(const Value& value) {
   value.expect_keys({"method", "depth_mm", "scale"});
   HeightRule rule;
-  if (const auto v = value.get("method")) rule.method = v->one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"});
+  if (const auto v = value.get("method"))
+    rule.method = v->one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"});
   if (const auto v = value.get("depth_mm")) rule.depth_mm = v->number(1e-6, 100);
   if (const auto v = value.get("scale")) rule.scale = v->number(0, 100);
   return rule;
@@ -120,8 +126,9 @@ FrictionTag read_friction_model(const Value& value) {
 }
 
 MaterialRule read_material(const Value& value, const std::string& name, const std::filesystem::path& folder) {
-  value.expect_keys({"texture", "time", "size_mm", "stiffness", "damping", "staticFriction", "dynamicFriction", "stribeckVelocity",
-                     "frictionModel", "forceShading", "height", "unwrap", "show", "color", "roughness", "metallic", "$comment"});
+  value.expect_keys({"texture", "time", "size_mm", "stiffness", "damping", "staticFriction", "dynamicFriction",
+                     "stribeckVelocity", "frictionModel", "forceShading", "height", "unwrap", "show", "color",
+                     "roughness", "metallic", "$comment"});
   MaterialRule rule;
   rule.name = name;
   if (const auto v = value.get("texture")) {
@@ -150,7 +157,8 @@ MaterialRule read_material(const Value& value, const std::string& name, const st
   if (rule.static_friction && rule.dynamic_friction && *rule.dynamic_friction > *rule.static_friction)
     value.fail("dynamicFriction must not exceed staticFriction");
   if (const auto v = value.get("height")) rule.height = read_height(*v);
-  if (const auto v = value.get("unwrap")) rule.unwrap = v->one_of({"auto", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
+  if (const auto v = value.get("unwrap"))
+    rule.unwrap = v->one_of({"auto", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
   if (const auto v = value.get("color")) rule.color = v->hex_colour();
   return rule;

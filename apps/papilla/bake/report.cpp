@@ -42,8 +42,11 @@ ordered_json total_distortion(const std::vector<BakedSurface>& surfaces) {
     charts += report.charts;
     overlapping += report.overlapping_within_charts;
   }
-  ordered_json json = {{"triangles", triangles}, {"charts", charts}, {"flipped", flipped},
-                       {"overlapping_within_charts", overlapping}, {"area_mm2", area}};
+  ordered_json json = {{"triangles", triangles},
+                       {"charts", charts},
+                       {"flipped", flipped},
+                       {"overlapping_within_charts", overlapping},
+                       {"area_mm2", area}};
   if (!(area > 0)) return json;
   json["symmetric_dirichlet"] = {{"mean", symmetric_dirichlet / area}};
   json["angle_error_deg"] = {{"mean", angle / area}};
@@ -134,9 +137,11 @@ void add_close_ups(const BakeResult& result, const std::vector<const BakedSurfac
   const std::vector<Instance> uses = instances(result.scene);
   const SightLines sight(placed_meshes(result.scene, uses, to_y_up(result.scene.up)));
   for (const auto& [name, grain] : result.grains) {
-    const auto largest = std::find_if(by_size.begin(), by_size.end(), [&](const BakedSurface* s) { return s->material == name; });
+    const auto largest =
+        std::find_if(by_size.begin(), by_size.end(), [&](const BakedSurface* s) { return s->material == name; });
     if (largest == by_size.end()) continue;
-    render.close_up = look_at(**largest, uses, result.scene.up, sight, 3 * std::max(grain.size_mm[0], grain.size_mm[1]));
+    render.close_up =
+        look_at(**largest, uses, result.scene.up, sight, 3 * std::max(grain.size_mm[0], grain.size_mm[1]));
     if (render.close_up) pictures.add("close-up-" + name, render_scene(result.scene, render));
   }
 }
@@ -148,10 +153,15 @@ ordered_json bake_json(const BakeResult& result, const std::vector<Surface>& pla
   json["plan"] = plan_json(planned);
   json["parts"] = ordered_json::array();
   for (const BakedSurface& surface : result.surfaces)
-    json["parts"].push_back({{"part", surface.label}, {"material", surface.material}, {"unwrap", surface.method},
-                             {"reason", surface.reason}, {"charts", surface.charts}, {"seam_mm", surface.seam_mm},
+    json["parts"].push_back({{"part", surface.label},
+                             {"material", surface.material},
+                             {"unwrap", surface.method},
+                             {"reason", surface.reason},
+                             {"charts", surface.charts},
+                             {"seam_mm", surface.seam_mm},
                              {"grain_continued_mm", surface.grain_continued_mm},
-                             {"notes", surface.notes}, {"distortion", distortion_json(surface.distortion)}});
+                             {"notes", surface.notes},
+                             {"distortion", distortion_json(surface.distortion)}});
   json["materials"] = ordered_json::array();
   for (const auto& [name, grain] : result.grains) {
     ordered_json entry = {{"name", name}};
@@ -179,7 +189,8 @@ std::string bake_table(const BakeResult& result) {
                        surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
                        surface.distortion.angle_error_deg.mean, surface.distortion.flipped);
     if (!surface.notes.empty())
-      out += fmt::format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(), surface.notes.front());
+      out += fmt::format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(),
+                         surface.notes.front());
   }
   if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
   return out;

@@ -25,7 +25,8 @@ struct UvJudgement {
 };
 
 UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  const bool any = std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) { return mesh.uv.has_value(t); });
+  const bool any =
+      std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) { return mesh.uv.has_value(t); });
   if (!any) return {UvState::absent, 0, "no uv"};
   double area_3d = 0, area_uv = 0, positive = 0, negative = 0, bad = 0, stretched = 0;
   for (const std::uint32_t t : triangles) {
@@ -82,7 +83,8 @@ std::vector<Surface> split_by_slot(const Scene& scene) {
       surface.triangles = std::move(triangles);
       surface.label = part.name;
       if (by_slot.size() > 1)
-        surface.label += "/" + (slot < part.materials.size() ? scene.materials[part.materials[slot]].name : std::to_string(slot));
+        surface.label +=
+            "/" + (slot < part.materials.size() ? scene.materials[part.materials[slot]].name : std::to_string(slot));
       surfaces.push_back(std::move(surface));
     }
   }
@@ -171,7 +173,8 @@ std::string plan_table(const std::vector<Surface>& surfaces) {
     width = std::clamp(surface.label.size(), width, std::size_t{40});
     if (surface.rule) material_width = std::clamp(surface.rule->name.size(), material_width, std::size_t{24});
   }
-  std::string out = fmt::format("{:<{}}  {:<{}}  {:>9}  stages\n", "part", width, "material", material_width, "triangles");
+  std::string out =
+      fmt::format("{:<{}}  {:<{}}  {:>9}  stages\n", "part", width, "material", material_width, "triangles");
   for (const Surface& surface : surfaces) {
     std::string stages;
     std::map<std::string_view, std::string> skipped;
@@ -185,7 +188,8 @@ std::string plan_table(const std::vector<Surface>& surfaces) {
     }
     out += fmt::format("{:<{}}  {:<{}}  {:>9}  {}\n", surface.label, width, surface.rule ? surface.rule->name : "-",
                        material_width, surface.triangles.size(), stages.empty() ? "nothing to do" : stages);
-    for (const auto& [reason, names] : skipped) out += fmt::format("{:<{}}  without {}: {}\n", "", width, names, reason);
+    for (const auto& [reason, names] : skipped)
+      out += fmt::format("{:<{}}  without {}: {}\n", "", width, names, reason);
   }
   return out;
 }

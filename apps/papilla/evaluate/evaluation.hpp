@@ -55,7 +55,8 @@ struct EvaluationKind {
 std::vector<EvaluationRun> evaluate_weld(const EvaluationInput& input);
 /// simplify(): triangles and deviation for a ladder of tolerances.
 std::vector<EvaluationRun> evaluate_simplification(const EvaluationInput& input);
-/// read_cad(): deviation for a ladder of chords, and the angle error of the surfaces' own u and v. Takes CAD files only.
+/// read_cad(): deviation for a ladder of chords, and the angle error of the surfaces' own u and v. Takes CAD files
+/// only.
 std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input);
 
 /// segment_charts(): distortion and seams for a ladder of seam costs.

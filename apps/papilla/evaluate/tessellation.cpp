@@ -25,8 +25,7 @@ CadReadOptions cad_options(const ReadOptions& read) {
 
 /// The map that the surfaces bring along, of all parts at each of the coarser chords.
 EvaluationRun natural_run(const EvaluationInput& input, const std::vector<double>& chords, CadReadOptions options) {
-  EvaluationRun run{"natural", "",      input.name, "mean angle error of the CAD surfaces' own u and v [°]",
-                    {},        "direct"};
+  EvaluationRun run{"natural", "", input.name, "mean angle error of the CAD surfaces' own u and v [°]", {}, "direct"};
   Rungs rungs(input.budget, k_growth);
   for (const double chord : chords) {
     if (!rungs.next()) break;

@@ -25,7 +25,8 @@ MipPyramid::MipPyramid(const ColorImage& image, bool encoded_srgb) {
     decode[static_cast<std::size_t>(i)] = static_cast<float>(encoded_srgb ? linear : c);
   }
   Level base{image.width, image.height, std::vector<float>(image.pixels.size())};
-  std::transform(image.pixels.begin(), image.pixels.end(), base.rgb.begin(), [&](unsigned char c) { return decode[c]; });
+  std::transform(image.pixels.begin(), image.pixels.end(), base.rgb.begin(),
+                 [&](unsigned char c) { return decode[c]; });
   levels_.push_back(std::move(base));
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& fine = levels_.back();
@@ -49,7 +50,8 @@ Vec3 MipPyramid::sample(Vec2 uv, double texels) const {
   const double lod = 0.5 * std::log2(std::max(texels, 1.0));
   const auto number = static_cast<std::size_t>(std::clamp(std::lround(lod), 0L, static_cast<long>(levels_.size()) - 1));
   const Level& level = levels_[number];
-  const double x = (uv.x - std::floor(uv.x)) * level.width - 0.5, y = (1 - (uv.y - std::floor(uv.y))) * level.height - 0.5;
+  const double x = (uv.x - std::floor(uv.x)) * level.width - 0.5,
+               y = (1 - (uv.y - std::floor(uv.y))) * level.height - 0.5;
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   const double fx = x - x0, fy = y - y0;
   std::array<double, 3> sum{};

@@ -57,7 +57,7 @@ struct TriangleSetup {
   Vec3 tangent, bitangent;
   bool has_uv = false;
   double uv_area_per_cubic_depth = 0;  // Of a sample.
-  std::array<bool, 3> border{};  ///< From corner k to the next one; of RenderMode::triangles.
+  std::array<bool, 3> border{};        ///< From corner k to the next one; of RenderMode::triangles.
 };
 
 class Pyramids {
@@ -225,7 +225,9 @@ Vec3 checker_color(const TriangleSetup& t, Vec2 uv, double checker_mm) {
 }
 
 Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& camera, const RenderOptions& options) {
-  const auto mix = [&](auto member) { return weight[0] * (t.v[0].*member) + weight[1] * (t.v[1].*member) + weight[2] * (t.v[2].*member); };
+  const auto mix = [&](auto member) {
+    return weight[0] * (t.v[0].*member) + weight[1] * (t.v[1].*member) + weight[2] * (t.v[2].*member);
+  };
   const Vec3 position = mix(&Vertex::world);
   const Vec2 uv = mix(&Vertex::uv);
   Vec3 normal = normalized(mix(&Vertex::normal));
@@ -264,11 +266,13 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
   const double diffuse = 0.35 + 1.25 * std::max(0.0, dot(normal, key)) + 0.4 * std::max(0.0, dot(normal, fill));
   const double gloss = 1 - surface.roughness;
   const double exponent = 8 + 120 * gloss * gloss;
-  const double highlight = (0.05 + 0.5 * gloss) * std::pow(std::max(0.0, dot(normal, normalized(key + view))), exponent);
+  const double highlight =
+      (0.05 + 0.5 * gloss) * std::pow(std::max(0.0, dot(normal, normalized(key + view))), exponent);
   return (diffuse * (1 - 0.4 * surface.metallic)) * color + highlight * Vec3{1, 1, 1};
 }
 
-/// What the edges of the triangle make of the colour of a sample, whose barycentric coordinates on the screen these are.
+/// What the edges of the triangle make of the colour of a sample, whose barycentric coordinates on the screen these
+/// are.
 Vec3 with_edges(const TriangleSetup& t, const double (&screen)[3], Vec3 color, int samples) {
   constexpr double k_border_px = 1.6, k_edge_px = 0.6, k_edge_share = 0.55;
   constexpr Vec3 k_border{0.75, 0.06, 0.02}, k_edge{0.02, 0.03, 0.05};
@@ -285,8 +289,8 @@ Vec3 with_edges(const TriangleSetup& t, const double (&screen)[3], Vec3 color, i
 /// Samples on an edge belong to one of the two triangles that share it, which see it in opposite directions.
 bool owns_edge(const Vertex& a, const Vertex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
-/// Fills the samples of the rows [row_begin, row_end) that the triangle covers and nothing nearer does. What lies behind
-/// glass shines through in the share that it lets pass, so that glass comes last, the farthest first.
+/// Fills the samples of the rows [row_begin, row_end) that the triangle covers and nothing nearer does. What lies
+/// behind glass shines through in the share that it lets pass, so that glass comes last, the farthest first.
 void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions& options, int width, int row_begin,
                int row_end, std::vector<Sample>& samples) {
   const auto [low_x, high_x] = std::minmax({t.v[0].x, t.v[1].x, t.v[2].x});
@@ -309,7 +313,8 @@ void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions
       if (!inside) continue;
       double inverse_depth = 0;
       for (int k = 0; k < 3; ++k) inverse_depth += screen[k] * t.v[k].inverse_depth;
-      Sample& sample = samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+      Sample& sample =
+          samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
       if (static_cast<float>(inverse_depth) <= sample.inverse_depth) continue;
       double weight[3];
       for (int k = 0; k < 3; ++k) weight[k] = screen[k] * t.v[k].inverse_depth / inverse_depth;
@@ -318,8 +323,8 @@ void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions
       const auto mixed = [opacity = t.surface->opacity](float behind, double own) {
         return static_cast<float>((1 - opacity) * static_cast<double>(behind) + opacity * own);
       };
-      sample = {t.surface->opacity < 1 ? sample.inverse_depth : static_cast<float>(inverse_depth), mixed(sample.r, color.x),
-                mixed(sample.g, color.y), mixed(sample.b, color.z)};
+      sample = {t.surface->opacity < 1 ? sample.inverse_depth : static_cast<float>(inverse_depth),
+                mixed(sample.r, color.x), mixed(sample.g, color.y), mixed(sample.b, color.z)};
     }
   }
 }
@@ -371,7 +376,8 @@ void sort_glass(std::vector<TriangleSetup>& triangles) {
 
 unsigned char encode(double linear) {
   const double c = std::clamp(linear, 0.0, 1.0);
-  return static_cast<unsigned char>(std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
+  return static_cast<unsigned char>(
+      std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
 }
 
 ColorImage resolve(const std::vector<Sample>& samples, const RenderOptions& options) {
@@ -409,17 +415,19 @@ ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
     throw InvalidInput("render_scene: width and height must be 1 to 16384, samples at least 1");
   Pyramids pyramids(scene);
   std::vector<Surface> surfaces;
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) surfaces.push_back(make_surface(scene, m, options, pyramids));
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    surfaces.push_back(make_surface(scene, m, options, pyramids));
   const Surface plain{.color = options.mode == RenderMode::triangles ? k_clay : Vec3{1, 1, 1}};
-  std::vector<TriangleSetup> triangles = set_up_triangles(
-      scene, instances(scene), surfaces, plain, options.mode == RenderMode::triangles);
+  std::vector<TriangleSetup> triangles =
+      set_up_triangles(scene, instances(scene), surfaces, plain, options.mode == RenderMode::triangles);
   if (triangles.empty()) throw InvalidInput("render_scene: the scene has no triangle");
 
   const Camera camera = place_camera(scene, triangles, options);
   clip(triangles, camera, options.close_up ? 0.05 * options.close_up->extent_mm : 0);
   for (TriangleSetup& t : triangles) {
     for (Vertex& v : t.v) project(camera, v);
-    t.doubled_area = cross(Vec2{t.v[1].x - t.v[0].x, t.v[1].y - t.v[0].y}, Vec2{t.v[2].x - t.v[0].x, t.v[2].y - t.v[0].y});
+    t.doubled_area =
+        cross(Vec2{t.v[1].x - t.v[0].x, t.v[1].y - t.v[0].y}, Vec2{t.v[2].x - t.v[0].x, t.v[2].y - t.v[0].y});
     if (t.has_uv) t.uv_area_per_cubic_depth = uv_area_per_cubic_depth(t, camera);
   }
   std::erase_if(triangles, [](const TriangleSetup& t) { return !(std::abs(t.doubled_area) > 0); });

@@ -27,10 +27,10 @@ struct EdgeLine {
 /// One side of a face along a CAD edge.
 struct EdgeUse {
   std::uint32_t edge = 0;
-  bool reversed = false;             ///< The face's wire runs against the edge.
-  std::vector<Index> nodes;          ///< The face's nodes of EdgeLine::parameters, one each.
-  Handle(Geom2d_Curve) curve;        ///< The edge in the face's parameters.
-  double factor = 1, offset = 0;     ///< Parameter on `curve` = offset + factor * parameter of the edge.
+  bool reversed = false;          ///< The face's wire runs against the edge.
+  std::vector<Index> nodes;       ///< The face's nodes of EdgeLine::parameters, one each.
+  Handle(Geom2d_Curve) curve;     ///< The edge in the face's parameters.
+  double factor = 1, offset = 0;  ///< Parameter on `curve` = offset + factor * parameter of the edge.
 };
 
 /// Everything that is known of one face before and while it is refined.

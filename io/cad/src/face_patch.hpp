@@ -18,7 +18,8 @@ struct PatchNode {
   Vec2 uv;
   Vec3 gap;  ///< From the surface's point at uv to `position`: CAD edges lie off their surfaces by their tolerance.
   std::uint32_t shared = k_no_value;  ///< Number of the point on a CAD edge or vertex that other faces use, too.
-  bool free_u = false, free_v = false;  ///< On an edge that the parametrization collapses: this parameter means nothing.
+  bool free_u = false,
+       free_v = false;  ///< On an edge that the parametrization collapses: this parameter means nothing.
 
   bool is_singular() const noexcept { return free_u || free_v; }
 };

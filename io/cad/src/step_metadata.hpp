@@ -12,9 +12,9 @@ namespace papilla::cad {
 
 /// What a STEP file says beside its geometry and what the library's document has no place for.
 struct StepMetadata {
-  Json header;                              ///< {"schema", "name", "time_stamp", "author", "organization", "system"}.
-  std::map<std::string, Json> properties;   ///< By entry of the part's or instance's label: {name: value}.
-  Json annotations;                         ///< Names of annotations that are only drawn, not meant.
+  Json header;                             ///< {"schema", "name", "time_stamp", "author", "organization", "system"}.
+  std::map<std::string, Json> properties;  ///< By entry of the part's or instance's label: {name: value}.
+  Json annotations;                        ///< Names of annotations that are only drawn, not meant.
 };
 
 /// @param reader after its transfer into the document.

@@ -129,8 +129,7 @@ std::span<const unsigned char> AccessorReader::range(int number, std::size_t off
   if (number < 0 || static_cast<std::size_t>(number) >= model.buffers.size())
     fail(where, what + " names buffer " + std::to_string(number) + ", which does not exist");
   const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(number)];
-  if (document_.empty_buffers.contains(number))
-    fail(where, "buffer " + std::to_string(number) + " has no data");
+  if (document_.empty_buffers.contains(number)) fail(where, "buffer " + std::to_string(number) + " has no data");
   if (offset > buffer.data.size() || length > buffer.data.size() - offset)
     fail(where, what + " (offset " + std::to_string(offset) + ", length " + std::to_string(length) +
                     ") exceeds its buffer of " + std::to_string(buffer.data.size()) + " bytes");

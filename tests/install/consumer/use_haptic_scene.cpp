@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <papilla/io/papilla_haptic.h>
 #include <papilla/core/error.hpp>
 #include <papilla/io/haptic_scene.hpp>
-#include <papilla/io/papilla_haptic.h>
 
 int main() {
   char message[64] = "";

@@ -66,7 +66,8 @@ TEST_F(CadErrors, SyntaxErrorsOfStepNameTheLine) {
   struct Damage {
     std::string what, with;
   };
-  for (const auto& [what, with] : std::vector<Damage>{{"= PRODUCT(", " PRODUCT("}, {"(", "(("}, {");", ")"}, {"'", ""}}) {
+  for (const auto& [what, with] :
+       std::vector<Damage>{{"= PRODUCT(", " PRODUCT("}, {"(", "(("}, {");", ")"}, {"'", ""}}) {
     std::string damaged = text;
     damaged.replace(damaged.find(what, data), what.size(), with);
     folder_.write("damaged.step", damaged);

@@ -115,8 +115,8 @@ TEST_F(CadMetadata, MirroredPlacementStaysOutward) {
   ASSERT_EQ(instances(scene).size(), 2u);
   for (const Instance& use : instances(scene)) {
     const Transform& t = use.world;
-    const double determinant = t[0] * (t[5] * t[10] - t[6] * t[9]) - t[1] * (t[4] * t[10] - t[6] * t[8]) +
-                               t[2] * (t[4] * t[9] - t[5] * t[8]);
+    const double determinant =
+        t[0] * (t[5] * t[10] - t[6] * t[9]) - t[1] * (t[4] * t[10] - t[6] * t[8]) + t[2] * (t[4] * t[9] - t[5] * t[8]);
     const TriangleMesh& mesh = scene.parts[use.part].mesh;
     EXPECT_TRUE(is_closed(mesh));
     // glTF turns the winding where the determinant is negative; the part itself is outward.
@@ -199,11 +199,14 @@ TEST_F(CadMetadata, UserDefinedProperties) {
   const std::size_t context_at = text.find("GEOMETRIC_REPRESENTATION_CONTEXT");
   const std::size_t context_from = text.rfind('#', context_at);
   const std::string context = text.substr(context_from, text.find(' ', context_from) - context_from);
-  const Scene scene = read_with(
-      "#900001 = PROPERTY_DEFINITION('user defined attribute','',"+ product + ");\n"
-      "#900002 = DESCRIPTIVE_REPRESENTATION_ITEM('Supplier','Weber & S\\X2\\00F6\\X0\\hne');\n"
-      "#900003 = REPRESENTATION('',(#900002)," + context + ");\n"
-      "#900004 = PROPERTY_DEFINITION_REPRESENTATION(#900001,#900003);\n");
+  const Scene scene =
+      read_with("#900001 = PROPERTY_DEFINITION('user defined attribute',''," + product +
+                ");\n"
+                "#900002 = DESCRIPTIVE_REPRESENTATION_ITEM('Supplier','Weber & S\\X2\\00F6\\X0\\hne');\n"
+                "#900003 = REPRESENTATION('',(#900002)," +
+                context +
+                ");\n"
+                "#900004 = PROPERTY_DEFINITION_REPRESENTATION(#900001,#900003);\n");
   EXPECT_EQ(json::parse(scene.parts.at(0).extras_json).at("properties").at("Supplier"), "Weber & Söhne");
   const Node& node = scene.nodes.at(scene.roots.at(0));
   EXPECT_EQ(json::parse(node.extras_json).at("properties").at("Supplier"), "Weber & Söhne");

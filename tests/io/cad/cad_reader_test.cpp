@@ -179,7 +179,6 @@ TEST_F(CadReader, InchesBecomeMillimetres) {
   EXPECT_NEAR(volume(scene.parts.at(0).mesh), 6000, 1e-6);
 }
 
-
 TEST_F(CadReader, FaceColoursBecomeMaterialSlots) {
   const TopoDS_Shape shape = box();
   CadFile file;
@@ -270,8 +269,7 @@ TEST_P(RealCadFile, IsClosedCompleteAndExact) {
   if (!shared) GTEST_SKIP() << "PAPILLA_SHARED_DATA is not set";
   CadReport report;
   constexpr double k_chord = 0.1;
-  const Scene scene =
-      read_cad(std::filesystem::path(shared) / "step" / GetParam(), options(k_chord, 20), &report);
+  const Scene scene = read_cad(std::filesystem::path(shared) / "step" / GetParam(), options(k_chord, 20), &report);
   EXPECT_TRUE(report.failed_faces.empty());
   EXPECT_TRUE(report.off_faces.empty());
   EXPECT_LE(report.max_deviation_mm, k_chord);

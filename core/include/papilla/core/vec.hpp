@@ -42,8 +42,6 @@ inline Vec3 normalized(Vec3 a) noexcept {
   return length > 0 ? (1 / length) * a : Vec3{};
 }
 inline bool is_finite(Vec2 a) noexcept { return std::isfinite(a.x) && std::isfinite(a.y); }
-inline bool is_finite(Vec3 a) noexcept {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
+inline bool is_finite(Vec3 a) noexcept { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 }  // namespace papilla

@@ -21,12 +21,12 @@ struct GlbWriteOptions {
 ///
 /// Nodes, names, extras, material extensions and encoded pictures are written as they are; a part that
 /// several nodes use is stored once; parts without an instance are left out. Levels of detail become nodes of their own
-/// that no scene names, as the vendor extension MSFT_lod has it: the node that shows the part lists them, and its extras
-/// hold one MSFT_screencoverage a level, the last 0; a node with children gets one more child to that end. Corners that agree in all attributes
-/// (after rounding to 32-bit floats) share a vertex. Materials with a normal texture get tangents. `asset.extras`
-/// states the source's format and unit. CAD (u,v), face numbers, references to missing pictures and to texture channels
-/// above 1 have no place in glTF and are left out. The file has no errors or warnings in the Khronos validator, the
-/// same scene gives the same bytes, and a failure leaves the old file as it was.
+/// that no scene names, as the vendor extension MSFT_lod has it: the node that shows the part lists them, and its
+/// extras hold one MSFT_screencoverage a level, the last 0; a node with children gets one more child to that end.
+/// Corners that agree in all attributes (after rounding to 32-bit floats) share a vertex. Materials with a normal
+/// texture get tangents. `asset.extras` states the source's format and unit. CAD (u,v), face numbers, references to
+/// missing pictures and to texture channels above 1 have no place in glTF and are left out. The file has no errors or
+/// warnings in the Khronos validator, the same scene gives the same bytes, and a failure leaves the old file as it was.
 /// @returns what has no place in glTF, one sentence each.
 /// @throws InvalidInput naming the part, node or material: a number is not finite, an index is out of range, a node's
 ///         transform shears, coverages of levels do not descend within [0, 1], JSON can't be parsed, or the result

@@ -21,8 +21,8 @@ namespace papilla {
 /// The loops afterwards share no edge, so they are independent cycles of the same boundary, and no more than this. Two
 /// things do add loops: surfaces without an orientation, which are cut, and edges of an even number of triangles whose
 /// senses do not pair.
-/// Vertices are equal by index: weld, and drop double sheets (weld_equal(), remove_duplicates()), where positions count.
-/// Triangles that repeat a corner are left out. O(n); deterministic.
+/// Vertices are equal by index: weld, and drop double sheets (weld_equal(), remove_duplicates()), where positions
+/// count. Triangles that repeat a corner are left out. O(n); deterministic.
 /// @throws InvalidInput when an index is out of range or a referenced position is not finite.
 std::size_t boundary_cycles(const TriangleMesh& mesh);
 

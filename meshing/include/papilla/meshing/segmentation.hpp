@@ -27,8 +27,8 @@ struct SegmentationOptions {
   Progress progress = {};  ///< Told the fraction done; may be empty.
 };
 
-/// The distortion D, measured on the map of a chart, from which on the chart is better cut in two: 3 λ. A cut as long as
-/// the root of the area raises E by about λ A, and takes off half of A D or more.
+/// The distortion D, measured on the map of a chart, from which on the chart is better cut in two: 3 λ. A cut as long
+/// as the root of the area raises E by about λ A, and takes off half of A D or more.
 inline double worth_halving(const SegmentationOptions& options) { return 3 * options.seam_cost; }
 
 struct SegmentationResult {
@@ -55,9 +55,9 @@ struct SegmentationResult {
 /// Steps, each a header in src/: patches between feature edges, specks absorbed; handles opened and border loops joined
 /// along short hidden paths (tree and cotree, [Erickson, Whittlesey 2005]); cuts from where u is extreme, as long as E
 /// falls ([Sheffer, Hart 2002], "Seamster", with E to decide); patches that would overlap themselves in the plane
-/// cut between the places that overlap; at last charts joined over stretches of seam where the union unfolds (angles add
-/// up to 2π, whatever the dihedral angle) or E falls, and the outline does not overlap itself. All measures are areas, angles and ratios of
-/// lengths, so the number of charts follows the shape, not the tessellation.
+/// cut between the places that overlap; at last charts joined over stretches of seam where the union unfolds (angles
+/// add up to 2π, whatever the dihedral angle) or E falls, and the outline does not overlap itself. All measures are
+/// areas, angles and ratios of lengths, so the number of charts follows the shape, not the tessellation.
 ///
 /// Guarantees: every triangle in exactly one chart, chart numbers in the order of their first triangles, every chart
 /// connected, of genus 0 with a border, cuts counted as border; with `disks`, a topological disk in the sense of

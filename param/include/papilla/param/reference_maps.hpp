@@ -29,8 +29,8 @@ struct ReferenceOptions {
 /// Guarantees: what Flattening promises; charts that CGAL maps with a flip or an overlap fall back. Tutte and mean
 /// value maps are valid on disks without holes and of moderate curvature, up to rounding; ARAP flips triangles of
 /// strongly curved charts. Cost: CGAL's; flatten_best() is faster and better than each. Trace: one sample, error = mean
-/// symmetric Dirichlet energy Σ A (σ1² + σ2² + σ1⁻² + σ2⁻²) / Σ A of the charts that have a map; none where it is infinite,
-/// which one triangle without area can do.
+/// symmetric Dirichlet energy Σ A (σ1² + σ2² + σ1⁻² + σ2⁻²) / Σ A of the charts that have a map; none where it is
+/// infinite, which one triangle without area can do.
 ///
 /// @param charts one number below charts.count for every triangle.
 /// @throws InvalidInput for a mesh, chart set or option that breaks these preconditions; without fall_back also for a

@@ -21,14 +21,14 @@ enum class CadMeshing {
 
 /// Options of read_cad().
 struct CadReadOptions {
-  double chord_mm = 0.1;        ///< Largest distance between a triangle and the surface it stands for.
-  double angle_deg = 20;        ///< Largest turn of the surface's normal along a triangle's edge, in (0, 90]; not asked
-                                ///< of edges shorter than a tenth of the chord.
-  double max_edge_mm = 0;       ///< Longest edge of a triangle; 0: any.
-  bool relative = false;        ///< `chord_mm` is a fraction of each part's diagonal instead of millimetres, in (0, 1].
+  double chord_mm = 0.1;   ///< Largest distance between a triangle and the surface it stands for.
+  double angle_deg = 20;   ///< Largest turn of the surface's normal along a triangle's edge, in (0, 90]; not asked
+                           ///< of edges shorter than a tenth of the chord.
+  double max_edge_mm = 0;  ///< Longest edge of a triangle; 0: any.
+  bool relative = false;   ///< `chord_mm` is a fraction of each part's diagonal instead of millimetres, in (0, 1].
   std::optional<double> millimetres_per_unit;  ///< Instead of the file's unit. BREP states none: 1 then.
   CadMeshing meshing = CadMeshing::refined;
-  bool isolated = true;         ///< Read in a child process, so that no file can crash, hang or starve the caller.
+  bool isolated = true;  ///< Read in a child process, so that no file can crash, hang or starve the caller.
 };
 
 /// A CAD face that made trouble.
@@ -41,21 +41,21 @@ struct CadFaceNote {
 
 /// Deviation of one part.
 struct CadPartReport {
-  std::string part;              ///< Part::id.
-  double max_deviation_mm = 0;   ///< Largest distance from a triangle to the exact surface around its (u, v), on 9
-                                 ///< points inside of it that the refinement did not use, 3 on each edge, and corners.
-  double max_angle_deg = 0;      ///< Largest turn of the surface's normal along an edge that the angle is asked of.
-  std::size_t added_nodes = 0;   ///< Nodes that refinement put on edges and faces beyond the mesher's.
+  std::string part;             ///< Part::id.
+  double max_deviation_mm = 0;  ///< Largest distance from a triangle to the exact surface around its (u, v), on 9
+                                ///< points inside of it that the refinement did not use, 3 on each edge, and corners.
+  double max_angle_deg = 0;     ///< Largest turn of the surface's normal along an edge that the angle is asked of.
+  std::size_t added_nodes = 0;  ///< Nodes that refinement put on edges and faces beyond the mesher's.
 };
 
 /// What read_cad() met. Counters are over the parts of the scene, each shape once however often it is used.
 struct CadReport {
   std::size_t solids = 0, faces = 0, triangles = 0, added_nodes = 0;
-  std::size_t dropped_triangles = 0;        ///< Collapsed onto an edge or a point by the parametrization.
-  std::vector<CadFaceNote> failed_faces;    ///< Left without triangles, or with a gap to their neighbours.
-  std::vector<CadFaceNote> repaired_faces;  ///< Refused by the mesher, triangulated in another way, without gap.
-  std::vector<CadFaceNote> off_faces;       ///< Further off than the chord, or with folds.
-  std::vector<CadPartReport> parts;         ///< One per part of the scene.
+  std::size_t dropped_triangles = 0;               ///< Collapsed onto an edge or a point by the parametrization.
+  std::vector<CadFaceNote> failed_faces;           ///< Left without triangles, or with a gap to their neighbours.
+  std::vector<CadFaceNote> repaired_faces;         ///< Refused by the mesher, triangulated in another way, without gap.
+  std::vector<CadFaceNote> off_faces;              ///< Further off than the chord, or with folds.
+  std::vector<CadPartReport> parts;                ///< One per part of the scene.
   double max_deviation_mm = 0, max_angle_deg = 0;  ///< Largest of the parts.
   double seconds_read = 0, seconds_tessellate = 0, seconds_convert = 0;
 };
@@ -67,8 +67,8 @@ struct CadReport {
 /// with one Part per solid ("product/body"), since solids may touch; what belongs to no solid is one Part more. Names
 /// are UTF-8. Per part:
 ///  - `positions` are welded along the edges and vertices that the CAD topology shares between faces, whatever their
-///    coordinates. A closed, sewn solid therefore gives a closed manifold mesh, counter-clockwise seen from outside, also
-///    when mirrored. What the CAD file left unsewn (IGES surfaces) stays unsewn.
+///    coordinates. A closed, sewn solid therefore gives a closed manifold mesh, counter-clockwise seen from outside,
+///    also when mirrored. What the CAD file left unsewn (IGES surfaces) stays unsewn.
 ///  - `face` numbers the CAD faces from 0 in the order of the file's shape; equal numbers over re-import.
 ///  - `cad_uv` holds the parameters (u, v) of the CAD surface at each corner, which jump at the surface's own seam; at
 ///    points where a parameter means nothing (a cone's apex, a sphere's pole) each triangle has its own.
@@ -78,8 +78,8 @@ struct CadReport {
 ///    that over the assembly's. A part of which nothing is coloured has no material.
 ///  - `extras_json`, and that of the nodes that use it: "layers", "cad_material" (name, density as in the file),
 ///    "hidden", "properties" (names and values given by the user), "validation" (area, volume, centroid as the sending
-///    system had them), "pmi" (dimensions, tolerances and datums as text, with the numbers of their faces). A node's also
-///    holds "id": the names from the root to it, joined by '/', "#2" where siblings share a name.
+///    system had them), "pmi" (dimensions, tolerances and datums as text, with the numbers of their faces). A node's
+///    also holds "id": the names from the root to it, joined by '/', "#2" where siblings share a name.
 /// The scene's `extras_json` holds "source" (format, unit, schema, author, ...) and "annotations", the names of notes
 /// that are only drawn. What is not kept is named in Scene::losses.
 ///
@@ -93,8 +93,8 @@ struct CadReport {
 /// (`failed_faces`).
 /// Cost: a second per MB of STEP to read, then about 5 µs of one core and 400 bytes per triangle.
 /// Deterministic, for any number of threads; takes as many as TBB may (tbb::global_control). Calls from several threads
-/// run one after the other. With `isolated` the work is done by a forked child that may use four fifths of the machine's
-/// memory and processor time by the size of the file.
+/// run one after the other. With `isolated` the work is done by a forked child that may use four fifths of the
+/// machine's memory and processor time by the size of the file.
 ///
 /// @param options chord_mm at least 1e-6 of the model's diagonal, angle_deg in (0, 90], max_edge_mm 0 or at least 1e-4
 ///        of the diagonal.

@@ -29,7 +29,7 @@ std::vector<double> chord_ladder(double coarsest_mm, double finest_mm, std::size
 /// time, so that no step profits from the one before.
 /// @throws as read_cad().
 std::vector<TessellationSample> trace_tessellation(const std::filesystem::path& path,
-                                                   const std::vector<double>& chords_mm,
-                                                   CadReadOptions options = {}, const Progress& progress = {});
+                                                   const std::vector<double>& chords_mm, CadReadOptions options = {},
+                                                   const Progress& progress = {});
 
 }  // namespace papilla

@@ -11,10 +11,11 @@ namespace papilla {
 /// Metres become millimetres, v becomes 1 − v; triangles, strips and fans become triangles; sparse accessors and
 /// node transforms are honoured, so are compressed meshes (KHR_draco_mesh_compression with bitstream 2.2,
 /// EXT_meshopt_compression; refused by name when the build was made without libdraco or libmeshoptimizer) and
-/// instances (EXT_mesh_gpu_instancing; each becomes a child node). One part per glTF mesh, in the same order, with its primitives' materials as slots;
-/// positions equal in every bit are merged within a part, so that uv seams do not tear the surface. Skins, morph
-/// targets, animations, cameras, lights, points, lines and coarser levels of detail (MSFT_lod: the finest is read) are
-/// listed in `losses`; pictures that are missing in `warnings`. Links no heavy library, so that the player can use it.
+/// instances (EXT_mesh_gpu_instancing; each becomes a child node). One part per glTF mesh, in the same order, with its
+/// primitives' materials as slots; positions equal in every bit are merged within a part, so that uv seams do not tear
+/// the surface. Skins, morph targets, animations, cameras, lights, points, lines and coarser levels of detail
+/// (MSFT_lod: the finest is read) are listed in `losses`; pictures that are missing in `warnings`. Links no heavy
+/// library, so that the player can use it.
 ///
 /// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says. No count is believed before
 /// it is held against the bytes that are there; what accessors hand out, all their uses together, is limited to 64

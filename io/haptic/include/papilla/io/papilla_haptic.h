@@ -4,9 +4,9 @@
 
 /* Forces of the materials of a glTF file, for engines and other languages. Link papilla::haptic_scene.
  *
- * All lengths in metres, forces in newtons, times in seconds, in the frame of the file (glTF: Y up). One object is used by
- * one thread at a time. papilla_haptic_tick() and papilla_haptic_reset() allocate nothing, lock nothing and make no system
- * call; the others may. A null object is refused, not followed. */
+ * All lengths in metres, forces in newtons, times in seconds, in the frame of the file (glTF: Y up). One object is used
+ * by one thread at a time. papilla_haptic_tick() and papilla_haptic_reset() allocate nothing, lock nothing and make no
+ * system call; the others may. A null object is refused, not followed. */
 
 #include <stddef.h>
 
