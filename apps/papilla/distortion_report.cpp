@@ -10,6 +10,7 @@
 #include <map>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "pictures/uv_layout.hpp"
 
@@ -43,10 +44,7 @@ std::vector<double> shares(const DistortionReport& report, const std::array<doub
   return share;
 }
 
-float linear(unsigned char srgb) {
-  const double c = srgb / 255.0;
-  return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-}
+float linear(unsigned char srgb) { return static_cast<float>(linear_from_srgb(srgb / 255.0)); }
 
 }  // namespace
 

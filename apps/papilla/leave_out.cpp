@@ -34,11 +34,11 @@ void measure_reaches(const std::vector<PlacedMesh>& placed, const std::vector<Vo
 }
 
 void measure_views(const std::vector<PlacedMesh>& placed, const std::vector<Volume>& volumes, std::uint32_t samples,
-                   std::vector<Perception>& uses, const Progress& progress) {
+                   std::vector<Perception>& uses, const ProgressCallback& progress) {
   VisibilityOptions options;
   options.samples_per_part = samples;
   for (std::size_t v = 0; v < volumes.size(); ++v) {
-    if (progress) progress("view", static_cast<double>(v) / static_cast<double>(volumes.size()));
+    report_progress(progress, "view", static_cast<double>(v) / static_cast<double>(volumes.size()));
     const std::vector<PartVisibility> seen = measure_visibility(placed, volumes[v], options);
     for (std::size_t i = 0; i < uses.size(); ++i)
       if (!uses[i].visibility || seen[i].visible_fraction > uses[i].visibility->visible_fraction)
@@ -97,7 +97,8 @@ void LeaveOutOptions::add_to(CLI::App& verb, bool can_leave_out) {
       ->group("Leave out");
 }
 
-LeaveOutResult measure_perception(const Scene& scene, const LeaveOutOptions& options, const Progress& progress) {
+LeaveOutResult measure_perception(const Scene& scene, const LeaveOutOptions& options,
+                                  const ProgressCallback& progress) {
   check(options);
   LeaveOutResult result;
   result.uses = instances(scene);

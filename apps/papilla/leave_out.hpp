@@ -50,7 +50,7 @@ struct LeaveOutResult {
 /// Measures reach and visibility of every use of every part (measure_reach(), measure_visibility(); parts with a
 /// material of alpha mode BLEND hide nothing), and finds what is to be left out: what none of the named senses gets at.
 /// @throws UsageError when something is to be left out without the volume that it needs; as parse_volumes().
-LeaveOutResult measure_perception(const Scene& scene, const LeaveOutOptions& options, const Progress& progress);
+LeaveOutResult measure_perception(const Scene& scene, const LeaveOutOptions& options, const ProgressCallback& progress);
 
 /// Takes the uses that are left out from the scene. Parts without a use stay as empty ones, so that numbers stay valid.
 void leave_out(Scene& scene, const LeaveOutResult& result);

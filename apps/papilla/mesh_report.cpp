@@ -10,7 +10,7 @@
 
 namespace papilla::app {
 
-std::vector<MeshStatistics> part_statistics(const Scene& scene, const Progress& progress) {
+std::vector<MeshStatistics> part_statistics(const Scene& scene, const ProgressCallback& progress) {
   std::vector<MeshStatistics> result(scene.parts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, scene.parts.size(), [&](std::size_t i) {
     try {
@@ -19,7 +19,7 @@ std::vector<MeshStatistics> part_statistics(const Scene& scene, const Progress& 
       throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
     }
   });
-  if (progress) progress("measure", 1);
+  report_progress(progress, "measure", 1);
   return result;
 }
 

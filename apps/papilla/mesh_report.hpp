@@ -11,7 +11,7 @@ namespace papilla::app {
 
 /// The statistics of every part of a scene, measured in parallel; in the order of the parts.
 /// @throws InvalidInput naming the part.
-std::vector<MeshStatistics> part_statistics(const Scene& scene, const Progress& progress);
+std::vector<MeshStatistics> part_statistics(const Scene& scene, const ProgressCallback& progress);
 
 /// The counters of a mesh, or of several: sums, the largest aspect, and has_uv when all have one.
 Json counters_json(const MeshStatistics& statistics);

@@ -79,7 +79,11 @@ void run_verb(const CommonOptions& common, const VerbBody& body) {
   std::shared_ptr<ProgressPrinter> printer;
   if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))
     printer = std::make_shared<ProgressPrinter>(wants_json);
-  if (printer) context.progress = [printer](std::string_view stage, double fraction) { (*printer)(stage, fraction); };
+  if (printer)
+    context.progress = [printer](const Progress& done) {
+      (*printer)(done.stage, done.fraction);
+      return true;
+    };
   const Json result = body(context);
   context.progress = {};
   printer.reset();

@@ -28,8 +28,8 @@ class Console {
 /// What every verb gets beside its own options.
 struct VerbContext {
   Console console;
-  Progress progress;  ///< Draws on stderr when that is a terminal and the work takes over a second.
-  int threads = 0;    ///< 0: all cores.
+  ProgressCallback progress;  ///< Draws on stderr when that is a terminal and the work takes over a second.
+  int threads = 0;            ///< 0: all cores.
   std::uint64_t seed = 1;
   int exit_code = 0;  ///< Set by a verb that ends normally but not with 0.
 };

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "papilla/io/data_uri.hpp"
+#include "papilla/core/base64.hpp"
 
 namespace papilla {
 namespace {

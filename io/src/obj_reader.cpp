@@ -15,9 +15,9 @@
 #include "mtl_reader.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/io/read_file.hpp"
 #include "polygon_triangulation.hpp"
-#include "srgb.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {

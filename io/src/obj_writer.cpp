@@ -15,9 +15,9 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/core/srgb.hpp"
 #include "placed_mesh.hpp"
 #include "scene_losses.hpp"
-#include "srgb.hpp"
 #include "vertex_values.hpp"
 
 namespace papilla {

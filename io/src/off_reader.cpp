@@ -17,9 +17,9 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/io/read_file.hpp"
 #include "polygon_mesh.hpp"
-#include "srgb.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {

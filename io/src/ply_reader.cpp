@@ -17,12 +17,12 @@
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/io/read_file.hpp"
 #include "ply_body.hpp"
 #include "ply_properties.hpp"
 #include "polygon_mesh.hpp"
 #include "scene_pictures.hpp"
-#include "srgb.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {

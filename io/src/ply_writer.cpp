@@ -13,7 +13,7 @@
 #include "flat_mesh.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
-#include "srgb.hpp"
+#include "papilla/core/srgb.hpp"
 
 namespace papilla {
 namespace {

@@ -29,7 +29,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& options, const ProgressCallback& progress) {
   CadReadOptions cad;
   cad.chord_mm = options.chord_mm;
   cad.angle_deg = options.angle_deg;
@@ -50,7 +50,8 @@ Scene read_mesh_scene(const std::string& extension, const std::filesystem::path&
   return scene;
 }
 
-Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& options,
+                        const ProgressCallback& progress) {
   const std::string extension = lower_extension(path);
   if (extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off")
     return read_mesh_scene(extension, path, options);
@@ -66,11 +67,11 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, const Progress& progress) {
+Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, const ProgressCallback& progress) {
   require_file(path);
-  if (progress) progress("read", 0);
+  report_progress(progress, "read", 0);
   Scene scene = read_by_extension(path, options, progress);
-  if (progress) progress("read", 1);
+  report_progress(progress, "read", 1);
   return scene;
 }
 

@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/io/vertex_welder.hpp"
-#include "srgb.hpp"
 
 namespace papilla {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "check_mesh.hpp"
 #include "edge_table.hpp"
-#include "union_find.hpp"
+#include "papilla/core/union_find.hpp"
 
 namespace papilla {
 

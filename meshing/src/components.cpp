@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "papilla/core/bounds.hpp"
-#include "union_find.hpp"
+#include "papilla/core/union_find.hpp"
 
 namespace papilla::detail {
 

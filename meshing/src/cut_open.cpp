@@ -6,7 +6,7 @@
 
 #include "check_charts.hpp"
 #include "papilla/core/error.hpp"
-#include "union_find.hpp"
+#include "papilla/core/union_find.hpp"
 
 namespace papilla {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "halve_chart.hpp"
 #include "open_chart.hpp"
+#include "papilla/core/union_find.hpp"
 #include "polygon_overlap.hpp"
 #include "relief_cut.hpp"
-#include "union_find.hpp"
 
 namespace papilla::detail {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "check_mesh.hpp"
+#include "papilla/core/union_find.hpp"
 #include "repair_steps.hpp"
 #include "same_triangles.hpp"
-#include "union_find.hpp"
 
 namespace papilla {
 namespace {

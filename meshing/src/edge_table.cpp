@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "union_find.hpp"
+#include "papilla/core/union_find.hpp"
 
 namespace papilla::detail {
 namespace {

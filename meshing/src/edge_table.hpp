@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh_attributes.hpp"
+#include "papilla/core/union_find.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
 namespace papilla::detail {
@@ -55,7 +56,7 @@ std::vector<Index> opposite_within_labels(const std::vector<Triangle>& triangles
 
 /// Joins the corners of one vertex that are linked through opposite half-edges: each set is one fan of triangles
 /// around a vertex, and a manifold vertex has one. Corners are numbered like half-edges.
-class UnionFind join_fans(std::span<const Index> opposite);
+UnionFind join_fans(std::span<const Index> opposite);
 
 /// Triangles around each vertex, as ranges of one array.
 struct VertexTriangles {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "papilla/core/union_find.hpp"
 #include "papilla/core/units.hpp"
-#include "union_find.hpp"
 
 namespace papilla::detail {
 namespace {

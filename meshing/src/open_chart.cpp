@@ -10,8 +10,8 @@
 #include <queue>
 
 #include "chart_field.hpp"
+#include "papilla/core/union_find.hpp"
 #include "papilla/core/units.hpp"
-#include "union_find.hpp"
 
 namespace papilla::detail {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "check_mesh.hpp"
 #include "papilla/core/bounds.hpp"
+#include "papilla/core/union_find.hpp"
 #include "repair_steps.hpp"
-#include "union_find.hpp"
 
 namespace papilla {
 namespace {

@@ -60,25 +60,27 @@ void add(RepairResult& all, const RepairResult& piece) {
 /// Tells the caller which fraction of all triangles is done, one call at a time.
 class SharedProgress {
  public:
-  SharedProgress(const Progress& progress, std::size_t all) : progress_(progress), all_(static_cast<double>(all)) {}
+  SharedProgress(const ProgressCallback& progress, std::size_t all)
+      : progress_(progress), all_(static_cast<double>(all)) {}
 
   void done(double triangles) {
     if (!progress_ || !(triangles > 0)) return;
     const std::lock_guard lock(mutex_);
     done_ += triangles;
-    progress_("repair", std::min(1.0, done_ / all_));
+    report_progress(progress_, "repair", std::min(1.0, done_ / all_));
   }
 
   /// For a piece that tells fractions of itself, several times where it takes several passes.
-  Progress of_piece(std::size_t triangles) {
-    return [this, size = static_cast<double>(triangles), told = 0.0](std::string_view, double fraction) mutable {
-      done((fraction - told) * size);
-      told = std::max(told, fraction);
+  ProgressCallback of_piece(std::size_t triangles) {
+    return [this, size = static_cast<double>(triangles), reported = 0.0](const Progress& piece) mutable {
+      done((piece.fraction - reported) * size);
+      reported = std::max(reported, piece.fraction);
+      return true;
     };
   }
 
  private:
-  const Progress& progress_;
+  const ProgressCallback& progress_;
   double all_, done_ = 0;
   std::mutex mutex_;
 };
@@ -113,7 +115,7 @@ bool edges_cancel(const std::vector<Triangle>& all, std::span<const Index> trian
 /// surfaces with borders, or inside out, that lie apart.
 class SoupRepair {
  public:
-  SoupRepair(TriangleMesh mesh, const RepairScale& scale, const Progress& progress)
+  SoupRepair(TriangleMesh mesh, const RepairScale& scale, const ProgressCallback& progress)
       : mesh_(std::move(mesh)),
         scale_(scale),
         margin_(scale.weld.tolerance_mm + scale.stitch_mm),

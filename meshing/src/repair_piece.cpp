@@ -16,7 +16,7 @@ constexpr double k_repaired_altitude = 3e-7;
 /// The state of a repair: the mesh, the table of its edges while that is valid, and what was done so far.
 class Repair {
  public:
-  Repair(TriangleMesh mesh, const RepairScale& scale, Progress progress)
+  Repair(TriangleMesh mesh, const RepairScale& scale, ProgressCallback progress)
       : scale_(scale), progress_(std::move(progress)) {
     all_.mesh = std::move(mesh);
   }
@@ -63,9 +63,7 @@ class Repair {
     if (changed) edges_.reset();
   }
 
-  void report(double fraction) const {
-    if (progress_) progress_("repair", fraction);
-  }
+  void report(double fraction) const { report_progress(progress_, "repair", fraction); }
 
   void note(double RepairDeviations::*operation, double deviation_mm) {
     all_.deviations.*operation = std::max(all_.deviations.*operation, deviation_mm);
@@ -180,7 +178,7 @@ class Repair {
   }
 
   const RepairScale& scale_;
-  Progress progress_;
+  ProgressCallback progress_;
   RepairResult all_;
   std::optional<EdgeTable> edges_;
 };
@@ -195,7 +193,7 @@ double enclosed_volume(const TriangleMesh& mesh) {
 
 }  // namespace
 
-RepairResult repair_piece(TriangleMesh mesh, const RepairScale& scale, Progress progress) {
+RepairResult repair_piece(TriangleMesh mesh, const RepairScale& scale, ProgressCallback progress) {
   Repair repair(std::move(mesh), scale, std::move(progress));
   repair.run();
   return repair.take();

@@ -20,7 +20,7 @@ struct RepairScale {
 
 /// Repairs a mesh whose equal positions are one vertex. `weld_tolerance_mm` and `stitch_tolerance_mm` of the result
 /// stay 0: they are the whole mesh's.
-RepairResult repair_piece(TriangleMesh mesh, const RepairScale& scale, Progress progress);
+RepairResult repair_piece(TriangleMesh mesh, const RepairScale& scale, ProgressCallback progress);
 
 /// Repairs the mesh when it is one closed surface that nothing around it can change: every edge has two triangles that
 /// run it in opposite senses and are not each other's back, and they enclose a positive volume. Otherwise, and when the

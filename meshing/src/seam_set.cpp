@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "union_find.hpp"
+#include "papilla/core/union_find.hpp"
 
 namespace papilla::detail {
 

@@ -50,7 +50,8 @@ std::vector<ChartOutline> cut_patches(const Surface& surface, const SeamWeights&
     if (!options.progress) return;
     const std::lock_guard lock(progress_mutex);
     done += size;
-    options.progress("charts", 0.3 + 0.4 * static_cast<double>(done) / static_cast<double>(surface.size()));
+    report_progress(options.progress, "charts",
+                    0.3 + 0.4 * static_cast<double>(done) / static_cast<double>(surface.size()));
   });
   std::vector<ChartOutline> charts;
   for (std::uint32_t p = 0; p < count; ++p) {
@@ -67,9 +68,7 @@ std::vector<ChartOutline> cut_patches(const Surface& surface, const SeamWeights&
 SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOptions& options) {
   check_options(options);
   check_mesh(mesh, "segment_charts");
-  const auto tell = [&](double fraction) {
-    if (options.progress) options.progress("charts", fraction);
-  };
+  const auto tell = [&](double fraction) { report_progress(options.progress, "charts", fraction); };
   SegmentationResult result;
   if (mesh.triangles.empty()) return result;
   const Surface surface(mesh);

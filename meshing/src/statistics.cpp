@@ -9,9 +9,9 @@
 #include "exact_positions.hpp"
 #include "find_t_junctions.hpp"
 #include "papilla/core/bounds.hpp"
+#include "papilla/core/union_find.hpp"
 #include "same_triangles.hpp"
 #include "triangle_shape.hpp"
-#include "union_find.hpp"
 
 namespace papilla {
 namespace {

@@ -9,8 +9,8 @@
 #include "exact_positions.hpp"
 #include "mesh_attributes.hpp"
 #include "papilla/core/bounds.hpp"
+#include "papilla/core/union_find.hpp"
 #include "papilla/core/units.hpp"
-#include "union_find.hpp"
 
 namespace papilla::detail {
 namespace {

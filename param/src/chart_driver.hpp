@@ -31,7 +31,7 @@ using ChartMethod = std::function<ChartMap(const ChartSurface&)>;
 
 struct DriverOptions {
   std::string_view function;  ///< Name in messages.
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   bool scale_to_area = true;
   bool allow_flips = false;  ///< Flipped triangles and overlap are results, not failures.
   /// A chart without a valid map gets one of low distortion, one that is no disk gets planar projections of its pieces,

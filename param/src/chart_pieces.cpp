@@ -2,27 +2,9 @@
 #include "chart_pieces.hpp"
 
 #include <algorithm>
+#include "papilla/core/union_find.hpp"
 
 namespace papilla::param_detail {
-namespace {
-
-Index find_root(std::vector<Index>& parent, Index i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-/// The smaller number becomes the root, so that numbering does not depend on the order of unions.
-void unite(std::vector<Index>& parent, Index a, Index b) {
-  a = find_root(parent, a);
-  b = find_root(parent, b);
-  parent[std::max(a, b)] = std::min(a, b);
-}
-
-}  // namespace
-
 TrianglesOfCharts sort_by_chart(const std::vector<std::uint32_t>& chart_of_triangle, std::uint32_t count) {
   TrianglesOfCharts result;
   result.first.assign(std::size_t{count} + 2, 0);
@@ -50,8 +32,7 @@ ChartSurface ChartCutter::cut(std::uint32_t chart, std::span<const Index> triang
   ChartSurface surface;
   surface.triangles.resize(triangles.size());
   surface.across.assign(triangles.size(), {k_no_triangle, k_no_triangle, k_no_triangle});
-  std::vector<Index> parent(3 * triangles.size());
-  for (Index c = 0; c < parent.size(); ++c) parent[c] = c;
+  UnionFind corners_of_vertex(3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::size_t t = triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -65,19 +46,17 @@ ChartSurface ChartCutter::cut(std::uint32_t chart, std::span<const Index> triang
       for (std::size_t m = 0; m < 3; ++m) {
         if (corners[(m + 1) % 3] != start || corners[m] != mesh_->triangles[t][(k + 1) % 3]) continue;
         const auto base = 3 * local_[other];
-        unite(parent, static_cast<Index>(3 * i + k), static_cast<Index>(base + (m + 1) % 3));
-        unite(parent, static_cast<Index>(3 * i + (k + 1) % 3), static_cast<Index>(base + m));
+        corners_of_vertex.unite(static_cast<Index>(3 * i + k), static_cast<Index>(base + (m + 1) % 3));
+        corners_of_vertex.unite(static_cast<Index>(3 * i + (k + 1) % 3), static_cast<Index>(base + m));
       }
     }
   }
-  std::vector<Index> number(parent.size(), k_no_triangle);
-  for (Index c = 0; c < parent.size(); ++c) {
-    const Index root = find_root(parent, c);
-    if (number[root] == k_no_triangle) {
-      number[root] = static_cast<Index>(surface.positions.size());
+  Index vertices = 0;
+  const std::vector<Index> number = corners_of_vertex.labels(vertices);
+  for (Index c = 0; c < number.size(); ++c) {
+    if (number[c] == surface.positions.size())
       surface.positions.push_back(mesh_->corner(triangles[c / 3], static_cast<int>(c % 3)));
-    }
-    surface.triangles[c / 3][c % 3] = number[root];
+    surface.triangles[c / 3][c % 3] = number[c];
   }
   return surface;
 }

@@ -89,7 +89,7 @@ double area_of(const ChartSurface& chart) {
   return area;
 }
 
-void normalise(const ChartSurface& chart, GrainUp up, bool scale, std::vector<Vec2>& uv) {
+void normalise(const ChartSurface& chart, UpAxis up, bool scale, std::vector<Vec2>& uv) {
   const double area = area_of(chart);
   double uv_area = 0;
   Vec2 grain;

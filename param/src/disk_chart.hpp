@@ -20,7 +20,7 @@ double area_of(const ChartSurface& chart);
 
 /// Scales to equal area and turns v into the grain direction; does nothing for a map without area.
 /// @param scale false: turn only.
-void normalise(const ChartSurface& chart, GrainUp up, bool scale, std::vector<Vec2>& uv);
+void normalise(const ChartSurface& chart, UpAxis up, bool scale, std::vector<Vec2>& uv);
 
 /// How the map fails to be a valid one (finite, no flipped triangle, no overlap), or nothing.
 std::string map_failure(const ChartSurface& chart, const std::vector<Vec2>& uv);

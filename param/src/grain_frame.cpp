@@ -15,8 +15,8 @@ ProjectionAxes z_up_axes(int axis, bool negative) {
 
 }  // namespace
 
-ProjectionAxes projection_axes(int axis, bool negative, GrainUp up) {
-  if (up == GrainUp::z) return z_up_axes(axis, negative);
+ProjectionAxes projection_axes(int axis, bool negative, UpAxis up) {
+  if (up == UpAxis::z) return z_up_axes(axis, negative);
   // Z up named (X, Y, Z) is (x, -z, y) of y up: rename the axes and carry the sign of Y along.
   constexpr int to_z_up[3] = {0, 2, 1};
   const int z_up_axis = to_z_up[axis];
@@ -28,9 +28,9 @@ ProjectionAxes projection_axes(int axis, bool negative, GrainUp up) {
   return axes;
 }
 
-Vec3 grain_direction(Vec3 normal, GrainUp up) {
-  const Vec3 up_direction = up == GrainUp::z ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
-  const Vec3 forward = up == GrainUp::z ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
+Vec3 grain_direction(Vec3 normal, UpAxis up) {
+  const Vec3 up_direction = up == UpAxis::z ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+  const Vec3 forward = up == UpAxis::z ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
   const double slope = dot(up_direction, normal);
   const Vec3 wanted = up_direction + slope * forward;
   return wanted - dot(wanted, normal) * normal;

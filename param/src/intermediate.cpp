@@ -39,7 +39,7 @@ struct Surroundings {
   double cone_radius(double z) const { return 2 * radius * (apex - z) / (4 * half.z); }
 };
 
-Surroundings surroundings_of(const Bounds3& bounds, GrainUp up) {
+Surroundings surroundings_of(const Bounds3& bounds, UpAxis up) {
   const UprightFrame frame = upright_frame(up);
   const Vec3 extent = bounds.size();
   const double least = k_least_extent * std::max(bounds.diagonal(), 1e-300);
@@ -212,7 +212,7 @@ class Mapper {
     int axis = 0;
     for (int a = 1; a < 3; ++a)
       if (std::abs(c[static_cast<std::size_t>(a)]) > (1 + 1e-9) * std::abs(c[static_cast<std::size_t>(axis)])) axis = a;
-    const ProjectionAxes axes = projection_axes(axis, c[static_cast<std::size_t>(axis)] < 0, GrainUp::z);
+    const ProjectionAxes axes = projection_axes(axis, c[static_cast<std::size_t>(axis)] < 0, UpAxis::z);
     CornerUv uv;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 p = to_own(mesh_.corner(t, static_cast<int>(k)));

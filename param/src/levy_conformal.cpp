@@ -151,7 +151,7 @@ bool solve_conformal_terms(const ChartSurface& chart, const ConformalTerms& term
   uv.clear();
   for (const Complex p : z) uv.push_back({p.real(), p.imag()});
   if (!std::all_of(uv.begin(), uv.end(), [](Vec2 p) { return is_finite(p); })) return false;
-  if (pins.empty()) normalise(chart, GrainUp::z, true, uv);
+  if (pins.empty()) normalise(chart, UpAxis::z, true, uv);
   return true;
 }
 

@@ -47,7 +47,7 @@ StartMap start_map(const ChartSurface& unit, MaillotStart start) {
   if (start == MaillotStart::conformal) {
     ConformalMap map = solve_lscm_hermitian(unit);
     if (map.failure.empty()) {
-      normalise(unit, GrainUp::z, true, map.uv);
+      normalise(unit, UpAxis::z, true, map.uv);
       if (map_failure(unit, map.uv).empty()) return {std::move(map.uv), {}};
     }
   }

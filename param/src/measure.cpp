@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/param/measure.hpp"
+#include "papilla/core/union_find.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_sort.h>
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 #include "check_mesh.hpp"
@@ -165,24 +165,14 @@ class Measurement {
   }
 
   void connect_charts() {
-    std::vector<Index> parent(raw_.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    const auto root = [&](Index t) {
-      while (parent[t] != t) t = parent[t] = parent[parent[t]];
-      return t;
-    };
+    UnionFind connected(raw_.size());
     each_run(
         sides_, [](const Side& s) { return s.uv_edge(); },
         [&](std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin + 1; i < end; ++i) {
-            const Index a = root(sides_[begin].corner / 3), b = root(sides_[i].corner / 3);
-            parent[std::max(a, b)] = std::min(a, b);
-          }
+          for (std::size_t i = begin + 1; i < end; ++i) connected.unite(sides_[begin].corner / 3, sides_[i].corner / 3);
         });
-    for (Index t = 0; t < raw_.size(); ++t) {
-      const Index r = root(t);
-      report_.per_triangle[t].chart = r == t ? report_.charts++ : report_.per_triangle[r].chart;
-    }
+    const std::vector<Index> chart = connected.labels(report_.charts);
+    for (std::size_t t = 0; t < raw_.size(); ++t) report_.per_triangle[t].chart = chart[t];
   }
 
   void find_orientation() {

@@ -3,8 +3,8 @@
 
 namespace papilla::param_detail {
 
-UprightFrame upright_frame(GrainUp up) {
-  if (up == GrainUp::z) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+UprightFrame upright_frame(UpAxis up) {
+  if (up == UpAxis::z) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 }
 

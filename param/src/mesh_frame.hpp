@@ -12,7 +12,7 @@ namespace papilla::param_detail {
 struct UprightFrame {
   Vec3 right, back, up;
 };
-UprightFrame upright_frame(GrainUp up);
+UprightFrame upright_frame(UpAxis up);
 
 /// Area-weighted normals of the vertices; zero where triangles cancel out.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);

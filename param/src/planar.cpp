@@ -28,7 +28,7 @@ Vec3 dominant_normal(const TriangleMesh& mesh) {
 }
 
 /// The direction along which v grows in a plane; any where the grain has no preference.
-Vec3 upward_in_plane(Vec3 outward, GrainUp up) {
+Vec3 upward_in_plane(Vec3 outward, UpAxis up) {
   const Vec3 grain = grain_direction(outward, up);
   if (norm(grain) > 1e-6) return normalized(grain);
   const UprightFrame frame = upright_frame(up);

@@ -16,7 +16,7 @@ double edge_length(const TriangleMesh& mesh, std::size_t t, std::size_t k) {
   return norm(mesh.corner(t, static_cast<int>((k + 1) % 3)) - mesh.corner(t, static_cast<int>(k)));
 }
 
-ProjectionAxes axes_of(std::uint8_t label, GrainUp up) { return projection_axes(label >> 1, label & 1, up); }
+ProjectionAxes axes_of(std::uint8_t label, UpAxis up) { return projection_axes(label >> 1, label & 1, up); }
 
 std::array<Vec2, 3> projected(const TriangleMesh& mesh, std::size_t t, const ProjectionAxes& axes) {
   return {project(mesh.corner(t, 0), axes), project(mesh.corner(t, 1), axes), project(mesh.corner(t, 2), axes)};
@@ -94,7 +94,7 @@ std::vector<Index> sheet_sizes(const Sheets& sheets) {
 /// Repairs sheets of one triangle, one at a time.
 class LoneTriangles {
  public:
-  LoneTriangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, GrainUp up,
+  LoneTriangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, UpAxis up,
                 LabelledTriangles& triangles, Sheets& sheets)
       : mesh_(mesh),
         across_(across),
@@ -216,7 +216,7 @@ class LoneTriangles {
   const TriangleMesh& mesh_;
   const Adjacency& across_;
   double cosine_;
-  GrainUp up_;
+  UpAxis up_;
   LabelledTriangles& triangles_;
   Sheets& sheets_;
   std::vector<Index> size_;
@@ -282,7 +282,7 @@ std::size_t absorb_small_sheets(const TriangleMesh& mesh, const Adjacency& acros
 }
 
 std::uint32_t split_folded_sheets(const TriangleMesh& mesh, const Adjacency& across,
-                                  const std::vector<std::uint8_t>& label, GrainUp up, Sheets& sheets) {
+                                  const std::vector<std::uint8_t>& label, UpAxis up, Sheets& sheets) {
   const TrianglesOfCharts members = sort_by_chart(sheets.of_triangle, sheets.count);
   std::vector<Index> local;
   std::uint32_t folded = 0;
@@ -307,7 +307,7 @@ std::uint32_t split_folded_sheets(const TriangleMesh& mesh, const Adjacency& acr
   return folded;
 }
 
-void join_lone_triangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, GrainUp up,
+void join_lone_triangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, UpAxis up,
                          LabelledTriangles& triangles, Sheets& sheets) {
   LoneTriangles(mesh, across, cosine, up, triangles, sheets).run();
 }

@@ -28,11 +28,11 @@ std::size_t absorb_small_sheets(const TriangleMesh& mesh, const Adjacency& acros
 /// Splits every sheet that overlaps itself in projection; new sheets get the numbers from `count` on.
 /// @return how many sheets were split.
 std::uint32_t split_folded_sheets(const TriangleMesh& mesh, const Adjacency& across,
-                                  const std::vector<std::uint8_t>& label, GrainUp up, Sheets& sheets);
+                                  const std::vector<std::uint8_t>& label, UpAxis up, Sheets& sheets);
 
 /// Sheets of one triangle join a neighbouring sheet, or take a neighbouring triangle from a larger one, as far as
 /// `cosine` and the projection allow. Numbers stay; sheets may become empty.
-void join_lone_triangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, GrainUp up,
+void join_lone_triangles(const TriangleMesh& mesh, const Adjacency& across, double cosine, UpAxis up,
                          LabelledTriangles& triangles, Sheets& sheets);
 
 /// Renumbers the sheets by their first triangle, without gaps.

@@ -70,7 +70,7 @@ Sheets make_sheets(const TriangleMesh& mesh, const Adjacency& across, const Trip
 
 /// One uv value per vertex and chart, in the order of charts.
 CornerAttribute<Vec2> project_corners(const TriangleMesh& mesh, const Sheets& sheets,
-                                      const std::vector<std::uint8_t>& label, GrainUp up) {
+                                      const std::vector<std::uint8_t>& label, UpAxis up) {
   CornerAttribute<Vec2> uv;
   uv.indices = mesh.triangles;  // of vertices; those of values take their places
   uv.values.reserve(mesh.positions.size() + mesh.positions.size() / 8);

@@ -168,7 +168,7 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
   };
   const auto grain = static_cast<std::size_t>(std::max(1, 16384 / options.width));
   while (near.next()) tbb::parallel_for(tbb::blocked_range<int>(0, options.height, grain), evaluate);
-  if (options.progress) options.progress("texture", 1);
+  report_progress(options.progress, "texture", 1);
   return result;
 }
 

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "base64.hpp"
 #include "page/page_file.hpp"
 #include "page/page_mesh.hpp"
 #include "page/page_scene.hpp"
+#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/read_file.hpp"
 
@@ -32,7 +32,9 @@ TriangleMesh grid(Index n, double stretch) {
 }
 
 TEST(Base64, KnownAnswers) {
-  const auto of = [](std::string_view text) { return base64(std::as_bytes(std::span(text.data(), text.size()))); };
+  const auto of = [](std::string_view text) {
+    return encode_base64(std::as_bytes(std::span(text.data(), text.size())));
+  };
   EXPECT_EQ(of(""), "");
   EXPECT_EQ(of("f"), "Zg==");
   EXPECT_EQ(of("fo"), "Zm8=");

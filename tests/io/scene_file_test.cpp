@@ -19,7 +19,10 @@ TEST(SceneFile, WritesAndReadsByExtension) {
   for (const char* name : {"a.GLB", "ä b.obj", "a.Stl"}) {
     write_scene(scene, folder / name);
     double last = -1;
-    const Scene back = read_scene(folder / name, {}, [&](std::string_view, double fraction) { last = fraction; });
+    const Scene back = read_scene(folder / name, {}, [&](const Progress& done) {
+      last = done.fraction;
+      return true;
+    });
     EXPECT_EQ(last, 1);
     std::size_t triangles = 0;
     for (const Instance& instance : instances(back)) triangles += back.parts[instance.part].mesh.triangles.size();

@@ -94,7 +94,7 @@ TEST(Intermediate, EveryShapeAndRuleGivesFiniteUvOfTheRightHand) {
        {IntermediateShape::sphere, IntermediateShape::cylinder, IntermediateShape::cone, IntermediateShape::box})
     for (const auto rule : {IntermediateRule::reflected_ray, IntermediateRule::object_normal,
                             IntermediateRule::object_centroid, IntermediateRule::intermediate_normal})
-      for (const GrainUp up : {GrainUp::y, GrainUp::z}) {
+      for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
         IntermediateOptions options;
         options.shape = shape, options.rule = rule, options.up = up;
         const ProjectionResult r = flatten_intermediate(mesh, options);

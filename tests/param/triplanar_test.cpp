@@ -56,7 +56,7 @@ TEST(Triplanar, UvAreTheProjectedCoordinates) {
   const TriplanarResult result = flatten_triplanar(mesh);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint8_t label = result.label[t];
-    const ProjectionAxes axes = projection_axes(label >> 1, label & 1, GrainUp::z);
+    const ProjectionAxes axes = projection_axes(label >> 1, label & 1, UpAxis::z);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 p = mesh.positions[mesh.triangles[t][k]];
       const double c[3] = {p.x, p.y, p.z};
@@ -137,7 +137,7 @@ TEST(Triplanar, RotatedMeshWithTheOtherUpAxisHasTheSameUv) {
   const TriangleMesh z_up = test::grid_mesh(32, 160, test::grab_handle, 0.15);  // no ties, which the axis order decides
   TriangleMesh y_up = z_up;
   for (Vec3& p : y_up.positions) p = {p.x, p.z, -p.y};
-  const TriplanarResult a = flatten_triplanar(z_up), b = flatten_triplanar(y_up, {.up = GrainUp::y});
+  const TriplanarResult a = flatten_triplanar(z_up), b = flatten_triplanar(y_up, {.up = UpAxis::y});
   const double mean_a = measure_distortion(z_up, a.flattening.uv).symmetric_dirichlet.mean;
   EXPECT_NEAR(measure_distortion(y_up, b.flattening.uv).symmetric_dirichlet.mean, mean_a, 1e-9);
   EXPECT_EQ(a.flattening.charts.count, b.flattening.charts.count);

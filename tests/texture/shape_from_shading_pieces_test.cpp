@@ -122,9 +122,10 @@ TEST(ShapeFromShadingPieces, ProgressRisesToOne) {
     ShadingOptions options;
     options.largest_piece_px = 64;
     options.iterations = 5;
-    options.progress = [&](std::string_view, double fraction) {
-      falls |= fraction < last;
-      last = fraction;
+    options.progress = [&](const Progress& done) {
+      falls |= done.fraction < last;
+      last = done.fraction;
+      return true;
     };
     method(test::noise_image(200, 150, 6), options);
     EXPECT_FALSE(falls);

@@ -29,7 +29,7 @@ double difference(const float* a, const float* b, int count) {
 
 template <typename Value>
 void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, int height, double unit,
-          const Progress& progress) {
+          const ProgressCallback& progress) {
   const auto columns = static_cast<std::ptrdiff_t>(matrix.width());
   double* centre =
       matrix.distortion.data() + texture_detail::pixel_index(matrix.reach_x, matrix.reach_y, matrix.width());
@@ -51,7 +51,7 @@ void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, in
 
 }  // namespace
 
-FeatureMatrix absolute_feature_matrix(const GreyImage& image, const Progress& progress) {
+FeatureMatrix absolute_feature_matrix(const GreyImage& image, const ProgressCallback& progress) {
   texture_detail::require_image(image, "absolute_feature_matrix");
   constexpr int k_most_side = 2048;
   if (std::max(image.width, image.height) > k_most_side)

@@ -39,15 +39,13 @@ BestDimension mean_best(const std::vector<BestDimension>& pieces) {
 
 }  // namespace
 
-FractalReadings read_fractal_dimensions(const GreyImage& image, const Progress& progress) {
+FractalReadings read_fractal_dimensions(const GreyImage& image, const ProgressCallback& progress) {
   texture_detail::require_image(image, "read_fractal_dimensions");
   FractalReadings readings;
   const int side = std::min(image.width, image.height);
   constexpr double k_methods = 6;
   double done = 0;
-  const auto next = [&] {
-    if (progress) progress("fractal dimension", done++ / k_methods);
-  };
+  const auto next = [&] { report_progress(progress, "fractal dimension", done++ / k_methods); };
   if (side >= k_least_fractal_side) {
     next();
     readings.box = box_dimension(image);
@@ -62,7 +60,7 @@ FractalReadings read_fractal_dimensions(const GreyImage& image, const Progress& 
   }
   next();
   if (side >= k_least_probability_side) readings.probability = probability_dimension(image);
-  if (progress) progress("fractal dimension", 1);
+  report_progress(progress, "fractal dimension", 1);
   return readings;
 }
 

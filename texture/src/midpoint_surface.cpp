@@ -152,9 +152,7 @@ Surface midpoint_surface(const MidpointOptions& options) {
   require(options.levels, 13, options.hurst, "midpoint_surface");
   Random random(options.seed);
   Grid grid(options.levels, options.periodic);
-  const Told told = [&](double share) {
-    if (options.progress) options.progress("synthesis", share);
-  };
+  const Told told = [&](double share) { report_progress(options.progress, "synthesis", share); };
   if (options.rule == MidpointRule::corrected)
     corrected(grid, options.hurst, random, told);
   else

@@ -71,20 +71,21 @@ double ordered_sum(std::vector<double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-Progress part_of(const Progress& whole, double begin, double end) {
+ProgressCallback part_of(const ProgressCallback& whole, double begin, double end) {
   if (!whole) return {};
-  return
-      [whole, begin, end](std::string_view stage, double fraction) { whole(stage, begin + (end - begin) * fraction); };
+  return [whole, begin, end](const Progress& part) {
+    return whole({part.stage, begin + (end - begin) * part.fraction});
+  };
 }
 
 std::vector<double> solve_by_pieces(const GreyImage& image, const PieceLayout& layout,
                                     const std::function<std::vector<double>(const Piece&)>& solve,
-                                    const Progress& progress, std::string_view stage) {
+                                    const ProgressCallback& progress, std::string_view stage) {
   const std::vector<PieceSpan> columns = piece_spans(image.width, layout), rows = piece_spans(image.height, layout);
   const std::size_t count = columns.size() * rows.size();
   std::vector<double> sum(image.pixels.size(), 0.0);
   for (std::size_t first = 0; first < count; first += k_pieces_at_once) {
-    if (progress) progress(stage, static_cast<double>(first) / static_cast<double>(count));
+    report_progress(progress, stage, static_cast<double>(first) / static_cast<double>(count));
     std::vector<std::vector<double>> heights(std::min(k_pieces_at_once, count - first));
     oneapi::tbb::parallel_for(std::size_t{0}, heights.size(), [&](std::size_t i) {
       const std::size_t t = first + i;
@@ -95,7 +96,7 @@ std::vector<double> solve_by_pieces(const GreyImage& image, const PieceLayout& l
       add_weighted(columns[t % columns.size()], rows[t / columns.size()], heights[i], image, sum);
     }
   }
-  if (progress) progress(stage, 1);
+  report_progress(progress, stage, 1);
   return sum;
 }
 

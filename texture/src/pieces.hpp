@@ -48,7 +48,7 @@ int piece_overlap(int largest_piece_px);
 double ordered_sum(std::vector<double> values);
 
 /// Progress of a part of the work, from `begin` to `end` of the whole; empty when `whole` is.
-Progress part_of(const Progress& whole, double begin, double end);
+ProgressCallback part_of(const ProgressCallback& whole, double begin, double end);
 
 /// Solves a picture piece by piece, several at a time on all threads: `solve` returns the heights of a piece, row by
 /// row, and their weighted sum over the pieces is the result. Memory: that of the result and of four pieces. The result
@@ -56,6 +56,6 @@ Progress part_of(const Progress& whole, double begin, double end);
 /// `stage` and the share of pieces done.
 std::vector<double> solve_by_pieces(const GreyImage& image, const PieceLayout& layout,
                                     const std::function<std::vector<double>(const Piece&)>& solve,
-                                    const Progress& progress, std::string_view stage);
+                                    const ProgressCallback& progress, std::string_view stage);
 
 }  // namespace papilla::texture_detail

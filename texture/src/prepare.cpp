@@ -266,9 +266,7 @@ PictureNumbers measure_picture(const GreyImage& image) {
 
 PreparedPicture prepare_picture(const GreyImage& image, const PrepareOptions& options) {
   require(image, options);
-  const auto tell = [&](double fraction) {
-    if (options.progress) options.progress("prepare", fraction);
-  };
+  const auto tell = [&](double fraction) { report_progress(options.progress, "prepare", fraction); };
   tell(0);
   PreparedPicture result;
   result.image = image;

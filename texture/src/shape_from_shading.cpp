@@ -182,7 +182,7 @@ struct Descent {
   Field z, gradient;
 
   void progress(int done, int of) const {
-    if (options.progress) options.progress(k_stage, begin + (end - begin) * done / of);
+    report_progress(options.progress, k_stage, begin + (end - begin) * done / of);
   }
 };
 

@@ -119,7 +119,7 @@ ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingO
   texture_detail::remove_mean(result.height_px);
   result.stop = StopReason::direct;
   result.trace.push_back({clock.seconds(), residual(result.height_px, image, options.albedo, light, options.periodic)});
-  if (options.progress) options.progress("shape from shading", 1);
+  report_progress(options.progress, "shape from shading", 1);
   return result;
 }
 

@@ -103,7 +103,7 @@ ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const Shading
         iterate(image, options, {options.periodic, options.periodic}, [&](const Field& squares, int iteration) {
           const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
           result.trace.push_back({clock.seconds(), std::sqrt(sum / static_cast<double>(squares.size()))});
-          if (options.progress) options.progress(k_stage, (iteration + 1.0) / options.iterations);
+          report_progress(options.progress, k_stage, (iteration + 1.0) / options.iterations);
         });
   }
   texture_detail::remove_mean(result.height_px);

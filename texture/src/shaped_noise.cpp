@@ -23,10 +23,8 @@ void multiply_spectrum(RealFft2d& fft, int width, int height, double norm,
 }  // namespace
 
 std::vector<double> shaped_noise(int width, int height, std::uint64_t seed,
-                                 const std::function<double(double, double)>& gain, const Progress& progress) {
-  const auto tell = [&](double fraction) {
-    if (progress) progress("synthesis", fraction);
-  };
+                                 const std::function<double(double, double)>& gain, const ProgressCallback& progress) {
+  const auto tell = [&](double fraction) { report_progress(progress, "synthesis", fraction); };
   tell(0);
   RealFft2d fft(width, height);
   Random random(seed);

@@ -13,7 +13,8 @@ namespace papilla::texture_detail {
 /// v / height) [cycles per pixel]; row by row. All 0 when no gain is above 0. Two Fourier transforms; deterministic for
 /// a seed.
 std::vector<double> shaped_noise(int width, int height, std::uint64_t seed,
-                                 const std::function<double(double, double)>& gain, const Progress& progress = {});
+                                 const std::function<double(double, double)>& gain,
+                                 const ProgressCallback& progress = {});
 
 /// Multiplies every wave of the field by gain(cycles per pixel along x, along y) ≥ 0: Fourier waves when periodic,
 /// cosine waves (mirrored borders) otherwise.

@@ -70,9 +70,7 @@ Surface brownian_surface_exact(const BrownianSurfaceOptions& options) {
   const int period = texture_detail::good_fft_size(static_cast<int>(std::ceil(2 * covariance.reach / pitch)) + 1);
 
   constexpr std::string_view k_stage = "synthesis";
-  const auto tell = [&](double fraction) {
-    if (options.progress) options.progress(k_stage, fraction);
-  };
+  const auto tell = [&](double fraction) { report_progress(options.progress, k_stage, fraction); };
   tell(0);
   RealFft2d field(period, period);
   texture_detail::Random random(options.seed);

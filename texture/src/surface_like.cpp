@@ -41,7 +41,7 @@ SurfaceLike surface_like(const GreyImage& image, const SurfaceLikeOptions& optio
   double along = kept(result.target.sta), across = kept(major(result.target));
   double best = 1e300;
   for (int round = 0; round < options.rounds; ++round) {
-    if (options.progress) options.progress("synthesis", static_cast<double>(round) / options.rounds);
+    report_progress(options.progress, "synthesis", static_cast<double>(round) / options.rounds);
     Surface surface = spectral_surface({.size = options.size,
                                         .hurst = along,
                                         .seed = options.seed,

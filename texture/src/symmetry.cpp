@@ -12,7 +12,7 @@ constexpr int k_most_side = 2048;
 }  // namespace
 
 SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& options, FeatureKind feature,
-                                  const Progress& progress) {
+                                  const ProgressCallback& progress) {
   texture_detail::require_image(image, "analyze_symmetry");
   SymmetryAnalysis analysis;
   analysis.picture = middle_part(image, k_most_side);

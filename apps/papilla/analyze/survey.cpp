@@ -52,14 +52,14 @@ class MiddlePart {
   GreyImage image_;
 };
 
-SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& options, const Progress& progress) {
-  if (progress) progress("symmetry", 0);
+SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& options, const ProgressCallback& progress) {
+  report_progress(progress, "symmetry", 0);
   SymmetryAnalysis analysis = analyze_symmetry(image, options.lattice, options.feature, progress);
-  if (progress) progress("symmetry", 1);
+  report_progress(progress, "symmetry", 1);
   return analysis;
 }
 
-void survey_whole(const ImageBands& bands, const SurveyOptions& options, const Progress& progress,
+void survey_whole(const ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
                   TextureSurvey& survey) {
   if (options.symmetry || options.order) survey.symmetry = symmetry_of(survey.middle, options, progress);
   if (options.fractal) survey.fractal = read_fractal_dimensions(survey.middle, progress);
@@ -81,7 +81,8 @@ void check_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& latti
       fmt::format("the middle repeats, but only {} of {} pieces do so likewise", agreement.same, agreement.pieces());
 }
 
-void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progress& progress, TextureSurvey& survey) {
+void survey_pieces(ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
+                   TextureSurvey& survey) {
   const int side = options.largest_px / 2;
   PieceSurvey pieces;
   pieces.columns = parts(survey.width, side);
@@ -101,7 +102,7 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
     const GreyImage band = bands.next(start_of(row + 1, pieces.rows, survey.height) - top);
     middle.add(band, top);
     for (int column = 0; column < pieces.columns; ++column) {
-      if (progress) progress("pieces of the picture", done++ / count);
+      report_progress(progress, "pieces of the picture", done++ / count);
       const int left = start_of(column, pieces.columns, survey.width);
       const GreyImage piece =
           crop(band, left, 0, start_of(column + 1, pieces.columns, survey.width) - left, band.height);
@@ -112,7 +113,7 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
       lattices.back().minima = {};
     }
   }
-  if (progress) progress("pieces of the picture", 1);
+  report_progress(progress, "pieces of the picture", 1);
   survey.middle = middle.take();
   if (options.fractal) survey.fractal = mean_readings(readings);
   if (wants_lattice) {
@@ -129,7 +130,7 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
 }  // namespace
 
 TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,
-                             const Progress& progress) {
+                             const ProgressCallback& progress) {
   ImageBands bands(path);
   TextureSurvey survey;
   survey.width = bands.width();

@@ -51,6 +51,7 @@ struct TextureSurvey {
 /// picture; time grows with the pixels.
 /// @throws IoError, InvalidInput as ImageBands; InvalidInput too when the picture is wider than 524288 pixels and
 /// higher than a band of 128 rows.
-TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options, const Progress& progress);
+TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,
+                             const ProgressCallback& progress);
 
 }  // namespace papilla::app

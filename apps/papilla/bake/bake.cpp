@@ -297,13 +297,13 @@ void drop_unused_textures(Scene& scene) {
 
 /// Makes the grains that the surfaces use.
 std::map<std::string, Grain> make_grains(const std::vector<Surface>& surfaces, const RecipeLibrary& library,
-                                         const Progress& progress) {
+                                         const ProgressCallback& progress) {
   std::map<std::string, const MaterialRule*> rules;
   for (const Surface& surface : surfaces)
     if (runs(surface, Stage::height)) rules[surface.rule->name] = surface.rule;
   std::map<std::string, Grain> grains;
   for (const auto& [name, rule] : rules) {
-    if (progress) progress("grain " + name, static_cast<double>(grains.size()) / static_cast<double>(rules.size()));
+    report_progress(progress, "grain " + name, static_cast<double>(grains.size()) / static_cast<double>(rules.size()));
     grains.emplace(name, make_grain(*rule, library));
   }
   return grains;
@@ -329,7 +329,7 @@ void reassemble(Scene& scene, const std::vector<Surface>& surfaces, std::vector<
 
 }  // namespace
 
-BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress,
+BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const ProgressCallback& progress,
                 const RecipeLibrary& library) {
   BakeResult result;
   result.scene = std::move(scene);
@@ -357,7 +357,7 @@ BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progres
       throw InvalidInput("part '" + work.surface->label + "': " + error.what());
     }
     const std::lock_guard lock(progress_mutex);
-    if (progress) progress("surfaces", static_cast<double>(++done) / static_cast<double>(works.size()));
+    report_progress(progress, "surfaces", static_cast<double>(++done) / static_cast<double>(works.size()));
   });
 
   reassemble(result.scene, surfaces, works);

@@ -38,7 +38,7 @@ struct BakeResult {
 /// Surfaces are independent and run in parallel; the result does not depend on the number of threads.
 /// @throws InvalidInput, IoError, SolverFailure naming the part or picture.
 /// @param library  what the rules' recipes may name.
-BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const Progress& progress,
+BakeResult bake(Scene scene, const std::vector<Surface>& surfaces, const ProgressCallback& progress,
                 const RecipeLibrary& library = RecipeLibrary::builtin());
 
 }  // namespace papilla::app

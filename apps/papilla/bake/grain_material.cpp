@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "base64.hpp"
+#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
@@ -82,7 +82,7 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, Grain& g
 /// The map travels as a data: URI within the tag: strings in extras survive tools that drop pictures no texture uses.
 HeightTag height_tag(const Grain& grain, const EncodedHeight& encoded) {
   HeightTag tag;
-  tag.uri = "data:image/png;base64," + base64(encoded.png);
+  tag.uri = "data:image/png;base64," + encode_base64(encoded.png);
   tag.sha256 = sha256_hex(encoded.png);
   tag.size = {grain.relief.width, grain.relief.height};
   tag.scale_m = encoded.scale_mm * k_metres_per_mm;

@@ -66,7 +66,7 @@ std::string file_name(const std::string& label) {
 /// Writes pictures into one folder under names that do not repeat.
 class PictureFolder {
  public:
-  PictureFolder(std::filesystem::path folder, std::size_t expected, const Progress& progress)
+  PictureFolder(std::filesystem::path folder, std::size_t expected, const ProgressCallback& progress)
       : folder_(std::move(folder)), expected_(expected), progress_(progress) {}
 
   void add(const std::string& label, const ColorImage& image) { write(unique(label), encode_png(image)); }
@@ -83,12 +83,12 @@ class PictureFolder {
   void write(const std::string& name, const std::vector<std::byte>& png) {
     write_atomically(folder_ / name, std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
     names_.push_back(name);
-    if (progress_) progress_("pictures", static_cast<double>(names_.size()) / static_cast<double>(expected_));
+    report_progress(progress_, "pictures", static_cast<double>(names_.size()) / static_cast<double>(expected_));
   }
 
   std::filesystem::path folder_;
   std::size_t expected_;
-  const Progress& progress_;
+  const ProgressCallback& progress_;
   std::set<std::string> taken_;
   std::vector<std::string> names_;
 };
@@ -197,7 +197,7 @@ std::string bake_table(const BakeResult& result) {
 }
 
 std::vector<std::string> write_pictures(const BakeResult& result, const std::filesystem::path& folder,
-                                        const Progress& progress) {
+                                        const ProgressCallback& progress) {
   const std::vector<const BakedSurface*> surfaces = largest_surfaces(result.surfaces);
   PictureFolder pictures(folder, 2 + surfaces.size() + 3 * result.grains.size(), progress);
   RenderOptions render;

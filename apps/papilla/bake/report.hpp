@@ -18,6 +18,6 @@ std::string bake_table(const BakeResult& result);
 /// Writes the pictures of a bake into `folder` and returns their names: the scene with its materials, with a checker,
 /// the uv layout of every surface with grain, and the relief of every grain.
 std::vector<std::string> write_pictures(const BakeResult& result, const std::filesystem::path& folder,
-                                        const Progress& progress);
+                                        const ProgressCallback& progress);
 
 }  // namespace papilla::app

@@ -28,7 +28,7 @@ SurfaceUv make_surface_uv(const TriangleMesh& mesh, const std::string& wanted, V
   MethodOptions options;
   options.method = unwrap_methods().at(wanted);
   PartContext context;
-  context.up = up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  context.up = up;
   context.tile_mm = tile_mm;
   const Stopwatch clock;
   FlattenedPart part = flatten_part(mesh, context, options);

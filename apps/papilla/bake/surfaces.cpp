@@ -8,6 +8,7 @@
 #include <map>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/srgb.hpp"
 
 namespace papilla::app {
 namespace {
@@ -91,25 +92,18 @@ std::vector<Surface> split_by_slot(const Scene& scene) {
   return surfaces;
 }
 
-double to_srgb(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-}
-
-double from_srgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 }  // namespace
 
 std::string hex_colour(const std::array<double, 4>& linear) {
-  const auto byte = [](double c) { return static_cast<int>(std::lround(255 * to_srgb(c))); };
+  const auto byte = [](double c) { return static_cast<int>(std::lround(255 * srgb_from_linear(c))); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(linear[0]), byte(linear[1]), byte(linear[2]));
 }
 
 std::array<double, 4> linear_colour(const std::string& hex) {
   if (hex.size() != 7 || hex[0] != '#') throw InvalidInput("linear_colour: '" + hex + "' is no colour such as #20a0ff");
-  const auto channel = [&](std::size_t at) { return from_srgb(std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0); };
+  const auto channel = [&](std::size_t at) {
+    return linear_from_srgb(std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0);
+  };
   return {channel(1), channel(3), channel(5), 1};
 }
 

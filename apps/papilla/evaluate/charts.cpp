@@ -62,7 +62,7 @@ std::vector<EvaluationRun> evaluate_charts(const EvaluationInput& input) {
   const std::vector<std::uint32_t> largest = largest_parts(scene, k_most_parts);
   std::vector<EvaluationRun> runs;
   for (std::size_t i = 0; i < largest.size(); ++i) {
-    if (input.progress) input.progress("charts", static_cast<double>(i) / static_cast<double>(largest.size()));
+    report_progress(input.progress, "charts", static_cast<double>(i) / static_cast<double>(largest.size()));
     const Part& part = scene.parts[largest[i]];
     add_runs(input_name(input, part.name), weld_equal(part.mesh).mesh, input.budget.share(largest.size() - i), runs);
   }

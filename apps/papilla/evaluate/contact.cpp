@@ -158,7 +158,7 @@ std::vector<EvaluationRun> evaluate_contact(const EvaluationInput& input) {
     const Trajectory hand = press_and_stroke(stage.surface, stage.material, stage.centre, {.seconds = k_seconds});
     runs.push_back(over_rates(own, touch, stage, hand));
     if (touch.relief) runs.push_back(over_detail(own, scene, touch, hand, feel(stage.surface, hand, k_base_hz)));
-    if (input.progress) input.progress("contact", static_cast<double>(i + 1) / static_cast<double>(k_touches.size()));
+    report_progress(input.progress, "contact", static_cast<double>(i + 1) / static_cast<double>(k_touches.size()));
   }
   std::move(walls.begin(), walls.end(), std::back_inserter(runs));
   return runs;

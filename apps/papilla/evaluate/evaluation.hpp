@@ -18,7 +18,7 @@ struct EvaluationInput {
   std::string file;
   std::string name;  ///< What reports call the file.
   SceneOptions read;
-  Progress progress;
+  ProgressCallback progress;
   Budget budget = {};
 };
 

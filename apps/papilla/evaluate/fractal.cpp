@@ -36,9 +36,8 @@ std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
     }
     if (run.trace.empty()) run.stop = k_time_spent;
     runs.push_back(std::move(run));
-    if (input.progress)
-      input.progress("fractal dimension",
-                     static_cast<double>(runs.size()) / static_cast<double>(fractal_methods().size()));
+    report_progress(input.progress, "fractal dimension",
+                    static_cast<double>(runs.size()) / static_cast<double>(fractal_methods().size()));
   }
   return runs;
 }

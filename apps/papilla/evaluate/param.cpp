@@ -333,7 +333,7 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input) {
   const std::string name = input_name(input, part.name);
   std::vector<EvaluationRun> runs;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (input.progress) input.progress("evaluate", static_cast<double>(i) / static_cast<double>(all.size()));
+    report_progress(input.progress, "evaluate", static_cast<double>(i) / static_cast<double>(all.size()));
     VariantRuns of_variant(all[i], chart, name);
     of_variant.climb(input.budget.share(all.size() - i));
     of_variant.move_to(runs);

@@ -49,8 +49,8 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input) {
     }
     if (run.trace.empty()) run.stop = k_time_spent;
     runs.push_back(std::move(run));
-    if (input.progress)
-      input.progress("symmetry", static_cast<double>(runs.size()) / static_cast<double>(k_variants.size()));
+    report_progress(input.progress, "symmetry",
+                    static_cast<double>(runs.size()) / static_cast<double>(k_variants.size()));
   }
   return runs;
 }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "base64.hpp"
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
+#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
@@ -41,8 +41,8 @@ void add_photos(Json& report) {
   for (Json& material : report["materials"]) {
     if (!material.contains("picture")) continue;
     try {
-      material["photo"] =
-          base64(encode_png(shrink(read_color_image(material["picture"]["file"].get<std::string>()), k_photo_px)));
+      material["photo"] = encode_base64(
+          encode_png(shrink(read_color_image(material["picture"]["file"].get<std::string>()), k_photo_px)));
     } catch (const Error&) {
       continue;
     }
@@ -52,7 +52,7 @@ void add_photos(Json& report) {
 }  // namespace
 
 void write_report_page(const std::filesystem::path& glb, Json report, const std::filesystem::path& page,
-                       const Progress& progress) {
+                       const ProgressCallback& progress) {
   add_photos(report);
   const Scene scene = read_gltf(glb);
   write_page({glb.filename().string(), page_scene_json(scene, glb, {}, progress), std::move(report)}, page);

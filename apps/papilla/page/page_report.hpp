@@ -11,6 +11,6 @@ namespace papilla::app {
 /// grain pictures that it names. A picture that can't be read any more is left out.
 /// @throws IoError, InvalidInput as read_gltf() and write_page().
 void write_report_page(const std::filesystem::path& glb, Json report, const std::filesystem::path& page,
-                       const Progress& progress);
+                       const ProgressCallback& progress);
 
 }  // namespace papilla::app

@@ -7,9 +7,9 @@
 #include <atomic>
 #include <map>
 
-#include "base64.hpp"
 #include "distortion_report.hpp"
 #include "page/page_mesh.hpp"
+#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/decode_grey16.hpp"
@@ -34,10 +34,10 @@ Json mesh_json(const PageMesh& mesh, const Part& part) {
           {"high", triple(mesh.high)},
           {"uv_low", pair(mesh.uv_low)},
           {"uv_high", pair(mesh.uv_high)},
-          {"vertex_stream", base64(mesh.vertex_stream)},
-          {"index_stream", base64(mesh.index_stream)},
+          {"vertex_stream", encode_base64(mesh.vertex_stream)},
+          {"index_stream", encode_base64(mesh.index_stream)},
           {"coarse", mesh.coarse},
-          {"coarse_stream", base64(mesh.coarse_stream)}};
+          {"coarse_stream", encode_base64(mesh.coarse_stream)}};
 }
 
 /// Where nothing is tagged or pictured, channel 0 is what people made.
@@ -61,7 +61,7 @@ ShownPart show_part(const Part& part, double keep) {
   return shown;
 }
 
-std::vector<ShownPart> show_parts(const Scene& scene, double keep, const Progress& progress) {
+std::vector<ShownPart> show_parts(const Scene& scene, double keep, const ProgressCallback& progress) {
   std::vector<ShownPart> shown(scene.parts.size());
   std::atomic<std::size_t> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, scene.parts.size(), [&](std::size_t i) {
@@ -72,7 +72,7 @@ std::vector<ShownPart> show_parts(const Scene& scene, double keep, const Progres
     }
     ++done;
   });
-  if (progress) progress("page", 1);
+  report_progress(progress, "page", 1);
   return shown;
 }
 
@@ -132,7 +132,7 @@ class Materials {
     try {
       const Grey16 picture = decode_grey16(span, "height map");
       heights.push_back(
-          {{"png", base64(span)}, {"width", picture.width}, {"height", picture.height}, {"bits", picture.bits}});
+          {{"png", encode_base64(span)}, {"width", picture.width}, {"height", picture.height}, {"bits", picture.bits}});
       return place->second;
     } catch (const Error& error) {
       warnings.push_back({"height_image", error.what()});
@@ -155,7 +155,8 @@ Json images_json(const Scene& scene, const Json& materials) {
       if (material[map].is_null()) continue;
       Json& slot = images[material[map]["image"].get<std::size_t>()];
       const EncodedImage& image = scene.images[material[map]["image"].get<std::size_t>()];
-      if (slot.is_null()) slot = {{"name", image.name}, {"type", image.mime_type}, {"bytes", base64(image.bytes)}};
+      if (slot.is_null())
+        slot = {{"name", image.name}, {"type", image.mime_type}, {"bytes", encode_base64(image.bytes)}};
     }
   return images;
 }
@@ -163,7 +164,7 @@ Json images_json(const Scene& scene, const Json& materials) {
 }  // namespace
 
 Json page_scene_json(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
-                     const Progress& progress) {
+                     const ProgressCallback& progress) {
   const std::vector<Instance> drawn = instances(scene);
   std::size_t triangles = 0, triangles_shown = 0;
   double error_mm = 0;

@@ -20,6 +20,6 @@ struct PageSceneOptions {
 /// @return also `triangles`, `triangles_shown` and `error_mm`.
 /// @throws InvalidInput as instances() and measure_distortion().
 Json page_scene_json(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
-                     const Progress& progress);
+                     const ProgressCallback& progress);
 
 }  // namespace papilla::app

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include "papilla/core/srgb.hpp"
 
 namespace papilla::app {
 namespace {
@@ -21,8 +22,7 @@ MipPyramid::MipPyramid(const ColorImage& image, bool encoded_srgb) {
   std::array<float, 256> decode{};
   for (int i = 0; i < 256; ++i) {
     const double c = i / 255.0;
-    const double linear = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    decode[static_cast<std::size_t>(i)] = static_cast<float>(encoded_srgb ? linear : c);
+    decode[static_cast<std::size_t>(i)] = static_cast<float>(encoded_srgb ? linear_from_srgb(c) : c);
   }
   Level base{image.width, image.height, std::vector<float>(image.pixels.size())};
   std::transform(image.pixels.begin(), image.pixels.end(), base.rgb.begin(),

@@ -11,6 +11,7 @@
 
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/io/image_file.hpp"
 #include "pictures/border_edges.hpp"
 #include "pictures/mip_pyramid.hpp"
@@ -374,11 +375,7 @@ void sort_glass(std::vector<TriangleSetup>& triangles) {
                    [&](const TriangleSetup& a, const TriangleSetup& b) { return nearness(a) < nearness(b); });
 }
 
-unsigned char encode(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  return static_cast<unsigned char>(
-      std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
-}
+unsigned char encode(double linear) { return static_cast<unsigned char>(std::lround(255 * srgb_from_linear(linear))); }
 
 ColorImage resolve(const std::vector<Sample>& samples, const RenderOptions& options) {
   ColorImage image{options.width, options.height, {}};

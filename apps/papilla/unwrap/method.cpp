@@ -19,7 +19,7 @@ namespace {
 /// Gives every method what they all share.
 MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, const PartContext& context) {
   MethodOptions o = given;
-  const GrainUp up = context.up;
+  const UpAxis up = context.up;
   if (o.grain == GrainSource::longest) o.grain_direction = longest_direction(mesh);
   o.triplanar.up = up;
   o.triplanar.tile_mm = context.tile_mm;

@@ -56,7 +56,7 @@ enum class GrainSource {
 
 /// What a part is beside others, and what its grain is: automatic decides by it.
 struct PartContext {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   Vec2 tile_mm{0, 0};          ///< Of the grain; 0: unknown.
   std::string part;            ///< Its name.
   std::size_t parts = 1;       ///< That are unwrapped together.

@@ -117,7 +117,7 @@ double grain_size(const UnwrapOptions& options) {
 /// What the parts have in common.
 PartContext context_of(const Scene& scene, const UnwrapOptions& options) {
   PartContext context;
-  context.up = scene.up == UpAxis::z ? GrainUp::z : GrainUp::y;
+  context.up = scene.up;
   context.tile_mm = options.tile_mm;
   context.parts = scene.parts.size();
   TriangleMesh all;
@@ -136,7 +136,7 @@ void add_trace(const Flattening& flattening, double start, UnwrapReport& report)
 
 }  // namespace
 
-UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress) {
+UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const ProgressCallback& progress) {
   const Stopwatch clock;
   if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
     throw InvalidInput("no part has triangles to unwrap");
@@ -147,7 +147,7 @@ UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Prog
   std::exception_ptr first_failure;
   bool any = false;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
-    if (progress) progress("unwrap", static_cast<double>(p) / static_cast<double>(scene.parts.size()));
+    report_progress(progress, "unwrap", static_cast<double>(p) / static_cast<double>(scene.parts.size()));
     Part& part = scene.parts[p];
     UnwrappedPart& result = report.parts[p];
     try {

@@ -63,6 +63,6 @@ struct UnwrapReport {
 /// Welds equal positions of every part and gives it uv (channel 0, millimetres; environment: textures, not placed).
 /// Parts whose method fails keep what they had and say why; when all fail, the first failure is thrown.
 /// @throws InvalidInput when there is no triangle.
-UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const Progress& progress = {});
+UnwrapReport unwrap_scene(Scene& scene, const UnwrapOptions& options, const ProgressCallback& progress = {});
 
 }  // namespace papilla::app

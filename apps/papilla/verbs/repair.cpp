@@ -29,7 +29,8 @@ struct RepairVerbOptions {
   SceneOptions read;
 };
 
-std::vector<RepairResult> repair_parts(Scene& scene, const RepairVerbOptions& options, const Progress& progress) {
+std::vector<RepairResult> repair_parts(Scene& scene, const RepairVerbOptions& options,
+                                       const ProgressCallback& progress) {
   std::vector<RepairResult> results(scene.parts.size());
   RepairOptions repair_options = options.repair;
   if (scene.parts.size() == 1) repair_options.progress = progress;

@@ -128,7 +128,7 @@ Json run_recipe(const Arguments& a, const RecipeLibrary& library, VerbContext& c
                           {"position", texture.depends_on_position()},
                           {"sky", texture.depends_on_sky()},
                           {"neighbours", texture.depends_on_neighbours()}};
-    if (context.progress) context.progress("texture", (step + 1.0) / a.steps);
+    report_progress(context.progress, "texture", (step + 1.0) / a.steps);
   }
   json["seconds"] = seconds;
   if (a.video) {

@@ -177,7 +177,7 @@ void check_usage(const Options& options) {
 
 /// unwrap_scene() with the file's name in front of what it throws.
 UnwrapReport unwrap_named(const std::string& file, Scene& scene, const UnwrapOptions& options,
-                          const Progress& progress) {
+                          const ProgressCallback& progress) {
   try {
     return unwrap_scene(scene, options, progress);
   } catch (const InvalidInput& error) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base64.hpp"
+#include "papilla/core/base64.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
@@ -13,7 +13,7 @@ namespace papilla::app {
 HeightTag felt_height(const HeightMap& relief) {
   const EncodedHeight encoded = encode_height_png16(relief);
   HeightTag height;
-  height.uri = "data:image/png;base64," + base64(encoded.png);
+  height.uri = "data:image/png;base64," + encode_base64(encoded.png);
   height.sha256 = sha256_hex(encoded.png);
   height.size = {relief.width, relief.height};
   height.scale_m = k_metres_per_mm * encoded.scale_mm, height.offset_m = k_metres_per_mm * encoded.offset_mm;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/union_find.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/param/pack.hpp"
 #include "weather/sky_texels.hpp"
@@ -35,27 +36,15 @@ using Triangles = std::vector<std::uint32_t>;
 /// The pieces that hang together at corners with the same place and coordinates.
 /// @param flat  and that look in the same direction.
 std::vector<Triangles> connected(std::span<const SurfaceTriangle> surface, const Triangles& triangles, bool flat) {
-  std::vector<std::uint32_t> parent(triangles.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  UnionFind sets(triangles.size());
   std::map<Corner, std::uint32_t> first;
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [it, is_new] = first.try_emplace(corner_of(surface[triangles[i]], k, flat), i);
-      if (is_new) continue;
-      const std::uint32_t a = root(it->second), b = root(i);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  std::vector<Triangles> pieces;
-  std::vector<std::size_t> number(triangles.size());
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const std::uint32_t r = root(i);
-    if (r == i) number[i] = pieces.size(), pieces.emplace_back();
-    pieces[number[r]].push_back(triangles[i]);
-  }
+    for (std::size_t k = 0; k < 3; ++k)
+      sets.unite(first.try_emplace(corner_of(surface[triangles[i]], k, flat), i).first->second, i);
+  std::uint32_t count = 0;
+  const std::vector<std::uint32_t> number = sets.labels(count);
+  std::vector<Triangles> pieces(count);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) pieces[number[i]].push_back(triangles[i]);
   return pieces;
 }
 

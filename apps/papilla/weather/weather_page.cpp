@@ -3,8 +3,8 @@
 
 #include <fmt/core.h>
 
-#include "base64.hpp"
 #include "html_text.hpp"
+#include "papilla/core/base64.hpp"
 #include "papilla/io/image_file.hpp"
 #include "pictures/scene_render.hpp"
 
@@ -27,7 +27,7 @@ constexpr const char* k_script =
 
 std::string image(const ColorImage& picture, const std::string& alt) {
   return fmt::format("<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\">", alt, picture.width,
-                     picture.height, base64(encode_png(picture)));
+                     picture.height, encode_base64(encode_png(picture)));
 }
 
 std::string row(const Json& material) {

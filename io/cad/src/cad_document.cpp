@@ -150,7 +150,7 @@ LengthUnit length_unit(std::string name) {
   return {name.empty() ? "mm" : name, 1};
 }
 
-void read_step(const std::filesystem::path& path, CadDocument& result, const Progress& progress) {
+void read_step(const std::filesystem::path& path, CadDocument& result, const ProgressCallback& progress) {
   STEPCAFControl_Reader reader;
   reader.SetNameMode(true);
   reader.SetColorMode(true);
@@ -175,7 +175,7 @@ void read_step(const std::filesystem::path& path, CadDocument& result, const Pro
   result.metadata = read_step_metadata(reader, result.document);
 }
 
-void read_iges(const std::filesystem::path& path, CadDocument& result, const Progress& progress) {
+void read_iges(const std::filesystem::path& path, CadDocument& result, const ProgressCallback& progress) {
   IGESCAFControl_Reader reader;
   reader.SetNameMode(true);
   reader.SetColorMode(true);
@@ -211,7 +211,7 @@ void read_brep(const std::filesystem::path& path, CadDocument& result) {
 
 }  // namespace
 
-CadDocument read_document(const std::filesystem::path& path, const Progress& progress) {
+CadDocument read_document(const std::filesystem::path& path, const ProgressCallback& progress) {
   const Kind kind = kind_of(path, read_ends(path));
   set_reader_parameters();
   CadDocument result;

@@ -21,6 +21,6 @@ struct CadDocument {
 
 /// Reads the file into a document with assembly tree, names, colours, layers and materials.
 /// @throws IoError, InvalidInput as read_cad(); Standard_Failure from inside the library.
-CadDocument read_document(const std::filesystem::path& path, const Progress& progress);
+CadDocument read_document(const std::filesystem::path& path, const ProgressCallback& progress);
 
 }  // namespace papilla::cad

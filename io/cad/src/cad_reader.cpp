@@ -140,9 +140,9 @@ void rescale(Scene& scene, CadReport& report, double millimetres_per_unit) {
 }
 
 Scene read(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
-           const Progress& progress) {
+           const ProgressCallback& progress) {
   Stopwatch watch;
-  if (progress) progress("read", 0);
+  report_progress(progress, "read", 0);
   cad::allow_processor_time(reading_seconds(path));
   cad::CadTree tree = cad::build_tree(cad::read_document(path, progress));
   const double unit = options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit);
@@ -157,7 +157,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   report.seconds_tessellate = watch.lap();
 
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (progress) progress("convert", 0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(shapes.size()));
+    report_progress(progress, "convert", 0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(shapes.size()));
     report.solids += count_solids(tree.shapes[i]);
     add_mesh(tree.scene.parts[i], std::move(shapes[i]), tree.face_materials[i], report);
   }
@@ -165,13 +165,13 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   warn_of_faces(report, tree.scene);
   if (unit != tree.scene.millimetres_per_unit) rescale(tree.scene, report, unit);
   report.seconds_convert = watch.lap();
-  if (progress) progress("convert", 1);
+  report_progress(progress, "convert", 1);
   return std::move(tree.scene);
 }
 
 /// The library's exceptions are not the standard's.
 Scene read_in_this_process(const std::filesystem::path& path, const CadReadOptions& options, CadReport& report,
-                           const Progress& progress) {
+                           const ProgressCallback& progress) {
   try {
     cad::set_up_threads();
     return read(path, options, report, progress);
@@ -186,16 +186,17 @@ Scene read_in_this_process(const std::filesystem::path& path, const CadReadOptio
 }  // namespace
 
 Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options, CadReport* report,
-               const Progress& progress) {
+               const ProgressCallback& progress) {
   check_options(options);
   const cad::OcctSession session;
   CadReport own;
   CadReport& filled = report ? *report : own;
   filled = {};
   if (!options.isolated) return read_in_this_process(path, options, filled, progress);
-  return cad::run_isolated(path, filled, progress, [&](CadReport& child_report, const Progress& child_progress) {
-    return read_in_this_process(path, options, child_report, child_progress);
-  });
+  return cad::run_isolated(path, filled, progress,
+                           [&](CadReport& child_report, const ProgressCallback& child_progress) {
+                             return read_in_this_process(path, options, child_report, child_progress);
+                           });
 }
 
 bool is_cad_extension(const std::filesystem::path& path) {

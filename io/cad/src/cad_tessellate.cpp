@@ -66,7 +66,7 @@ void run_mesher(const TopoDS_Shape& shape, const RefineLimits& limits, CadMeshin
 /// Tells how much of the work is done, from the calling thread only and never less than before.
 class WorkMeter {
  public:
-  WorkMeter(const Progress& progress, double from, double to, std::size_t total)
+  WorkMeter(const ProgressCallback& progress, double from, double to, std::size_t total)
       : progress_(progress), from_(from), to_(to), total_(std::max<std::size_t>(total, 1)) {}
 
   void add(std::size_t amount) {
@@ -75,11 +75,11 @@ class WorkMeter {
     const double fraction = static_cast<double>(done) / static_cast<double>(total_);
     if (fraction < shown_ + 0.01) return;
     shown_ = fraction;
-    progress_("tessellate", from_ + std::min(1.0, fraction) * (to_ - from_));
+    report_progress(progress_, "tessellate", from_ + std::min(1.0, fraction) * (to_ - from_));
   }
 
  private:
-  const Progress& progress_;
+  const ProgressCallback& progress_;
   double from_, to_;
   std::size_t total_;
   std::atomic<std::size_t> done_ = 0;
@@ -215,7 +215,7 @@ double diagonal_of(const std::vector<TopoDS_Shape>& shapes) {
 }
 
 std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes, const CadReadOptions& options,
-                                         const Progress& progress) {
+                                         const ProgressCallback& progress) {
   std::vector<RefineLimits> limits;
   for (const TopoDS_Shape& shape : shapes) limits.push_back(limits_of(options, shape));
   const Handle(OcctProgress) indicator = new OcctProgress(progress, "tessellate", 0.3, 0.5);

@@ -44,6 +44,6 @@ double diagonal_of(const std::vector<TopoDS_Shape>& shapes);
 /// keep chord and angle.
 /// @return one entry per shape.
 std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes, const CadReadOptions& options,
-                                         const Progress& progress);
+                                         const ProgressCallback& progress);
 
 }  // namespace papilla::cad

@@ -101,7 +101,7 @@ void be_silent() {
   ::close(nowhere);
 }
 
-[[noreturn]] void be_child(int pipe, const std::function<Scene(CadReport&, const Progress&)>& work) {
+[[noreturn]] void be_child(int pipe, const std::function<Scene(CadReport&, const ProgressCallback&)>& work) {
   g_is_child = true;
   after_fork();
   ::signal(SIGPIPE, SIG_DFL);
@@ -110,8 +110,9 @@ void be_silent() {
   int code = 0;
   try {
     CadReport report;
-    const Progress progress = [pipe](std::string_view stage, double fraction) {
-      send_text(pipe, Message::progress, std::string(stage), fraction);
+    const ProgressCallback progress = [pipe](const Progress& done) {
+      send_text(pipe, Message::progress, std::string(done.stage), done.fraction);
+      return true;
     };
     const Scene scene = work(report, progress);
     const Message kind = Message::result;
@@ -168,8 +169,8 @@ std::string cause_of_death(int status) {
 
 }  // namespace
 
-Scene run_isolated(const std::filesystem::path& path, CadReport& report, const Progress& progress,
-                   const std::function<Scene(CadReport&, const Progress&)>& work) {
+Scene run_isolated(const std::filesystem::path& path, CadReport& report, const ProgressCallback& progress,
+                   const std::function<Scene(CadReport&, const ProgressCallback&)>& work) {
   Pipe pipe;
   const pid_t id = ::fork();
   if (id < 0) throw IoError(path.string() + ": no process can be started to read it (" + std::strerror(errno) + ")");
@@ -208,7 +209,7 @@ Scene run_isolated(const std::filesystem::path& path, CadReport& report, const P
       throw InvalidInput(path.string() + ": " + why + " (stage '" + stage + "', " +
                          std::to_string(static_cast<int>(100 * fraction)) + " % done)");
     }
-    if (kind == Message::progress && progress) progress(stage, fraction);
+    if (kind == Message::progress) report_progress(progress, stage, fraction);
   }
 }
 

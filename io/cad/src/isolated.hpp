@@ -13,8 +13,8 @@ namespace papilla::cad {
 /// memory of the child is thrown here as InvalidInput that names the file and how far it was.
 ///
 /// The child may use four fifths of the machine's memory, and the processor time that it allows itself.
-Scene run_isolated(const std::filesystem::path& path, CadReport& report, const Progress& progress,
-                   const std::function<Scene(CadReport&, const Progress&)>& work);
+Scene run_isolated(const std::filesystem::path& path, CadReport& report, const ProgressCallback& progress,
+                   const std::function<Scene(CadReport&, const ProgressCallback&)>& work);
 
 /// Sets the limit of processor time, of all threads, from now on, in a child of run_isolated(); does nothing elsewhere.
 void allow_processor_time(double seconds);

@@ -18,7 +18,7 @@ OcctSession::OcctSession() : lock_(g_occt), printers_(Message::DefaultMessenger(
 
 OcctSession::~OcctSession() { Message::DefaultMessenger()->ChangePrinters() = printers_; }
 
-OcctProgress::OcctProgress(const Progress& progress, std::string_view stage, double from, double to)
+OcctProgress::OcctProgress(const ProgressCallback& progress, std::string_view stage, double from, double to)
     : progress_(progress), stage_(stage), from_(from), to_(to) {}
 
 void OcctProgress::Show(const Message_ProgressScope&, Standard_Boolean) {
@@ -26,7 +26,7 @@ void OcctProgress::Show(const Message_ProgressScope&, Standard_Boolean) {
   const double done = GetPosition();
   if (done < shown_ + 0.01) return;
   shown_ = done;
-  progress_(stage_, from_ + done * (to_ - from_));
+  report_progress(progress_, stage_, from_ + done * (to_ - from_));
 }
 
 }  // namespace papilla::cad

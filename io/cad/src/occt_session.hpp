@@ -26,16 +26,16 @@ class OcctSession {
   Message_SequenceOfPrinters printers_;
 };
 
-/// Hands OpenCASCADE's progress to a Progress, from the calling thread only and in steps of a percent.
+/// Hands OpenCASCADE's progress to a ProgressCallback, from the calling thread only and in steps of a percent.
 class OcctProgress : public Message_ProgressIndicator {
  public:
-  OcctProgress(const Progress& progress, std::string_view stage, double from, double to);
+  OcctProgress(const ProgressCallback& progress, std::string_view stage, double from, double to);
 
  protected:
   void Show(const Message_ProgressScope& scope, Standard_Boolean force) override;
 
  private:
-  const Progress& progress_;
+  const ProgressCallback& progress_;
   std::string stage_;
   double from_, to_;
   double shown_ = -1;

@@ -23,17 +23,18 @@ std::vector<double> chord_ladder(double coarsest_mm, double finest_mm, std::size
 
 std::vector<TessellationSample> trace_tessellation(const std::filesystem::path& path,
                                                    const std::vector<double>& chords_mm, CadReadOptions options,
-                                                   const Progress& progress) {
+                                                   const ProgressCallback& progress) {
   std::vector<TessellationSample> samples;
   for (const double chord : chords_mm) {
-    if (progress) progress("tessellate", static_cast<double>(samples.size()) / static_cast<double>(chords_mm.size()));
+    report_progress(progress, "tessellate",
+                    static_cast<double>(samples.size()) / static_cast<double>(chords_mm.size()));
     options.chord_mm = chord;
     CadReport report;
     read_cad(path, options, &report);
     samples.push_back({chord, report.seconds_tessellate, report.max_deviation_mm, report.max_angle_deg,
                        report.triangles, report.failed_faces.size(), report.off_faces.size()});
   }
-  if (progress) progress("tessellate", 1);
+  report_progress(progress, "tessellate", 1);
   return samples;
 }
 

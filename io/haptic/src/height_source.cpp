@@ -5,10 +5,10 @@
 #include <span>
 #include <string>
 
+#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/haptic/sha256.hpp"
-#include "papilla/io/data_uri.hpp"
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/read_file.hpp"
 

@@ -137,7 +137,7 @@ TEST_F(CadErrors, OptionsOutOfRangeAreRefused) {
 TEST_F(CadErrors, ErrorsOfTheCallersProgressReachTheCaller) {
   write_brep(BRepPrimAPI_MakeTorus(20, 5).Shape(), folder_ / "torus.brep");
   struct Stop {};
-  EXPECT_THROW(read_cad(folder_ / "torus.brep", {}, nullptr, [](std::string_view, double) { throw Stop(); }), Stop);
+  EXPECT_THROW(read_cad(folder_ / "torus.brep", {}, nullptr, [](const Progress&) -> bool { throw Stop(); }), Stop);
 }
 
 TEST_F(CadErrors, InThisProcessAndInAnotherGiveTheSame) {
@@ -163,7 +163,10 @@ TEST_F(CadErrors, InThisProcessAndInAnotherGiveTheSame) {
 TEST_F(CadErrors, ProgressNeverFalls) {
   write_step(BRepPrimAPI_MakeTorus(20, 5).Shape(), folder_ / "torus.step");
   std::vector<double> fractions;
-  read_cad(folder_ / "torus.step", {}, nullptr, [&](std::string_view, double f) { fractions.push_back(f); });
+  read_cad(folder_ / "torus.step", {}, nullptr, [&](const Progress& done) {
+    fractions.push_back(done.fraction);
+    return true;
+  });
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   EXPECT_EQ(fractions.back(), 1);
   EXPECT_GT(fractions.size(), 4u);

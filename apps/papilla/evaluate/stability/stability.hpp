@@ -46,7 +46,7 @@ struct StabilitySuite {
 
 /// What the suites share while they run.
 struct StabilityRun {
-  Progress progress;
+  ProgressCallback progress;
   Budget budget;
 };
 
@@ -100,8 +100,8 @@ void fill_suite(StabilitySuite& suite, const StabilityRun& run, const Inputs& in
                        [&](std::size_t a, std::size_t b) { return on_first_s[a] < on_first_s[b]; });
     }
     ++done;
-    if (run.progress)
-      run.progress("stability: " + suite.name, static_cast<double>(done) / static_cast<double>(std::size(inputs)));
+    report_progress(run.progress, "stability: " + suite.name,
+                    static_cast<double>(done) / static_cast<double>(std::size(inputs)));
   }
 }
 

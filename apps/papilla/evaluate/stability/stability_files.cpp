@@ -77,7 +77,7 @@ std::string outcome_class(Outcome outcome) {
 
 }  // namespace
 
-StabilityTables run_stability_suites(const Progress& progress, const Budget& budget) {
+StabilityTables run_stability_suites(const ProgressCallback& progress, const Budget& budget) {
   StabilityTables tables;
   for (std::size_t left = k_suites.size(); left > 0; --left)  // the dearest last: they get what the others leave
     tables.push_back(k_suites[left - 1]({progress, budget.share(left)}));

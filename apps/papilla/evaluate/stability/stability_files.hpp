@@ -15,7 +15,7 @@ using StabilityTables = std::vector<StabilitySuite>;
 inline constexpr double k_stability_seconds = 3600;
 
 /// All suites. Deterministic but for times and what the budget leaves out.
-StabilityTables run_stability_suites(const Progress& progress, const Budget& budget);
+StabilityTables run_stability_suites(const ProgressCallback& progress, const Budget& budget);
 
 /// suites[] {name, title, error_name, residual_name, cells[] {method, input, outcome, error, residual, iterations,
 /// seconds, note}}; numbers without meaning are null.

@@ -15,7 +15,8 @@ namespace papilla {
 /// CAD surfaces are tessellated; faces that could not be are named in Scene::losses.
 /// @throws IoError when the file can't be read; InvalidInput when the extension is unknown (the message lists
 ///         the known ones) or the content is not what the extension says.
-Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {}, const Progress& progress = {});
+Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {},
+                 const ProgressCallback& progress = {});
 
 /// Writes a file by its extension, in any case: .glb, .obj, .off, .ply, .stl.
 /// @returns what the format has no place for, one sentence each (Scene::losses are not repeated).

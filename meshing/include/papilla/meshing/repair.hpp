@@ -16,7 +16,7 @@ struct RepairOptions {
                                          ///< 0: gaps stay.
   double fill_holes_mm = 0;              ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
   std::size_t max_passes = 8;            ///< At least 1.
-  Progress progress = {};                ///< Told the fraction done; may be empty.
+  ProgressCallback progress = {};        ///< Told the fraction done; may be empty.
 };
 
 /// What each operation did, summed over the passes.

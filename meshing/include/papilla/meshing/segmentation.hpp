@@ -24,7 +24,7 @@ struct SegmentationOptions {
   /// The direction in the surface in which grain should run at a place with this outward normal. When given, charts are
   /// joined over feature edges only where the grain goes on in its direction.
   std::function<Vec3(Vec3)> grain = {};
-  Progress progress = {};  ///< Told the fraction done; may be empty.
+  ProgressCallback progress = {};  ///< Told the fraction done; may be empty.
 };
 
 /// The distortion D, measured on the map of a chart, from which on the chart is better cut in two: 3 λ. A cut as long

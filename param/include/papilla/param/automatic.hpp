@@ -12,7 +12,7 @@ namespace papilla {
 
 /// Options of flatten_automatic(). Angles apart, all is dimensionless.
 struct AutomaticOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   /// A chart may be developable when the angles around no interior vertex miss 2π by more; in degrees, in [0, 360].
   double developable_deg = 0.05;
   /// It is when its conformal map has a mean symmetric Dirichlet energy of at most 4 plus this; at least 0.

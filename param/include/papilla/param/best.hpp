@@ -10,7 +10,7 @@ namespace papilla {
 
 /// Options of flatten_best(). All are dimensionless, so one set of values serves every size of chart.
 struct BestOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   /// Stop when an iteration lowers the energy by less than this fraction, and its slope promised no more, or when full
   /// steps have less than it still to gain, by how the last one's gain and the slopes go down; in (0, 1).
   double tolerance = 1e-3;

@@ -46,7 +46,7 @@ struct LevyIsoLine {
 };
 
 struct LevyOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   LevyWeights weights = LevyWeights::mean_value;
   LevyBorder border = LevyBorder::free;
   LevyCoupling coupling = LevyCoupling::conformal;

@@ -13,7 +13,7 @@ enum class LscmSolver {
 };
 
 struct LscmOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   LscmSolver solver = LscmSolver::cgal;
   /// What a chart gets that has no valid map: one as flatten_best() makes, or planar projections of its pieces when it
   /// is no disk, with a note; or, when false, an exception.

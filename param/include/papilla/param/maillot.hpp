@@ -20,7 +20,7 @@ enum class MaillotStart {
 };
 
 struct MaillotOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   double length_weight = 0.5;  ///< φ, in [0, 1].
   MaillotSolver solver = MaillotSolver::gauss_newton;
   MaillotStart start = MaillotStart::coarse_to_fine;

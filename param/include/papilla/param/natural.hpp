@@ -7,7 +7,7 @@
 namespace papilla {
 
 struct NaturalOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   bool fall_back = true;  ///< Triangles without parameters, or turned over by them, get triplanar pieces; false: throw.
   TriplanarOptions projection;  ///< Of the fallback; its `up` is taken from here.
 };

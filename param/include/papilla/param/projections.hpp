@@ -17,7 +17,7 @@ struct ProjectionResult {
 };
 
 struct PlanarOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   /// Outward direction of the plane; not given: the dominant normal (of greatest Σ A (n·d)²), on the side that more of
   /// the surface faces.
   std::optional<Vec3> direction;
@@ -43,7 +43,7 @@ enum class IntermediateRule {
 };
 
 struct IntermediateOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   IntermediateShape shape = IntermediateShape::box;
   IntermediateRule rule = IntermediateRule::intermediate_normal;
   /// Of reflected_ray; not given: in front of the object, three times its size away.
@@ -66,7 +66,7 @@ struct IntermediateOptions {
 ProjectionResult flatten_intermediate(const TriangleMesh& mesh, const IntermediateOptions& options = {});
 
 struct EnvironmentOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   std::optional<Vec3> eye;  ///< Not given: in front of the object, three times its size away; it looks at its middle.
 };
 

@@ -14,7 +14,7 @@ enum class ReferenceMap {
 };
 
 struct ReferenceOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   ReferenceMap map = ReferenceMap::arap;
   double arap_lambda = 1000;     ///< CGAL's λ: 0 keeps angles, larger values keep lengths; not negative.
   int arap_iterations = 50;      ///< At most; at least 1.

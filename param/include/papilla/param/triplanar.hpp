@@ -12,7 +12,7 @@ namespace papilla {
 /// Options of flatten_triplanar(). Every length ratio is dimensionless, so one set of values serves a
 /// 5 mm button and a 5 m car body alike.
 struct TriplanarOptions {
-  GrainUp up = GrainUp::z;
+  UpAxis up = UpAxis::z;
   /// How oblique, as |n·axis|, a triangle may lie to the axis it is moved to in order to straighten a class border;
   /// in [0.05, 0.577]. 0.5 stretches by a factor of 2 at most.
   double smoothing_cosine = 0.5;

@@ -111,7 +111,7 @@ struct TextureValues {
 struct RenderOptions {
   int width = 256, height = 256;  ///< Texels. @pre 1 to 65536 each, and at most 2^30 in all.
   unsigned channels = 1U << static_cast<unsigned>(Channel::main);  ///< Bits by Channel.
-  Progress progress;
+  ProgressCallback progress;
 };
 
 struct RenderedTexture {

@@ -39,6 +39,6 @@ FeatureMatrix feature_matrix(const GreyImage& image);
 /// a direct sum: no transform gives it. Exact for 8-bit pictures (sums of whole steps).
 /// Cost: O(pixels²): about 0.1 s at 256², 20 s at 1024², shared by the threads. Independent of their number.
 /// @throws InvalidInput as feature_matrix(), and for pictures over 2048 pixels a side.
-FeatureMatrix absolute_feature_matrix(const GreyImage& image, const Progress& progress = {});
+FeatureMatrix absolute_feature_matrix(const GreyImage& image, const ProgressCallback& progress = {});
 
 }  // namespace papilla

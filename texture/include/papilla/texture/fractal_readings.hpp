@@ -24,7 +24,7 @@ inline constexpr int k_least_fractal_side = 32, k_least_probability_side = 66;
 
 /// All methods on one picture. Cost: the sum of theirs, about 0.3 µs a pixel. Deterministic.
 /// @throws InvalidInput when the picture is empty or not finite.
-FractalReadings read_fractal_dimensions(const GreyImage& image, const Progress& progress = {});
+FractalReadings read_fractal_dimensions(const GreyImage& image, const ProgressCallback& progress = {});
 
 /// The readings of a picture too large for memory from those of its pieces: the mean over the pieces of every number,
 /// curves as geometric means at the scales all pieces have, for fshot the ellipse through the mean Hurst exponents. The

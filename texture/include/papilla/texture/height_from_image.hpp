@@ -59,7 +59,7 @@ struct HeightOptions {
   /// HeightResult::tile. The relief is that of the symmetric part; `whole` and `residual` become `synthesized`, because
   /// what does not repeat can't tile. Needs a lattice.
   bool tile = false;
-  Progress progress = {};
+  ProgressCallback progress = {};
 };
 
 /// What height_from_image() returns.

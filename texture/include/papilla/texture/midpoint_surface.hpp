@@ -22,7 +22,7 @@ struct MidpointOptions {
   bool periodic = false;  ///< Tiles: 2^levels samples a side instead of 2^levels + 1.
   MidpointRule rule = MidpointRule::corrected;
   std::uint64_t seed = 1;
-  Progress progress = {};
+  ProgressCallback progress = {};
 };
 
 /// Fractal surface by midpoint displacement, in units in which points one side apart differ by variance 1.

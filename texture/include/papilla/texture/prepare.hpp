@@ -29,7 +29,7 @@ struct PrepareOptions {
   double plasticity = 0;  ///< Detail finer than 1 % of the side is raised by this factor, 0 to 4.
   BorderMatching borders = BorderMatching::automatic;
   bool contrast = true;  ///< Stretches the 0.5 to 99.5 percentiles to [0, 1].
-  Progress progress = {};
+  ProgressCallback progress = {};
 };
 
 /// What prepare_picture() measures before and after.

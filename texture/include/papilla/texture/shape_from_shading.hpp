@@ -23,7 +23,7 @@ struct ShadingOptions {
   double smoothness = 0.05;  ///< variational: λ below, positive.
   /// Longer pictures are solved in overlapping pieces of half of this, at least 64; see below.
   int largest_piece_px = 2048;
-  Progress progress = {};
+  ProgressCallback progress = {};
 };
 
 /// Pictures of any size: those longer than `largest_piece_px` are cut into pieces, several of which are solved at a

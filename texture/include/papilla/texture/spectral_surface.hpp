@@ -18,7 +18,7 @@ struct SpectralSurfaceOptions {
   std::uint64_t seed = 1;
   std::optional<double> hurst_across = {};  ///< H across `angle_deg`; `hurst` then is that along it.
   double angle_deg = 0;                     ///< From x (right) towards y (down).
-  Progress progress = {};
+  ProgressCallback progress = {};
 };
 
 /// Periodic Gaussian surface with spectral density ∝ |k|^(−2H−2) between the two wavelengths and rms height 1:

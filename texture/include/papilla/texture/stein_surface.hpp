@@ -13,7 +13,7 @@ struct BrownianSurfaceOptions {
   int size = 257;      ///< Samples a side, 2 to 2049.
   double hurst = 0.5;  ///< H in (0, 1); the dimension is 3 − H.
   std::uint64_t seed = 1;
-  Progress progress = {};
+  ProgressCallback progress = {};
 };
 
 /// Exact fractional Brownian surface: a Gaussian random field with

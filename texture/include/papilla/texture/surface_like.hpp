@@ -17,7 +17,7 @@ struct SurfaceLikeOptions {
   int size = 256;  ///< Samples a side, 64 to 4096.
   int rounds = 6;  ///< Most corrections of the two Hurst exponents.
   std::uint64_t seed = 1;
-  Progress progress = {};
+  ProgressCallback progress = {};
 };
 
 /// What surface_like() returns.

@@ -28,6 +28,6 @@ enum class FeatureKind { squared, absolute };
 /// their centred 2048 × 2048 pixels, which bounds time and memory.
 /// Cost: about 10 ms at 256². Deterministic. @throws InvalidInput when the picture is empty or not finite.
 SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& options = {},
-                                  FeatureKind feature = FeatureKind::squared, const Progress& progress = {});
+                                  FeatureKind feature = FeatureKind::squared, const ProgressCallback& progress = {});
 
 }  // namespace papilla

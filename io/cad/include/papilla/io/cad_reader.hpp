@@ -101,7 +101,7 @@ struct CadReport {
 /// @throws IoError when the file can't be opened; InvalidInput when options are out of range, or the file is of another
 ///         kind, truncated, damaged, holds no face, or makes the library crash, hang or run out of memory.
 Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options = {}, CadReport* report = nullptr,
-               const Progress& progress = {});
+               const ProgressCallback& progress = {});
 
 /// True for the extensions of the formats read_cad() reads, in any case: .step .stp .p21 .iges .igs .brep .brp.
 bool is_cad_extension(const std::filesystem::path& path);

@@ -30,6 +30,6 @@ std::vector<double> chord_ladder(double coarsest_mm, double finest_mm, std::size
 /// @throws as read_cad().
 std::vector<TessellationSample> trace_tessellation(const std::filesystem::path& path,
                                                    const std::vector<double>& chords_mm, CadReadOptions options = {},
-                                                   const Progress& progress = {});
+                                                   const ProgressCallback& progress = {});
 
 }  // namespace papilla

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/core/up_axis.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
 namespace papilla {
@@ -88,8 +89,6 @@ struct Node {
   std::optional<std::uint32_t> part;
   std::string extras_json;
 };
-
-enum class UpAxis { y, z };
 
 /// What a file holds, in millimetres, in the file's own axes.
 ///
