@@ -14,4 +14,18 @@ std::string_view to_string(StopReason reason) noexcept {
   return "unknown";
 }
 
+StopReason worse(StopReason a, StopReason b) noexcept {
+  const auto severity = [](StopReason stop) {
+    switch (stop) {
+      case StopReason::direct: return 0;
+      case StopReason::converged: return 1;
+      case StopReason::line_search_stalled: return 2;
+      case StopReason::iteration_limit: return 3;
+      case StopReason::time_limit: return 4;
+    }
+    return 0;
+  };
+  return severity(b) > severity(a) ? b : a;
+}
+
 }  // namespace papilla

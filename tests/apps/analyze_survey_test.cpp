@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "analyze/survey.hpp"
+#include "papilla/pipeline/texture_survey.hpp"
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/bake.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -87,7 +87,7 @@ class BakeTest : public testing::Test {
   }
 
   const fs::path folder_ = fs::temp_directory_path() / ("papilla-bake-" + std::to_string(::getpid()));
-  MaterialsFile rules_;
+  Materials rules_;
   std::vector<Surface> surfaces_;
 };
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "evaluate/built_in.hpp"
+#include "papilla/pipeline/evaluate/built_in.hpp"
 #include "evaluate/environment.hpp"
 #include "evaluate/evaluation_files.hpp"
 #include "evaluate/pareto.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "evaluate/evaluation.hpp"
+#include "papilla/pipeline/evaluate/evaluation.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/grain.hpp"
 

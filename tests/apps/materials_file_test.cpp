@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/materials_file.hpp"
+#include "papilla/pipeline/materials.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bake/grain_material.hpp"
+#include "papilla/pipeline/grain.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::app {
@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class MaterialsFileTest : public testing::Test {
+class MaterialsTest : public testing::Test {
  protected:
-  MaterialsFileTest() { fs::create_directories(folder_); }
-  ~MaterialsFileTest() override { fs::remove_all(folder_); }
+  MaterialsTest() { fs::create_directories(folder_); }
+  ~MaterialsTest() override { fs::remove_all(folder_); }
 
-  MaterialsFile read(const std::string& text) {
+  Materials read(const std::string& text) {
     std::ofstream(path_) << text;
-    return read_materials_file(path_);
+    return read_materials(path_);
   }
   /// The message that reading `text` ends with.
   std::string complaint(const std::string& text) {
@@ -38,8 +38,8 @@ class MaterialsFileTest : public testing::Test {
   const fs::path path_ = folder_ / "materials.json";
 };
 
-TEST_F(MaterialsFileTest, ReadsTheDocumentedExample) {
-  const MaterialsFile file = read(R"({"materials": {
+TEST_F(MaterialsTest, ReadsTheDocumentedExample) {
+  const Materials file = read(R"({"materials": {
       "grain": {"texture": "grain.png", "size_mm": [40, 30], "stiffness": 900, "damping": 0.4, "staticFriction": 0.45,
                 "dynamicFriction": 0.35, "height": {"method": "auto", "depth_mm": 0.3, "scale": 2}, "unwrap": "auto"},
       "chrome": {"stiffness": 2000}},
@@ -58,8 +58,8 @@ TEST_F(MaterialsFileTest, ReadsTheDocumentedExample) {
   EXPECT_TRUE(file.assign[2].material.empty());
 }
 
-TEST_F(MaterialsFileTest, ReadsHowASurfaceHoldsAndShades) {
-  const MaterialsFile file = read(R"({"materials": {
+TEST_F(MaterialsTest, ReadsHowASurfaceHoldsAndShades) {
+  const Materials file = read(R"({"materials": {
       "cloth": {"frictionModel": {"name": "bristle", "stiffness": 400}, "forceShading": true}, "plain": {}}})");
   const MaterialRule& cloth = file.materials.at("cloth");
   ASSERT_TRUE(cloth.friction_model);
@@ -85,8 +85,8 @@ TEST_F(MaterialsFileTest, ReadsHowASurfaceHoldsAndShades) {
   EXPECT_NE(of(R"({"forceShading": 1})").find("must be true or false"), std::string::npos);
 }
 
-TEST_F(MaterialsFileTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {
-  const MaterialsFile file = read(R"({"materials": {"a": {}, "b": {}, "c": {}}, "assign": [
+TEST_F(MaterialsTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {
+  const Materials file = read(R"({"materials": {"a": {}, "b": {}, "c": {}}, "assign": [
       {"part": "dash*", "cad_colour": "#000000", "material": "a"}, {"part": "dash_?", "material": "b"},
       {"gltf_material": "Lea*", "material": "c"}]})");
   EXPECT_EQ(match_rule(file, "dash_1", "#000000", "")->material, "a");
@@ -95,7 +95,7 @@ TEST_F(MaterialsFileTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {
   EXPECT_EQ(match_rule(file, "seat", "#000000", "Wood"), nullptr);
 }
 
-TEST_F(MaterialsFileTest, NamesTheJsonPointerOfWhatIsWrong) {
+TEST_F(MaterialsTest, NamesTheJsonPointerOfWhatIsWrong) {
   EXPECT_NE(complaint(R"({"materials": {"a/b": {"stiffness": -3}}})").find("/materials/a~1b/stiffness"),
             std::string::npos);
   EXPECT_NE(complaint(R"({"materials": {"a": {"size_mm": [40]}}})").find("/materials/a/size_mm"), std::string::npos);
@@ -112,9 +112,9 @@ TEST_F(MaterialsFileTest, NamesTheJsonPointerOfWhatIsWrong) {
   EXPECT_NE(complaint("[]").find("must be an object"), std::string::npos);
 }
 
-TEST_F(MaterialsFileTest, AMissingFileOrAFolderIsAnIoError) {
-  EXPECT_THROW(read_materials_file(folder_ / "none.json"), IoError);
-  EXPECT_THROW(read_materials_file(folder_), IoError);
+TEST_F(MaterialsTest, AMissingFileOrAFolderIsAnIoError) {
+  EXPECT_THROW(read_materials(folder_ / "none.json"), IoError);
+  EXPECT_THROW(read_materials(folder_), IoError);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "papilla/core/error.hpp"
-#include "pictures/border_edges.hpp"
-#include "pictures/pixel_text.hpp"
-#include "pictures/scene_render.hpp"
+#include "papilla/pipeline/pictures/border_edges.hpp"
+#include "papilla/pipeline/pictures/pixel_text.hpp"
+#include "papilla/pipeline/pictures/scene_render.hpp"
 
 namespace papilla::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/plan.hpp"
+#include "papilla/pipeline/bake_stages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pictures/plot.hpp"
+#include "papilla/pipeline/pictures/plot.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shared_parts.hpp"
+#include "papilla/pipeline/shared_parts.hpp"
 
 #include <gtest/gtest.h>
 

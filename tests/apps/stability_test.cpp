@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "evaluate/stability/extreme_meshes.hpp"
+#include "evaluate/extreme_meshes.hpp"
 #include "evaluate/stability/stability_files.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/statistics.hpp"

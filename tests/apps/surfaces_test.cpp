@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/surfaces.hpp"
+#include "papilla/pipeline/bake_plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ Part square(const std::string& name, double units) {
   return part;
 }
 
-MaterialsFile rules() {
-  MaterialsFile file;
+Materials rules() {
+  Materials file;
   file.materials["grain"].name = "grain";
   file.materials["grain"].texture = "grain.png";
   file.materials["hard"].name = "hard";
@@ -37,7 +37,7 @@ MaterialsFile rules() {
 }
 
 TEST(Surfaces, LeaveOutWhatAPartDoesNotNeed) {
-  const MaterialsFile file = rules();
+  const Materials file = rules();
   Scene scene;
   scene.format = "STL";
   scene.parts = {square("dash", 0), square("knob", 0), square("floor", 0)};
@@ -50,7 +50,7 @@ TEST(Surfaces, LeaveOutWhatAPartDoesNotNeed) {
 }
 
 TEST(Surfaces, MeasureTheScaleOfUsableUv) {
-  const MaterialsFile file = rules();
+  const Materials file = rules();
   Scene scene;
   scene.parts = {square("dash", 0.25)};
   const auto surfaces = plan_surfaces(scene, file);
@@ -59,7 +59,7 @@ TEST(Surfaces, MeasureTheScaleOfUsableUv) {
 }
 
 TEST(Surfaces, ReplaceUvThatIsCollapsedMirroredStretchedOrNotANumber) {
-  const MaterialsFile file = rules();
+  const Materials file = rules();
   Scene scene;
   scene.parts = {square("dash 1", 1), square("dash 2", 1), square("dash 3", 1), square("dash 4", 1)};
   for (Vec2& uv : scene.parts[0].mesh.uv.values) uv.y = 0;
@@ -71,7 +71,7 @@ TEST(Surfaces, ReplaceUvThatIsCollapsedMirroredStretchedOrNotANumber) {
 }
 
 TEST(Surfaces, APartWithTwoMaterialsHasTwoSurfaces) {
-  const MaterialsFile file = rules();
+  const Materials file = rules();
   Scene scene;
   scene.materials.resize(2);
   scene.materials[0].name = "a";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "unwrap/unwrap.hpp"
+#include "papilla/pipeline/unwrap_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "distortion_report.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
 #include "exit_code.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/measure.hpp"

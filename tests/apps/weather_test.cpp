@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "weather/weather.hpp"
+#include "papilla/pipeline/weather_scene.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "bake/grain_material.hpp"
+#include "papilla/pipeline/grain.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/temporary_folder.hpp"
 #include "papilla/haptic/material_tag.hpp"

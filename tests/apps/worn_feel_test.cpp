@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/bake.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
 #include "papilla/io/haptic_scene.hpp"
@@ -20,7 +20,7 @@ struct Felt {
 
 /// A plate of 100 mm covered with the recipe, baked, and stroked by a probe held 0.5 mm below its plane.
 Felt stroke(const std::string& recipe, double time, const RecipeLibrary& library = RecipeLibrary::builtin()) {
-  MaterialsFile rules;
+  Materials rules;
   MaterialRule rule;
   rule.name = "wheel", rule.recipe = recipe, rule.texture = "/nonexistent/" + recipe;
   rule.time = time, rule.size_mm[0] = rule.size_mm[1] = 40, rule.height.depth_mm = 0.2;

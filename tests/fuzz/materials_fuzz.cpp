@@ -1,13 +1,13 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/materials_file.hpp"
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/materials.hpp"
 #include "fuzz_input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace papilla;
   const auto path = fuzz::write_input("input.json", fuzz::text_of(data, size));
   fuzz::expect_result_or_refusal([&] {
-    const app::MaterialsFile file = app::read_materials_file(path);
-    if (const app::AssignRule* rule = app::match_rule(file, "dash left", "#202020", "Leather"); rule != nullptr)
+    const Materials file = read_materials(path);
+    if (const AssignRule* rule = match_rule(file, "dash left", "#202020", "Leather"); rule != nullptr)
       fuzz::require(rule->material.empty() || file.materials.contains(rule->material), "a rule names a material");
   });
   return 0;

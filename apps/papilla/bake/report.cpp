@@ -9,13 +9,13 @@
 #include <optional>
 #include <set>
 
-#include "distortion_report.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/meshing/sight_lines.hpp"
-#include "pictures/relief.hpp"
-#include "pictures/scene_render.hpp"
-#include "pictures/uv_layout.hpp"
+#include "papilla/pipeline/pictures/relief.hpp"
+#include "papilla/pipeline/pictures/scene_render.hpp"
+#include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "placed_meshes.hpp"
 
 namespace papilla::app {

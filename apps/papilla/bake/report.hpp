@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bake/bake.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 
 namespace papilla::app {
 

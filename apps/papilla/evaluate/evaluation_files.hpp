@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/evaluation.hpp"
+#include "papilla/pipeline/evaluate/evaluation.hpp"
 
 namespace papilla::app {
 

@@ -8,7 +8,7 @@
 #include "evaluate/evaluation_files.hpp"
 #include "evaluate/pareto.hpp"
 #include "papilla/core/bounds.hpp"
-#include "pictures/plot.hpp"
+#include "papilla/pipeline/pictures/plot.hpp"
 
 namespace papilla::app {
 namespace {

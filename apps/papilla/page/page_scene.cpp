@@ -7,7 +7,7 @@
 #include <atomic>
 #include <map>
 
-#include "distortion_report.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
 #include "page/page_mesh.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "unwrap/held.hpp"
+#include "papilla/pipeline/placed_constraints.hpp"
 
 namespace papilla::app {
 

@@ -7,15 +7,15 @@
 #include <span>
 #include <utility>
 
-#include "analyze/survey.hpp"
+#include "papilla/pipeline/texture_survey.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/analysis_pictures.hpp"
 #include "papilla/texture/frieze_group.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
-#include "pictures/pixel_text.hpp"
-#include "pictures/texture_plots.hpp"
+#include "papilla/pipeline/pictures/pixel_text.hpp"
+#include "papilla/pipeline/pictures/texture_plots.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/bake.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 
 #include <fmt/core.h>
 
@@ -16,8 +16,8 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/glb_writer.hpp"
-#include "recipe_source.hpp"
-#include "scene_budget.hpp"
+#include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
 #include "verb.hpp"
@@ -69,7 +69,7 @@ Json run_bake(const Options& options, VerbContext& context) {
     throw UsageError("--output: '" + options.output + "' must end in .glb");
   if (!options.report.empty()) prepare_folder(options.report);
   const Stopwatch total;
-  const MaterialsFile rules = read_materials_file(options.materials);
+  const Materials rules = read_materials(options.materials);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   std::map<std::string, double> seconds = {{"read", total.seconds()}};
   const Stopwatch prepare_clock;

@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "evaluate/built_in.hpp"
+#include "papilla/pipeline/evaluate/built_in.hpp"
 #include "evaluate/evaluation_files.hpp"
 #include "evaluate/stability/stability_files.hpp"
 #include "exit_code.hpp"

@@ -9,12 +9,12 @@
 #include <memory>
 
 #include "exit_code.hpp"
-#include "height_file.hpp"
+#include "papilla/pipeline/height_file.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
-#include "pictures/relief.hpp"
-#include "pictures/texture_plots.hpp"
+#include "papilla/pipeline/pictures/relief.hpp"
+#include "papilla/pipeline/pictures/texture_plots.hpp"
 #include "vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"

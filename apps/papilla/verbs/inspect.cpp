@@ -6,13 +6,13 @@
 #include <set>
 #include <utility>
 
-#include "leave_out.hpp"
-#include "mesh_report.hpp"
+#include "papilla/pipeline/perception.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/scene_file.hpp"
-#include "pictures/scene_render.hpp"
-#include "scene_budget.hpp"
+#include "papilla/pipeline/pictures/scene_render.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
 #include "verb.hpp"

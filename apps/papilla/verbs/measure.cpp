@@ -5,11 +5,11 @@
 #include <charconv>
 #include <memory>
 
-#include "distortion_report.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
 #include "exit_code.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
-#include "pictures/uv_layout.hpp"
+#include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
 #include "verb.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
-#include "bake/surfaces.hpp"
+#include "papilla/pipeline/bake_plan.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
 #include "verb.hpp"
@@ -21,7 +21,7 @@ void add_plan(CLI::App& program) {
       {"plan", "Show what bake would do, surface by surface, and why; writes nothing.",
        "papilla plan data/cockpit.step -m data/cockpit.materials.json"},
       [options](VerbContext& context) {
-        const MaterialsFile rules = read_materials_file(options->materials);
+        const Materials rules = read_materials(options->materials);
         Scene scene = read_scene(options->input, options->scene.read_options(), context.progress);
         const std::vector<SharedPart> shared = share_identical_parts(scene, rules);
         const LeaveOutResult perception = measure_perception(scene, options->leave_out, context.progress);

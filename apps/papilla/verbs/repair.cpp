@@ -8,13 +8,13 @@
 #include <memory>
 #include <optional>
 
-#include "mesh_report.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/deviation.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
-#include "shared_parts.hpp"
+#include "papilla/pipeline/shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

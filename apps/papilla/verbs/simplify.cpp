@@ -11,15 +11,15 @@
 #include <optional>
 
 #include "exit_code.hpp"
-#include "leave_out.hpp"
-#include "levels.hpp"
+#include "papilla/pipeline/perception.hpp"
+#include "papilla/pipeline/levels.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/scene_file.hpp"
-#include "scene_budget.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
-#include "shared_parts.hpp"
+#include "papilla/pipeline/shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "exit_code.hpp"
-#include "height_file.hpp"
+#include "papilla/pipeline/height_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/midpoint_surface.hpp"

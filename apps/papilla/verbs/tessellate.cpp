@@ -12,7 +12,7 @@
 #include "papilla/io/scene_file.hpp"
 #include "scene_options.hpp"
 #include "scene_output.hpp"
-#include "shared_parts.hpp"
+#include "papilla/pipeline/shared_parts.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numeric>
 
-#include "contact_sheet.hpp"
+#include "papilla/pipeline/contact_sheet.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -16,7 +16,7 @@
 #include "papilla/procedural/reference.hpp"
 #include "papilla/procedural/texture.hpp"
 #include "papilla/texture/normal_map.hpp"
-#include "recipe_source.hpp"
+#include "papilla/pipeline/recipe_source.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

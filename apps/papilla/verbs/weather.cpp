@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "weather/weather.hpp"
+#include "papilla/pipeline/weather_scene.hpp"
 
 #include <fmt/core.h>
 

@@ -6,7 +6,7 @@
 #include "html_text.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/io/image_file.hpp"
-#include "pictures/scene_render.hpp"
+#include "papilla/pipeline/pictures/scene_render.hpp"
 
 namespace papilla::app {
 namespace {

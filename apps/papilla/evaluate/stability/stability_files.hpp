@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/stability/stability.hpp"
+#include "papilla/pipeline/evaluate/stability.hpp"
 #include "verb.hpp"
 
 namespace papilla::app {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <mutex>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "papilla/core/error.hpp"
 
@@ -29,5 +33,27 @@ class Cancelled : public Error {
 inline void report_progress(const ProgressCallback& callback, std::string_view stage, double fraction) {
   if (callback && !callback({stage, fraction})) throw Cancelled("cancelled during '" + std::string(stage) + "'");
 }
+
+/// One stage's progress, counted by several threads.
+class SharedProgress {
+ public:
+  /// @param total What the amounts of add() come to in the end; > 0.
+  SharedProgress(ProgressCallback callback, std::string stage, double total)
+      : callback_(std::move(callback)), stage_(std::move(stage)), total_(total) {}
+
+  /// @throws Cancelled as report_progress().
+  void add(double amount) {
+    if (!callback_) return;
+    const std::scoped_lock lock(mutex_);
+    done_ += amount;
+    report_progress(callback_, stage_, std::min(1.0, done_ / total_));
+  }
+
+ private:
+  ProgressCallback callback_;
+  std::string stage_;
+  double total_, done_ = 0;
+  std::mutex mutex_;
+};
 
 }  // namespace papilla

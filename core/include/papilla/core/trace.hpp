@@ -21,6 +21,9 @@ enum class StopReason { converged, direct, iteration_limit, time_limit, line_sea
 /// The reason's name as reports print it, for example "iteration_limit".
 std::string_view to_string(StopReason reason) noexcept;
 
+/// The ending that promises less: direct, converged, line search stalled, iteration limit, time limit, in this order.
+StopReason worse(StopReason a, StopReason b) noexcept;
+
 /// Wall clock that starts when it is made.
 class Stopwatch {
  public:

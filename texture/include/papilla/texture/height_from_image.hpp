@@ -13,6 +13,7 @@
 #include "papilla/texture/commensurate_tile.hpp"
 #include "papilla/texture/height_map.hpp"
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/lattice.hpp"
 
 namespace papilla {
 
@@ -59,6 +60,7 @@ struct HeightOptions {
   /// HeightResult::tile. The relief is that of the symmetric part; `whole` and `residual` become `synthesized`, because
   /// what does not repeat can't tile. Needs a lattice.
   bool tile = false;
+  std::optional<Lattice> lattice = {};  ///< Of the picture, when it is known; else analyze_symmetry() finds it.
   ProgressCallback progress = {};
 };
 

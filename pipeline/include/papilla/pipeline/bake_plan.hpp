@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "papilla/core/progress.hpp"
+#include "papilla/io/scene.hpp"
+#include "papilla/meshing/triangle_budget.hpp"
+#include "papilla/pipeline/bake_stages.hpp"
+#include "papilla/pipeline/materials.hpp"
+#include "papilla/pipeline/perception.hpp"
+#include "papilla/pipeline/shared_parts.hpp"
+
+namespace papilla {
+
+/// The triangles of one part that share one material: what a rule is assigned to and a plan is made for.
+struct PartSurface {
+  std::uint32_t part = 0;
+  std::uint32_t slot = 0;                ///< Of Part::materials.
+  std::vector<std::uint32_t> triangles;  ///< Of the part's mesh, ascending.
+  std::string material;                  ///< Name of an entry of Materials::materials; empty: nothing is assigned.
+  double uv_mm_per_unit = 0;             ///< Millimetres of surface per unit of its own uv; 0 without uv.
+  std::string uv_note;                   ///< What was found about its own uv.
+  bool is_left_out = false;              ///< With its whole part.
+  SurfacePlan plan;
+  std::string label;  ///< "part", or "part/material" when the part has several materials.
+};
+
+/// What comes before the baking of surfaces.
+struct BakePlanOptions {
+  PerceptionOptions perception;       ///< Parts to be left out.
+  std::optional<std::size_t> budget;  ///< Triangles that the scene may draw.
+};
+
+/// A scene made ready to be baked, and what shall be done to each of its surfaces.
+struct BakePlan {
+  Scene scene;  ///< Identical parts that are assigned the same rules are shared; within the budget.
+  std::vector<PartSurface> surfaces;
+  std::vector<SharedPart> shared;
+  ScenePerception perception;
+  std::optional<BudgetResult> budget;  ///< Without its parts' meshes.
+  double perception_seconds = 0, simplify_seconds = 0;
+};
+
+/// Finds the surfaces of a scene, assigns the rules and decides for every surface which stages it needs. Nothing is
+/// computed that a decision does not rest on.
+/// @throws InvalidInput as measure_perception() and fit_scene_to_budget().
+BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options = {},
+                   const ProgressCallback& progress = {});
+
+/// The decisions for a scene as it is: nothing is shared, left out or simplified.
+/// @param perception Of the scene's parts; empty when nothing was asked.
+std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rules,
+                                       const std::vector<PartPerception>& perception = {});
+
+/// The rule that `rules` assign to a part's material slot by the names of part and material and by colour, or nullptr.
+const MaterialRule* assigned_rule(const Scene& scene, const Part& part, std::size_t slot, const Materials& rules);
+
+/// Makes identical parts that are assigned the same rules one part, so that each class is baked once.
+std::vector<SharedPart> share_identical_parts(Scene& scene, const Materials& rules);
+
+/// "#rrggbb" in sRGB of a linear colour.
+std::string hex_colour(const std::array<double, 4>& linear);
+
+/// A linear colour of "#rrggbb" in sRGB.
+std::array<double, 4> linear_colour(const std::string& hex);
+
+}  // namespace papilla

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "papilla/core/progress.hpp"
+#include "papilla/io/scene.hpp"
+#include "papilla/param/measure.hpp"
+#include "papilla/pipeline/bake_plan.hpp"
+#include "papilla/pipeline/grain.hpp"
+#include "papilla/pipeline/materials.hpp"
+#include "papilla/pipeline/unwrap_scene.hpp"
+
+namespace papilla {
+
+/// Options of bake_scene().
+struct BakeOptions {
+  BakePlanOptions plan;
+  UnwrapOptions unwrap;  ///< Method, repair, layout and tile are set per surface by its material and plan.
+  RecipeLibrary library = RecipeLibrary::builtin();  ///< What the rules' recipes may name.
+};
+
+/// A surface with grain, as it was baked.
+struct BakedSurface {
+  std::uint32_t part = 0;
+  std::string label, material;
+  std::string method, reason;  ///< Of the unwrap; "kept" when its own uv stays.
+  std::uint32_t charts = 0;
+  double seam_mm = 0;
+  double grain_continued_mm = 0;  ///< Of the seam: where the grain goes on.
+  std::vector<std::string> notes;
+  DistortionReport distortion;
+  TriangleMesh mesh;  ///< The surface with uv in millimetres.
+};
+
+struct BakeResult {
+  BakePlan plan;                          ///< Without its scene.
+  Scene scene;                            ///< With uv, textures and haptic tags; ready to be written.
+  std::map<std::string, Grain> grains;    ///< By material.
+  std::vector<BakedSurface> surfaces;     ///< Those with grain.
+  std::vector<Vec2> mm_per_uv;            ///< Per material of `scene`; 0 when unknown.
+  std::map<std::string, double> seconds;  ///< Per stage: summed over the surfaces.
+};
+
+/// The main job: plan_bake(), then for every surface what its plan says and nothing else. Surfaces run in parallel; the
+/// result does not depend on the number of threads.
+/// @throws InvalidInput, IoError, SolverFailure naming the part or picture.
+BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options = {},
+                      const ProgressCallback& progress = {});
+
+}  // namespace papilla

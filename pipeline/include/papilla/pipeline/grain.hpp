@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "papilla/core/trace.hpp"
+#include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/scene.hpp"
+#include "papilla/pipeline/materials.hpp"
+#include "papilla/procedural/library.hpp"
+#include "papilla/texture/height_map.hpp"
+#include "papilla/texture/image.hpp"
+#include "papilla/texture/roughness.hpp"
+#include "papilla/texture/texture_class.hpp"
+
+namespace papilla {
+
+/// How a grain's relief was found.
+struct GrainHeight {
+  std::string method, reason;                   ///< A HeightMethod's name, or "recipe".
+  std::optional<Vec3> light;                    ///< Of shape from shading; nothing for recipes.
+  bool light_estimated = false;
+  double depth_mm = 0, rms_mm = 0;              ///< Peak to valley; root mean square about the mean.
+  StopReason stop = StopReason::direct;
+};
+
+/// The lattice of a grain that repeats.
+struct GrainLattice {
+  std::string group;               ///< Wallpaper group.
+  std::array<Vec2, 2> period_mm{};
+};
+
+/// What the picture of a material becomes: relief to be felt, the same relief to be seen, and how the picture is shown.
+struct Grain {
+  std::string source;                   ///< The picture's file, or the recipe.
+  ColorImage photograph;                ///< The source as a picture, whether shown or not.
+  double size_mm[2] = {0, 0};           ///< What one repeat measures.
+  bool tiles = false;                   ///< The picture's borders match.
+  bool monochrome = false;
+  TextureClass kind;
+  std::optional<GrainLattice> lattice;
+  GrainHeight height;
+  Roughness roughness;                  ///< Of the relief.
+  HeightMap relief;                     ///< Scaled by the rule's height.scale.
+  EncodedImage height_png;              ///< 16-bit grey; decoded by MaterialTag::height.
+  EncodedImage normal_png;              ///< From the same relief.
+  std::optional<EncodedImage> picture;  ///< The base colour, when the picture is to be shown.
+  MaterialTag tag;                      ///< Height, roughness, symmetry, provenance; constants come from the rule.
+  double stiffness_factor = 1;          ///< Mean of a recipe's stiffness channel.
+  double analyze_seconds = 0, height_seconds = 0, normal_map_seconds = 0;
+};
+
+/// Analyses the rule's picture and turns it into relief; a recipe is computed at the rule's time.
+/// @param library  what recipes may name.
+/// @throws IoError, InvalidInput naming the picture or the place in the recipe.
+Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin());
+
+/// Copies the rule's haptic constants into a tag. @param stiffness_factor  multiplies the stiffness, the rule's or the
+/// tag's own.
+void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor = 1);
+
+}  // namespace papilla

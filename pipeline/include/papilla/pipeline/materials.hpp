@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "papilla/haptic/material_tag.hpp"
+
+namespace papilla {
+
+/// How a material's picture becomes relief.
+struct HeightRule {
+  std::string method = "auto";     ///< auto, variational, pentland, tsai-shah, intensity.
+  std::optional<double> depth_mm;  ///< Peak to valley; without it 1 % of the grain's shorter side.
+  double scale = 1;                ///< Multiplies the heights; 1, 2 and 4 are the tested variants.
+};
+
+/// One entry of "materials": what a surface looks and feels like. SI units as in the haptic tag.
+struct MaterialRule {
+  std::string name;
+  std::filesystem::path
+      texture;                 ///< Picture of the grain; empty: no grain. Absolute or relative to the working folder.
+  std::string recipe;          ///< What the file has as texture, in case it is a recipe.
+  double time = 0;             ///< Of a recipe: 0 new to 1 worn.
+  double size_mm[2] = {0, 0};  ///< Width and height that the picture shows; 0: from the picture's own resolution.
+  std::optional<double> stiffness;  ///< N/m
+  std::optional<double> damping;    ///< N·s/m
+  std::optional<double> static_friction, dynamic_friction, stribeck_velocity;
+  std::optional<FrictionTag> friction_model;
+  std::optional<bool> force_shading;
+  HeightRule height;
+  std::string unwrap = "auto";  ///< auto, triplanar, lscm.
+  std::string show = "auto";  ///< auto (coloured pictures), picture (as base colour), relief (keep the part's colour).
+  std::optional<std::string> color;  ///< "#RRGGBB" base colour instead of the scene's own.
+  std::optional<double> roughness, metallic;
+};
+
+/// One entry of "assign". The fields that are given must all match; the first matching rule wins.
+struct AssignRule {
+  std::optional<std::string> part;           ///< Shell pattern of the part's name.
+  std::optional<std::string> cad_colour;     ///< "#rrggbb", sRGB.
+  std::optional<std::string> gltf_material;  ///< Shell pattern of the material's name.
+  std::string material;                      ///< Name of an entry of "materials"; empty: leave the part alone.
+};
+
+struct Materials {
+  std::map<std::string, MaterialRule> materials;
+  std::vector<AssignRule> assign;
+};
+
+/// Reads MATERIALS.json; relative picture names are taken from the file's own folder.
+/// @throws IoError, InvalidInput naming the file and the JSON pointer of the offending value.
+Materials read_materials(const std::filesystem::path& path);
+
+/// The first rule that matches, or nullptr. `colour` is "#rrggbb".
+const AssignRule* match_rule(const Materials& file, std::string_view part, std::string_view colour,
+                             std::string_view material);
+
+}  // namespace papilla

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "papilla/core/progress.hpp"
+#include "papilla/io/scene.hpp"
+#include "papilla/meshing/triangle_budget.hpp"
+#include "papilla/pipeline/levels.hpp"
+#include "papilla/pipeline/perception.hpp"
+#include "papilla/pipeline/shared_parts.hpp"
+
+namespace papilla {
+
+/// What simplify_scene() aims at: a tolerance, a share of each part's triangles, or a budget for the whole scene.
+struct SimplifySceneOptions {
+  std::optional<double> tolerance_mm;  ///< Largest distance between input and result, per part.
+  std::optional<double> ratio;         ///< In (0, 1]: stop each part at this share of its triangles.
+  std::optional<std::size_t> budget;   ///< Triangles that the scene may draw; not together with the two above.
+  SimplifyOptions simplify;            ///< Its tolerance and target are replaced by the above.
+  LevelOptions levels;                 ///< Coarser levels of detail beside the result.
+  PerceptionOptions perception;        ///< Parts to be left out before.
+  bool keep_copies = false;            ///< Do not make identical parts instances of one.
+};
+
+struct SimplifySceneResult {
+  Scene scene;
+  std::vector<SharedPart> shared;
+  std::optional<ScenePerception> perception;  ///< When it was asked for.
+  std::vector<SimplifyResult> parts;          ///< In the order of Scene::parts; without their meshes.
+  std::vector<std::size_t> triangles;         ///< Of each part after.
+  std::optional<BudgetResult> budget;         ///< Without its parts.
+  std::vector<LevelReport> levels;
+  std::size_t triangles_before = 0, triangles_after = 0;    ///< Drawn: every part as often as nodes show it.
+  double max_deviation_mm = 0, max_deviation_met_mm = 0;    ///< Largest bound, largest distance that was met.
+  double seconds = 0;
+};
+
+/// simplify() of every part of a scene within a tolerance, to a share of its triangles, or simplify_to_budget() of all;
+/// identical parts are shared and parts that nobody perceives left out first. Parts run in parallel; the result does
+/// not depend on the number of threads.
+/// @throws InvalidInput naming the part; when a budget is combined with a tolerance or a ratio; as add_levels().
+SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& options,
+                                   const ProgressCallback& progress = {});
+
+/// simplify_to_budget() of a scene's parts, each counted as often as it is drawn. Does not change the scene.
+/// @throws InvalidInput naming the part.
+BudgetResult fit_scene_to_budget(const Scene& scene, std::size_t max_triangles, const SimplifyOptions& options = {});
+
+/// Triangles that a scene draws: of every part as many times as nodes show it.
+std::size_t drawn_triangles(const Scene& scene);
+
+}  // namespace papilla

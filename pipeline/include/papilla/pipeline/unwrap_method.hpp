@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "papilla/meshing/segmentation.hpp"
+#include "papilla/param/automatic.hpp"
+#include "papilla/param/best.hpp"
+#include "papilla/param/flattening.hpp"
+#include "papilla/param/levy.hpp"
+#include "papilla/param/lscm.hpp"
+#include "papilla/param/maillot.hpp"
+#include "papilla/param/natural.hpp"
+#include "papilla/param/projections.hpp"
+#include "papilla/param/reference_maps.hpp"
+#include "papilla/param/triplanar.hpp"
+#include "papilla/pipeline/placed_constraints.hpp"
+
+namespace papilla {
+
+enum class UnwrapMethod {
+  natural,
+  intermediate,
+  planar,
+  environment,
+  triplanar,
+  maillot,
+  levy,
+  tutte,
+  mvc,
+  lscm,
+  arap,
+  best,
+  automatic
+};
+
+/// The methods by the names that the command line has for them.
+const std::map<std::string, UnwrapMethod>& unwrap_methods();
+std::string unwrap_method_name(UnwrapMethod method);
+
+/// Whether the method maps charts that it is given; the others make their own.
+bool takes_charts(UnwrapMethod method);
+
+/// Where the charts come from: made by segmentation, or every connected component is one.
+enum class ChartSource { automatic, keep };
+
+/// Along what the grain runs.
+enum class GrainSource {
+  up,         ///< Upright: grain_direction().
+  longest,    ///< Along the part: longest_direction().
+  direction,  ///< As given.
+};
+
+/// What a part is beside others, and what its grain is: automatic decides by it.
+struct PartContext {
+  UpAxis up = UpAxis::z;
+  Vec2 tile_mm{0, 0};          ///< Of the grain; 0: unknown.
+  std::string part;            ///< Its name.
+  std::size_t parts = 1;       ///< That are unwrapped together.
+  double scene_extent_mm = 0;  ///< Bounding diagonal of all of them as they stand in the scene.
+};
+
+/// The chosen method and the options of each. Orientation, tile and fallback are set for all by flatten_part().
+struct MethodOptions {
+  UnwrapMethod method = UnwrapMethod::automatic;
+  GrainSource grain = GrainSource::up;
+  Vec3 grain_direction{0, 0, 1};  ///< Of GrainSource::direction.
+  ChartSource charts = ChartSource::automatic;
+  SegmentationOptions segmentation;
+  bool choose_seam_cost = true;   ///< choose_seam_cost() on parts of up to 50,000 triangles; false: as segmentation says.
+  NaturalOptions natural;
+  IntermediateOptions intermediate;
+  PlanarOptions planar;
+  EnvironmentOptions environment;
+  TriplanarOptions triplanar;
+  MaillotOptions maillot;
+  LevyOptions levy;
+  LscmOptions lscm;
+  ReferenceOptions reference;
+  BestOptions best;
+  AutomaticOptions automatic;
+  std::vector<PlacedPin> pins;           ///< Of levy.
+  std::vector<PlacedIsoLine> iso_lines;  ///< Of levy.
+  /// Of the methods that iterate; not given: the method's own.
+  std::optional<int> iterations;
+  std::optional<double> tolerance, time_limit_s;
+};
+
+struct FlattenedPart {
+  Flattening flattening;             ///< uv in millimetres (environment: in textures), not placed yet.
+  std::string method, reason;        ///< Of the part: the method that was taken, and, when it was chosen, why.
+  std::vector<ChartChoice> choices;  ///< Of automatic: per chart.
+  double segment_seconds = 0;
+};
+
+/// Charts and maps one part. Equal positions must be one vertex. Charts that the method can't map, or that best
+/// distorts beyond worth_halving(), are halved a few times before another map takes their place. Automatic takes
+/// triplanar for parts that are smaller than one repeat of the grain, and for small ones among many under fine grain;
+/// else a method for every chart.
+/// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
+FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options);
+
+}  // namespace papilla

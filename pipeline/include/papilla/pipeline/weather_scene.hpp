@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "papilla/core/progress.hpp"
+#include "papilla/io/scene.hpp"
+#include "papilla/pipeline/weather_config.hpp"
+
+namespace papilla {
+
+/// The atlas of a material that was cut into charts.
+struct WeatheredAtlas {
+  int width = 0, height = 0;
+  std::size_t charts = 0;
+  std::size_t tiles_computed = 0, tiles = 0;  ///< Tiles that look different to the recipe; those that differ in bytes.
+  double texels_per_repeat = 0;
+};
+
+/// What became of one material.
+struct WeatheredMaterial {
+  std::string name;
+  std::string recipe;   ///< All layers over its own surface; empty: no layer fits and it stays as it is.
+  std::string skipped;  ///< Why it was not painted although a layer fits; empty when it was.
+  std::optional<WeatheredAtlas> atlas;  ///< Without: its maps cover one repeat of its own uv.
+  bool depends_on_normal = false, depends_on_position = false, depends_on_sky = false, depends_on_neighbours = false;
+  std::vector<std::string> uses;  ///< Recipes of the libraries.
+  bool own_relief = false;        ///< Its normal map was read as relief below the layers.
+  double mm_per_texel = 0;
+  double friction = 0, stiffness = 1;  ///< Means of the channels; stiffness is a factor.
+
+  bool painted() const { return !recipe.empty() && skipped.empty(); }
+};
+
+struct WeatherResult {
+  Scene scene;
+  std::vector<WeatheredMaterial> materials;  ///< As in the scene before.
+  int images = 0, duplicates_removed = 0;
+  int painted = 0;  ///< Materials that were computed; the others came out of the cache.
+};
+
+/// What was painted for one scene, by all that it depends on but the scene, and the surfaces it was painted on, which
+/// are the same at every time.
+class WeatherCache {
+ public:
+  WeatherCache();
+  ~WeatherCache();
+  WeatherCache(WeatherCache&&) noexcept;
+  WeatherCache& operator=(WeatherCache&&) noexcept;
+
+  /// Libraries, what they include, pictures: all that was ever read.
+  const std::set<std::filesystem::path>& files() const noexcept;
+
+  struct State;
+  State& state() noexcept { return *state_; }
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+/// Lays the layers over the materials' own colour and the relief of their own normal maps at one time; each material
+/// gets a base colour and a normal map, and the friction and stiffness of its haptic tag follow the means of the
+/// layers' channels. The tag's height map is replaced by the new relief, 0 where no layer is over a flat material,
+/// unless it lies on coordinates of its own.
+///
+/// Every texel knows the interpolated normal, the position and the sky of the surface that shows it. A material whose
+/// recipe reads none of them, or whose uv show no texel twice, keeps its uv; its maps cover one repeat. The others are
+/// cut into charts that get an atlas of their own, with new texture coordinates: charts that look the same to the
+/// recipe share their texels. What else lies on the old coordinates (other pictures, the haptic height map) goes to the
+/// second ones. Maps that cover one repeat are seamless where the uv leave it. An own normal map that lies on other
+/// coordinates than the colour is replaced. Materials without uv, or that no layer fits, stay as they are and are named
+/// in the result.
+/// @param cache Materials that have been painted with the same recipes before are taken from it; belongs to this scene.
+/// @throws InvalidInput for a recipe that is none, naming it.
+WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache,
+                            const ProgressCallback& progress = {});
+WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time,
+                            const ProgressCallback& progress = {});
+
+}  // namespace papilla

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/bake_plan.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/meshing/statistics.hpp"
+#include "papilla/meshing/weld.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
+#include "papilla/core/srgb.hpp"
+
+namespace papilla {
+namespace {
+
+/// A uv is taken as usable when at most this share of the surface's area has no, a degenerate or a mirrored image:
+/// a few bad triangles are hidden by grain, more of them are not.
+constexpr double k_bad_uv_share = 0.02;
+/// Below this σ2/σ1 of the area-weighted mean Jacobian, grain would look smeared: the uv served another purpose.
+constexpr double k_worst_mean_stretch = 0.2;
+
+struct UvJudgement {
+  UvState state = UvState::absent;
+  double mm_per_unit = 0;
+  std::string note;
+};
+
+UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  const bool any =
+      std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) { return mesh.uv.has_value(t); });
+  if (!any) return {UvState::absent, 0, "no uv"};
+  double area_3d = 0, area_uv = 0, positive = 0, negative = 0, bad = 0, stretched = 0;
+  for (const std::uint32_t t : triangles) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1) - a, c = mesh.corner(t, 2) - a;
+    const double area = 0.5 * norm(cross(b, c));
+    if (!(area > 0)) continue;
+    area_3d += area;
+    if (!mesh.uv.has_value(t)) {
+      bad += area;
+      continue;
+    }
+    const Triangle& corners = mesh.uv.indices[t];
+    const Vec2 u = mesh.uv.values[corners[0]], v = mesh.uv.values[corners[1]] - u, w = mesh.uv.values[corners[2]] - u;
+    const double doubled = cross(v, w);
+    if (!std::isfinite(doubled) || doubled == 0) {
+      bad += area;
+      continue;
+    }
+    (doubled > 0 ? positive : negative) += area;
+    area_uv += 0.5 * std::abs(doubled);
+    // Singular values of the 3D -> uv map from its first fundamental form.
+    const double length = norm(b);
+    const double x = dot(b, c) / length, y = 2 * area / length;
+    const Vec2 du = (1 / length) * v, dv = (1 / y) * (w - x * du);
+    const double trace = dot(du, du) + dot(dv, dv), det = std::abs(cross(du, dv));
+    const double root = std::sqrt(std::max(0.0, 0.25 * trace * trace - det * det));
+    const double largest = 0.5 * trace + root;
+    if (largest > 0 && det / largest < k_worst_mean_stretch) stretched += area;
+  }
+  if (!(area_3d > 0)) return {UvState::unusable, 0, "the surface has no area"};
+  bad += std::min(positive, negative);
+  if (area_uv <= 0) return {UvState::unusable, 0, "its uv has no area"};
+  const double mm_per_unit = std::sqrt((area_3d - bad > 0 ? area_3d - bad : area_3d) / area_uv);
+  if (bad > k_bad_uv_share * area_3d)
+    return {UvState::unusable, mm_per_unit,
+            fmt::format("{:.0f} % of its area has no, a degenerate or a mirrored uv", 100 * bad / area_3d)};
+  if (stretched > 0.5 * area_3d)
+    return {UvState::unusable, mm_per_unit,
+            fmt::format("{:.0f} % of its area is stretched by more than 5:1 in its uv", 100 * stretched / area_3d)};
+  return {UvState::usable, mm_per_unit, fmt::format("{:.4g} mm per unit of its uv", mm_per_unit)};
+}
+
+/// Whether repair() has nothing to mend: a manifold without defects, oriented outward. Borders of meshes that were not
+/// tessellated here may be gaps.
+bool is_clean(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, bool cad) {
+  const MeshStatistics s = mesh_statistics(weld_equal(extract_triangles(mesh, triangles)).mesh);
+  return s.nonmanifold_edges == 0 && s.degenerate_triangles == 0 && s.duplicate_triangles == 0 &&
+         s.flipped_edges == 0 && s.t_junctions == 0 && s.volume_mm3.value_or(1) > 0 &&
+         (cad || s.boundary_edges == 0);
+}
+
+std::vector<PartSurface> split_by_slot(const Scene& scene) {
+  std::vector<PartSurface> surfaces;
+  for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
+    const Part& part = scene.parts[p];
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_slot;
+    for (std::uint32_t t = 0; t < part.mesh.triangles.size(); ++t)
+      by_slot[part.mesh.material.empty() ? 0 : part.mesh.material[t]].push_back(t);
+    for (auto& [slot, triangles] : by_slot) {
+      PartSurface surface;
+      surface.part = p;
+      surface.slot = slot;
+      surface.triangles = std::move(triangles);
+      surface.label = part.name;
+      if (by_slot.size() > 1)
+        surface.label +=
+            "/" + (slot < part.materials.size() ? scene.materials[part.materials[slot]].name : std::to_string(slot));
+      surfaces.push_back(std::move(surface));
+    }
+  }
+  return surfaces;
+}
+
+}  // namespace
+
+std::string hex_colour(const std::array<double, 4>& linear) {
+  const auto byte = [](double c) { return static_cast<int>(std::lround(255 * srgb_from_linear(c))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(linear[0]), byte(linear[1]), byte(linear[2]));
+}
+
+std::array<double, 4> linear_colour(const std::string& hex) {
+  if (hex.size() != 7 || hex[0] != '#') throw InvalidInput("linear_colour: '" + hex + "' is no colour such as #20a0ff");
+  const auto channel = [&](std::size_t at) {
+    return linear_from_srgb(std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0);
+  };
+  return {channel(1), channel(3), channel(5), 1};
+}
+
+const MaterialRule* assigned_rule(const Scene& scene, const Part& part, std::size_t slot, const Materials& rules) {
+  const Material* material = slot < part.materials.size() ? &scene.materials[part.materials[slot]] : nullptr;
+  const AssignRule* assigned =
+      match_rule(rules, part.name, material ? hex_colour(material->base_color) : "", material ? material->name : "");
+  return assigned && !assigned->material.empty() ? &rules.materials.at(assigned->material) : nullptr;
+}
+
+std::vector<SharedPart> share_identical_parts(Scene& scene, const Materials& rules) {
+  std::map<std::vector<const MaterialRule*>, std::uint64_t> numbers;
+  return share_identical_parts(scene, [&](std::uint32_t number) {
+    const Part& part = scene.parts[number];
+    std::vector<const MaterialRule*> assigned;
+    for (std::size_t slot = 0; slot < std::max<std::size_t>(part.materials.size(), 1); ++slot)
+      assigned.push_back(assigned_rule(scene, part, slot, rules));
+    return numbers.try_emplace(assigned, numbers.size()).first->second;
+  });
+}
+
+std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rules,
+                                       const std::vector<PartPerception>& perception) {
+  std::vector<PartSurface> surfaces = split_by_slot(scene);
+  const bool cad = scene.format == "STEP" || scene.format == "IGES" || scene.format == "BREP";
+  for (PartSurface& surface : surfaces) {
+    const Part& part = scene.parts[surface.part];
+    const MaterialRule* rule = assigned_rule(scene, part, surface.slot, rules);
+    if (rule) surface.material = rule->name;
+    const UvJudgement uv = judge_uv(part.mesh, surface.triangles);
+    surface.uv_mm_per_unit = uv.mm_per_unit;
+    surface.uv_note = uv.note;
+    const bool grain = rule && !rule->texture.empty();
+    const bool feel = grain || (rule && (rule->stiffness || rule->static_friction || rule->dynamic_friction || rule->damping));
+    Given given{cad, uv.state};
+    if (!perception.empty()) {
+      given.left_out = perception[surface.part].left_out;
+      given.is_only_seen = perception[surface.part].is_only_seen;
+    }
+    if (grain && uv.state != UvState::usable && given.left_out.empty())
+      given.is_clean = is_clean(part.mesh, surface.triangles, cad);
+    surface.is_left_out = !given.left_out.empty();
+    surface.plan = make_plan({grain, feel}, given);
+  }
+  return surfaces;
+}
+
+BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options,
+                   const ProgressCallback& progress) {
+  BakePlan plan;
+  plan.shared = share_identical_parts(scene, rules);
+  const Stopwatch perception_clock;
+  plan.perception = measure_perception(scene, options.perception, progress);
+  plan.perception_seconds = perception_clock.seconds();
+  const Stopwatch simplify_clock;
+  if (options.budget) {
+    Scene drawn = scene;
+    leave_out(drawn, plan.perception);
+    plan.budget = fit_scene_to_budget(drawn, *options.budget);
+    for (std::size_t i = 0; i < scene.parts.size(); ++i)
+      if (plan.perception.parts[i].left_out.empty()) scene.parts[i].mesh = plan.budget->parts[i].mesh;
+    for (SimplifyResult& part : plan.budget->parts) part.mesh = {};
+  }
+  plan.simplify_seconds = simplify_clock.seconds();
+  plan.surfaces = plan_surfaces(scene, rules, plan.perception.parts);
+  plan.scene = std::move(scene);
+  return plan;
+}
+
+}  // namespace papilla

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/bake_scene.hpp"
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+
+#include "papilla/core/bounds.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/core/units.hpp"
+#include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/param/measure.hpp"
+
+namespace papilla {
+namespace {
+
+bool runs(const PartSurface& surface, Stage stage) { return decision(surface.plan, stage).run; }
+
+/// A surface on its way through the stages.
+struct Work {
+  const PartSurface* surface = nullptr;
+  const MaterialRule* rule = nullptr;
+  TriangleMesh mesh;  ///< uv: repeats of the grain when new, as they were when kept.
+  BakedSurface report;
+  double repair = 0, charts = 0, unwrap = 0, measure = 0;
+};
+
+/// uv in millimetres -> repeats of the grain. Whole repeats are taken off chart by chart, so that float coordinates
+/// keep their precision.
+CornerAttribute<Vec2> repeats_of(const Flattening& flattening, const double (&size_mm)[2]) {
+  CornerAttribute<Vec2> uv = flattening.uv;
+  for (Vec2& value : uv.values) value = {value.x / size_mm[0], value.y / size_mm[1]};
+  std::vector<Bounds2> bounds(flattening.charts.count);
+  std::vector<std::uint32_t> chart_of_value(uv.values.size(), 0);
+  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
+    const std::uint32_t chart = flattening.charts.of_triangle[t];
+    for (const Index i : uv.indices[t]) {
+      chart_of_value[i] = chart;
+      bounds[chart].add(uv.values[i]);
+    }
+  }
+  for (std::size_t i = 0; i < uv.values.size(); ++i) {
+    const Vec2 low = bounds[chart_of_value[i]].low, whole{std::floor(low.x), std::floor(low.y)};
+    uv.values[i] = uv.values[i] - whole;
+  }
+  return uv;
+}
+
+CornerAttribute<Vec2> scaled(CornerAttribute<Vec2> uv, double factor) {
+  for (Vec2& value : uv.values) value = factor * value;
+  return uv;
+}
+
+/// How many charts each method got.
+std::string charts_by_method(const std::vector<ChartChoice>& choices) {
+  std::map<std::string, std::size_t> count;
+  for (const ChartChoice& choice : choices) ++count[choice.method];
+  std::string text;
+  for (const auto& [method, charts] : count)
+    text += fmt::format("{}{} {}", text.empty() ? "charts: " : ", ", charts, method);
+  return text;
+}
+
+void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, const Grain& grain) {
+  const std::string& wanted = work.rule->unwrap;
+  context.part = work.surface->label;
+  context.tile_mm = options.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
+  options.method.method = unwrap_methods().at(wanted);
+  options.layout = UvLayout::tile;
+  options.repair = runs(*work.surface, Stage::repair);
+  UnwrappedPart part = unwrap_part(work.mesh, context, options);
+  work.repair = part.repair_seconds;
+  work.charts = part.segment_seconds;
+  work.unwrap = part.solve_seconds;
+  work.report.method = part.method;
+  work.report.reason = wanted != "auto"      ? "as the material says"
+                       : part.reason.empty() ? charts_by_method(part.choices)
+                                             : part.reason;
+  work.report.charts = part.flattening.charts.count;
+  work.report.seam_mm = part.flattening.charts.seam_length_mm;
+  work.report.grain_continued_mm = part.grain_continued_mm;
+  for (const ChartNote& note : part.flattening.notes) work.report.notes.push_back(note.reason);
+  work.mesh.uv = repeats_of(part.flattening, grain.size_mm);
+  work.report.mesh = work.mesh;
+  work.report.mesh.uv = std::move(part.flattening.uv);
+}
+
+void process(Work& work, const PartContext& context, const UnwrapOptions& options,
+             const std::map<std::string, Grain>& grains) {
+  const PartSurface& surface = *work.surface;
+  work.report.part = surface.part;
+  work.report.label = surface.label;
+  work.report.material = surface.material;
+  if (runs(surface, Stage::unwrap)) {
+    unwrap_surface(work, context, options, grains.at(surface.material));
+  } else {
+    work.report.method = "kept";
+    work.report.reason = surface.uv_note;
+    work.report.mesh = work.mesh;
+    work.report.mesh.uv = scaled(work.mesh.uv, surface.uv_mm_per_unit);
+  }
+  Stopwatch clock;
+  work.report.distortion = measure_distortion(work.report.mesh, work.report.mesh.uv, {});
+  work.measure = clock.seconds();
+}
+
+/// Adds pictures and materials to the scene, each once.
+class SceneMaterials {
+ public:
+  SceneMaterials(BakeResult& result, const Materials& rules)
+      : result_(result), scene_(result.scene), rules_(rules) {
+    result_.mm_per_uv.resize(scene_.materials.size());
+  }
+
+  /// The material that `surface` shall have, made on first use.
+  std::uint32_t material_of(const PartSurface& surface) {
+    const Part& part = scene_.parts[surface.part];
+    const bool has_original = surface.slot < part.materials.size();
+    const std::uint32_t original = has_original ? part.materials[surface.slot] : k_none;
+    const MaterialRule& rule = rules_.materials.at(surface.material);
+    const bool grain = !rule.texture.empty();
+    const bool kept = grain && !runs(surface, Stage::unwrap);
+    const double mm_per_unit = kept ? surface.uv_mm_per_unit : 0;
+    const bool felt = runs(surface, Stage::tag);
+    const auto [it, is_new] = made_.try_emplace({original, surface.material, mm_per_unit, felt}, 0);
+    if (is_new) it->second = make(original, rule, grain, mm_per_unit, felt);
+    return it->second;
+  }
+
+ private:
+  static constexpr std::uint32_t k_none = 0xffffffffu;
+
+  std::uint32_t make(std::uint32_t original, const MaterialRule& rule, bool grain, double kept_mm_per_unit, bool felt) {
+    Material material = original == k_none ? Material{} : scene_.materials[original];
+    const std::string original_name = material.name;
+    material.name = new_name(original_name, rule);
+    if (rule.color) material.base_color = linear_colour(*rule.color);
+    if (rule.roughness) material.roughness = *rule.roughness;
+    if (rule.metallic) material.metallic = *rule.metallic;
+
+    MaterialTag tag;
+    if (grain) {
+      const Grain& relief = result_.grains.at(rule.name);
+      tag = relief.tag;
+      if (kept_mm_per_unit > 0)
+        attach_to_kept_uv(material, tag, relief, kept_mm_per_unit);
+      else
+        attach_to_new_uv(material, relief);
+    }
+    apply_constants(rule, tag, grain ? result_.grains.at(rule.name).stiffness_factor : 1);
+    if (felt) material.extras_json = with_material_tag(material.extras_json, tag);
+    note_origin(material, rule, original_name);
+    scene_.materials.push_back(std::move(material));
+    result_.mm_per_uv.resize(scene_.materials.size());
+    if (grain) {
+      const Grain& relief = result_.grains.at(rule.name);
+      result_.mm_per_uv.back() =
+          kept_mm_per_unit > 0 ? Vec2{kept_mm_per_unit, kept_mm_per_unit} : Vec2{relief.size_mm[0], relief.size_mm[1]};
+    }
+    return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+  }
+
+  /// Names from a file stay; colours, which stand for a name in CAD, tell variants of the rule's material apart.
+  static std::string new_name(const std::string& original, const MaterialRule& rule) {
+    if (original.empty()) return rule.name;
+    return original.front() == '#' ? rule.name + " " + original : original;
+  }
+
+  /// New uv: one unit is one repeat. The old pictures no longer fit.
+  void attach_to_new_uv(Material& material, const Grain& grain) {
+    const auto drop = [&](std::optional<TextureReference>& reference, const char* what) {
+      if (reference && reference->tex_coord == 0) {
+        scene_.losses.push_back("material '" + material.name + "': its " + what +
+                                " is left out, because its uv is new");
+        reference.reset();
+      }
+    };
+    drop(material.base_color_texture, "base colour picture");
+    drop(material.metallic_roughness_texture, "metallic-roughness picture");
+    drop(material.occlusion_texture, "occlusion picture");
+    drop(material.emissive_texture, "emissive picture");
+    drop(material.normal_texture, "normal map");
+    attach_pictures(material, grain, std::nullopt);
+  }
+
+  /// Kept uv: a texture transform brings them to repeats of the grain.
+  void attach_to_kept_uv(Material& material, MaterialTag& tag, const Grain& grain, double mm_per_unit) {
+    TextureTransform transform;
+    transform.scale = {mm_per_unit / grain.size_mm[0], mm_per_unit / grain.size_mm[1]};
+    if (material.normal_texture)
+      scene_.losses.push_back("material '" + material.name + "': its normal map is replaced by that of the grain");
+    attach_pictures(material, grain, transform);
+    tag.height->uv_transform.scale = transform.scale;
+    tag.height->metres_per_uv = {mm_per_unit * k_metres_per_mm, mm_per_unit * k_metres_per_mm};
+  }
+
+  void attach_pictures(Material& material, const Grain& grain, std::optional<TextureTransform> transform) {
+    TextureReference normal;
+    normal.texture = texture_of(grain.normal_png);
+    normal.transform = transform;
+    material.normal_texture = normal;
+    if (!grain.picture || material.base_color_texture) return;
+    TextureReference picture;
+    picture.texture = texture_of(*grain.picture);
+    picture.transform = transform;
+    material.base_color_texture = picture;
+    material.base_color = {1, 1, 1, material.base_color[3]};
+  }
+
+  std::uint32_t texture_of(const EncodedImage& image) {
+    const auto [it, is_new] = textures_.try_emplace(image.name, 0);
+    if (!is_new) return it->second;
+    scene_.images.push_back(image);
+    Texture texture;
+    texture.image = static_cast<std::uint32_t>(scene_.images.size() - 1);
+    texture.name = image.name;
+    texture.min_filter = 9987;  // linear, mip-mapped
+    texture.mag_filter = 9729;  // linear
+    scene_.textures.push_back(std::move(texture));
+    it->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+    return it->second;
+  }
+
+  static void note_origin(Material& material, const MaterialRule& rule, const std::string& original_name) {
+    using nlohmann::ordered_json;
+    ordered_json extras = ordered_json::parse(material.extras_json.empty() ? "{}" : material.extras_json);
+    if (!extras.is_object()) throw InvalidInput("material '" + material.name + "': its extras are no JSON object");
+    extras["papilla"] = {{"material", rule.name}};
+    if (!original_name.empty() && original_name != material.name) extras["papilla"]["original"] = original_name;
+    material.extras_json = extras.dump();
+  }
+
+  BakeResult& result_;
+  Scene& scene_;
+  const Materials& rules_;
+  std::map<std::string, std::uint32_t> textures_;
+  std::map<std::tuple<std::uint32_t, std::string, double, bool>, std::uint32_t> made_;
+};
+
+/// Leaves out the materials that no triangle uses any more, and renumbers the rest.
+void drop_unused_materials(BakeResult& result) {
+  Scene& scene = result.scene;
+  std::vector<std::uint8_t> used(scene.materials.size(), 0);
+  for (const Part& part : scene.parts)
+    for (const std::uint32_t material : part.materials) used[material] = 1;
+  std::vector<std::uint32_t> number(scene.materials.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
+    number[m] = count;
+    if (!used[m]) continue;
+    if (m != count) {
+      scene.materials[count] = std::move(scene.materials[m]);
+      result.mm_per_uv[count] = result.mm_per_uv[m];
+    }
+    ++count;
+  }
+  scene.materials.resize(count);
+  result.mm_per_uv.resize(count);
+  for (Part& part : scene.parts)
+    for (std::uint32_t& material : part.materials) material = number[material];
+}
+
+/// Tells materials of one name apart, which may happen when only some uses of one were replaced.
+void make_names_unique(std::vector<Material>& materials) {
+  std::set<std::string> names;
+  for (Material& material : materials) {
+    const std::string name = material.name;
+    for (int i = 2; !name.empty() && !names.insert(material.name).second; ++i)
+      material.name = fmt::format("{} {}", name, i);
+  }
+}
+
+/// Leaves out textures and pictures that nothing shows any more. Extensions name textures by number: where a material
+/// has any, all stay.
+void drop_unused_textures(Scene& scene) {
+  const auto extended = [](const Material& m) { return !m.extensions_json.empty(); };
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), extended)) return;
+  std::vector<std::optional<std::uint32_t>> new_texture(scene.textures.size()), new_image(scene.images.size());
+  std::vector<Texture> textures;
+  std::vector<EncodedImage> images;
+  const auto move_texture = [&](std::optional<TextureReference>& reference) {
+    if (!reference) return;
+    auto& number = new_texture[reference->texture];
+    if (!number) {
+      Texture& texture = scene.textures[reference->texture];
+      if (texture.image) {
+        auto& image = new_image[*texture.image];
+        if (!image) {
+          image = static_cast<std::uint32_t>(images.size());
+          images.push_back(std::move(scene.images[*texture.image]));
+        }
+        texture.image = image;
+      }
+      number = static_cast<std::uint32_t>(textures.size());
+      textures.push_back(std::move(texture));
+    }
+    reference->texture = *number;
+  };
+  for (Material& material : scene.materials)
+    for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture,
+                            &material.normal_texture, &material.occlusion_texture, &material.emissive_texture})
+      move_texture(*reference);
+  scene.textures = std::move(textures);
+  scene.images = std::move(images);
+}
+
+/// Makes the grains that the surfaces use.
+std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& rules, const RecipeLibrary& library,
+                                         const ProgressCallback& progress) {
+  std::set<std::string> names;
+  for (const PartSurface& surface : plan.surfaces)
+    if (runs(surface, Stage::height)) names.insert(surface.material);
+  std::map<std::string, Grain> grains;
+  for (const std::string& name : names) {
+    report_progress(progress, "grain " + name, static_cast<double>(grains.size()) / static_cast<double>(names.size()));
+    grains.emplace(name, make_grain(rules.materials.at(name), library));
+  }
+  return grains;
+}
+
+/// Puts the parts with grain together again from their surfaces.
+void reassemble(Scene& scene, const std::vector<PartSurface>& surfaces, std::vector<Work>& works) {
+  std::map<std::uint32_t, std::vector<Work*>> by_part;
+  for (Work& work : works)
+    if (runs(*work.surface, Stage::unwrap)) by_part[work.surface->part].push_back(&work);
+  for (auto& [number, changed] : by_part) {
+    Part& part = scene.parts[number];
+    TriangleMesh mesh;
+    for (const PartSurface& surface : surfaces) {
+      if (surface.part != number) continue;
+      const auto work =
+          std::find_if(changed.begin(), changed.end(), [&](const Work* w) { return w->surface == &surface; });
+      append_mesh(mesh, work != changed.end() ? (*work)->mesh : extract_triangles(part.mesh, surface.triangles));
+    }
+    part.mesh = std::move(mesh);
+  }
+}
+
+}  // namespace
+
+BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
+                      const ProgressCallback& progress) {
+  BakeResult result;
+  result.plan = plan_bake(std::move(scene), rules, options.plan, progress);
+  const std::vector<PartSurface>& surfaces = result.plan.surfaces;
+  result.scene = std::move(result.plan.scene);
+  result.seconds = {{"leave_out", result.plan.perception_seconds}, {"simplify", result.plan.simplify_seconds}};
+  const PartContext context = unwrap_context(result.scene, {});
+  leave_out(result.scene, result.plan.perception);
+  result.grains = make_grains(result.plan, rules, options.library, progress);
+  for (const auto& [name, grain] : result.grains) {
+    result.seconds["analyze"] += grain.analyze_seconds;
+    result.seconds["height"] += grain.height_seconds;
+    result.seconds["normal_map"] += grain.normal_map_seconds;
+  }
+
+  std::vector<Work> works;
+  double triangles = 0;
+  for (const PartSurface& surface : surfaces) {
+    if (!runs(surface, Stage::measure)) continue;
+    works.push_back({&surface, &rules.materials.at(surface.material), {}, {}, 0, 0, 0, 0});
+    triangles += static_cast<double>(surface.triangles.size());
+  }
+  SharedProgress done(progress, "surfaces", triangles);
+  oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
+    Work& work = works[i];
+    const TriangleMesh& mesh = result.scene.parts[work.surface->part].mesh;
+    const std::vector<std::uint32_t>& own = work.surface->triangles;
+    try {
+      // A whole part keeps the numbers of its vertices, so that it is mapped as by unwrap_scene().
+      work.mesh = own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own);
+      process(work, context, options.unwrap, result.grains);
+    } catch (const SolverFailure& error) {
+      throw SolverFailure("part '" + work.surface->label + "': " + error.what());
+    } catch (const InvalidInput& error) {
+      throw InvalidInput("part '" + work.surface->label + "': " + error.what());
+    }
+    done.add(static_cast<double>(own.size()));
+  });
+
+  reassemble(result.scene, surfaces, works);
+  SceneMaterials materials(result, rules);
+  std::vector<std::pair<const PartSurface*, std::uint32_t>> chosen;
+  for (const PartSurface& surface : surfaces)
+    if (!surface.material.empty() && !surface.is_left_out)
+      chosen.emplace_back(&surface, materials.material_of(surface));
+  for (const auto& [surface, material] : chosen) {
+    Part& part = result.scene.parts[surface->part];
+    if (part.materials.size() <= surface->slot) part.materials.resize(surface->slot + 1, material);
+    part.materials[surface->slot] = material;
+  }
+  drop_unused_materials(result);
+  make_names_unique(result.scene.materials);
+  drop_unused_textures(result.scene);
+  for (Work& work : works) {
+    result.seconds["repair"] += work.repair;
+    result.seconds["charts"] += work.charts;
+    result.seconds["unwrap"] += work.unwrap;
+    result.seconds["measure"] += work.measure;
+    result.surfaces.push_back(std::move(work.report));
+  }
+  return result;
+}
+
+}  // namespace papilla

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "evaluate/picture_methods.hpp"
+#include "evaluate/extreme_pictures.hpp"
+#include "papilla/pipeline/evaluate/stability.hpp"
+
+namespace papilla {
+namespace {
+
+/// A dimension is one of a surface; half a unit off the truth is no longer a reading of it.
+constexpr double k_unusable = 0.5;
+
+void estimate(const FractalMethod& method, const NamedPicture& input, StabilityCell& cell) {
+  const FractalEstimate found = method.estimate(input.picture);
+  cell.residual = (found.high - found.low) / 2;
+  cell.note = fmt::format("D {:.4f}, 95 % from {:.4f} to {:.4f}", found.dimension, found.low, found.high);
+  if (input.dimension) cell.error = std::abs(found.dimension - *input.dimension);
+  if (!std::isfinite(found.dimension) || (cell.error && *cell.error > k_unusable)) cell.outcome = Outcome::breaks;
+}
+
+}  // namespace
+
+StabilitySuite dimension_stability(const StabilityRun& run) {
+  StabilitySuite suite{
+      "dimension", "Fractal dimension", "distance to the true dimension", "half width of the 95 % interval", {}};
+  fill_suite(suite, run, extreme_pictures(), fractal_methods(), estimate);
+  return suite;
+}
+
+}  // namespace papilla

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "evaluate/environment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "papilla/meshing/simplify.hpp"
+#include "papilla/param/projections.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr std::array<std::size_t, 4> k_divisors = {64, 16, 4, 1};
+constexpr std::size_t k_least_triangles = 8;
+constexpr double k_growth = 1.5;  // simplifying the whole mesh outweighs the map
+
+Vec2 corners_mean(const CornerAttribute<Vec2>& uv, std::size_t t) {
+  const auto& [a, b, c] = uv.indices[t];
+  return (1.0 / 3) * (uv.values[a] + uv.values[b] + uv.values[c]);
+}
+
+/// A vertex of its own in the middle of every triangle, which takes the triangle's normal; the others keep theirs.
+TriangleMesh with_middles(const TriangleMesh& mesh) {
+  TriangleMesh split;
+  split.positions = mesh.positions;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto middle = static_cast<Index>(split.positions.size());
+    split.positions.push_back((1.0 / 3) * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)));
+    const auto& [a, b, c] = mesh.triangles[t];
+    split.triangles.insert(split.triangles.end(), {{a, b, middle}, {b, c, middle}, {c, a, middle}});
+  }
+  return split;
+}
+
+double interpolation_error(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv) {
+  const CornerAttribute<Vec2> exact = environment_uv(with_middles(mesh));
+  double sum = 0, total = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double area = norm(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
+    sum += area * norm(exact.values[mesh.positions.size() + t] - corners_mean(uv, t));
+    total += area;
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+}  // namespace
+
+EvaluationRun environment_run(const TriangleMesh& mesh, const std::string& input, const Budget& budget) {
+  EvaluationRun run{"environment", "", input, "mean error of uv in the middles of triangles, in pictures", {},
+                    "direct"};
+  Rungs rungs(budget, k_growth);
+  for (const std::size_t divisor : k_divisors) {
+    if (!rungs.next()) break;
+    SimplifyOptions fewer;
+    fewer.target_triangles = std::max(mesh.triangles.size() / divisor, k_least_triangles);
+    const TriangleMesh coarse = divisor == 1 ? mesh : simplify(mesh, fewer).mesh;
+    const Stopwatch clock;
+    const CornerAttribute<Vec2> uv = environment_uv(coarse);
+    const double seconds = clock.seconds();
+    run.trace.push_back({seconds, interpolation_error(coarse, uv)});
+    run.notes += fmt::format("{} triangles: {:.3g}; ", coarse.triangles.size(), run.trace.back().error);
+  }
+  if (run.trace.empty()) run.stop = k_time_spent;
+  run.notes += "a preview of reflections, no map of the surface: it has no distortion to measure";
+  return run;
+}
+
+}  // namespace papilla

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/picture_methods.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/crop.hpp"
+
+namespace papilla {
+std::vector<int> rising_sides(int shorter_side) {
+  constexpr int k_first = 64, k_last = 4096;
+  std::vector<int> sides;
+  for (int side = k_first; side < std::min(shorter_side, k_last); side *= 2) sides.push_back(side);
+  sides.push_back(std::min(shorter_side, k_last));
+  return sides;
+}
+
+std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
+  const GreyImage image = read_grey_image(input.file);
+  const std::vector<int> sides = rising_sides(std::min(image.width, image.height));
+  std::vector<EvaluationRun> runs;
+  for (const FractalMethod& method : fractal_methods()) {
+    EvaluationRun run{method.name, "analyze", input.name, "half width of the 95 % interval of the dimension",
+                      {},          "direct",  ""};
+    Rungs rungs(input.budget, k_growth_by_side);
+    for (const int side : sides) {
+      if (side < method.least_side) continue;
+      if (!rungs.next()) break;
+      const GreyImage part = middle_part(image, side);
+      const Stopwatch clock;
+      const FractalEstimate estimate = method.estimate(part);
+      run.trace.push_back({clock.seconds(), (estimate.high - estimate.low) / 2});
+      run.notes += fmt::format("middle {} pixels: D {:.4f}; ", side, estimate.dimension);
+    }
+    if (run.trace.empty()) run.stop = k_time_spent;
+    runs.push_back(std::move(run));
+    report_progress(input.progress, "fractal dimension",
+                    static_cast<double>(runs.size()) / static_cast<double>(fractal_methods().size()));
+  }
+  return runs;
+}
+
+}  // namespace papilla

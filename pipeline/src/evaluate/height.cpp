@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <numeric>
+
+#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/picture_methods.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/crop.hpp"
+#include "papilla/texture/height_from_image.hpp"
+#include "papilla/texture/light_direction.hpp"
+#include "papilla/texture/relief_error.hpp"
+#include "papilla/texture/shading.hpp"
+#include "papilla/texture/tiling.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr const char* k_intensity = "intensity";
+
+constexpr std::array<int, 6> k_iterations = {5, 10, 20, 50, 100, 200};
+constexpr double k_growth_by_steps = 2.5;
+
+/// A float picture is a relief in millimetres.
+bool is_relief(const std::filesystem::path& file, const GreyImage& image) {
+  return image.bits == 32 && file.extension() != ".png";
+}
+
+HeightMap relief_of(const GreyImage& image) {
+  const double pitch = image.pitch_mm > 0 ? image.pitch_mm : 1;
+  return {image.width, image.height, image.pixels, pitch, pitch, measure_tiling(image).tiles};
+}
+
+EvaluationRun depth_run(const EvaluationInput& input, const char* method, Vec3 light) {
+  return {method,     fmt::format("light ({:.2f}, {:.2f}, {:.2f})", light.x, light.y, light.z),
+          input.name, "mean depth error over the range",
+          {},         "direct",
+          ""};
+}
+
+void add_sample(EvaluationRun& run, double seconds, const ReliefError& error, const std::string& what) {
+  run.trace.push_back({seconds, error.mean});
+  run.notes +=
+      fmt::format("{}: correlation {:.3f}, after scaling {:.4f}; ", what, error.correlation, error.scaled_mean);
+}
+
+EvaluationRun over_steps(const EvaluationInput& input, const ShadingMethod& method, const HeightMap& truth,
+                         Vec3 light) {
+  EvaluationRun run = depth_run(input, method.name, light);
+  const GreyImage picture = render_lambert(truth, light);
+  ShadingOptions options{.light = light, .periodic = truth.periodic};
+  Rungs rungs(input.budget, k_growth_by_steps);
+  for (const int iterations : k_iterations) {
+    if (!rungs.next()) break;
+    options.iterations = iterations;
+    const Stopwatch clock;
+    const ShadingResult result = method.solve(picture, options);
+    add_sample(run, clock.seconds(), relief_error(result.height_px, truth), fmt::format("{} steps", iterations));
+    run.stop = std::string(to_string(result.stop));
+  }
+  if (run.trace.empty()) run.stop = k_time_spent;
+  return run;
+}
+
+/// A method without steps on growing middle parts of the relief: heights in pixels of the picture of each.
+template <class Heights>
+EvaluationRun over_sizes(const EvaluationInput& input, const char* method, const GreyImage& image, Vec3 light,
+                         Heights&& heights) {
+  EvaluationRun run = depth_run(input, method, light);
+  Rungs rungs(input.budget, k_growth_by_side);
+  for (const int side : rising_sides(std::min(image.width, image.height))) {
+    if (!rungs.next()) break;
+    const HeightMap truth = relief_of(middle_part(image, side));
+    const GreyImage picture = render_lambert(truth, light);
+    const Stopwatch clock;
+    const std::vector<double> found = heights(picture, truth);
+    add_sample(run, clock.seconds(), relief_error(found, truth), fmt::format("middle {} pixels", side));
+  }
+  if (run.trace.empty()) run.stop = k_time_spent;
+  return run;
+}
+
+/// Grey taken for height, with the true depth: what is told is the shape.
+std::vector<double> read_as_height(const GreyImage& picture, const HeightMap& truth) {
+  const auto [low, high] = std::minmax_element(truth.mm.begin(), truth.mm.end());
+  HeightOptions options;
+  options.method = HeightMethod::intensity;
+  options.pitch_mm = truth.pitch_mm_x;
+  options.depth_mm = static_cast<double>(*high - *low);
+  const HeightMap map = height_from_image(picture, options).map;
+  std::vector<double> px;
+  for (const float mm : map.mm) px.push_back(static_cast<double>(mm) / truth.pitch_mm_x);
+  return px;
+}
+
+void add_depth_runs(const EvaluationInput& input, const GreyImage& image, Vec3 light,
+                    std::vector<EvaluationRun>& runs) {
+  for (const ShadingMethod& method : shading_methods())
+    runs.push_back(
+        method.iterates
+            ? over_steps(input, method, relief_of(image), light)
+            : over_sizes(input, method.name, image, light, [&](const GreyImage& picture, const HeightMap& truth) {
+                return method.solve(picture, {.light = light, .periodic = truth.periodic}).height_px;
+              }));
+  runs.push_back(over_sizes(input, k_intensity, image, light, read_as_height));
+}
+
+EvaluationRun residual_only(const EvaluationInput& input, const ShadingMethod& method, const GreyImage& picture) {
+  EvaluationRun run{method.name, "height", input.name, "rms of brightness - R, grey over albedo", {}, "", ""};
+  const LightEstimate light = estimate_light(picture);
+  const double mean =
+      std::accumulate(picture.pixels.begin(), picture.pixels.end(), 0.0) / static_cast<double>(picture.pixels.size());
+  ShadingOptions options{.light = light.direction, .periodic = measure_tiling(picture).tiles};
+  if (mean > 0) options.albedo = mean / light.direction.z;
+  options.progress = input.progress;
+  if (input.budget.spent()) {
+    run.stop = k_time_spent;
+    return run;
+  }
+  const ShadingResult result = method.solve(picture, options);
+  run.trace = result.trace;
+  run.stop = std::string(to_string(result.stop));
+  run.notes = fmt::format("light ({:.2f}, {:.2f}, {:.2f}), coherence {:.2f}; the true relief is not known",
+                          light.direction.x, light.direction.y, light.direction.z, light.coherence);
+  return run;
+}
+
+}  // namespace
+
+std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input) {
+  const GreyImage image = read_grey_image(input.file);
+  std::vector<EvaluationRun> runs;
+  if (is_relief(input.file, image))
+    for (const Vec3 light : {Vec3{0.3, 0.3, 1}, Vec3{1, 0, 1}, Vec3{1, 1, 1}})
+      add_depth_runs(input, image, normalized(light), runs);
+  else
+    for (const ShadingMethod& method : shading_methods()) runs.push_back(residual_only(input, method, image));
+  return runs;
+}
+
+}  // namespace papilla

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "evaluate/picture_methods.hpp"
+
+#include <array>
+
+#include "papilla/texture/best_dimension.hpp"
+#include "papilla/texture/box_dimension.hpp"
+#include "papilla/texture/fshot_dimension.hpp"
+#include "papilla/texture/probability_dimension.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr std::array<FractalMethod, 6> k_fractal = {
+    {{"box", 32, box_dimension},
+     {"information", 32, information_dimension},
+     {"correlation", 32, correlation_dimension},
+     {"probability", 66, [](const GreyImage& image) { return probability_dimension(image); }},
+     {"fshot", 32, [](const GreyImage& image) { return fshot_dimension(image).estimate; }},
+     {"best", 32, [](const GreyImage& image) { return best_dimension(image).estimate; }}}};
+
+constexpr std::array<ShadingMethod, 3> k_shading = {{{"variational", shape_from_shading_variational, true},
+                                                     {"pentland", shape_from_shading_pentland, false},
+                                                     {"tsai-shah", shape_from_shading_tsai_shah, true}}};
+
+}  // namespace
+
+std::span<const FractalMethod> fractal_methods() { return k_fractal; }
+
+std::span<const ShadingMethod> shading_methods() { return k_shading; }
+
+}  // namespace papilla

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "papilla/texture/fractal.hpp"
+#include "papilla/texture/image.hpp"
+#include "papilla/texture/shape_from_shading.hpp"
+
+namespace papilla {
+
+/// An estimator of the fractal dimension of a picture.
+struct FractalMethod {
+  const char* name;
+  int least_side;  ///< Of the picture, in pixels.
+  FractalEstimate (*estimate)(const GreyImage&);
+};
+
+/// All of them, the named ones of the literature first.
+std::span<const FractalMethod> fractal_methods();
+
+/// A way from shading to heights.
+struct ShadingMethod {
+  const char* name;
+  ShadingResult (*solve)(const GreyImage&, const ShadingOptions&);
+  bool iterates;
+};
+
+/// All of them.
+std::span<const ShadingMethod> shading_methods();
+
+}  // namespace papilla

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/texture/symmetry.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/crop.hpp"
+#include "papilla/texture/wallpaper_group.hpp"
+
+namespace papilla {
+namespace {
+
+struct Variant {
+  const char* name;
+  LatticeMethod method;
+  FeatureKind feature;
+  int most_side;
+};
+constexpr std::array<Variant, 3> k_variants = {{{"best", LatticeMethod::best, FeatureKind::squared, 2048},
+                                                {"projection", LatticeMethod::projection, FeatureKind::squared, 2048},
+                                                {"absolute", LatticeMethod::best, FeatureKind::absolute, 512}}};
+
+}  // namespace
+
+std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input) {
+  const GreyImage image = read_grey_image(input.file);
+  std::vector<EvaluationRun> runs;
+  for (const Variant& variant : k_variants) {
+    EvaluationRun run{variant.name, "analyze", input.name, "share of the variance that the lattice does not explain",
+                      {},           "direct",  ""};
+    Rungs rungs(input.budget, k_growth_by_side);
+    for (const int side : rising_sides(std::min({image.width, image.height, variant.most_side}))) {
+      if (!rungs.next()) break;
+      const GreyImage part = middle_part(image, side);
+      const Stopwatch clock;
+      const SymmetryAnalysis analysis = analyze_symmetry(part, {.method = variant.method}, variant.feature);
+      run.trace.push_back({clock.seconds(), 1 - analysis.explained_variance()});
+      run.notes += fmt::format("middle {} pixels: ", side);
+      if (!analysis.lattice.found) {
+        run.notes += fmt::format("no lattice, significance {:.2f}; ", analysis.lattice.significance);
+        continue;
+      }
+      const auto& [a, b] = analysis.lattice.vectors_px;
+      run.notes += fmt::format("({:.3f}, {:.3f}), ({:.3f}, {:.3f}) {}; ", a.x, a.y, b.x, b.y,
+                               to_string(find_wallpaper_group(*analysis.part, analysis.lattice.vectors_px).group));
+    }
+    if (run.trace.empty()) run.stop = k_time_spent;
+    runs.push_back(std::move(run));
+    report_progress(input.progress, "symmetry",
+                    static_cast<double>(runs.size()) / static_cast<double>(k_variants.size()));
+  }
+  return runs;
+}
+
+}  // namespace papilla

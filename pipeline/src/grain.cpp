@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/grain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <string>
+
+#include "papilla/core/base64.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/core/units.hpp"
+#include "papilla/haptic/sha256.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/procedural/texture.hpp"
+#include "papilla/texture/height_from_image.hpp"
+#include "papilla/texture/normal_map.hpp"
+#include "papilla/texture/resample.hpp"
+#include "papilla/texture/roughness.hpp"
+#include "papilla/texture/symmetry.hpp"
+#include "papilla/texture/texture_class.hpp"
+#include "papilla/texture/tiling.hpp"
+#include "papilla/texture/wallpaper_group.hpp"
+#include "papilla/pipeline/recipe_source.hpp"
+
+namespace papilla {
+namespace {
+
+/// More samples than this a side show and feel like nothing: at 40 mm a repeat they are finer than 0.04 mm.
+constexpr int k_most_samples = 1024;
+/// Samples a side of a repeat that is computed.
+constexpr int k_recipe_samples = 512;
+/// Peak to valley of a relief of which nothing is said, as a share of the shorter side of the grain.
+constexpr double k_default_depth = 0.01;
+
+/// Width and height of one repeat, from the rule or from the picture's resolution.
+void find_size(const MaterialRule& rule, const GreyImage& image, double (&size_mm)[2]) {
+  const double pixels[2] = {static_cast<double>(image.width), static_cast<double>(image.height)};
+  for (int k = 0; k < 2; ++k) {
+    size_mm[k] = rule.size_mm[k] > 0 ? rule.size_mm[k] : pixels[k] * image.pitch_mm;
+    if (!(size_mm[k] > 0))
+      throw InvalidInput("material '" + rule.name + "': " + rule.texture.string() +
+                         " has no resolution; size_mm must say how many millimetres it shows");
+  }
+}
+
+EncodedImage png(std::string name, std::vector<std::byte> bytes) {
+  EncodedImage image;
+  image.name = std::move(name);
+  image.mime_type = "image/png";
+  image.bytes = std::move(bytes);
+  return image;
+}
+
+/// The relief of the picture, at most k_most_samples a side, over size_mm.
+HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const Lattice& lattice, Grain& grain) {
+  HeightOptions options;
+  options.lattice = lattice;
+  options.method = height_method(rule.height.method);
+  options.pitch_mm = grain.size_mm[0] / image.width;
+  options.depth_mm = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+  HeightResult result = height_from_image(image, options);
+  HeightMap relief = std::move(result.map);
+  relief.pitch_mm_x = grain.size_mm[0] / relief.width;
+  relief.pitch_mm_y = grain.size_mm[1] / relief.height;
+  if (relief.width > k_most_samples || relief.height > k_most_samples)
+    relief = resample(relief, std::min(relief.width, k_most_samples), std::min(relief.height, k_most_samples));
+  for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
+  grain.height = {std::string(to_string(result.method)),
+                  result.reason,
+                  result.light,
+                  result.light_estimated,
+                  result.depth_mm * rule.height.scale,
+                  result.rms_mm * rule.height.scale,
+                  result.stop};
+  return relief;
+}
+
+/// The map travels as a data: URI within the tag: strings in extras survive tools that drop pictures no texture uses.
+HeightTag height_tag(const Grain& grain, const EncodedHeight& encoded) {
+  HeightTag tag;
+  tag.uri = "data:image/png;base64," + encode_base64(encoded.png);
+  tag.sha256 = sha256_hex(encoded.png);
+  tag.size = {grain.relief.width, grain.relief.height};
+  tag.scale_m = encoded.scale_mm * k_metres_per_mm;
+  tag.offset_m = encoded.offset_mm * k_metres_per_mm;
+  tag.metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
+  tag.rms_m = rms_height_mm(grain.relief) * k_metres_per_mm;
+  return tag;
+}
+
+/// The picture of a material, from a file or computed.
+struct Source {
+  GreyImage grey;  ///< Of a recipe: the height channel.
+  ColorImage color;
+  bool recipe = false;
+  double friction = 0, stiffness = 1;  ///< Of a recipe: means of the channels.
+};
+
+double mean_of(const std::vector<float>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
+  CompileOptions options = recipe_options(rule.texture.parent_path());
+  options.source = "material '" + rule.name + "', texture";
+  options.seamless = true;
+  options.time = rule.time;
+  RenderOptions render;
+  render.width = render.height = k_recipe_samples;
+  for (const Channel c : {Channel::bump, Channel::color, Channel::friction, Channel::stiffness})
+    render.channels |= 1U << static_cast<unsigned>(c);
+  RenderedTexture texture = render_texture(compile_texture(rule.recipe, library, options), render);
+  Source source;
+  source.recipe = true;
+  source.friction = mean_of(texture.values[Channel::friction]);
+  source.stiffness = mean_of(texture.values[Channel::stiffness]);
+  source.color = to_color_image(texture.values[Channel::color], texture.width, texture.height);
+  source.grey = {texture.width, texture.height, texture.values[Channel::bump], 0, 32};
+  return source;
+}
+
+/// A file of that name wins over a recipe of that name.
+Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
+  std::error_code error;
+  if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
+    return computed_source(rule, library);
+  return {read_grey_image(rule.texture), read_color_image(rule.texture)};
+}
+
+/// A recipe's height is a share of the depth: nothing has to be guessed from shading.
+HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain& grain) {
+  const double depth = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+  HeightMap relief{source.grey.width,
+                   source.grey.height,
+                   source.grey.pixels,
+                   grain.size_mm[0] / source.grey.width,
+                   grain.size_mm[1] / source.grey.height,
+                   true};
+  for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
+  grain.height = {"recipe", "the height channel of the recipe", {}, false, depth * rule.height.scale,
+                  rms_height_mm(relief), StopReason::direct};
+  return relief;
+}
+
+void describe_relief(Grain& grain) {
+  grain.roughness = measure_roughness(grain.relief);
+  RoughnessTag tag;
+  tag.rms_height_m = grain.roughness.rms_mm * k_metres_per_mm;
+  tag.wavelength_range_m = {grain.roughness.shortest_wavelength_mm * k_metres_per_mm,
+                            grain.roughness.longest_wavelength_mm * k_metres_per_mm};
+  if (grain.roughness.fractal) tag.fractal_dimension = std::clamp(grain.roughness.fractal->dimension, 2.0, 3.0);
+  grain.tag.roughness = tag;
+}
+
+/// Class, lattice and look of the picture. @return its lattice, found or not.
+Lattice analyze(const MaterialRule& rule, const Source& source, Grain& grain) {
+  const GreyImage& image = source.grey;
+  const SymmetryAnalysis symmetry = analyze_symmetry(image);
+  grain.kind = classify(image, symmetry.explained_variance(), symmetry.lattice.stripes);
+  grain.tiles = measure_tiling(image).tiles;
+  grain.monochrome = is_monochrome(source.color);
+  if (rule.show == "picture" || (rule.show == "auto" && !grain.monochrome))
+    grain.picture = png("grain." + rule.name, encode_png(source.color));
+  if (!symmetry.lattice.found) return symmetry.lattice;
+  const Vec2 mm_per_px{grain.size_mm[0] / image.width, grain.size_mm[1] / image.height};
+  GrainLattice lattice;
+  SymmetryTag tag;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec2 px = symmetry.lattice.vectors_px[k];
+    lattice.period_mm[k] = {px.x * mm_per_px.x, px.y * mm_per_px.y};
+    tag.period_m[k] = k_metres_per_mm * lattice.period_mm[k];
+  }
+  tag.group = lattice.group = to_string(find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px).group);
+  grain.lattice = lattice;
+  grain.tag.symmetry = tag;
+  return symmetry.lattice;
+}
+
+}  // namespace
+
+Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
+  Grain grain;
+  const Stopwatch analyze_clock;
+  Source source = read_source(rule, library);
+  find_size(rule, source.grey, grain.size_mm);
+  const Lattice lattice = analyze(rule, source, grain);
+  grain.source = source.recipe ? rule.recipe : rule.texture.string();
+  if (source.recipe) {
+    grain.tag.static_friction = grain.tag.dynamic_friction = source.friction;
+    grain.stiffness_factor = source.stiffness;
+  }
+  grain.photograph = std::move(source.color);
+  grain.analyze_seconds = analyze_clock.seconds();
+
+  const Stopwatch height_clock;
+  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, lattice, grain);
+  describe_relief(grain);
+  const EncodedHeight encoded = encode_height_png16(grain.relief);
+  grain.tag.height = height_tag(grain, encoded);
+  grain.height_seconds = height_clock.seconds();
+
+  const Stopwatch normal_clock;
+  grain.normal_png = png("normal." + rule.name, encode_png(normal_map(grain.relief)));
+  grain.normal_map_seconds = normal_clock.seconds();
+
+  grain.tag.provenance = {std::string("papilla ") + version(), grain.height.method, "analyze height normal_map tag"};
+  grain.height_png = png("height." + rule.name, encoded.png);
+  return grain;
+}
+
+void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor) {
+  tag.stiffness = stiffness_factor * rule.stiffness.value_or(tag.stiffness);
+  if (rule.damping) tag.damping = *rule.damping;
+  tag.static_friction = rule.static_friction.value_or(rule.dynamic_friction.value_or(tag.static_friction));
+  tag.dynamic_friction = rule.dynamic_friction.value_or(rule.static_friction.value_or(tag.dynamic_friction));
+  if (rule.stribeck_velocity) tag.stribeck_velocity = *rule.stribeck_velocity;
+  if (rule.friction_model) tag.friction_model = *rule.friction_model;
+  if (rule.force_shading) tag.force_shading = *rule.force_shading;
+}
+
+}  // namespace papilla

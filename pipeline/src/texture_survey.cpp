@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/texture_survey.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "papilla/core/error.hpp"
+#include "papilla/io/image_bands.hpp"
+#include "papilla/texture/crop.hpp"
+#include "papilla/texture/texture_order.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr std::int64_t k_most_band_pixels = std::int64_t{1} << 26;
+constexpr int k_least_band_rows = 128;
+
+/// Where part k of `count` equal parts of a side begins.
+int start_of(int k, int count, int side) { return static_cast<int>(std::int64_t{k} * side / count); }
+
+int parts(std::int64_t side, std::int64_t most) { return static_cast<int>((side + most - 1) / most); }
+
+/// Rows and columns of the centred part of a side, at most `most` long.
+struct Window {
+  int begin, length;
+  Window(int side, int most) : begin((side - std::min(side, most)) / 2), length(std::min(side, most)) {}
+};
+
+/// Gathers the middle of a picture from its bands.
+class MiddlePart {
+ public:
+  MiddlePart(int width, int height, int most) : across_(width, most), down_(height, most) {}
+
+  void add(const GreyImage& band, int top) {
+    const int first = std::max(top, down_.begin), last = std::min(top + band.height, down_.begin + down_.length);
+    if (first >= last) return;
+    const GreyImage part = crop(band, across_.begin, first - top, across_.length, last - first);
+    image_.pixels.insert(image_.pixels.end(), part.pixels.begin(), part.pixels.end());
+    image_.width = part.width;
+    image_.height += part.height;
+    image_.pitch_mm = part.pitch_mm;
+    image_.bits = part.bits;
+  }
+  GreyImage take() { return std::move(image_); }
+
+ private:
+  Window across_, down_;
+  GreyImage image_;
+};
+
+SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& options, const ProgressCallback& progress) {
+  report_progress(progress, "symmetry", 0);
+  SymmetryAnalysis analysis = analyze_symmetry(image, options.lattice, options.feature, progress);
+  report_progress(progress, "symmetry", 1);
+  return analysis;
+}
+
+void survey_whole(const ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
+                  TextureSurvey& survey) {
+  if (options.symmetry || options.order) survey.symmetry = symmetry_of(survey.middle, options, progress);
+  if (options.fractal) survey.fractal = read_fractal_dimensions(survey.middle, progress);
+  if (!options.order) return;
+  const SymmetryAnalysis& symmetry = *survey.symmetry;
+  survey.order = OrderSurvey{classify(survey.middle, symmetry.explained_variance(), symmetry.lattice.stripes),
+                             orientation_field(survey.middle), measure_suitability(survey.middle, symmetry.lattice),
+                             is_monochrome(bands.sample())};
+}
+
+/// The lattice of the middle counts for the picture only where enough pieces have it too.
+void check_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& lattices, LatticeAgreement& agreement) {
+  for (const Lattice& lattice : lattices) agreement.add(symmetry.lattice, lattice);
+  if (!symmetry.lattice.found || agreement.holds()) return;
+  symmetry.lattice.found = false;
+  symmetry.lattice.vectors_px = {};
+  symmetry.part.reset();
+  symmetry.lattice.reason =
+      fmt::format("the middle repeats, but only {} of {} pieces do so likewise", agreement.same, agreement.pieces());
+}
+
+void survey_pieces(ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
+                   TextureSurvey& survey) {
+  const int side = options.largest_px / 2;
+  PieceSurvey pieces;
+  pieces.columns = parts(survey.width, side);
+  pieces.rows =
+      std::max(parts(survey.height, side), parts(std::int64_t{survey.width} * survey.height, k_most_band_pixels));
+  if (survey.height > k_least_band_rows && survey.height / pieces.rows < k_least_band_rows / 2)
+    throw InvalidInput(fmt::format("{} x {} pixels are too wide to be read in bands", survey.width, survey.height));
+  MiddlePart middle(survey.width, survey.height, side);
+  TextureOrder order;
+  std::vector<FractalReadings> readings;
+  std::vector<Lattice> lattices;
+  const bool wants_lattice = options.symmetry || options.order;
+  const double count = static_cast<double>(pieces.columns) * pieces.rows;
+  double done = 0;
+  for (int row = 0; row < pieces.rows; ++row) {
+    const int top = start_of(row, pieces.rows, survey.height);
+    const GreyImage band = bands.next(start_of(row + 1, pieces.rows, survey.height) - top);
+    middle.add(band, top);
+    for (int column = 0; column < pieces.columns; ++column) {
+      report_progress(progress, "pieces of the picture", done++ / count);
+      const int left = start_of(column, pieces.columns, survey.width);
+      const GreyImage piece =
+          crop(band, left, 0, start_of(column + 1, pieces.columns, survey.width) - left, band.height);
+      if (options.fractal) readings.push_back(read_fractal_dimensions(piece));
+      if (options.order) order.add(piece);
+      if (!wants_lattice) continue;
+      lattices.push_back(find_lattice(feature_matrix(piece), options.lattice));
+      lattices.back().minima = {};
+    }
+  }
+  report_progress(progress, "pieces of the picture", 1);
+  survey.middle = middle.take();
+  if (options.fractal) survey.fractal = mean_readings(readings);
+  if (wants_lattice) {
+    survey.symmetry = symmetry_of(survey.middle, options, progress);
+    check_lattice(*survey.symmetry, lattices, pieces.lattice);
+  }
+  if (options.order)
+    survey.order = OrderSurvey{order.classify(survey.symmetry->explained_variance(), survey.symmetry->lattice.stripes),
+                               order.orientation(pieces.columns, pieces.rows),
+                               order.suitability(survey.symmetry->lattice), is_monochrome(bands.sample())};
+  survey.pieces = pieces;
+}
+
+}  // namespace
+
+TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,
+                             const ProgressCallback& progress) {
+  ImageBands bands(path);
+  TextureSurvey survey;
+  survey.width = bands.width();
+  survey.height = bands.height();
+  survey.bits = bands.bits();
+  survey.pitch_mm = bands.pitch_mm();
+  if (std::max(survey.width, survey.height) > options.largest_px) {
+    survey_pieces(bands, options, progress, survey);
+  } else {
+    survey.middle = bands.next(survey.height);
+    survey_whole(bands, options, progress, survey);
+  }
+  return survey;
+}
+
+}  // namespace papilla

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/unwrap_method.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "papilla/meshing/chart_cuts.hpp"
+#include "papilla/meshing/cut_open.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
+#include "papilla/param/components.hpp"
+#include "papilla/param/grain_direction.hpp"
+#include "papilla/param/grain_frame.hpp"
+#include "papilla/param/seam_choice.hpp"
+
+namespace papilla {
+namespace {
+
+/// Gives every method what they all share.
+MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, const PartContext& context) {
+  MethodOptions o = given;
+  const UpAxis up = context.up;
+  if (o.grain == GrainSource::longest) o.grain_direction = longest_direction(mesh);
+  o.triplanar.up = up;
+  o.triplanar.tile_mm = context.tile_mm;
+  o.planar.up = o.intermediate.up = o.environment.up = up;
+  const bool fall_back = o.charts != ChartSource::keep;
+  const auto share = [&](auto& method) {
+    method.up = up;
+    method.fall_back = fall_back;
+    method.projection = o.triplanar;
+  };
+  share(o.natural), share(o.maillot), share(o.levy), share(o.lscm), share(o.reference), share(o.best);
+  o.natural.fall_back = true;
+  if (fall_back) o.best.energy_limit = 4 + worth_halving(o.segmentation);
+  if (o.iterations) o.maillot.max_iterations = o.best.max_iterations = *o.iterations;
+  if (o.iterations) o.levy.length_rounds = *o.iterations;
+  if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
+  if (o.tolerance)
+    o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
+  if (o.time_limit_s) o.maillot.time_limit_s = o.best.time_limit_s = o.levy.time_limit_s = *o.time_limit_s;
+  for (const PlacedPin& pin : o.pins)
+    if (is_for_part(pin.part, context.part)) o.levy.pins.push_back(pin_on(mesh, pin));
+  for (const PlacedIsoLine& line : o.iso_lines)
+    if (is_for_part(line.part, context.part)) o.levy.iso_lines.push_back(iso_line_on(mesh, line));
+  o.automatic.up = up;
+  o.automatic.best = o.best;
+  o.reference.map = o.method == UnwrapMethod::tutte ? ReferenceMap::tutte
+                    : o.method == UnwrapMethod::mvc ? ReferenceMap::mean_value
+                                                    : ReferenceMap::arap;
+  return o;
+}
+
+Flattening map_charts(const TriangleMesh& mesh, const ChartSet& charts, const MethodOptions& o,
+                      std::vector<ChartChoice>& choices) {
+  switch (o.method) {
+    case UnwrapMethod::maillot: return flatten_maillot(mesh, charts, o.maillot).flattening;
+    case UnwrapMethod::levy: return flatten_levy(mesh, charts, o.levy).flattening;
+    case UnwrapMethod::lscm: return flatten_lscm(mesh, charts, o.lscm);
+    case UnwrapMethod::best: return flatten_best(mesh, charts, o.best);
+    case UnwrapMethod::automatic: {
+      AutomaticResult result = flatten_automatic(mesh, charts, o.automatic);
+      choices = std::move(result.choices);
+      return std::move(result.flattening);
+    }
+    default: return flatten_reference(mesh, charts, o.reference);
+  }
+}
+
+/// Maps with a border on a circle need disks; the others leave holes of flat sheets as they are. Grain of known size
+/// wants its direction kept.
+SegmentationOptions segmentation_of(const MethodOptions& o, const PartContext& context) {
+  SegmentationOptions segmentation = o.segmentation;
+  const bool on_circle = o.method == UnwrapMethod::tutte || o.method == UnwrapMethod::mvc ||
+                         (o.method == UnwrapMethod::levy && o.levy.border == LevyBorder::convex);
+  segmentation.disks = on_circle;
+  if (!(context.tile_mm.x > 0 && context.tile_mm.y > 0)) return segmentation;
+  if (o.grain == GrainSource::up)
+    segmentation.grain = [up = context.up](Vec3 normal) { return grain_direction(normal, up); };
+  else
+    segmentation.grain = [d = normalized(o.grain_direction)](Vec3 normal) { return d - dot(d, normal) * normal; };
+  return segmentation;
+}
+
+/// Halves charts that have no valid map, or none worth having, a few times; the last map stays whatever it is.
+Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, const MethodOptions& options,
+                        std::vector<ChartChoice>& choices) {
+  constexpr int k_max_halvings = 6;
+  for (int i = 0;; ++i) {
+    Flattening flattening = map_charts(cut_open(mesh, charts), charts, options, choices);
+    if (flattening.notes.empty() || i == k_max_halvings) {
+      keep_cuts(mesh, charts.cuts, flattening.charts);
+      return flattening;
+    }
+    std::vector<std::uint32_t> failed;
+    for (const ChartNote& note : flattening.notes) failed.push_back(note.chart);
+    charts = halve_charts(mesh, charts, failed);
+  }
+}
+
+/// Why the whole part should be projected, or nothing.
+std::string reason_for_triplanar(double extent_mm, const PartContext& context) {
+  // Parts are small below this fraction of the scene, many from this number on, and grain is fine when it repeats so
+  // many times over the part.
+  constexpr double k_small = 0.05, k_fine = 20;
+  constexpr std::size_t k_many = 50;
+  const double tile = std::max(context.tile_mm.x, context.tile_mm.y);
+  if (!(tile > 0)) return {};
+  if (extent_mm < tile) return fmt::format("its extent of {:.3g} mm is less than one repeat of the grain", extent_mm);
+  if (context.parts >= k_many && extent_mm < k_small * context.scene_extent_mm && extent_mm > k_fine * tile)
+    return fmt::format(
+        "it is one of {} parts, {:.2g} of the scene's extent, and the grain repeats {:.0f} times over it",
+        context.parts, extent_mm / context.scene_extent_mm, extent_mm / tile);
+  return {};
+}
+
+Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                         FlattenedPart& part) {
+  const Stopwatch clock;
+  const ChartSet charts = segment_charts(mesh, segmentation_of(o, context)).charts;
+  part.segment_seconds += clock.seconds();
+  part.choices.clear();
+  return map_or_halve(mesh, charts, o, part.choices);
+}
+
+/// As choose_seam_cost() does.
+Flattening chart_twice(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
+                       FlattenedPart& part) {
+  std::vector<std::vector<ChartChoice>> choices;
+  SeamChoice choice = choose_seam_cost(mesh, [&](double seam_cost) {
+    MethodOptions own = o;
+    own.segmentation.seam_cost = seam_cost;
+    own.best.energy_limit = own.automatic.best.energy_limit = 4 + worth_halving(own.segmentation);
+    Flattening flattening = chart_and_map(mesh, own, context, part);
+    choices.push_back(std::move(part.choices));
+    return flattening;
+  });
+  part.choices = std::move(choices[choice.chosen]);
+  return std::move(choice.flattening);
+}
+
+Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context, FlattenedPart& part) {
+  switch (o.method) {
+    case UnwrapMethod::natural: return flatten_natural(mesh, o.natural);
+    case UnwrapMethod::intermediate: return flatten_intermediate(mesh, o.intermediate).flattening;
+    case UnwrapMethod::planar: return flatten_planar(mesh, o.planar).flattening;
+    case UnwrapMethod::triplanar: return flatten_triplanar(mesh, o.triplanar).flattening;
+    case UnwrapMethod::environment: {
+      Flattening f;
+      f.uv = environment_uv(mesh, o.environment);
+      f.charts = components_as_charts(mesh);
+      return f;
+    }
+    default: break;
+  }
+  if (o.charts == ChartSource::keep) {
+    require_manifold(mesh);
+    return map_or_halve(mesh, components_as_charts(mesh), o, part.choices);
+  }
+  // Twice the time is no matter on parts of this size.
+  constexpr std::size_t k_most_triangles = 50'000;
+  if (o.choose_seam_cost && mesh.triangles.size() <= k_most_triangles) return chart_twice(mesh, o, context, part);
+  return chart_and_map(mesh, o, context, part);
+}
+
+}  // namespace
+
+const std::map<std::string, UnwrapMethod>& unwrap_methods() {
+  static const std::map<std::string, UnwrapMethod> names{{"natural", UnwrapMethod::natural},
+                                                         {"intermediate", UnwrapMethod::intermediate},
+                                                         {"planar", UnwrapMethod::planar},
+                                                         {"environment", UnwrapMethod::environment},
+                                                         {"triplanar", UnwrapMethod::triplanar},
+                                                         {"maillot", UnwrapMethod::maillot},
+                                                         {"levy", UnwrapMethod::levy},
+                                                         {"tutte", UnwrapMethod::tutte},
+                                                         {"mvc", UnwrapMethod::mvc},
+                                                         {"lscm", UnwrapMethod::lscm},
+                                                         {"arap", UnwrapMethod::arap},
+                                                         {"best", UnwrapMethod::best},
+                                                         {"auto", UnwrapMethod::automatic}};
+  return names;
+}
+
+std::string unwrap_method_name(UnwrapMethod method) {
+  const auto& names = unwrap_methods();
+  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == method; })->first;
+}
+
+bool takes_charts(UnwrapMethod method) {
+  switch (method) {
+    case UnwrapMethod::natural:
+    case UnwrapMethod::intermediate:
+    case UnwrapMethod::planar:
+    case UnwrapMethod::environment:
+    case UnwrapMethod::triplanar: return false;
+    default: return true;
+  }
+}
+
+FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options) {
+  MethodOptions o = prepare(mesh, options, context);
+  FlattenedPart part;
+  if (o.method == UnwrapMethod::automatic && o.charts == ChartSource::automatic) {
+    part.reason = reason_for_triplanar(bounds_of(mesh).diagonal(), context);
+    if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;
+  }
+  part.method = unwrap_method_name(o.method);
+  part.flattening = flatten(mesh, o, context, part);
+  if (o.grain != GrainSource::up && o.method != UnwrapMethod::environment)
+    part.flattening.uv = turn_to_grain(mesh, part.flattening, o.grain_direction);
+  return part;
+}
+
+}  // namespace papilla

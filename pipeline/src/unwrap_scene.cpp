@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/unwrap_scene.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "papilla/core/bounds.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/meshing/repair.hpp"
+#include "papilla/meshing/weld.hpp"
+#include "papilla/param/pack.hpp"
+
+namespace papilla {
+namespace {
+
+/// The uv and charts of all parts that have some, in one list: chart and value numbers follow one another.
+struct AllCharts {
+  CornerAttribute<Vec2> uv;
+  ChartSet charts;
+};
+
+AllCharts gather(const std::vector<UnwrappedPart>& parts) {
+  AllCharts all;
+  for (const UnwrappedPart& part : parts) {
+    const Flattening& f = part.flattening;
+    const auto first = static_cast<Index>(all.uv.values.size());
+    all.uv.values.insert(all.uv.values.end(), f.uv.values.begin(), f.uv.values.end());
+    for (const Triangle& t : f.uv.indices) all.uv.indices.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const std::uint32_t c : f.charts.of_triangle) all.charts.of_triangle.push_back(all.charts.count + c);
+    all.charts.count += f.charts.count;
+  }
+  return all;
+}
+
+/// Gives the values of `uv`, in the order of gather(), back to the parts.
+void scatter(const CornerAttribute<Vec2>& uv, std::vector<UnwrappedPart>& parts) {
+  auto next = uv.values.begin();
+  for (UnwrappedPart& part : parts) {
+    const auto end = next + static_cast<std::ptrdiff_t>(part.flattening.uv.values.size());
+    std::copy(next, end, part.flattening.uv.values.begin());
+    next = end;
+  }
+}
+
+/// Half a percent of the side of a square that holds the area of all charts.
+double relative_gutter(const CornerAttribute<Vec2>& uv) {
+  double area = 0;
+  for (const Triangle& t : uv.indices)
+    area += 0.5 * std::abs(cross(uv.values[t[1]] - uv.values[t[0]], uv.values[t[2]] - uv.values[t[0]]));
+  return 0.005 * std::sqrt(area);
+}
+
+void pack(const UnwrapOptions& options, UnwrapResult& result) {
+  const AllCharts all = gather(result.parts);
+  const double gutter = options.gutter_mm.value_or(relative_gutter(all.uv));
+  const Atlas atlas = pack_atlas(all.uv, all.charts, {.gutter_mm = gutter, .tile_mm = options.tile_mm});
+  result.fill_rate = atlas.fill_rate;
+  scatter(atlas.uv, result.parts);
+}
+
+double density_of(const std::string& part, const UnwrapOptions& options) {
+  for (const auto& [pattern, density] : options.density)
+    if (is_for_part(pattern, part)) return density;
+  return 1;
+}
+
+/// Gives the parts channel 1.
+void pack_unique_uv(const UnwrapOptions& options, UnwrapResult& result) {
+  Scene& scene = result.scene;
+  const AllCharts all = gather(result.parts);
+  UniqueAtlasOptions unique{options.unique->texture_px, options.unique->gutter_px, {}};
+  for (std::size_t p = 0; p < result.parts.size(); ++p)
+    unique.density.insert(unique.density.end(), result.parts[p].flattening.charts.count,
+                          density_of(scene.parts[p].name, options));
+  UniqueAtlas atlas = pack_unique(all.uv, all.charts, unique);
+  auto next = atlas.uv.values.begin();
+  for (std::size_t p = 0; p < result.parts.size(); ++p) {
+    const CornerAttribute<Vec2>& uv = result.parts[p].flattening.uv;
+    if (uv.empty()) continue;
+    const auto end = next + static_cast<std::ptrdiff_t>(uv.values.size());
+    scene.parts[p].mesh.uv1 = {{next, end}, uv.indices};
+    next = end;
+  }
+  atlas.uv = {};
+  result.unique = std::move(atlas);
+}
+
+/// Edges through which two triangles or more run in the same direction.
+std::size_t opposed_edges(const TriangleMesh& mesh) {
+  std::vector<std::pair<Index, Index>> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) sides.push_back({t[k], t[(k + 1) % 3]});
+  std::sort(sides.begin(), sides.end());
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    count += sides[i] == sides[i - 1] && (i == 1 || sides[i] != sides[i - 2]);
+  return count;
+}
+
+double grain_size(const UnwrapOptions& options) {
+  if (options.grain_mm) return *options.grain_mm;
+  const double tile = std::min(options.tile_mm.x, options.tile_mm.y);
+  return tile > 0 ? tile / 8 : 1;
+}
+
+}  // namespace
+
+PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
+  PartContext context;
+  context.up = scene.up;
+  context.tile_mm = tile_mm;
+  context.parts = scene.parts.size();
+  Bounds3 bounds;
+  for (const Instance& use : instances(scene))
+    for (const Vec3& p : scene.parts[use.part].mesh.positions) bounds.add(transform_point(use.world, p));
+  context.scene_extent_mm = bounds.diagonal();
+  return context;
+}
+
+UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
+  UnwrappedPart result;
+  const Stopwatch repair_clock;
+  mesh = options.repair ? repair(std::move(mesh)).mesh : weld_equal(std::move(mesh)).mesh;
+  result.repair_seconds = repair_clock.seconds();
+  result.opposed_edges = opposed_edges(mesh);
+  const Stopwatch clock;
+  FlattenedPart flattened = flatten_part(mesh, context, options.method);
+  result.flattening = std::move(flattened.flattening);
+  result.method = std::move(flattened.method);
+  result.reason = std::move(flattened.reason);
+  result.choices = std::move(flattened.choices);
+  result.segment_seconds = flattened.segment_seconds;
+  if (options.method.method != UnwrapMethod::environment) {
+    AlignedPhase aligned = align_phase(mesh, result.flattening, {.tile_mm = options.tile_mm});
+    result.flattening.uv = std::move(aligned.uv);
+    result.grain_continued_mm = aligned.continued_mm;
+    result.seams =
+        seam_visibility(mesh, result.flattening.uv, {.tile_mm = options.tile_mm, .grain_mm = grain_size(options)});
+  }
+  result.solve_seconds = clock.seconds() - result.segment_seconds;
+  return result;
+}
+
+UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const ProgressCallback& progress) {
+  const Stopwatch clock;
+  if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
+    throw InvalidInput("no part has triangles to unwrap");
+  UnwrapResult result;
+  result.scene = std::move(scene);
+  std::vector<Part>& parts = result.scene.parts;
+  result.parts.resize(parts.size());
+  result.grain_mm = grain_size(options);
+  const PartContext shared_context = unwrap_context(result.scene, options.tile_mm);
+  std::vector<std::exception_ptr> failures(parts.size());
+  std::vector<double> start(parts.size(), 0);
+  double triangles = 0;
+  for (const Part& part : parts) triangles += static_cast<double>(part.mesh.triangles.size());
+  SharedProgress done(progress, "unwrap", triangles);
+  oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    const std::string place = "part '" + parts[p].name + "': ";
+    const auto size = static_cast<double>(parts[p].mesh.triangles.size());
+    start[p] = clock.seconds();
+    try {
+      PartContext context = shared_context;
+      context.part = parts[p].name;
+      result.parts[p] = unwrap_part(parts[p].mesh, context, options);
+    } catch (const SolverFailure& error) {
+      result.parts[p].failure = place + error.what();
+      failures[p] = std::make_exception_ptr(SolverFailure(result.parts[p].failure));
+    } catch (const InvalidInput& error) {
+      result.parts[p].failure = place + error.what();
+      failures[p] = std::make_exception_ptr(InvalidInput(result.parts[p].failure));
+    }
+    done.add(size);
+  });
+  if (std::all_of(failures.begin(), failures.end(), [](const auto& failure) { return failure != nullptr; }))
+    std::rethrow_exception(failures.front());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const UnwrappedPart& part = result.parts[p];
+    result.seconds.segment += part.segment_seconds;
+    result.seconds.solve += part.solve_seconds;
+    result.stop = worse(result.stop, part.flattening.stop);
+    for (const TraceSample& s : part.flattening.trace) result.trace.push_back({start[p] + s.seconds, s.error});
+  }
+  std::stable_sort(result.trace.begin(), result.trace.end(),
+                   [](const TraceSample& a, const TraceSample& b) { return a.seconds < b.seconds; });
+  const Stopwatch pack_clock;
+  if (options.method.method != UnwrapMethod::environment) {
+    if (options.unique) pack_unique_uv(options, result);
+    if (options.layout == UvLayout::atlas) pack(options, result);
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!result.parts[p].failure.empty()) continue;
+    parts[p].mesh.uv = result.parts[p].flattening.uv;
+    result.charts += result.parts[p].flattening.charts.count;
+  }
+  result.seconds.pack = pack_clock.seconds();
+  result.seconds.total = clock.seconds();
+  return result;
+}
+
+}  // namespace papilla

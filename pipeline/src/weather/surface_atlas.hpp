@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "papilla/meshing/sky.hpp"
+#include "weather/surface_texels.hpp"
+
+namespace papilla {
+
+/// Rings of texels around a chart that go on with its recipe, so that filtering never meets a neighbour.
+inline constexpr int k_gutter = 4;
+
+/// A piece of surface to be painted once.
+struct AtlasTile {
+  SurfaceTexels texels;
+  std::vector<float> sky;  ///< Empty when the recipe does not read it.
+  std::size_t charts = 0;  ///< How many show it.
+};
+
+/// Where a chart's texels are.
+struct AtlasChart {
+  int left = 0, top = 0;  ///< Of its window, in texels of the plane of its uv.
+  std::uint32_t tile = 0;
+};
+
+/// A material's surface, cut into charts, none with a texel that two unlike places share: pieces connected by position
+/// and uv; those that overlap, into their flat pieces; and those of them that still do, into triangles.
+struct SurfaceAtlas {
+  double texels_per_repeat = 0;
+  std::vector<AtlasTile> tiles;  ///< Charts that look the same to the recipe share one.
+  std::vector<AtlasChart> charts;
+  std::vector<std::uint32_t> chart_of;  ///< A number a triangle.
+};
+
+/// Charts that have the same window, outline and readings (products with the directions in steps of 1/2048, positions
+/// in steps of 0.1 mm if they are read, sky in steps of 1/256) share a tile, found by a hash (SHA-256) of these
+/// numbers. The resolution is `texels_per_repeat`, or less when the tiles would exceed 2^26 texels, or one 8192 a side.
+/// Cost: O(texels), and the sky. Deterministic.
+/// @param sky  null when it is not read.
+/// @throws InvalidInput when there are more charts than fit, or uv that are not finite.
+SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels_per_repeat,
+                         const SurfaceReading& reading, const SkyView* sky);
+
+/// Where the tiles lie.
+struct TilePlaces {
+  int width = 0, height = 0;
+  std::vector<std::pair<int, int>> corner;  ///< Upper left one.
+};
+
+/// Packs windows of the given sizes into a nearly square picture.
+TilePlaces place_tiles(std::span<const std::pair<int, int>> sizes);
+
+}  // namespace papilla

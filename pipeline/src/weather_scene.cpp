@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/weather_scene.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+
+#include "papilla/core/error.hpp"
+#include "papilla/haptic/material_tag.hpp"
+#include "papilla/haptic/sha256.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/procedural/texture.hpp"
+#include "papilla/texture/normal_map.hpp"
+#include "papilla/pipeline/recipe_source.hpp"
+#include "weather/atlas_uv.hpp"
+#include "weather/felt_relief.hpp"
+#include "weather/paint.hpp"
+#include "weather/sky_texels.hpp"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A material as it was painted.
+struct PaintedMaterial {
+  std::vector<std::byte> color_png, normal_png;  ///< Empty when nothing was painted.
+  std::vector<NewUv> uv;                         ///< Empty when it keeps its coordinates.
+  std::optional<HeightTag> height;               ///< Of tagged materials.
+  WeatheredMaterial report;
+};
+
+}  // namespace
+
+struct WeatherCache::State {
+  std::map<std::string, PaintedMaterial> painted;
+  std::map<std::string, std::shared_ptr<const MaterialSurface>> surfaces;
+  std::size_t texels = 0;  ///< Of the surfaces.
+  std::set<fs::path> files;
+};
+
+namespace {
+
+/// Surfaces are kept for the next time step up to this.
+constexpr std::size_t k_most_kept_texels = std::size_t{1} << 26;
+
+/// Of materials without haptic tag: what the recipes' texts take for granted.
+constexpr double k_common_friction = 0.4;
+
+/// Everything that stays the same over the materials of a scene.
+struct Job {
+  const Scene& scene;
+  const WeatherConfig& config;
+  const RecipeLibrary& library;
+  double time;
+  WeatherCache::State& cache;
+  std::vector<Instance> all;
+  std::optional<SkyView> sky;  ///< Made when the first recipe asks for it.
+};
+
+/// Adds pictures to a scene, the same bytes once.
+class Pictures {
+ public:
+  explicit Pictures(WeatherResult& result) : result_(result) {}
+  TextureReference add(const std::string& name, const std::vector<std::byte>& png) {
+    ++result_.images;
+    TextureReference reference;
+    const auto [it, is_new] = known_.try_emplace(sha256_hex(png), 0);
+    if (is_new) {
+      Scene& scene = result_.scene;
+      EncodedImage encoded;
+      encoded.name = name, encoded.mime_type = "image/png", encoded.bytes = png;
+      scene.images.push_back(std::move(encoded));
+      Texture texture;
+      texture.image = static_cast<std::uint32_t>(scene.images.size() - 1), texture.name = name;
+      scene.textures.push_back(std::move(texture));
+      it->second = static_cast<std::uint32_t>(scene.textures.size() - 1);
+    } else {
+      ++result_.duplicates_removed;
+    }
+    reference.texture = it->second;
+    return reference;
+  }
+
+ private:
+  WeatherResult& result_;
+  std::map<std::string, std::uint32_t> known_;
+};
+
+std::size_t hash_of(const Painted& tile) {
+  const auto bytes = std::as_bytes(std::span(tile.bump));
+  const std::hash<std::string_view> hash;
+  return hash({reinterpret_cast<const char*>(tile.rgb.data()), tile.rgb.size()}) * 31 +
+         hash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// Tiles with the same bytes are one, wherever they are shown: found by a hash, and compared.
+/// @returns the number of each tile among `distinct`.
+std::vector<std::uint32_t> distinct_tiles(std::vector<Painted> painted, std::vector<Painted>& distinct) {
+  std::vector<std::uint32_t> number;
+  std::unordered_multimap<std::size_t, std::uint32_t> known;
+  for (Painted& p : painted) {
+    const std::size_t hash = hash_of(p);
+    const auto [first, last] = known.equal_range(hash);
+    const auto same = std::find_if(first, last, [&](const auto& entry) {
+      const Painted& other = distinct[entry.second];
+      return other.width == p.width && other.rgb == p.rgb && other.bump == p.bump;
+    });
+    number.push_back(same != last ? same->second : static_cast<std::uint32_t>(distinct.size()));
+    if (same != last) continue;
+    known.emplace(hash, number.back());
+    distinct.push_back(std::move(p));
+  }
+  return number;
+}
+
+/// Copies a tile into the picture.
+void copy_tile(const Painted& tile, std::pair<int, int> corner, Painted& picture) {
+  for (int row = 0; row < tile.height; ++row) {
+    const auto from = static_cast<std::ptrdiff_t>(row) * tile.width;
+    const auto to = static_cast<std::ptrdiff_t>(corner.second + row) * picture.width + corner.first;
+    std::copy_n(tile.bump.begin() + from, tile.width, picture.bump.begin() + to);
+    std::copy_n(tile.rgb.begin() + 3 * from, 3 * tile.width, picture.rgb.begin() + 3 * to);
+  }
+}
+
+Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, Felt& felt, PaintedMaterial& material) {
+  const SurfaceAtlas& atlas = shown.atlas;
+  const std::vector<SurfaceTriangle>& surface = shown.triangles;
+  std::vector<Painted> painted, distinct;
+  for (const AtlasTile& tile : atlas.tiles)
+    painted.push_back(
+        paint(job, tile.texels, tile.sky, atlas.texels_per_repeat, static_cast<double>(tile.charts), felt));
+  const std::vector<std::uint32_t> number = distinct_tiles(std::move(painted), distinct);
+  std::vector<std::pair<int, int>> sizes;
+  for (const Painted& p : distinct) sizes.emplace_back(p.width, p.height);
+  const TilePlaces places = place_tiles(sizes);
+  const std::size_t texels = static_cast<std::size_t>(places.width) * static_cast<std::size_t>(places.height);
+  Painted picture{places.width, places.height, std::vector<unsigned char>(3 * texels, 128),
+                  std::vector<float>(texels, 0.5F)};
+  for (std::size_t k = 0; k < distinct.size(); ++k) copy_tile(distinct[k], places.corner[k], picture);
+  for (std::size_t t = 0; t < surface.size(); ++t) {
+    const AtlasChart& chart = atlas.charts[atlas.chart_of[t]];
+    const auto [x, y] = places.corner[number[chart.tile]];
+    NewUv fresh{surface[t].instance, surface[t].triangle, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 at = atlas.texels_per_repeat * surface[t].uv[k];
+      fresh.uv[k] = {(at.x - chart.left + x) / picture.width, 1 - (at.y - chart.top + y) / picture.height};
+    }
+    material.uv.push_back(fresh);
+  }
+  material.report.atlas = {picture.width,        picture.height,  atlas.charts.size(),
+                           atlas.tiles.size(),  distinct.size(), atlas.texels_per_repeat};
+  return picture;
+}
+
+/// Gives a tagged material the friction and stiffness of its new surface.
+void set_haptic_constants(Material& material, MaterialTag tag, double friction, double factor) {
+  const double ratio = tag.dynamic_friction > 0 ? tag.static_friction / tag.dynamic_friction : 1;
+  tag.dynamic_friction = friction, tag.static_friction = ratio * friction;
+  tag.stiffness *= factor;
+  material.extras_json = with_material_tag(material.extras_json, tag);
+}
+
+/// Everything that a material's look depends on apart from the scene.
+std::string key_of(const Job& job, std::uint32_t index, const std::string& recipe, const ProceduralTexture& texture,
+                   const std::vector<fs::path>& pictures) {
+  std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", index, job.config.size, job.config.depth_mm,
+                                job.config.sky_rays, texture.depends_on_time() ? job.time : 0, recipe);
+  for (const std::string& name : texture.recipes_used()) key += '\n' + name + ' ' + *job.library.find(name);
+  for (const fs::path& picture : pictures) {
+    std::error_code error;
+    key += fmt::format("\n{} {} {}", picture.string(), fs::last_write_time(picture, error).time_since_epoch().count(),
+                       fs::file_size(picture, error));
+  }
+  return key;
+}
+
+/// The material's surface, from the cache if it was laid out for such a reading before.
+std::shared_ptr<const MaterialSurface> surface_for(Job& job, std::uint32_t index, const SurfaceReading& reading) {
+  std::string key = fmt::format("{} {} {} {} {}", index, job.config.size, reading.position, reading.sky,
+                                reading.sky ? job.config.sky_rays : 0);
+  for (const auto& d : reading.directions) key += fmt::format(" {} {} {}", d[0], d[1], d[2]);
+  if (const auto it = job.cache.surfaces.find(key); it != job.cache.surfaces.end()) return it->second;
+  const auto surface = std::make_shared<const MaterialSurface>(
+      lay_out(job.scene, job.all, index, job.config.size, reading, [&]() -> const SkyView& {
+        if (!job.sky) job.sky = sky_of(job.scene, job.all, job.config.sky_rays);
+        return *job.sky;
+      }));
+  if (job.cache.texels + surface->texels() <= k_most_kept_texels) {
+    job.cache.texels += surface->texels();
+    job.cache.surfaces.emplace(std::move(key), surface);
+  }
+  return surface;
+}
+
+/// Paints one material anew.
+/// @param felt  the tag that it had. @param compiled  compiles the recipe, seamless or not.
+PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optional<MaterialTag>& felt,
+                            const ProceduralTexture& texture, const std::function<ProceduralTexture(bool)>& compiled) {
+  PaintedMaterial material;
+  WeatheredMaterial& report = material.report;
+  const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), texture.depends_on_sky()};
+  const auto surface = surface_for(job, index, reading);
+  if (!(surface->mm_per_repeat > 0)) {
+    report.skipped = "no surface with uv shows it";
+    return material;
+  }
+  Felt means;
+  Painted picture;
+  double scale = job.config.size;
+  if (surface->repeat) {
+    const bool tiles = surface->leaves_the_repeat();
+    const ProceduralTexture tiling = tiles ? compiled(true) : texture;
+    picture = paint({tiling, reading, *surface->own, job.config.depth_mm, tiles}, *surface->repeat, surface->sky, scale,
+                    1, means);
+  } else {
+    scale = surface->atlas.texels_per_repeat;
+    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm}, means, material);
+  }
+  const double pitch = surface->mm_per_repeat / scale;
+  HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
+  // A height of 1/2 is the surface as it was.
+  for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
+  if (felt && (!felt->height || surface->own->has_relief())) material.height = height_tag_of(relief);
+  material.color_png = encode_png({picture.width, picture.height, std::move(picture.rgb)});
+  material.normal_png = encode_png(normal_map(relief));
+  report.friction = means.friction / means.texels, report.stiffness = means.stiffness / means.texels;
+  report.depends_on_normal = texture.depends_on_normal(), report.depends_on_position = reading.position;
+  report.depends_on_sky = reading.sky, report.depends_on_neighbours = texture.depends_on_neighbours();
+  report.uses = texture.recipes_used();
+  report.own_relief = surface->own->has_relief();
+  report.mm_per_texel = pitch;
+  return material;
+}
+
+/// Gives the material the maps that were painted.
+void apply(const PaintedMaterial& painted, const std::optional<MaterialTag>& tag, Material& material, Pictures& pictures) {
+  TextureReference place;
+  if (const TextureReference* own = own_place(material); painted.uv.empty() && own) place = *own;
+  for (auto* reference : {&material.base_color_texture, &material.normal_texture}) {
+    const bool colour = reference == &material.base_color_texture;
+    *reference =
+        pictures.add((colour ? "color." : "normal.") + material.name, colour ? painted.color_png : painted.normal_png);
+    (*reference)->transform = place.transform, (*reference)->tex_coord = place.tex_coord;
+  }
+  material.base_color = {1, 1, 1, material.base_color[3]};
+  if (tag) set_haptic_constants(material, *tag, painted.report.friction, painted.report.stiffness);
+}
+
+/// Weathers one material. @return what is reported of it.
+WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures, std::vector<NewUv>& uv,
+         std::vector<std::uint32_t>& with_atlas, std::vector<std::optional<HeightTag>>& heights) {
+  const Material& before = job.scene.materials[index];
+  std::vector<HapticWarning> warnings;
+  const std::optional<MaterialTag> tag = material_tag_of_extras(before.extras_json, warnings);
+  const std::string recipe = layered_recipe(job.config, before.name, tag ? tag->dynamic_friction : k_common_friction);
+  WeatheredMaterial report;
+  report.name = before.name, report.recipe = recipe;
+  if (recipe.empty()) return report;
+  CompileOptions options = recipe_options(job.config.folder);
+  options.time = job.time, options.source = "weather, material '" + before.name + "'";
+  std::vector<fs::path> read;
+  options.read_picture = [&read, &job, from = options.read_picture](const std::string& path) {
+    read.push_back(job.config.folder / path);
+    job.cache.files.insert(read.back());
+    return from(path);
+  };
+  const auto compiled = [&](bool seamless) {
+    options.seamless = seamless;
+    return compile_texture(recipe, job.library, options);
+  };
+  const ProceduralTexture texture = compiled(false);
+  const std::string key = key_of(job, index, recipe, texture, read);
+  auto it = job.cache.painted.find(key);
+  if (it == job.cache.painted.end()) {
+    it = job.cache.painted.emplace(key, paint_material(job, index, tag, texture, compiled)).first;
+    ++result.painted;
+  }
+  const PaintedMaterial& painted = it->second;
+  report = painted.report;
+  report.name = before.name, report.recipe = recipe;
+  if (!report.painted()) return report;
+  apply(painted, tag, result.scene.materials[index], pictures);
+  uv.insert(uv.end(), painted.uv.begin(), painted.uv.end());
+  if (!painted.uv.empty()) with_atlas.push_back(index);
+  heights[index] = painted.height;
+  return report;
+}
+
+}  // namespace
+
+WeatherCache::WeatherCache() : state_(std::make_unique<State>()) {}
+WeatherCache::~WeatherCache() = default;
+WeatherCache::WeatherCache(WeatherCache&&) noexcept = default;
+WeatherCache& WeatherCache::operator=(WeatherCache&&) noexcept = default;
+
+const std::set<fs::path>& WeatherCache::files() const noexcept { return state_->files; }
+
+WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache,
+                            const ProgressCallback& progress) {
+  RecipeLibrary library = RecipeLibrary::builtin();
+  const auto note_files = [&] { cache.state().files.insert(library.files().begin(), library.files().end()); };
+  try {
+    for (const std::string& file : config.libraries) library.read_file(config.folder / file);
+  } catch (const Error&) {
+    note_files();
+    throw;
+  }
+  note_files();
+  WeatherResult result;
+  result.scene = scene;
+  Pictures pictures(result);
+  Job job{scene, config, library, time, cache.state(), instances(scene), {}};
+  std::vector<NewUv> uv;
+  std::vector<std::uint32_t> with_atlas;
+  std::vector<std::optional<HeightTag>> heights(scene.materials.size());
+  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
+    report_progress(progress, "weather", static_cast<double>(m) / static_cast<double>(scene.materials.size()));
+    result.materials.push_back(weather_material(result, m, job, pictures, uv, with_atlas, heights));
+  }
+  if (!with_atlas.empty()) set_atlas_uv(result.scene, job.all, std::move(uv), with_atlas);
+  for (std::size_t m = 0; m < heights.size(); ++m)
+    if (heights[m]) assign_relief(result.scene.materials[m], std::move(*heights[m]));
+  return result;
+}
+
+WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time,
+                            const ProgressCallback& progress) {
+  WeatherCache cache;
+  return weather_scene(scene, config, time, cache, progress);
+}
+
+}  // namespace papilla
