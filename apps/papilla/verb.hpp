@@ -4,15 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "json/json.hpp"
 #include "papilla/core/progress.hpp"
 
 namespace papilla::app {
-
-/// Keeps the order in which a verb writes its keys.
-using Json = nlohmann::ordered_json;
 
 /// Where a verb's text for people goes: stdout, unless --quiet or `--json -` claims it.
 class Console {
