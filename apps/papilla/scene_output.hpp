@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "papilla/core/error.hpp"
 #include "papilla/io/scene.hpp"
 #include "verb.hpp"
 
@@ -15,5 +16,17 @@ void print_notes(const Scene& scene, const Console& console);
 /// prints the notes. The verb puts them into its JSON as "losses" and "warnings".
 /// @throws InvalidInput, IoError as write_scene().
 void write_output(Scene& scene, const std::string& path, const Console& console);
+
+/// The result of `work`, with the file's name in front of what it throws about the file's content.
+template <class Work>
+auto named_by(const std::string& file, Work&& work) {
+  try {
+    return work();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(file + ": " + error.what());
+  } catch (const SolverFailure& error) {
+    throw SolverFailure(file + ": " + error.what());
+  }
+}
 
 }  // namespace papilla::app

@@ -178,7 +178,10 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
     plan.budget = fit_scene_to_budget(drawn, *options.budget);
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
       if (plan.perception.parts[i].left_out.empty()) scene.parts[i].mesh = plan.budget->parts[i].mesh;
-    for (SimplifyResult& part : plan.budget->parts) part.mesh = {};
+    for (SimplifyResult& part : plan.budget->parts) {
+      plan.budget_triangles.push_back(part.mesh.triangles.size());
+      part.mesh = {};
+    }
   }
   plan.simplify_seconds = simplify_clock.seconds();
   plan.surfaces = plan_surfaces(scene, rules, plan.perception.parts);

@@ -22,6 +22,39 @@ std::vector<MeshStatistics> part_statistics(const Scene& scene, const ProgressCa
   return result;
 }
 
+Bounds3 scene_bounds(const Scene& scene) {
+  Bounds3 bounds;
+  for (const Instance& use : instances(scene))
+    for (const Vec3& p : scene.parts[use.part].mesh.positions) bounds.add(transform_point(use.world, p));
+  return bounds;
+}
+
+std::vector<std::size_t> uses_of_parts(const Scene& scene) {
+  std::vector<std::size_t> uses(scene.parts.size(), 0);
+  for (const Instance& instance : instances(scene)) ++uses[instance.part];
+  return uses;
+}
+
+std::vector<std::pair<std::string, std::string>> texture_names(const Scene& scene, const Material& material) {
+  std::vector<std::pair<std::string, std::string>> names;
+  const auto add = [&](const char* use, const std::optional<TextureReference>& reference) {
+    if (!reference || reference->texture >= scene.textures.size()) return;
+    const Texture& texture = scene.textures[reference->texture];
+    std::string name = texture.name;
+    if (texture.image && *texture.image < scene.images.size()) {
+      const EncodedImage& image = scene.images[*texture.image];
+      name = !image.uri.empty() ? image.uri : !image.name.empty() ? image.name : name;
+    }
+    names.emplace_back(use, name.empty() ? "texture " + std::to_string(reference->texture) : name);
+  };
+  add("base_color", material.base_color_texture);
+  add("metallic_roughness", material.metallic_roughness_texture);
+  add("normal", material.normal_texture);
+  add("occlusion", material.occlusion_texture);
+  add("emissive", material.emissive_texture);
+  return names;
+}
+
 MeshStatistics total_statistics(const std::vector<MeshStatistics>& parts) {
   MeshStatistics total;
   total.has_uv = !parts.empty();

@@ -8,11 +8,11 @@
 #include <exception>
 #include <utility>
 
-#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/pack.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
 
 namespace papilla {
 namespace {
@@ -115,10 +115,7 @@ PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
   context.up = scene.up;
   context.tile_mm = tile_mm;
   context.parts = scene.parts.size();
-  Bounds3 bounds;
-  for (const Instance& use : instances(scene))
-    for (const Vec3& p : scene.parts[use.part].mesh.positions) bounds.add(transform_point(use.world, p));
-  context.scene_extent_mm = bounds.diagonal();
+  context.scene_extent_mm = scene_bounds(scene).diagonal();
   return context;
 }
 

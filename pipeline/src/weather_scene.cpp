@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -19,6 +20,7 @@
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "weather/atlas_uv.hpp"
+#include "weather/material_surface.hpp"
 #include "weather/felt_relief.hpp"
 #include "weather/paint.hpp"
 #include "weather/sky_texels.hpp"

@@ -10,7 +10,7 @@
 
 namespace papilla::app {
 
-/// What a page shows. `scene` is that of page_scene_json(); `report` that of bake, or null.
+/// What a page shows. `scene` is that of page_scene(); `report` that of bake, or null.
 struct PageContent {
   std::string title;
   Json scene, report;

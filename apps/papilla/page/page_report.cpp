@@ -6,7 +6,6 @@
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
 #include "papilla/core/base64.hpp"
-#include "papilla/core/error.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
 
@@ -37,25 +36,16 @@ ColorImage shrink(const ColorImage& image, int side) {
   return small;
 }
 
-void add_photos(Json& report) {
-  for (Json& material : report["materials"]) {
-    if (!material.contains("picture")) continue;
-    try {
-      material["photo"] = encode_base64(
-          encode_png(shrink(read_color_image(material["picture"]["file"].get<std::string>()), k_photo_px)));
-    } catch (const Error&) {
-      continue;
-    }
-  }
-}
-
 }  // namespace
 
-void write_report_page(const std::filesystem::path& glb, Json report, const std::filesystem::path& page,
-                       const ProgressCallback& progress) {
-  add_photos(report);
+void write_report_page(const std::filesystem::path& glb, Json report, const std::map<std::string, Grain>& grains,
+                       const std::filesystem::path& page, const ProgressCallback& progress) {
+  for (Json& material : report["materials"]) {
+    const ColorImage& photograph = grains.at(material["name"].get<std::string>()).photograph;
+    material["photo"] = encode_base64(encode_png(shrink(photograph, k_photo_px)));
+  }
   const Scene scene = read_gltf(glb);
-  write_page({glb.filename().string(), page_scene_json(scene, glb, {}, progress), std::move(report)}, page);
+  write_page({glb.filename().string(), page_scene(scene, glb, {}, progress).json, std::move(report)}, page);
 }
 
 }  // namespace papilla::app

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <map>
 
-#include "papilla/pipeline/measure_scene.hpp"
+#include "json/scene_json.hpp"
 #include "page/page_mesh.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
@@ -88,9 +88,9 @@ Json texture_json(const Scene& scene, const std::optional<TextureReference>& ref
 }
 
 /// Materials, and the height maps that their tags name.
-class Materials {
+class PageMaterials {
  public:
-  Materials(const Scene& scene, const std::filesystem::path& file) : scene_(scene), folder_(file.parent_path()) {
+  PageMaterials(const Scene& scene, const std::filesystem::path& file) : scene_(scene), folder_(file.parent_path()) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) add(scene.materials[i]);
   }
 
@@ -112,11 +112,12 @@ class Materials {
                  {"height", nullptr}};
     std::vector<HapticWarning> warnings;
     if (const auto tag = material_tag_of_extras(material.extras_json, warnings)) {
-      json["haptic"] = Json::parse(to_json(*tag));
-      if (tag->height) {
-        json["haptic"]["height"].erase("uri");
+      MaterialTag shown = *tag;  // The map itself travels with the heights.
+      if (shown.height) {
+        shown.height->uri.clear();
         json["height"] = height(*tag->height, warnings);
       }
+      json["haptic"] = Json::parse(to_json(shown));
     }
     json["warnings"] = Json::array();
     for (const HapticWarning& warning : warnings) json["warnings"].push_back(warning.code + ": " + warning.message);
@@ -147,23 +148,23 @@ class Materials {
 };
 
 /// The pictures that materials show; null for the others, so that numbers stay.
-Json images_json(const Scene& scene, const Json& materials) {
+Json images_json(const Scene& scene) {
   Json images = Json::array();
   for (std::size_t i = 0; i < scene.images.size(); ++i) images.push_back(nullptr);
-  for (const Json& material : materials)
-    for (const char* map : {"base_map", "normal_map"}) {
-      if (material[map].is_null()) continue;
-      Json& slot = images[material[map]["image"].get<std::size_t>()];
-      const EncodedImage& image = scene.images[material[map]["image"].get<std::size_t>()];
-      if (slot.is_null())
-        slot = {{"name", image.name}, {"type", image.mime_type}, {"bytes", encode_base64(image.bytes)}};
+  for (const Material& material : scene.materials)
+    for (const auto* map : {&material.base_color_texture, &material.normal_texture}) {
+      if (!*map || (*map)->texture >= scene.textures.size()) continue;
+      const auto number = scene.textures[(*map)->texture].image;
+      if (!number || *number >= scene.images.size() || !images[*number].is_null()) continue;
+      const EncodedImage& image = scene.images[*number];
+      images[*number] = {{"name", image.name}, {"type", image.mime_type}, {"bytes", encode_base64(image.bytes)}};
     }
   return images;
 }
 
 }  // namespace
 
-Json page_scene_json(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
+PageScene page_scene(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
                      const ProgressCallback& progress) {
   const std::vector<Instance> drawn = instances(scene);
   std::size_t triangles = 0, triangles_shown = 0;
@@ -190,9 +191,8 @@ Json page_scene_json(const Scene& scene, const std::filesystem::path& file, cons
     uses.push_back({{"part", use.part}, {"name", scene.nodes[use.node].name}, {"world", use.world}});
     for (const PageMesh& mesh : shown[use.part].meshes) triangles_shown += mesh.shown;
   }
-  Materials materials(scene, file);
-  Json images = images_json(scene, materials.materials);
-  return {{"file", file.filename().string()},
+  PageMaterials materials(scene, file);
+  Json json = {{"file", file.filename().string()},
           {"triangles", triangles},
           {"triangles_shown", triangles_shown},
           {"error_mm", error_mm},
@@ -201,9 +201,10 @@ Json page_scene_json(const Scene& scene, const std::filesystem::path& file, cons
           {"instances", std::move(uses)},
           {"materials", std::move(materials.materials)},
           {"heights", std::move(materials.heights)},
-          {"images", std::move(images)},
+          {"images", images_json(scene)},
           {"losses", scene.losses},
           {"warnings", scene.warnings}};
+  return {std::move(json), triangles, triangles_shown, error_mm};
 }
 
 }  // namespace papilla::app

@@ -13,13 +13,19 @@ struct PageSceneOptions {
   std::size_t triangles = 250000;  ///< That the page shows, about; more are simplified. At least 1.
 };
 
+/// A scene as data of the page.
+struct PageScene {
+  Json json;
+  std::size_t triangles = 0, triangles_shown = 0;
+  double error_mm = 0;  ///< Of the simplification.
+};
+
 /// A scene as the report page shows it: parts in compressed streams (PageMesh), instances, materials with their haptic
 /// tags, pictures and height maps (byte for byte, each once, checked against the tag's SHA-256) in base64. Distortion
 /// is measured for every part with uv.
 /// @param file the scene's own: height maps beside it are found from here.
-/// @return also `triangles`, `triangles_shown` and `error_mm`.
 /// @throws InvalidInput as instances() and measure_distortion().
-Json page_scene_json(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
+PageScene page_scene(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
                      const ProgressCallback& progress);
 
 }  // namespace papilla::app

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "papilla/pipeline/bake_scene.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 
-#include "bake/report.hpp"
 #include "exit_code.hpp"
+#include "json/scene_json.hpp"
+#include "options/perception_option.hpp"
+#include "options/scene_option.hpp"
 #include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
-#include "papilla/core/error.hpp"
-#include "papilla/core/trace.hpp"
 #include "papilla/io/glb_writer.hpp"
+#include "papilla/pipeline/bake_pictures.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
-#include "papilla/pipeline/simplify_scene.hpp"
-#include "scene_options.hpp"
 #include "scene_output.hpp"
-#include "verb.hpp"
+#include "text/scene_text.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
@@ -34,8 +29,8 @@ struct Options {
   std::string input, materials, output, report;
   std::vector<std::string> libraries, mirrors;
   bool pictures = false;
-  std::optional<std::size_t> budget;
-  LeaveOutOptions leave_out;
+  BakeOptions bake;
+  PerceptionOption perception;
   SceneOptions scene;
 
   GlbWriteOptions write_options() const {
@@ -51,74 +46,58 @@ void prepare_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw IoError(folder.string() + ": cannot be made a folder");
 }
 
-/// Brings what is not left out within the budget.
-Json simplify_scene(Scene& scene, const LeaveOutResult& perception, std::size_t budget, const Console& console) {
-  Scene drawn = scene;
-  leave_out(drawn, perception);
-  BudgetResult result = fit_scene_to_budget(drawn, budget);
-  console.print(fmt::format("budget of {} triangles: {} within {:.3g} mm{}\n", budget, result.triangles,
-                            result.tolerance_mm, result.reached ? "" : "; borders, seams and features allow no fewer"));
-  Json json = budget_json(scene, budget, result);
-  for (std::size_t i = 0; i < scene.parts.size(); ++i)
-    if (perception.parts[i].left_out.empty()) scene.parts[i].mesh = std::move(result.parts[i].mesh);
-  return json;
+/// The page, report.json, and pictures if they are wanted; what they are and took is added to the JSON.
+void write_report(const Options& options, const BakeResult& result, const VerbContext& context, const Stopwatch& total,
+                  Json& json) {
+  const fs::path folder = options.report;
+  if (options.pictures) {
+    const Stopwatch clock;
+    json["pictures"] = write_bake_pictures(result, folder, context.progress);
+    json["seconds"]["pictures"] = clock.seconds();
+  }
+  const Stopwatch clock;
+  write_report_page(options.output, json, result.grains, folder / "index.html", context.progress);
+  json["page"] = "index.html";
+  json["seconds"]["page"] = clock.seconds();
+  json["seconds"]["total"] = total.seconds();
+  write_atomically(folder / "report.json", json_text(json));
+  context.console.print((folder / "report.json").string() + ": plan, distortion, times" +
+                        (options.pictures ? "; pictures beside it\n" : "\n") + (folder / "index.html").string() +
+                        ": the same to look at and to touch\n");
 }
 
-Json run_bake(const Options& options, VerbContext& context) {
+Json run(const Options& options, VerbContext& context) {
   if (fs::path(options.output).extension() != ".glb")
     throw UsageError("--output: '" + options.output + "' must end in .glb");
+  BakeOptions bake = options.bake;
+  bake.plan.perception = options.perception.options();
   if (!options.report.empty()) prepare_folder(options.report);
   const Stopwatch total;
   const Materials rules = read_materials(options.materials);
+  bake.library = load_recipes(options.libraries);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  std::map<std::string, double> seconds = {{"read", total.seconds()}};
-  const Stopwatch prepare_clock;
-  const std::vector<SharedPart> shared = share_identical_parts(scene, rules);
-  const Json identical = shared_parts_json(shared, scene);
-  const LeaveOutResult perception = measure_perception(scene, options.leave_out, context.progress);
-  const Json perceived = perception_json(scene, perception);
-  context.console.print(left_out_table(scene, perception));
-  seconds["leave_out"] = prepare_clock.seconds();
-  const Json budget = options.budget ? simplify_scene(scene, perception, *options.budget, context.console) : Json();
-  seconds["simplify"] = prepare_clock.seconds() - seconds["leave_out"];
-  const std::vector<Surface> surfaces = plan_surfaces(scene, rules, perception.parts);
-  leave_out(scene, perception);
-  BakeResult result = bake(std::move(scene), surfaces, context.progress, load_recipes(options.libraries));
-  result.seconds.merge(seconds);
+  const double read_seconds = total.seconds();
+  BakeResult result = bake_scene(std::move(scene), rules, bake, context.progress);
+  result.seconds["read"] = read_seconds;
   const Stopwatch write_clock;
   for (const std::string& loss : write_glb(result.scene, options.output, options.write_options()))
     result.scene.losses.push_back(loss);
   result.seconds["write"] = write_clock.seconds();
+  result.seconds["total"] = total.seconds();
 
-  Json json = bake_json(result, surfaces);
-  json["identical_parts"] = identical;
-  if (options.leave_out.asked()) json["perception"] = perceived;
-  if (options.budget) json["budget"] = budget;
-  const std::size_t triangles = drawn_triangles(result.scene);
-  json["output"] = {{"file", options.output}, {"bytes", fs::file_size(options.output)}, {"triangles", triangles}};
+  const std::size_t triangles = drawn_triangles(result.scene), bytes = fs::file_size(options.output);
+  Json json = bake_json(result, bake);
+  json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
+  context.console.print(left_out_table(result.scene, result.plan.perception));
+  if (const auto& budget = result.plan.budget)
+    context.console.print(fmt::format("budget of {} triangles: {} within {:.3g} mm{}\n", *bake.plan.budget,
+                                      budget->triangles, budget->tolerance_mm,
+                                      budget->reached ? "" : "; borders, seams and features allow no fewer"));
   context.console.print(bake_table(result));
   print_notes(result.scene, context.console);
-  context.console.print(fmt::format("{}: {} triangles, {:.1f} MB\n", options.output, triangles,
-                                    static_cast<double>(fs::file_size(options.output)) / 1e6));
-  if (options.pictures) {
-    const Stopwatch pictures_clock;
-    json["pictures"] = write_pictures(result, options.report, context.progress);
-    result.seconds["pictures"] = pictures_clock.seconds();
-  }
-  result.seconds["total"] = total.seconds();
-  json["seconds"] = result.seconds;
-  if (!options.report.empty()) {
-    const fs::path folder = options.report;
-    const Stopwatch page_clock;
-    write_report_page(options.output, json, folder / "index.html", context.progress);
-    json["page"] = "index.html";
-    json["seconds"]["page"] = page_clock.seconds();
-    json["seconds"]["total"] = total.seconds();
-    write_atomically(folder / "report.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    context.console.print((folder / "report.json").string() + ": plan, distortion, times" +
-                          (options.pictures ? "; pictures beside it\n" : "\n") + (folder / "index.html").string() +
-                          ": the same to look at and to touch\n");
-  }
+  context.console.print(
+      fmt::format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
+  if (!options.report.empty()) write_report(options, result, context, total, json);
   return json;
 }
 
@@ -129,14 +108,14 @@ void add_bake(CLI::App& program) {
   CLI::App* verb = add_verb(program,
                             {"bake", "The main job: grain and touch onto a scene, as one GLB.",
                              "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
-                            [options](VerbContext& context) { return run_bake(*options, context); });
+                            [options](VerbContext& context) { return run(*options, context); });
   verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
   verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")
       ->required();
   verb->add_option("-o,--output", options->output, "GLB to write")->required();
   verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones")
       ->type_name("FILE");
-  verb->add_option("--budget", options->budget,
+  verb->add_option("--budget", options->bake.plan.budget,
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
@@ -151,7 +130,7 @@ void add_bake(CLI::App& program) {
   verb->add_flag("--pictures", options->pictures,
                  "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")
       ->needs(report);
-  options->leave_out.add_to(*verb);
+  options->perception.add_to(*verb);
   options->scene.add_to(*verb);
 }
 

@@ -15,7 +15,7 @@
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/pipeline/pictures/relief.hpp"
 #include "papilla/pipeline/pictures/texture_plots.hpp"
-#include "vector_option.hpp"
+#include "options/vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

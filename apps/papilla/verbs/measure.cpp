@@ -5,13 +5,14 @@
 #include <charconv>
 #include <memory>
 
-#include "papilla/pipeline/measure_scene.hpp"
 #include "exit_code.hpp"
+#include "json/scene_json.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
-#include "scene_options.hpp"
+#include "options/scene_option.hpp"
 #include "scene_output.hpp"
+#include "text/scene_text.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -95,15 +96,10 @@ Json run(const Options& options, VerbContext& context) {
   measure.texture_px = {options.texture_px, options.texture_px};
   measure.uv_per_texture = {options.uv_per_texture, options.uv_per_texture};
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  SceneDistortion distortion;
-  try {
-    distortion = measure_scene(scene, measure);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(options.input + ": " + error.what());
-  }
+  const SceneDistortion distortion = named_by(options.input, [&] { return measure_scene(scene, measure); });
   Json result = distortion_json(distortion.report);
   result["worst_chart"] = worst_chart_json(scene, distortion);
-  context.console.print(distortion_text(distortion.report, result["worst_chart"]));
+  context.console.print(distortion_text(scene, distortion));
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report, {.worst = options.worst}));
   if (!options.csv.empty()) write_atomically(options.csv, distortion_csv(distortion));

@@ -13,7 +13,7 @@
 #include "papilla/texture/spectral_surface.hpp"
 #include "papilla/texture/stein_surface.hpp"
 #include "papilla/texture/surface_like.hpp"
-#include "vector_option.hpp"
+#include "options/vector_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

@@ -12,7 +12,7 @@
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
 #include "papilla/io/scene_file.hpp"
-#include "scene_options.hpp"
+#include "options/scene_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -44,9 +44,13 @@ bool open_in_browser(const std::string& page) {
   return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-PageContent content_of(const std::string& file, const Options& options, const VerbContext& context) {
-  const Scene scene = read_scene(file, options.scene.read_options(), context.progress);
-  return {fs::path(file).filename().string(), page_scene_json(scene, file, options.page, context.progress), nullptr};
+PageScene scene_of(const std::string& file, const Options& options, const VerbContext& context) {
+  return page_scene(read_scene(file, options.scene.read_options(), context.progress), file, options.page,
+                    context.progress);
+}
+
+PageContent content_of(const std::string& file, Json scene) {
+  return {fs::path(file).filename().string(), std::move(scene), nullptr};
 }
 
 bool open_if_wanted(const std::string& page, const Options& options, const VerbContext& context) {
@@ -60,7 +64,7 @@ Json run_follow(const Options& options, const VerbContext& context) {
   bool opened = false;
   Json json = follow_player(
       {*options.follow, options.input, options.port},
-      [&](const std::string& file) { return content_of(file, options, context); },
+      [&](const std::string& file) { return content_of(file, scene_of(file, options, context).json); },
       [&](const std::string& url) {
         context.console.print("following the player at " + url + " until Ctrl-C\n");
         opened = open_if_wanted(url, options, context);
@@ -74,17 +78,17 @@ Json run(const Options& options, VerbContext& context) {
   if (options.input.empty()) throw UsageError("a FILE is required");
   const fs::path page =
       options.output.empty() ? fs::path(options.input).replace_extension(".html") : fs::path(options.output);
-  const PageContent content = content_of(options.input, options, context);
-  const std::size_t bytes = write_page(content, page);
-  const Json& triangles = content.scene["triangles"];
-  const Json& shown = content.scene["triangles_shown"];
-  context.console.print(fmt::format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(),
-                                    shown.get<std::size_t>(), triangles.get<std::size_t>(),
-                                    static_cast<double>(bytes) / 1e6));
+  PageScene scene = scene_of(options.input, options, context);
+  const std::size_t bytes = write_page(content_of(options.input, std::move(scene.json)), page);
+  context.console.print(fmt::format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(), scene.triangles_shown,
+                                    scene.triangles, static_cast<double>(bytes) / 1e6));
   const bool opened = open_if_wanted(fs::absolute(page).string(), options, context);
-  return {{"page", page.string()},    {"triangles", triangles},
-          {"triangles_shown", shown}, {"simplification_error_mm", content.scene["error_mm"]},
-          {"bytes", bytes},           {"opened", opened}};
+  return {{"page", page.string()},
+          {"triangles", scene.triangles},
+          {"triangles_shown", scene.triangles_shown},
+          {"simplification_error_mm", scene.error_mm},
+          {"bytes", bytes},
+          {"opened", opened}};
 }
 
 }  // namespace

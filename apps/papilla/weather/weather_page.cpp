@@ -30,31 +30,28 @@ std::string image(const ColorImage& picture, const std::string& alt) {
                      picture.height, encode_base64(encode_png(picture)));
 }
 
-std::string row(const Json& material) {
-  std::string text = fmt::format("<tr><td>{}", html_text(material["name"].get<std::string>()));
-  if (material.contains("skipped")) return text + "<td colspan=4>" + html_text(material["skipped"].get<std::string>());
-  if (!material.contains("friction")) return text + "<td colspan=4>no layer fits";
+std::string row(const WeatheredMaterial& material) {
+  const std::string text = fmt::format("<tr><td>{}", html_text(material.name));
+  if (!material.skipped.empty()) return text + "<td colspan=4>" + html_text(material.skipped);
+  if (!material.painted()) return text + "<td colspan=4>no layer fits";
   std::string uses, maps = "one repeat";
-  for (const auto& name : material["uses"]) uses += (uses.empty() ? "" : ", ") + name.get<std::string>();
-  if (material.contains("atlas")) {
-    const Json& atlas = material["atlas"];
-    maps = fmt::format("atlas of {} x {}: {} charts, {} unlike", atlas["width"].get<int>(), atlas["height"].get<int>(),
-                       atlas["charts"].get<int>(), atlas["tiles"].get<int>());
-  }
-  return text + fmt::format("<td>{}<td>{}<td>{:.3f}<td>{:.2f}", html_text(uses), maps,
-                            material["friction"].get<double>(), material["stiffness"].get<double>());
+  for (const std::string& name : material.uses) uses += (uses.empty() ? "" : ", ") + name;
+  if (const auto& atlas = material.atlas)
+    maps = fmt::format("atlas of {} x {}: {} charts, {} unlike", atlas->width, atlas->height, atlas->charts, atlas->tiles);
+  return text + fmt::format("<td>{}<td>{}<td>{:.3f}<td>{:.2f}", html_text(uses), maps, material.friction,
+                            material.stiffness);
 }
 
 }  // namespace
 
-ColorImage look_at(const Scene& scene) {
+ColorImage view_of(const Scene& scene) {
   RenderOptions options;
   options.width = 800, options.height = 600;
   return render_scene(scene, options);
 }
 
 std::string weather_page(const std::string& title, const ColorImage& before, const std::vector<WeatherView>& after,
-                         const Json& materials, const std::string& config, bool live) {
+                         const std::vector<WeatheredMaterial>& materials, const std::string& config, bool live) {
   std::string page = fmt::format(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">{}<title>{}</title><style>{}</style>\n<h1>{}</h1>\n<div class=\"pair\">"
@@ -69,7 +66,7 @@ std::string weather_page(const std::string& title, const ColorImage& before, con
       "min=\"0\" max=\"{}\" value=\"{}\"></label></p>\n<h2>Materials</h2>\n<table><tr><th>material<th>recipes<th>maps"
       "<th>friction<th>stiffness</tr>\n",
       after.size() - 1, after.size() - 1);
-  for (const Json& material : materials) page += row(material) + "</tr>\n";
+  for (const WeatheredMaterial& material : materials) page += row(material) + "</tr>\n";
   return page + fmt::format(
                     "</table>\n<p>Friction and stiffness are means over the surface, at the last time.</p>\n"
                     "<h2>Configuration</h2>\n<pre>{}</pre>\n<script>{}</script>\n</html>\n",

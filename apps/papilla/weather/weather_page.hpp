@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "papilla/io/scene.hpp"
+#include "papilla/pipeline/weather_scene.hpp"
 #include "papilla/texture/image.hpp"
-#include "verb.hpp"
 
 namespace papilla::app {
 
@@ -17,12 +17,12 @@ struct WeatherView {
 };
 
 /// The scene seen from the front, above and the right.
-ColorImage look_at(const Scene& scene);
+ColorImage view_of(const Scene& scene);
 
 /// A self-contained page: the scene before, the scene after with a slider over the times, what was done to each
 /// material, the configuration as it was read.
 /// @param live  the page reads itself again every two seconds; the slider stays where it is.
 std::string weather_page(const std::string& title, const ColorImage& before, const std::vector<WeatherView>& after,
-                         const Json& materials, const std::string& config, bool live);
+                         const std::vector<WeatheredMaterial>& materials, const std::string& config, bool live);
 
 }  // namespace papilla::app

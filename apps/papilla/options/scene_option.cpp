@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scene_options.hpp"
+#include "options/scene_option.hpp"
 
 #include <map>
 

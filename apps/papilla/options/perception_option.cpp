@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "volume_option.hpp"
+#include "options/perception_option.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -93,8 +93,11 @@ std::vector<Volume> volumes_of(const std::string& text, const std::string& file)
   return volumes;
 }
 
-}  // namespace
-
+/// Volumes given on the command line, in millimetres in the scene's frame; several are taken together:
+/// "X,Y,Z,R" is a sphere, "X,Y,Z,X,Y,Z" the box between two corners, anything else names a JSON file (or is JSON
+/// itself) with {"centre": [X,Y,Z], "radius": R}, {"min": [X,Y,Z], "max": [X,Y,Z]}, or an array of these.
+/// @throws UsageError naming the option when the numbers make no volume; IoError, InvalidInput naming file and JSON
+///         pointer.
 std::vector<Volume> parse_volumes(const std::string& option, const std::string& text) {
   if (const auto numbers = numbers_of(text)) {
     if (numbers->size() != 4 && numbers->size() != 6)
@@ -106,6 +109,40 @@ std::vector<Volume> parse_volumes(const std::string& option, const std::string& 
   }
   if (!text.empty() && (text[0] == '{' || text[0] == '[')) return volumes_of(text, option);
   return volumes_of(read_file(text), text);
+}
+
+}  // namespace
+
+void PerceptionOption::add_to(CLI::App& verb, bool can_leave_out) {
+  verb.add_option("--reach", reach, "Where hands can be, mm in the scene's frame: X,Y,Z,R, X,Y,Z,X,Y,Z or a JSON file")
+      ->type_name("VOLUME")
+      ->group("Leave out");
+  verb.add_option("--view", view, "Where eyes can be, given like --reach")->type_name("VOLUME")->group("Leave out");
+  verb.add_option("--view-samples", samples, "Points looked at on every use of a part")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str()
+      ->group("Leave out");
+  if (!can_leave_out) return;
+  verb.add_option("--leave-out", leave_out,
+                  "unreachable, unseen, or both: then parts that can be neither touched nor seen")
+      ->type_name("WHAT,...")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"unreachable", "unseen"}))
+      ->group("Leave out");
+}
+
+PerceptionOptions PerceptionOption::options() const {
+  PerceptionOptions options;
+  if (!reach.empty()) options.reach = parse_volumes("--reach", reach);
+  if (!view.empty()) options.view = parse_volumes("--view", view);
+  const auto wants = [&](const char* what) { return std::find(leave_out.begin(), leave_out.end(), what) != leave_out.end(); };
+  options.leave_out_unreachable = wants("unreachable");
+  options.leave_out_unseen = wants("unseen");
+  options.samples = samples;
+  if (options.leave_out_unreachable && reach.empty()) throw UsageError("--leave-out: 'unreachable' needs --reach");
+  if (options.leave_out_unseen && view.empty()) throw UsageError("--leave-out: 'unseen' needs --view");
+  return options;
 }
 
 }  // namespace papilla::app

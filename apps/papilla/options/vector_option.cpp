@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vector_option.hpp"
+#include "options/vector_option.hpp"
 
 #include <array>
 #include <charconv>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "bake/report.hpp"
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/bake_pictures.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,6 @@
 #include <optional>
 #include <set>
 
-#include "papilla/pipeline/measure_scene.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/meshing/sight_lines.hpp"
@@ -18,42 +17,11 @@
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "placed_meshes.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
-
-using nlohmann::ordered_json;
 
 /// More layouts than this are no longer looked at; the largest surfaces are drawn.
 constexpr std::size_t k_most_layouts = 24;
-
-/// The summed distortion of all surfaces with grain: means weighted by area, counts added.
-ordered_json total_distortion(const std::vector<BakedSurface>& surfaces) {
-  double area = 0, symmetric_dirichlet = 0, angle = 0, stretch2 = 0, worst = 0;
-  std::size_t flipped = 0, triangles = 0, charts = 0, overlapping = 0;
-  for (const BakedSurface& surface : surfaces) {
-    const DistortionReport& report = surface.distortion;
-    area += report.area_mm2;
-    symmetric_dirichlet += report.area_mm2 * report.symmetric_dirichlet.mean;
-    angle += report.area_mm2 * report.angle_error_deg.mean;
-    stretch2 += report.area_mm2 * report.stretch_l2 * report.stretch_l2;
-    worst = std::max(worst, report.stretch_linf);
-    flipped += report.flipped;
-    triangles += report.triangles;
-    charts += report.charts;
-    overlapping += report.overlapping_within_charts;
-  }
-  ordered_json json = {{"triangles", triangles},
-                       {"charts", charts},
-                       {"flipped", flipped},
-                       {"overlapping_within_charts", overlapping},
-                       {"area_mm2", area}};
-  if (!(area > 0)) return json;
-  json["symmetric_dirichlet"] = {{"mean", symmetric_dirichlet / area}};
-  json["angle_error_deg"] = {{"mean", angle / area}};
-  json["stretch_l2"] = std::sqrt(stretch2 / area);
-  json["stretch_linf"] = worst;
-  return json;
-}
 
 /// A name that is safe in any file system: letters, digits, dot and dash, at most 60 characters.
 std::string file_name(const std::string& label) {
@@ -105,7 +73,7 @@ std::vector<const BakedSurface*> largest_surfaces(const std::vector<BakedSurface
 
 /// The spot of a surface nearest to the middle of its area before which nothing stands in the way, with the normal
 /// there, in the frame of the scene; the nearest of all when that is true of none.
-std::optional<CloseUp> look_at(const BakedSurface& surface, const std::vector<Instance>& uses, UpAxis up,
+std::optional<CloseUp> close_up_of(const BakedSurface& surface, const std::vector<Instance>& uses, UpAxis up,
                                const SightLines& sight, double extent_mm) {
   const auto use = std::find_if(uses.begin(), uses.end(), [&](const Instance& u) { return u.part == surface.part; });
   if (use == uses.end()) return std::nullopt;
@@ -141,62 +109,14 @@ void add_close_ups(const BakeResult& result, const std::vector<const BakedSurfac
         std::find_if(by_size.begin(), by_size.end(), [&](const BakedSurface* s) { return s->material == name; });
     if (largest == by_size.end()) continue;
     render.close_up =
-        look_at(**largest, uses, result.scene.up, sight, 3 * std::max(grain.size_mm[0], grain.size_mm[1]));
+        close_up_of(**largest, uses, result.scene.up, sight, 3 * std::max(grain.size_mm[0], grain.size_mm[1]));
     if (render.close_up) pictures.add("close-up-" + name, render_scene(result.scene, render));
   }
 }
 
 }  // namespace
 
-ordered_json bake_json(const BakeResult& result, const std::vector<Surface>& planned) {
-  ordered_json json;
-  json["plan"] = plan_json(planned);
-  json["parts"] = ordered_json::array();
-  for (const BakedSurface& surface : result.surfaces)
-    json["parts"].push_back({{"part", surface.label},
-                             {"material", surface.material},
-                             {"unwrap", surface.method},
-                             {"reason", surface.reason},
-                             {"charts", surface.charts},
-                             {"seam_mm", surface.seam_mm},
-                             {"grain_continued_mm", surface.grain_continued_mm},
-                             {"notes", surface.notes},
-                             {"distortion", distortion_json(surface.distortion)}});
-  json["materials"] = ordered_json::array();
-  for (const auto& [name, grain] : result.grains) {
-    ordered_json entry = {{"name", name}};
-    entry.update(grain.report);
-    json["materials"].push_back(std::move(entry));
-  }
-  json["distortion"] = total_distortion(result.surfaces);
-  json["losses"] = result.scene.losses;
-  json["warnings"] = result.scene.warnings;
-  json["seconds"] = result.seconds;
-  return json;
-}
-
-std::string bake_table(const BakeResult& result) {
-  std::size_t width = 4, material_width = 8;
-  for (const BakedSurface& surface : result.surfaces) {
-    width = std::clamp(surface.label.size(), width, std::size_t{40});
-    material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
-  }
-  std::string out = fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
-                                material_width, "unwrap", "charts", "triangles", "sym.D", "angle°", "flipped");
-  for (const BakedSurface& surface : result.surfaces) {
-    out += fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
-                       surface.material, material_width, surface.method, surface.distortion.charts,
-                       surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
-                       surface.distortion.angle_error_deg.mean, surface.distortion.flipped);
-    if (!surface.notes.empty())
-      out += fmt::format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(),
-                         surface.notes.front());
-  }
-  if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
-  return out;
-}
-
-std::vector<std::string> write_pictures(const BakeResult& result, const std::filesystem::path& folder,
+std::vector<std::string> write_bake_pictures(const BakeResult& result, const std::filesystem::path& folder,
                                         const ProgressCallback& progress) {
   const std::vector<const BakedSurface*> surfaces = largest_surfaces(result.surfaces);
   PictureFolder pictures(folder, 2 + surfaces.size() + 3 * result.grains.size(), progress);
@@ -216,4 +136,4 @@ std::vector<std::string> write_pictures(const BakeResult& result, const std::fil
   return pictures.names();
 }
 
-}  // namespace papilla::app
+}  // namespace papilla

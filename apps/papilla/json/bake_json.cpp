@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "json/scene_json.hpp"
+
+namespace papilla::app {
+namespace {
+
+Json grain_json(const std::string& name, const Grain& grain) {
+  const GrainHeight& h = grain.height;
+  Json height = {{"method", h.method}, {"reason", h.reason}};
+  if (h.light) {
+    height["light"] = {h.light->x, h.light->y, h.light->z};
+    height["light_estimated"] = h.light_estimated;
+  }
+  height.update({{"depth_mm", h.depth_mm}, {"rms_mm", h.rms_mm}, {"periodic", grain.relief.periodic}});
+  if (h.light) height["stop"] = to_string(h.stop);
+  Json json = {{"name", name},
+               {"picture",
+                {{"file", grain.source},
+                 {"width", grain.photograph.width},
+                 {"height", grain.photograph.height},
+                 {"size_mm", {grain.size_mm[0], grain.size_mm[1]}},
+                 {"tiles", grain.tiles},
+                 {"monochrome", grain.monochrome},
+                 {"shown", grain.picture.has_value()}}},
+               {"class",
+                {{"name", to_string(grain.kind.kind)},
+                 {"disordered", grain.kind.disordered},
+                 {"weakly_ordered", grain.kind.weakly_ordered},
+                 {"strongly_ordered", grain.kind.strongly_ordered}}},
+               {"lattice", grain.lattice.has_value()}};
+  if (grain.lattice) {
+    json["group"] = grain.lattice->group;
+    json["period_mm"] = Json::array();
+    for (const Vec2& period : grain.lattice->period_mm) json["period_mm"].push_back({period.x, period.y});
+  }
+  json["height"] = height;
+  const auto& fractal = grain.roughness.fractal;
+  json["roughness"] = {{"rms_mm", grain.roughness.rms_mm},
+                       {"fractal_dimension", fractal ? Json(fractal->dimension) : Json(nullptr)}};
+  return json;
+}
+
+Json total_json(const std::vector<BakedSurface>& surfaces) {
+  std::vector<const DistortionReport*> reports;
+  for (const BakedSurface& surface : surfaces) reports.push_back(&surface.distortion);
+  const DistortionTotals total = total_distortion(reports);
+  Json json = {{"triangles", total.triangles},
+               {"charts", total.charts},
+               {"flipped", total.flipped},
+               {"overlapping_within_charts", total.overlapping_within_charts},
+               {"area_mm2", total.area_mm2}};
+  if (!(total.area_mm2 > 0)) return json;
+  json["symmetric_dirichlet"] = {{"mean", total.symmetric_dirichlet_mean}};
+  json["angle_error_deg"] = {{"mean", total.angle_error_deg_mean}};
+  json["stretch_l2"] = total.stretch_l2;
+  json["stretch_linf"] = total.stretch_linf;
+  return json;
+}
+
+}  // namespace
+
+Json plan_json(const std::vector<PartSurface>& surfaces) {
+  Json stages = Json::array();
+  for (const PartSurface& surface : surfaces)
+    for (std::size_t i = 0; i < k_stage_count; ++i)
+      stages.push_back({{"part", surface.label},
+                        {"material", surface.material.empty() ? Json(nullptr) : Json(surface.material)},
+                        {"stage", k_stages[i].name},
+                        {"run", surface.plan[i].run},
+                        {"reason", surface.plan[i].reason}});
+  return stages;
+}
+
+Json bake_json(const BakeResult& result, const BakeOptions& options) {
+  Json json;
+  json["plan"] = plan_json(result.plan.surfaces);
+  json["parts"] = Json::array();
+  for (const BakedSurface& surface : result.surfaces)
+    json["parts"].push_back({{"part", surface.label},
+                             {"material", surface.material},
+                             {"unwrap", surface.method},
+                             {"reason", surface.reason},
+                             {"charts", surface.charts},
+                             {"seam_mm", surface.seam_mm},
+                             {"grain_continued_mm", surface.grain_continued_mm},
+                             {"notes", surface.notes},
+                             {"distortion", distortion_json(surface.distortion)}});
+  json["materials"] = Json::array();
+  for (const auto& [name, grain] : result.grains) json["materials"].push_back(grain_json(name, grain));
+  json["distortion"] = total_json(result.surfaces);
+  json["losses"] = result.scene.losses;
+  json["warnings"] = result.scene.warnings;
+  json["seconds"] = result.seconds;
+  json["identical_parts"] = shared_parts_json(result.plan.shared, result.scene);
+  if (options.plan.perception.asked()) json["perception"] = perception_json(result.scene, result.plan.perception);
+  if (const auto& budget = result.plan.budget)
+    json["budget"] = budget_json(result.scene, *options.plan.budget, *budget, budget->parts, result.plan.budget_triangles);
+  return json;
+}
+
+Json weather_json(const WeatheredMaterial& m) {
+  Json json{{"name", m.name}, {"recipe", m.recipe}};
+  if (m.recipe.empty()) return json;
+  if (!m.skipped.empty()) {
+    json["skipped"] = m.skipped;
+    return json;
+  }
+  if (m.atlas)
+    json["atlas"] = {{"width", m.atlas->width},
+                     {"height", m.atlas->height},
+                     {"charts", m.atlas->charts},
+                     {"tiles_computed", m.atlas->tiles_computed},
+                     {"tiles", m.atlas->tiles},
+                     {"texels_per_repeat", m.atlas->texels_per_repeat}};
+  json["depends_on"] = {{"normal", m.depends_on_normal},
+                        {"position", m.depends_on_position},
+                        {"sky", m.depends_on_sky},
+                        {"neighbours", m.depends_on_neighbours}};
+  json["uses"] = m.uses;
+  json["own_relief"] = m.own_relief;
+  json["mm_per_texel"] = m.mm_per_texel;
+  json["friction"] = m.friction;
+  json["stiffness"] = m.stiffness;
+  return json;
+}
+
+}  // namespace papilla::app

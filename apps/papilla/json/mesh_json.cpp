@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "json/scene_json.hpp"
+#include "papilla/core/bounds.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
+
+namespace papilla::app {
+namespace {
+
+std::string material_names(const Scene& scene, const Part& part) {
+  const std::set<std::uint32_t> used(part.materials.begin(), part.materials.end());
+  std::string names;
+  for (const std::uint32_t m : used)
+    if (m < scene.materials.size()) names += (names.empty() ? "" : ", ") + scene.materials[m].name;
+  return names;
+}
+
+Json parts_json(const Scene& scene, const std::vector<MeshStatistics>& statistics) {
+  const std::vector<std::size_t> uses = uses_of_parts(scene);
+  Json parts = Json::array();
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const MeshStatistics& s = statistics[i];
+    Json part{{"name", scene.parts[i].name}};
+    part.update(counters_json(s));
+    part["material"] = material_names(scene, scene.parts[i]);
+    part["instances"] = uses[i];
+    part["bbox_mm"] = {s.high.x - s.low.x, s.high.y - s.low.y, s.high.z - s.low.z};
+    part["area_mm2"] = s.area_mm2;
+    part["volume_mm3"] = or_null(s.volume_mm3);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+Json materials_json(const Scene& scene) {
+  Json materials = Json::array();
+  for (const Material& m : scene.materials)
+    materials.push_back({{"name", m.name},
+                         {"base_color", m.base_color},
+                         {"double_sided", m.double_sided},
+                         {"textures", Json::object()},
+                         {"haptic", m.extras_json.find("\"haptic\"") != std::string::npos}});
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    for (const auto& [use, name] : texture_names(scene, scene.materials[i])) materials[i]["textures"][use] = name;
+  return materials;
+}
+
+Json faces_json(const std::vector<CadFaceNote>& notes) {
+  Json faces = Json::array();
+  for (const CadFaceNote& note : notes)
+    faces.push_back({{"part", note.part}, {"face", note.face}, {"reason", note.reason}, {"tried", note.tried}});
+  return faces;
+}
+
+Json operations_json(const std::vector<RepairResult>& results) {
+  const auto sum = [&](std::size_t RepairCounts::*count) {
+    std::size_t total = 0;
+    for (const RepairResult& r : results) total += r.counts.*count;
+    return total;
+  };
+  return {{"welded_equal", sum(&RepairCounts::welded_equal)},
+          {"welded_near", sum(&RepairCounts::welded_near)},
+          {"repeated_corners", sum(&RepairCounts::repeated_corners)},
+          {"collapsed_needles", sum(&RepairCounts::collapsed_needles)},
+          {"flipped_caps", sum(&RepairCounts::flipped_caps)},
+          {"pushed_apexes", sum(&RepairCounts::pushed_apexes)},
+          {"duplicates", sum(&RepairCounts::duplicates)},
+          {"opposites", sum(&RepairCounts::opposites)},
+          {"walls", sum(&RepairCounts::walls)},
+          {"t_junctions", sum(&RepairCounts::t_junctions)},
+          {"border_slivers", sum(&RepairCounts::border_slivers)},
+          {"reversed", sum(&RepairCounts::reversed)},
+          {"parted_edges", sum(&RepairCounts::parted_edges)},
+          {"added_vertices", sum(&RepairCounts::added_vertices)},
+          {"stitched_gaps", sum(&RepairCounts::stitched_gaps)},
+          {"filled_holes", sum(&RepairCounts::filled_holes)},
+          {"added_triangles", sum(&RepairCounts::added_triangles)}};
+}
+
+Json deviations_json(const std::vector<RepairResult>& results) {
+  const auto largest = [&](double RepairDeviations::*operation) {
+    double deviation = 0;
+    for (const RepairResult& r : results) deviation = std::max(deviation, r.deviations.*operation);
+    return deviation;
+  };
+  return {{"weld", largest(&RepairDeviations::weld)},
+          {"degenerate", largest(&RepairDeviations::degenerate)},
+          {"t_junctions", largest(&RepairDeviations::t_junctions)},
+          {"partings", largest(&RepairDeviations::partings)},
+          {"stitches", largest(&RepairDeviations::stitches)}};
+}
+
+Json simplified_part_json(const std::string& name, const SimplifyResult& part, std::size_t triangles_after) {
+  return {{"name", name},
+          {"triangles_before", part.triangles_before},
+          {"triangles_after", triangles_after},
+          {"max_deviation_mm", part.deviation.bound()},
+          {"max_deviation_met_mm", part.deviation.value()}};
+}
+
+Json perception_json(const std::string& name, const PartPerception& part) {
+  const bool reach = part.in_reach.has_value(), view = part.visible_fraction.has_value();
+  return {{"part", name},
+          {"instances", part.instances},
+          {"in_reach", or_null(part.in_reach)},
+          {"instances_in_reach", reach ? Json(part.instances_in_reach) : Json(nullptr)},
+          {"visible_fraction", or_null(part.visible_fraction)},
+          {"instances_seen", view ? Json(part.instances_seen) : Json(nullptr)},
+          {"left_out", part.left_out.empty() ? Json(nullptr) : Json(std::string(part.left_out))},
+          {"instances_left_out", part.instances_left_out}};
+}
+
+}  // namespace
+
+Json trace_json(const Trace& trace) {
+  Json json = Json::array();
+  for (const TraceSample& s : trace) json.push_back({{"seconds", s.seconds}, {"error", s.error}});
+  return json;
+}
+
+Json counters_json(const MeshStatistics& s) {
+  return {{"triangles", s.triangles},
+          {"vertices", s.vertices},
+          {"components", s.components},
+          {"boundary_loops", s.boundary_loops},
+          {"genus", s.genus},
+          {"nonmanifold_edges", s.nonmanifold_edges},
+          {"degenerate_triangles", s.degenerate_triangles},
+          {"duplicate_triangles", s.duplicate_triangles},
+          {"flipped_edges", s.flipped_edges},
+          {"t_junctions", s.t_junctions},
+          {"aspect_max", s.aspect_max},
+          {"has_uv", s.has_uv}};
+}
+
+Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene) {
+  Json json = Json::array();
+  for (const SharedPart& part : shared)
+    json.push_back({{"part", part.name},
+                    {"id", part.id},
+                    {"copy_of", scene.parts[part.original].name},
+                    {"max_distance_mm", part.max_distance_mm}});
+  return json;
+}
+
+Json perception_json(const Scene& scene, const ScenePerception& perception) {
+  Json json = Json::array();
+  for (std::size_t p = 0; p < perception.parts.size(); ++p)
+    json.push_back(perception_json(scene.parts[p].name, perception.parts[p]));
+  return json;
+}
+
+Json budget_json(const Scene& scene, std::size_t wanted, const BudgetResult& budget,
+                 const std::vector<SimplifyResult>& parts, const std::vector<std::size_t>& triangles_after) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    list.push_back(simplified_part_json(scene.parts[i].name, parts[i], triangles_after[i]));
+  return {{"wanted", wanted},
+          {"triangles", budget.triangles},
+          {"reached", budget.reached},
+          {"tolerance_mm", budget.tolerance_mm},
+          {"trace", trace_json(budget.trace)},
+          {"parts", list}};
+}
+
+Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statistics,
+                  const std::optional<ScenePerception>& perception) {
+  const Vec3 size = scene_bounds(scene).size();
+  Json json{{"format", scene.format}, {"units", scene.unit}, {"millimetres_per_unit", scene.millimetres_per_unit}};
+  json["size_mm"] = {size.x, size.y, size.z};
+  json["parts"] = parts_json(scene, statistics);
+  json["totals"] = counters_json(total_statistics(statistics));
+  json["totals"]["drawn_triangles"] = drawn_triangles(scene);
+  json["materials"] = materials_json(scene);
+  json["warnings"] = scene.warnings;
+  json["losses"] = scene.losses;
+  if (perception) json["perception"] = perception_json(scene, *perception);
+  return json;
+}
+
+Json tessellation_json(const Scene& scene, const CadReport& report) {
+  const std::vector<std::size_t> uses = uses_of_parts(scene);
+  std::map<std::string, const CadPartReport*> measured;
+  for (const CadPartReport& part : report.parts) measured.emplace(part.part, &part);
+  Json parts = Json::array();
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const Part& part = scene.parts[i];
+    Json materials = Json::array();
+    for (const std::uint32_t m : part.materials) materials.push_back(scene.materials[m].name);
+    parts.push_back({{"name", part.name},
+                     {"id", part.id},
+                     {"triangles", part.mesh.triangles.size()},
+                     {"vertices", part.mesh.positions.size()},
+                     {"instances", uses[i]},
+                     {"materials", std::move(materials)}});
+    if (const auto found = measured.find(part.id); found != measured.end()) {
+      parts.back()["max_deviation_mm"] = found->second->max_deviation_mm;
+      parts.back()["max_angle_deg"] = found->second->max_angle_deg;
+      parts.back()["added_nodes"] = found->second->added_nodes;
+    }
+  }
+  return {
+      {"format", scene.format},
+      {"unit", scene.unit},
+      {"parts", parts},
+      {"triangles", report.triangles},
+      {"solids", report.solids},
+      {"faces", report.faces},
+      {"failed_faces", faces_json(report.failed_faces)},
+      {"repaired_faces", faces_json(report.repaired_faces)},
+      {"off_faces", faces_json(report.off_faces)},
+      {"dropped_triangles", report.dropped_triangles},
+      {"max_deviation_mm", report.max_deviation_mm},
+      {"max_angle_deg", report.max_angle_deg},
+      {"added_nodes", report.added_nodes},
+      {"stages",
+       {{"read", report.seconds_read}, {"tessellate", report.seconds_tessellate}, {"convert", report.seconds_convert}}},
+      {"losses", scene.losses},
+      {"warnings", scene.warnings}};
+}
+
+Json repair_json(const RepairSceneResult& result) {
+  return {{"before", counters_json(result.before)},
+          {"after", counters_json(result.after)},
+          {"max_deviation_mm", result.max_deviation_mm},
+          {"measured_deviation_mm", or_null(result.measured_deviation_mm)},
+          {"weld_tolerance_mm", result.weld_tolerance_mm},
+          {"operations", operations_json(result.parts)},
+          {"deviations_mm", deviations_json(result.parts)},
+          {"parts", result.parts.size()},
+          {"identical_parts", shared_parts_json(result.shared, result.scene)},
+          {"unsettled", result.unsettled},
+          {"losses", result.scene.losses},
+          {"warnings", result.scene.warnings},
+          {"seconds", result.seconds}};
+}
+
+Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options) {
+  const Scene& scene = result.scene;
+  Json json = {{"triangles_before", result.triangles_before},
+               {"identical_parts", shared_parts_json(result.shared, scene)}};
+  if (result.perception) json["perception"] = perception_json(scene, *result.perception);
+  if (result.budget)
+    json["budget"] = budget_json(scene, *options.budget, *result.budget, result.parts, result.triangles);
+  json["max_deviation_mm"] = result.max_deviation_mm;
+  json["max_deviation_met_mm"] = result.max_deviation_met_mm;
+  if (options.levels.asked()) json["levels"] = Json::array();
+  for (const LevelReport& level : result.levels)
+    if (level.level > 0)
+      json["levels"].push_back({{"part", scene.parts[level.part].name},
+                                {"level", level.level},
+                                {"tolerance_mm", level.tolerance_mm},
+                                {"triangles", level.triangles},
+                                {"max_deviation_mm", level.max_deviation_mm},
+                                {"screen_coverage", level.screen_coverage}});
+  json["triangles_after"] = result.triangles_after;
+  json["parts"] = Json::array();
+  for (std::size_t i = 0; i < result.parts.size(); ++i) {
+    const SimplifyResult& part = result.parts[i];
+    if (part.triangles_before == 0) continue;
+    json["parts"].push_back(simplified_part_json(scene.parts[i].name, part, result.triangles[i]));
+    json["parts"].back()["stop"] = to_string(part.stop);
+    json["parts"].back()["trace"] = trace_json(part.trace);
+  }
+  json["losses"] = scene.losses;
+  json["warnings"] = scene.warnings;
+  json["seconds"] = result.seconds;
+  return json;
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "json/json.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/io/cad_reader.hpp"
+#include "papilla/meshing/statistics.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
+#include "papilla/pipeline/repair_scene.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
+#include "papilla/pipeline/unwrap_scene.hpp"
+#include "papilla/pipeline/weather_scene.hpp"
+
+namespace papilla::app {
+
+// Results on scenes under the key names of docs/files.md.
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// [{seconds, error}].
+Json trace_json(const Trace& trace);
+
+/// The counters of `inspect`.
+Json counters_json(const MeshStatistics& statistics);
+
+/// {part, id, copy_of, max_distance_mm} a line.
+Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene);
+
+/// {part, instances, in_reach, instances_in_reach, visible_fraction, instances_seen, left_out, instances_left_out} a
+/// line.
+Json perception_json(const Scene& scene, const ScenePerception& perception);
+
+/// {wanted, triangles, reached, tolerance_mm, trace[], parts[] {name, triangles_before, triangles_after,
+/// max_deviation_mm, max_deviation_met_mm}}.
+/// @param triangles_after Of each part.
+Json budget_json(const Scene& scene, std::size_t wanted, const BudgetResult& budget,
+                 const std::vector<SimplifyResult>& parts, const std::vector<std::size_t>& triangles_after);
+
+/// What `inspect` says of a scene.
+Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statistics,
+                  const std::optional<ScenePerception>& perception);
+
+Json tessellation_json(const Scene& scene, const CadReport& report);
+Json repair_json(const RepairSceneResult& result);
+Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options);
+Json unwrap_json(const UnwrapResult& result, const SceneDistortion& distortion);
+
+/// The report under the key names of `measure`.
+Json distortion_json(const DistortionReport& report);
+/// Null without any distortion.
+Json worst_chart_json(const Scene& scene, const SceneDistortion& distortion);
+Json histogram_json(const DistortionReport& report);
+
+/// {part, material, stage, run, reason} a line.
+Json plan_json(const std::vector<PartSurface>& surfaces);
+/// Plan, parts, materials, distortion, identical parts, perception, budget, losses, warnings, seconds.
+Json bake_json(const BakeResult& result, const BakeOptions& options);
+
+Json weather_json(const WeatheredMaterial& material);
+
+}  // namespace papilla::app

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/unwrap_option.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "exit_code.hpp"
+#include "options/vector_option.hpp"
+
+namespace papilla::app {
+namespace {
+
+/// Cuts "@PART" off the end.
+std::string take_part(std::string& text) {
+  const std::size_t at = text.find('@');
+  if (at == std::string::npos) return {};
+  std::string part = text.substr(at + 1);
+  text.erase(at);
+  return part;
+}
+
+bool read_number(const std::string& text, double& value) {
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && rest == end && std::isfinite(value);
+}
+
+/// "X,Y,Z=U,V", and "@PART" behind it, as a pin. @throws UsageError quoting the text when it is nothing such.
+PlacedPin parse_pin(const std::string& text) {
+  PlacedPin pin;
+  std::string rest = text;
+  pin.part = take_part(rest);
+  const std::size_t equals = rest.find('='), comma = rest.find(',', equals);
+  if (equals == std::string::npos || comma == std::string::npos ||
+      !read_number(rest.substr(equals + 1, comma - equals - 1), pin.uv.x) ||
+      !read_number(rest.substr(comma + 1), pin.uv.y))
+    throw UsageError("--pin '" + text + "': expected X,Y,Z=U,V or X,Y,Z=U,V@PART");
+  pin.position = parse_vector("--pin", rest.substr(0, equals));
+  return pin;
+}
+
+/// "u:X,Y,Z;X,Y,Z...", "v=VALUE:X,Y,Z;...", and "@PART" behind it, as a line of equal u or v.
+/// @throws UsageError quoting the text when it is nothing such.
+PlacedIsoLine parse_iso_line(const std::string& text) {
+  const auto refuse = [&]() -> PlacedIsoLine {
+    throw UsageError("--iso-line '" + text +
+                     "': expected u:X,Y,Z;X,Y,Z or v=VALUE:X,Y,Z;X,Y,Z, with two points or more, and @PART behind it");
+  };
+  PlacedIsoLine line;
+  std::string rest = text;
+  line.part = take_part(rest);
+  const std::size_t colon = rest.find(':');
+  if (colon == std::string::npos || (rest[0] != 'u' && rest[0] != 'v')) return refuse();
+  line.is_u = rest[0] == 'u';
+  if (colon > 1) {
+    double value = 0;
+    if (rest[1] != '=' || !read_number(rest.substr(2, colon - 2), value)) return refuse();
+    line.value = value;
+  }
+  for (std::size_t begin = colon + 1; begin <= rest.size();) {
+    const std::size_t end = std::min(rest.find(';', begin), rest.size());
+    line.points.push_back(parse_vector("--iso-line", rest.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return line.points.size() < 2 ? refuse() : line;
+}
+
+/// The solvers of the methods that have several.
+void choose_solver(const std::string& name, MethodOptions& method) {
+  if (name.empty()) return;
+  const auto pick = [&]<class Value>(const std::map<std::string, Value>& choices, Value& value) {
+    const auto found = choices.find(name);
+    if (found != choices.end()) value = found->second;
+    return found != choices.end();
+  };
+  using Lscm = LscmSolver;
+  using Maillot = MaillotSolver;
+  using Levy = LevySolver;
+  bool known = false;
+  if (method.method == UnwrapMethod::lscm)
+    known = pick(std::map<std::string, Lscm>{{"cgal", Lscm::cgal}, {"hermitian", Lscm::hermitian}}, method.lscm.solver);
+  if (method.method == UnwrapMethod::maillot)
+    known = pick(std::map<std::string, Maillot>{{"gradient-descent", Maillot::gradient_descent},
+                                                {"gauss-newton", Maillot::gauss_newton}},
+                 method.maillot.solver);
+  if (method.method == UnwrapMethod::levy)
+    known = pick(std::map<std::string, Levy>{{"gauss-seidel", Levy::gauss_seidel}, {"direct", Levy::direct}},
+                 method.levy.solver);
+  if (!known) throw UsageError("--solver " + name + ": " + unwrap_method_name(method.method) + " has no such solver");
+}
+
+MethodOptions method_options(const UnwrapOption& options) {
+  MethodOptions method = options.unwrap.method;
+  if (!takes_charts(method.method) && method.charts == ChartSource::keep)
+    throw UsageError("--charts keep: " + unwrap_method_name(method.method) + " makes its own charts");
+  choose_solver(options.solver, method);
+  if (method.method != UnwrapMethod::levy) {
+    if (!options.pins.empty()) throw UsageError("--pin needs --method levy");
+    if (!options.iso_lines.empty()) throw UsageError("--iso-line needs --method levy");
+  }
+  for (const std::string& text : options.pins) method.pins.push_back(parse_pin(text));
+  for (const std::string& text : options.iso_lines) method.iso_lines.push_back(parse_iso_line(text));
+  if (options.grain == "longest") {
+    method.grain = GrainSource::longest;
+  } else if (options.grain != "up") {
+    method.grain = GrainSource::direction;
+    method.grain_direction = parse_vector("--grain", options.grain);
+    if (!(norm(method.grain_direction) > 0)) throw UsageError("--grain " + options.grain + ": it has no length");
+  }
+  if (!options.direction.empty()) method.planar.direction = parse_vector("--direction", options.direction);
+  if (!options.eye.empty()) method.intermediate.eye = method.environment.eye = parse_vector("--eye", options.eye);
+  return method;
+}
+
+/// PATTERN=FACTOR.
+std::pair<std::string, double> parse_density(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  double factor = 0;
+  const char* end = text.data() + text.size();
+  if (equals != std::string::npos) {
+    const auto [rest, error] = std::from_chars(text.data() + equals + 1, end, factor);
+    if (error == std::errc() && rest == end && factor >= 1e-3 && factor <= 1e3) return {text.substr(0, equals), factor};
+  }
+  throw UsageError("--density '" + text + "': expected PART=FACTOR with a number from 0.001 to 1000");
+}
+
+/// What is held in one part must say in which.
+void check_part(const std::string& option, const std::string& pattern, const std::string& file, const Scene& scene) {
+  if (pattern.empty() && scene.parts.size() != 1)
+    throw UsageError(fmt::format("{}: {} has {} parts, say which by @PART", option, file, scene.parts.size()));
+  if (std::none_of(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return is_for_part(pattern, p.name); }))
+    throw UsageError(option + ": " + file + " has no part named '" + pattern + "'");
+}
+
+template <class Value>
+CLI::Option* add_choice(CLI::App* verb, const std::string& name, Value& value,
+                        const std::map<std::string, Value>& choices, const std::string& help) {
+  std::string names;
+  for (const auto& choice : choices) names += (names.empty() ? "" : "|") + choice.first;
+  return verb->add_option(name, value, help)
+      ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case).description(""))
+      ->type_name(names);
+}
+
+/// What only some methods know; the help names them.
+void add_method_options(CLI::App& verb, UnwrapOption& options) {
+  MethodOptions& m = options.unwrap.method;
+  verb.add_option("--iterations", m.iterations, "Of best, maillot, levy (rounds), arap: at most so many")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--tolerance", m.tolerance, "Of the same: stop when the error falls by less than this fraction")
+      ->check(CLI::Range(1e-15, 0.999));
+  verb.add_option("--time-limit", m.time_limit_s, "Of best, maillot, levy: stop iterating a chart after so long")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  verb.add_option("--phi", m.maillot.length_weight, "Of maillot: weight of lengths against areas")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  verb.add_flag("--allow-flips", m.maillot.allow_flips, "Of maillot: let triangles turn over, as the source does");
+  add_choice<MaillotStart>(&verb, "--start", m.maillot.start,
+                           {{"coarse-to-fine", MaillotStart::coarse_to_fine}, {"conformal", MaillotStart::conformal}},
+                           "Of maillot: the map to start from; coarse-to-fine (default) is valid on every disk");
+  add_choice<LevyWeights>(&verb, "--weights", m.levy.weights,
+                          {{"uniform", LevyWeights::uniform},
+                           {"cotangent", LevyWeights::cotangent},
+                           {"mean-value", LevyWeights::mean_value}},
+                          "Of levy's smoothness; default: mean-value");
+  add_choice<LevyBorder>(&verb, "--border", m.levy.border, {{"convex", LevyBorder::convex}, {"free", LevyBorder::free}},
+                         "Of levy; default: free");
+  add_choice<LevyCoupling>(&verb, "--coupling", m.levy.coupling,
+                           {{"conformal", LevyCoupling::conformal}, {"orthogonal", LevyCoupling::orthogonal}},
+                           "Of levy: conformal (default) is linear, orthogonal alternates between u and v");
+  const auto weight = [&](const char* name, double& value, const char* help) {
+    verb.add_option(name, value, help)->check(CLI::NonNegativeNumber)->capture_default_str();
+  };
+  weight("--smoothness", m.levy.smoothness, "Of levy: weight of smooth interpolation");
+  weight("--orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
+  weight("--length", m.levy.length, "Of levy: weight of even lengths");
+  verb.add_option("--pin", options.pins, "Of levy: the vertex nearest to a place gets these uv; two or more")
+      ->type_name("X,Y,Z=U,V[@PART]");
+  verb.add_option("--iso-line", options.iso_lines,
+                  "Of levy: the vertices on the shortest path of edges through these places share their u, or v")
+      ->type_name("u|v[=MM]:X,Y,Z;X,Y,Z...[@PART]");
+  add_choice<IntermediateShape>(&verb, "--shape", m.intermediate.shape,
+                                {{"sphere", IntermediateShape::sphere},
+                                 {"cylinder", IntermediateShape::cylinder},
+                                 {"cone", IntermediateShape::cone},
+                                 {"box", IntermediateShape::box}},
+                                "Of intermediate; default: box");
+  add_choice<IntermediateRule>(&verb, "--rule", m.intermediate.rule,
+                               {{"reflected-ray", IntermediateRule::reflected_ray},
+                                {"object-normal", IntermediateRule::object_normal},
+                                {"object-centroid", IntermediateRule::object_centroid},
+                                {"intermediate-normal", IntermediateRule::intermediate_normal}},
+                               "Of intermediate: how points find the shape; default: intermediate-normal");
+  verb.add_option("--direction", options.direction, "Of planar: outward direction; default: the dominant normal")
+      ->type_name("X,Y,Z");
+  verb.add_option("--eye", options.eye, "Of environment and of reflected-ray; default: in front of each part")
+      ->type_name("X,Y,Z");
+}
+
+}  // namespace
+
+void UnwrapOption::add_to(CLI::App& verb) {
+  add_choice<UnwrapMethod>(
+      &verb, "--method", unwrap.method.method, unwrap_methods(),
+      "auto (default): chart by chart, the cheapest that does it well; best: lowest distortion, no flips, no "
+      "overlap; lscm, levy: conformal; maillot, arap: lengths and areas; tutte, mvc: border on a circle; natural: the "
+      "CAD surface's parameters; "
+      "triplanar, planar, intermediate: projections; environment: sphere map, for previews")
+      ->type_name("NAME");
+  add_choice<ChartSource>(&verb, "--charts", unwrap.method.charts,
+                          {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
+                          "auto (default): segment the surface; keep: each component is one chart");
+  verb.add_option("--solver", solver,
+                   "lscm: cgal, hermitian; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
+      ->type_name("NAME");
+  add_method_options(verb, *this);
+  verb.add_option("--feature-angle", unwrap.method.segmentation.feature_angle_deg,
+                   "Edges bent by more degrees part charts")
+      ->check(CLI::Range(1.0, 180.0))
+      ->type_name("DEG")
+      ->capture_default_str();
+  verb.add_option_function<double>(
+          "--seam-cost",
+          [&method = unwrap.method](double cost) {
+            method.segmentation.seam_cost = cost;
+            method.choose_seam_cost = false;
+          },
+          "What seams cost against distortion: 0.01 cuts generously, 0.5 hardly ever; default: 0.03, and on parts of "
+          "up to 50,000 triangles 0.01 or 0.1 where that is the better bargain")
+      ->check(CLI::Range(0.0, 1e6));
+  add_choice<UvLayout>(&verb, "--layout", unwrap.layout, {{"atlas", UvLayout::atlas}, {"tile", UvLayout::tile}},
+                       "atlas (default): no two charts overlap; tile: the grain goes on over seams");
+  verb.add_option("--tile", tile, "Size of the grain's repeat: charts keep its phase")
+      ->expected(2)
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("MM");
+  verb.add_option("--grain", grain,
+                   "Direction of the grain: up (default), longest: along each part, or a vector")
+      ->type_name("up|longest|X,Y,Z");
+  verb.add_option("--grain-size", unwrap.grain_mm,
+                   "Size of one grain, by which seams are judged; default: an eighth of the tile")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->type_name("MM");
+  verb.add_option("--texture-px", texture_px,
+                   "Add a second set of uv for one texture of so many texels a side in which nothing overlaps")
+      ->check(CLI::Range(16, 65536))
+      ->type_name("PX");
+  verb.add_option("--gutter-px", gutter_px, "Texels between charts there")
+      ->check(CLI::Range(0.0, 16384.0))
+      ->type_name("PX")
+      ->capture_default_str();
+  verb.add_option("--density", density, "Texel density there of parts by name (* and ? match), relative to 1")
+      ->type_name("PART=FACTOR");
+  verb.add_option("--gutter", unwrap.gutter_mm, "Least distance of charts in the atlas; default: 0.5 % of its side")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("MM");
+}
+
+UnwrapOptions UnwrapOption::options() const {
+  UnwrapOptions result = unwrap;
+  result.method = method_options(*this);
+  result.tile_mm = {tile[0], tile[1]};
+  if (texture_px > 0) result.unique = UniqueUv{texture_px, gutter_px};
+  if (!density.empty() && !result.unique) throw UsageError("--density needs --texture-px");
+  for (const std::string& text : density) result.density.push_back(parse_density(text));
+  return result;
+}
+
+void check_held_parts(const MethodOptions& method, const std::string& file, const Scene& scene) {
+  for (const PlacedPin& pin : method.pins) check_part("--pin", pin.part, file, scene);
+  for (const PlacedIsoLine& line : method.iso_lines) check_part("--iso-line", line.part, file, scene);
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "papilla/pipeline/unwrap_scene.hpp"
+
+namespace papilla::app {
+
+/// The options of `unwrap` that say how: method, charts, grain, layout and those of single methods.
+struct UnwrapOption {
+  UnwrapOptions unwrap;
+  std::string solver, direction, eye;  ///< Empty: the method's own.
+  std::string grain = "up";
+  int texture_px = 0;  ///< 0: no second set of uv.
+  double gutter_px = 4;
+  std::vector<std::string> density, pins, iso_lines;
+  std::vector<double> tile{0, 0};
+
+  void add_to(CLI::App& verb);
+  /// @throws UsageError for options that contradict each other, and for texts that are none of what they should be.
+  UnwrapOptions options() const;
+};
+
+/// Pins and lines that are held must name a part of the scene when it has several.
+/// @throws UsageError naming the option.
+void check_held_parts(const MethodOptions& method, const std::string& file, const Scene& scene);
+
+}  // namespace papilla::app

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "text/scene_text.hpp"
+
+namespace papilla::app {
+
+std::string plan_table(const std::vector<PartSurface>& surfaces) {
+  std::size_t width = 4, material_width = 8;
+  for (const PartSurface& surface : surfaces) {
+    width = std::clamp(surface.label.size(), width, std::size_t{40});
+    material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
+  }
+  std::string out =
+      fmt::format("{:<{}}  {:<{}}  {:>9}  stages\n", "part", width, "material", material_width, "triangles");
+  for (const PartSurface& surface : surfaces) {
+    std::string stages;
+    std::map<std::string_view, std::string> skipped;
+    for (std::size_t i = 0; i < k_stage_count; ++i) {
+      if (surface.plan[i].run) {
+        stages += (stages.empty() ? "" : " ") + std::string(k_stages[i].name);
+        continue;
+      }
+      std::string& names = skipped[surface.plan[i].reason];
+      names += (names.empty() ? "" : ", ") + std::string(k_stages[i].name);
+    }
+    out += fmt::format("{:<{}}  {:<{}}  {:>9}  {}\n", surface.label, width, surface.material.empty() ? "-" : surface.material,
+                       material_width, surface.triangles.size(), stages.empty() ? "nothing to do" : stages);
+    for (const auto& [reason, names] : skipped)
+      out += fmt::format("{:<{}}  without {}: {}\n", "", width, names, reason);
+  }
+  return out;
+}
+
+std::string left_out_table(const Scene& scene, const ScenePerception& perception) {
+  std::string table;
+  for (std::size_t p = 0; p < perception.parts.size(); ++p) {
+    const PartPerception& part = perception.parts[p];
+    if (part.instances_left_out == 0) continue;
+    const std::string uses = part.instances_left_out == part.instances
+                                 ? ""
+                                 : fmt::format(" ({} of {} uses)", part.instances_left_out, part.instances);
+    std::string_view reason = part.left_out;
+    for (std::size_t i = 0; reason.empty() && i < perception.uses.size(); ++i)
+      if (perception.uses[i].part == p) reason = perception.of_use[i].left_out;
+    table += fmt::format("left out: {}{}: {}\n", scene.parts[p].name, uses, reason);
+  }
+  return table;
+}
+
+std::string bake_table(const BakeResult& result) {
+  std::size_t width = 4, material_width = 8;
+  for (const BakedSurface& surface : result.surfaces) {
+    width = std::clamp(surface.label.size(), width, std::size_t{40});
+    material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
+  }
+  std::string out = fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
+                                material_width, "unwrap", "charts", "triangles", "sym.D", "angle°", "flipped");
+  for (const BakedSurface& surface : result.surfaces) {
+    out += fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
+                       surface.material, material_width, surface.method, surface.distortion.charts,
+                       surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
+                       surface.distortion.angle_error_deg.mean, surface.distortion.flipped);
+    if (!surface.notes.empty())
+      out += fmt::format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(),
+                         surface.notes.front());
+  }
+  if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
+  return out;
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "papilla/io/cad_reader.hpp"
+#include "papilla/meshing/statistics.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
+#include "papilla/pipeline/repair_scene.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
+
+namespace papilla::app {
+
+// Results on scenes for people, as lines of a terminal.
+
+/// A row: the counters and `name`; header_row() heads the columns.
+std::string header_row();
+std::string counters_row(const std::string& name, const MeshStatistics& statistics);
+
+/// What `inspect` says of a scene.
+std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& statistics,
+                         const std::optional<ScenePerception>& perception);
+std::string tessellation_text(const Scene& scene, const CadReport& report);
+std::string repair_text(const RepairSceneResult& result);
+std::string simplify_text(const SimplifySceneResult& result, const SimplifySceneOptions& options);
+/// What was not done as asked, a line each.
+std::string unwrap_remarks(const UnwrapResult& result);
+
+/// A few lines on the distortion, and the chart that has most of it.
+std::string distortion_text(const Scene& scene, const SceneDistortion& distortion);
+/// Every triangle of the scene as a line of CSV.
+std::string distortion_csv(const SceneDistortion& distortion);
+/// How the area spreads over symmetric Dirichlet, as bars.
+std::string histogram_text(const DistortionReport& report);
+
+/// One row a surface, the stages that run, and why the others do not.
+std::string plan_table(const std::vector<PartSurface>& surfaces);
+/// A row a part that is left out or has uses that are; empty when there is none.
+std::string left_out_table(const Scene& scene, const ScenePerception& perception);
+/// One row a surface with grain.
+std::string bake_table(const BakeResult& result);
+
+}  // namespace papilla::app
