@@ -80,7 +80,7 @@ TEST(PageScene, CountsInstances) {
   Scene scene = single_part_scene(std::move(part), "test");
   scene.nodes.push_back(scene.nodes[0]);
   scene.roots.push_back(1);
-  const Json json = page_scene_json(scene, "plate.glb", {}, {});
+  const Json json = page_scene(scene, "plate.glb", {}, {}).json;
   EXPECT_EQ(json["triangles"], 400);
   EXPECT_EQ(json["triangles_shown"], 400);
   EXPECT_EQ(json["instances"].size(), 2U);

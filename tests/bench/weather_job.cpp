@@ -69,14 +69,14 @@ Scene two_materials() {
 
 WeatherJob run_weather_job(int size, bool sky) {
   const Scene scene = two_materials();
-  app::WeatherConfig config;
+  WeatherConfig config;
   config.size = size;
   const std::string snow = sky ? "snow|scale=.3|fixtime=true|time=.84"
                                : "snow|scale=.3|fixtime=true|time=.84|alphafunction=smoothstep(.9-time,1.1-time,main)"
                                  "*clampunit(normaldot*4-.6)";
   config.layers = {{"rust_in|scale=.3|fixtime=true|time=.84", {"*"}}, {snow, {"*"}}};
   const double before = process_cpu_seconds();
-  const app::WeatherResult result = app::weather(scene, config, 1);
+  const WeatherResult result = weather_scene(scene, config, 1);
   WeatherJob job;
   job.cpu_seconds = process_cpu_seconds() - before;
   for (const Part& part : scene.parts) {
@@ -85,8 +85,8 @@ WeatherJob run_weather_job(int size, bool sky) {
   }
   job.maps = 2 * job.normals + static_cast<int>(scene.materials.size());
   for (const auto& material : result.materials) {
-    job.charts += material["atlas"]["charts"].get<int>();
-    job.tiles += material["atlas"]["tiles"].get<int>();
+    job.charts += static_cast<int>(material.atlas.value().charts);
+    job.tiles += static_cast<int>(material.atlas.value().tiles);
   }
   return job;
 }

@@ -29,46 +29,6 @@ bool read_number(const std::string& text, double& value) {
   return error == std::errc() && rest == end && std::isfinite(value);
 }
 
-/// "X,Y,Z=U,V", and "@PART" behind it, as a pin. @throws UsageError quoting the text when it is nothing such.
-PlacedPin parse_pin(const std::string& text) {
-  PlacedPin pin;
-  std::string rest = text;
-  pin.part = take_part(rest);
-  const std::size_t equals = rest.find('='), comma = rest.find(',', equals);
-  if (equals == std::string::npos || comma == std::string::npos ||
-      !read_number(rest.substr(equals + 1, comma - equals - 1), pin.uv.x) ||
-      !read_number(rest.substr(comma + 1), pin.uv.y))
-    throw UsageError("--pin '" + text + "': expected X,Y,Z=U,V or X,Y,Z=U,V@PART");
-  pin.position = parse_vector("--pin", rest.substr(0, equals));
-  return pin;
-}
-
-/// "u:X,Y,Z;X,Y,Z...", "v=VALUE:X,Y,Z;...", and "@PART" behind it, as a line of equal u or v.
-/// @throws UsageError quoting the text when it is nothing such.
-PlacedIsoLine parse_iso_line(const std::string& text) {
-  const auto refuse = [&]() -> PlacedIsoLine {
-    throw UsageError("--iso-line '" + text +
-                     "': expected u:X,Y,Z;X,Y,Z or v=VALUE:X,Y,Z;X,Y,Z, with two points or more, and @PART behind it");
-  };
-  PlacedIsoLine line;
-  std::string rest = text;
-  line.part = take_part(rest);
-  const std::size_t colon = rest.find(':');
-  if (colon == std::string::npos || (rest[0] != 'u' && rest[0] != 'v')) return refuse();
-  line.is_u = rest[0] == 'u';
-  if (colon > 1) {
-    double value = 0;
-    if (rest[1] != '=' || !read_number(rest.substr(2, colon - 2), value)) return refuse();
-    line.value = value;
-  }
-  for (std::size_t begin = colon + 1; begin <= rest.size();) {
-    const std::size_t end = std::min(rest.find(';', begin), rest.size());
-    line.points.push_back(parse_vector("--iso-line", rest.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return line.points.size() < 2 ? refuse() : line;
-}
-
 /// The solvers of the methods that have several.
 void choose_solver(const std::string& name, MethodOptions& method) {
   if (name.empty()) return;
@@ -204,6 +164,43 @@ void add_method_options(CLI::App& verb, UnwrapOption& options) {
 
 }  // namespace
 
+PlacedPin parse_pin(const std::string& text) {
+  PlacedPin pin;
+  std::string rest = text;
+  pin.part = take_part(rest);
+  const std::size_t equals = rest.find('='), comma = rest.find(',', equals);
+  if (equals == std::string::npos || comma == std::string::npos ||
+      !read_number(rest.substr(equals + 1, comma - equals - 1), pin.uv.x) ||
+      !read_number(rest.substr(comma + 1), pin.uv.y))
+    throw UsageError("--pin '" + text + "': expected X,Y,Z=U,V or X,Y,Z=U,V@PART");
+  pin.position = parse_vector("--pin", rest.substr(0, equals));
+  return pin;
+}
+
+PlacedIsoLine parse_iso_line(const std::string& text) {
+  const auto refuse = [&]() -> PlacedIsoLine {
+    throw UsageError("--iso-line '" + text +
+                     "': expected u:X,Y,Z;X,Y,Z or v=VALUE:X,Y,Z;X,Y,Z, with two points or more, and @PART behind it");
+  };
+  PlacedIsoLine line;
+  std::string rest = text;
+  line.part = take_part(rest);
+  const std::size_t colon = rest.find(':');
+  if (colon == std::string::npos || (rest[0] != 'u' && rest[0] != 'v')) return refuse();
+  line.is_u = rest[0] == 'u';
+  if (colon > 1) {
+    double value = 0;
+    if (rest[1] != '=' || !read_number(rest.substr(2, colon - 2), value)) return refuse();
+    line.value = value;
+  }
+  for (std::size_t begin = colon + 1; begin <= rest.size();) {
+    const std::size_t end = std::min(rest.find(';', begin), rest.size());
+    line.points.push_back(parse_vector("--iso-line", rest.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return line.points.size() < 2 ? refuse() : line;
+}
+
 void UnwrapOption::add_to(CLI::App& verb) {
   add_choice<UnwrapMethod>(
       &verb, "--method", unwrap.method.method, unwrap_methods(),
@@ -216,11 +213,11 @@ void UnwrapOption::add_to(CLI::App& verb) {
                           {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
                           "auto (default): segment the surface; keep: each component is one chart");
   verb.add_option("--solver", solver,
-                   "lscm: cgal, hermitian; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
+                  "lscm: cgal, hermitian; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
       ->type_name("NAME");
   add_method_options(verb, *this);
   verb.add_option("--feature-angle", unwrap.method.segmentation.feature_angle_deg,
-                   "Edges bent by more degrees part charts")
+                  "Edges bent by more degrees part charts")
       ->check(CLI::Range(1.0, 180.0))
       ->type_name("DEG")
       ->capture_default_str();
@@ -239,15 +236,14 @@ void UnwrapOption::add_to(CLI::App& verb) {
       ->expected(2)
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("MM");
-  verb.add_option("--grain", grain,
-                   "Direction of the grain: up (default), longest: along each part, or a vector")
+  verb.add_option("--grain", grain, "Direction of the grain: up (default), longest: along each part, or a vector")
       ->type_name("up|longest|X,Y,Z");
   verb.add_option("--grain-size", unwrap.grain_mm,
-                   "Size of one grain, by which seams are judged; default: an eighth of the tile")
+                  "Size of one grain, by which seams are judged; default: an eighth of the tile")
       ->check(CLI::Range(1e-6, 1e6))
       ->type_name("MM");
   verb.add_option("--texture-px", texture_px,
-                   "Add a second set of uv for one texture of so many texels a side in which nothing overlaps")
+                  "Add a second set of uv for one texture of so many texels a side in which nothing overlaps")
       ->check(CLI::Range(16, 65536))
       ->type_name("PX");
   verb.add_option("--gutter-px", gutter_px, "Texels between charts there")

@@ -24,6 +24,13 @@ struct UnwrapOption {
   UnwrapOptions options() const;
 };
 
+/// "X,Y,Z=U,V", and "@PART" behind it, as a pin. @throws UsageError quoting the text when it is nothing such.
+PlacedPin parse_pin(const std::string& text);
+
+/// "u:X,Y,Z;X,Y,Z...", "v=VALUE:X,Y,Z;...", and "@PART" behind it, as a line of equal u or v.
+/// @throws UsageError quoting the text when it is nothing such.
+PlacedIsoLine parse_iso_line(const std::string& text);
+
 /// Pins and lines that are held must name a part of the scene when it has several.
 /// @throws UsageError naming the option.
 void check_held_parts(const MethodOptions& method, const std::string& file, const Scene& scene);

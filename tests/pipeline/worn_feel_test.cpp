@@ -1,15 +1,15 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
 #include "papilla/io/haptic_scene.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 struct Felt {
@@ -34,8 +34,9 @@ Felt stroke(const std::string& recipe, double time, const RecipeLibrary& library
   part.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   Scene scene = single_part_scene(std::move(part), "test");
   scene.up = UpAxis::y;
-  const std::vector<Surface> surfaces = plan_surfaces(scene, rules);
-  const BakeResult baked = bake(std::move(scene), surfaces, {}, library);
+  BakeOptions options;
+  options.library = library;
+  const BakeResult baked = bake_scene(std::move(scene), rules, options);
   Felt felt;
   const Grain& grain = baked.grains.at("wheel");
   const auto [low, high] = std::minmax_element(grain.relief.mm.begin(), grain.relief.mm.end());
@@ -87,4 +88,4 @@ TEST(WornFeel, RecipesOfALibraryAreFound) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

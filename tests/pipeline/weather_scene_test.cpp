@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/weather_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -9,16 +9,14 @@
 #include <fstream>
 #include <numbers>
 
-#include "papilla/pipeline/grain.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/temporary_folder.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/grain.hpp"
 #include "papilla/texture/normal_map.hpp"
-#include "weather/follow_files.hpp"
-#include "weather/weather_page.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 /// A metre square that looks up over the left half of the uv, and one that looks down over the right half.
@@ -50,11 +48,11 @@ TEST(Weather, SnowLiesOnTopAndNotBelow) {
   WeatherConfig config;
   config.size = 64;
   config.layers.push_back({"base|colorfunction=white|alphafunction=clampunit(normaldot)", {"pai*"}});
-  const WeatherResult result = weather(two_sides(), config, 1);
+  const WeatherResult result = weather_scene(two_sides(), config, 1);
   EXPECT_EQ(red_at(result.scene, 0.25, 0.5), 255);
   EXPECT_LT(red_at(result.scene, 0.75, 0.5), 60);
-  EXPECT_TRUE(result.materials[0]["depends_on"]["normal"]);
-  EXPECT_FALSE(result.materials[0].contains("atlas"));
+  EXPECT_TRUE(result.materials[0].depends_on_normal);
+  EXPECT_FALSE(result.materials[0].atlas.has_value());
   EXPECT_EQ(result.images, 2);
 }
 
@@ -91,12 +89,12 @@ TEST(Weather, FacesThatShareTheirTexelsGetAnAtlas) {
   WeatherConfig config;
   config.size = 64;
   config.layers.push_back({"base|colorfunction=white|alphafunction=clampunit(normaldot)", {"*"}});
-  const WeatherResult result = weather(scene_of(mesh), config, 1);
+  const WeatherResult result = weather_scene(scene_of(mesh), config, 1);
   EXPECT_EQ(red_of(result.scene, 0, 0), 255);
   EXPECT_LT(red_of(result.scene, 0, 2), 60);
   EXPECT_EQ(red_of(result.scene, 0, 4), 255);
-  EXPECT_EQ(result.materials[0]["atlas"]["charts"], 4);
-  EXPECT_EQ(result.materials[0]["atlas"]["tiles"], 2) << "three look the same";
+  EXPECT_EQ(result.materials[0].atlas.value().charts, 4U);
+  EXPECT_EQ(result.materials[0].atlas.value().tiles, 2U) << "three look the same";
   const TriangleMesh& out = result.scene.parts[0].mesh;
   EXPECT_EQ(out.uv1.values.size(), mesh.uv.values.size()) << "the old coordinates are kept";
   for (const Vec2& uv : out.uv.values) EXPECT_TRUE(uv.x >= 0 && uv.y >= 0);
@@ -117,7 +115,7 @@ TEST(Weather, InstancesOfAPartAreWrittenApartWhenTheyLookUnlike) {
   WeatherConfig config;
   config.size = 32;
   config.layers.push_back({"base|colorfunction=white|alphafunction=clampunit(normaldot)", {"*"}});
-  const WeatherResult result = weather(scene, config, 1);
+  const WeatherResult result = weather_scene(scene, config, 1);
   ASSERT_EQ(result.scene.parts.size(), 2U);
   EXPECT_EQ(red_of(result.scene, *result.scene.nodes[0].part, 0), 255);
   EXPECT_LT(red_of(result.scene, *result.scene.nodes[1].part, 0), 60);
@@ -130,8 +128,8 @@ TEST(Weather, NoSnowBelowARoof) {
   WeatherConfig config;
   config.size = 32;
   config.layers.push_back({"base|colorfunction=white|alphafunction=sky", {"*"}});
-  const WeatherResult result = weather(scene_of(mesh), config, 1);
-  EXPECT_TRUE(result.materials[0]["depends_on"]["sky"]);
+  const WeatherResult result = weather_scene(scene_of(mesh), config, 1);
+  EXPECT_TRUE(result.materials[0].depends_on_sky);
   EXPECT_LT(red_of(result.scene, 0, 0), 120);
   EXPECT_EQ(red_of(result.scene, 0, 2), 255);
   EXPECT_GT(red_of(result.scene, 0, 4), 250);
@@ -144,7 +142,7 @@ TEST(Weather, TheTexelsOfAPictureRunDownItsRows) {
   config.size = 32;
   // Scene (x, y, z up) is (x, z, -y) in the recipe's axes.
   config.layers.push_back({"base|colorfunction=white|alphafunction=step(-posz,.5)", {"*"}});
-  const WeatherResult result = weather(scene_of(mesh), config, 1);
+  const WeatherResult result = weather_scene(scene_of(mesh), config, 1);
   EXPECT_EQ(red_at(result.scene, 0.5, 0.1), 255) << "the top row is v = 1, y = 1 m";
   EXPECT_LT(red_at(result.scene, 0.5, 0.9), 60);
 }
@@ -162,13 +160,13 @@ TEST(Weather, PaintsOnlyWhatChanged) {
   config.size = 16;
   config.layers = {{"dust", {"wood"}}, {"rust_on", {"paint"}}};
   WeatherCache cache;
-  EXPECT_EQ(weather(scene, config, 0.5, cache).painted, 2);
-  EXPECT_EQ(weather(scene, config, 0.5, cache).painted, 0);
-  EXPECT_EQ(weather(scene, config, 0.6, cache).painted, 2);
+  EXPECT_EQ(weather_scene(scene, config, 0.5, cache).painted, 2);
+  EXPECT_EQ(weather_scene(scene, config, 0.5, cache).painted, 0);
+  EXPECT_EQ(weather_scene(scene, config, 0.6, cache).painted, 2);
   config.layers[0].recipe = "dust|scale=.1";
-  const WeatherResult cached = weather(scene, config, 0.5, cache);
+  const WeatherResult cached = weather_scene(scene, config, 0.5, cache);
   EXPECT_EQ(cached.painted, 1);
-  const WeatherResult fresh = weather(scene, config, 0.5);
+  const WeatherResult fresh = weather_scene(scene, config, 0.5);
   ASSERT_EQ(cached.scene.images.size(), fresh.scene.images.size());
   for (std::size_t i = 0; i < fresh.scene.images.size(); ++i)
     EXPECT_EQ(cached.scene.images[i].bytes, fresh.scene.images[i].bytes);
@@ -204,21 +202,21 @@ TEST(Weather, TheOwnReliefIsTheFirstLayer) {
   config.size = 64, config.depth_mm = 50;
   // A layer that only colours leaves the relief as it was.
   config.layers = {{"base|bumpblend=off|colorfunction=white", {"*"}}};
-  const WeatherResult coloured = weather(scene, config, 1);
+  const WeatherResult coloured = weather_scene(scene, config, 1);
   EXPECT_TRUE(coloured.materials[0]["own_relief"]);
   const ColorImage kept = normals_of(coloured.scene);
   ASSERT_EQ(kept.pixels.size(), own.pixels.size());
   for (std::size_t i = 0; i < own.pixels.size(); ++i) EXPECT_NEAR(kept.pixels[i], own.pixels[i], 2) << i;
   // One that covers half of it flattens that half, away from its border.
   config.layers = {{"base|bumpblend=interpolate|bumpfunction=.5|alphafunction=step(x,.5)", {"*"}}};
-  const ColorImage half = normals_of(weather(scene, config, 1).scene);
+  const ColorImage half = normals_of(weather_scene(scene, config, 1).scene);
   for (int x = 2; x < 30; ++x)
     EXPECT_NEAR(half.pixels[3 * static_cast<std::size_t>(x)], own.pixels[3 * static_cast<std::size_t>(x)], 3);
   for (int x = 34; x < 62; ++x) EXPECT_EQ(half.pixels[3 * static_cast<std::size_t>(x)], 128);
   // And layers read it: only what lies low is covered.
   config.layers = {
       {"base|bumpblend=off|colorfunction=white|alphafunction=step(nearmean(lowerbump,.4),lowerbump+.2)", {"*"}}};
-  const WeatherResult dirty = weather(scene, config, 1);
+  const WeatherResult dirty = weather_scene(scene, config, 1);
   EXPECT_LT(red_at(dirty.scene, 8.5 / 64, 0.5), 60);
   EXPECT_EQ(red_at(dirty.scene, 24.5 / 64, 0.5), 255);
 }
@@ -235,7 +233,7 @@ TEST(Weather, TheNewReliefIsFelt) {
   config.size = 32, config.depth_mm = 50;
   // Half of the surface is filled up to 15 mm: (0.8 - 0.5) 50.
   config.layers = {{"base|bumpblend=interpolate|bumpfunction=max(lowerbump,.8)|alphafunction=step(.5,y)", {"*"}}};
-  const Scene aged = weather(scene, config, 1).scene;
+  const Scene aged = weather_scene(scene, config, 1).scene;
   std::vector<HapticWarning> warnings;
   const auto felt = material_tag_of_extras(aged.materials[0].extras_json, warnings);
   ASSERT_TRUE(felt && felt->height);
@@ -247,11 +245,11 @@ TEST(Weather, TheNewReliefIsFelt) {
   EXPECT_GT(felt->height->rms_m, 0.008);
   // A material without a tag stays without, and a map on coordinates of its own stays.
   scene.materials[0].extras_json = "";
-  EXPECT_EQ(weather(scene, config, 1).scene.materials[0].extras_json, "");
+  EXPECT_EQ(weather_scene(scene, config, 1).scene.materials[0].extras_json, "");
   tag.height->sha256 = std::string(64, '0');
   scene.materials[0].extras_json = with_material_tag("", tag);
   scene.materials[0].normal_texture.reset();
-  EXPECT_NE(weather(scene, config, 1).scene.materials[0].extras_json.find(tag.height->sha256), std::string::npos);
+  EXPECT_NE(weather_scene(scene, config, 1).scene.materials[0].extras_json.find(tag.height->sha256), std::string::npos);
 }
 
 TEST(Weather, MapsTileWhereTheUvLeaveTheRepeat) {
@@ -261,7 +259,7 @@ TEST(Weather, MapsTileWhereTheUvLeaveTheRepeat) {
   WeatherConfig config;
   config.size = 64;
   config.layers = {{"base|bumpblend=off|colorfunction=rgb(main,main,main)|mainfunction=x", {"*"}}};
-  const Scene scene = weather(scene_of(mesh), config, 1).scene;
+  const Scene scene = weather_scene(scene_of(mesh), config, 1).scene;
   EXPECT_NEAR(red_at(scene, 0.5 / 64, 0.5), red_at(scene, 63.5 / 64, 0.5), 6);
   EXPECT_NEAR(red_at(scene, 0.25, 0.5), red_at(scene, 0.75, 0.5), 6) << "the ramp's four corners are blended";
 }
@@ -272,16 +270,16 @@ TEST(Weather, TimeStepsShareTheSurface) {
   config.layers = {{"snow", {"*"}}};
   WeatherCache cache;
   const Scene scene = two_sides();
-  weather(scene, config, 0.2, cache);
+  weather_scene(scene, config, 0.2, cache);
   ASSERT_EQ(cache.surfaces.size(), 1U);
   const auto* first = cache.surfaces.begin()->second.get();
-  const WeatherResult later = weather(scene, config, 0.9, cache);
+  const WeatherResult later = weather_scene(scene, config, 0.9, cache);
   EXPECT_EQ(cache.surfaces.size(), 1U);
   EXPECT_EQ(cache.surfaces.begin()->second.get(), first);
-  const WeatherResult alone = weather(scene, config, 0.9);
+  const WeatherResult alone = weather_scene(scene, config, 0.9);
   EXPECT_EQ(later.scene.images.back().bytes, alone.scene.images.back().bytes);
   config.layers = {{"base|alphafunction=normaldot", {"*"}}};
-  weather(scene, config, 0.9, cache);
+  weather_scene(scene, config, 0.9, cache);
   EXPECT_EQ(cache.surfaces.size(), 2U) << "another reading";
 }
 
@@ -299,71 +297,24 @@ TEST(Weather, KnowsTheFilesItRestsOnAndPaintsAnewWhenAPictureChanges) {
   config.layers = {{"dots", {"*"}}};
   WeatherCache cache;
   const Scene scene = two_sides();
-  EXPECT_EQ(red_at(weather(scene, config, 1, cache).scene, 0.25, 0.5), 255);
+  EXPECT_EQ(red_at(weather_scene(scene, config, 1, cache).scene, 0.25, 0.5), 255);
   for (const char* name : {"one.recipes", "two.recipes", "dots.png"})
-    EXPECT_TRUE(cache.files.contains(folder.path() / name)) << name;
-  EXPECT_EQ(weather(scene, config, 1, cache).painted, 0);
+    EXPECT_TRUE(cache.files().contains(folder.path() / name)) << name;
+  EXPECT_EQ(weather_scene(scene, config, 1, cache).painted, 0);
   picture(0, 4);
-  const WeatherResult again = weather(scene, config, 1, cache);
+  const WeatherResult again = weather_scene(scene, config, 1, cache);
   EXPECT_EQ(again.painted, 1);
   EXPECT_EQ(red_at(again.scene, 0.25, 0.5), 0);
   // What can't be read is watched, too.
   config.libraries = {"missing.recipes"};
-  EXPECT_THROW(weather(scene, config, 1, cache), IoError);
-  EXPECT_TRUE(cache.files.contains(folder.path() / "missing.recipes"));
-}
-
-TEST(Weather, ThePageHasAPictureATimeAndNothingFromOutside) {
-  const Scene scene = two_sides();
-  WeatherConfig config;
-  config.size = 16;
-  config.layers = {{"dust", {"*"}}};
-  const WeatherResult result = weather(scene, config, 1);
-  const ColorImage picture{2, 1, {0, 0, 0, 255, 255, 255}};
-  const std::string page =
-      weather_page("<a>", picture, {{0, picture}, {1, picture}}, result.materials, "{\"$comment\": \"</pre>\"}", false);
-  std::size_t steps = 0;
-  for (std::size_t at = 0; (at = page.find("class=\"step\"", at)) != std::string::npos; ++at) ++steps;
-  EXPECT_EQ(steps, 2U);
-  EXPECT_NE(page.find("max=\"1\""), std::string::npos);
-  EXPECT_EQ(page.find("http:"), std::string::npos);
-  EXPECT_EQ(page.find("src=\"data:image/png") == std::string::npos, false);
-  EXPECT_NE(page.find("&lt;a&gt;"), std::string::npos);
-  EXPECT_EQ(page.find("\"</pre>\""), std::string::npos) << "the configuration is text, not markup";
-}
-
-TEST(FollowFiles, TellsOfAFileThatChangedAndStops) {
-  const auto path = std::filesystem::temp_directory_path() / ("papilla-follow-" + std::to_string(::getpid()));
-  std::ofstream(path) << "a";
-  int looks = 0, changes = 0;
-  follow_files([&] { return std::vector<std::filesystem::path>{path}; }, [&] { ++changes; },
-               [&] {
-                 if (++looks == 2) std::ofstream(path) << "longer";
-                 return looks > 4;
-               });
-  EXPECT_EQ(changes, 1);
-  // A file that joins the list is no change of its own; one that is saved later is.
-  const auto other = path.string() + "-other";
-  std::ofstream(other) << "a";
-  looks = changes = 0;
-  follow_files(
-      [&] {
-        return looks < 2 ? std::vector<std::filesystem::path>{path} : std::vector<std::filesystem::path>{path, other};
-      },
-      [&] { ++changes; },
-      [&] {
-        if (++looks == 4) std::ofstream(other) << "longer";
-        return looks > 6;
-      });
-  EXPECT_EQ(changes, 1);
-  std::filesystem::remove(other);
-  std::filesystem::remove(path);
+  EXPECT_THROW(weather_scene(scene, config, 1, cache), IoError);
+  EXPECT_TRUE(cache.files().contains(folder.path() / "missing.recipes"));
 }
 
 TEST(Weather, LeavesAloneWhatNoLayerFits) {
   WeatherConfig config;
   config.layers.push_back({"dust", {"wood*"}});
-  const WeatherResult result = weather(two_sides(), config, 1);
+  const WeatherResult result = weather_scene(two_sides(), config, 1);
   EXPECT_FALSE(result.scene.materials[0].base_color_texture);
   EXPECT_EQ(result.images, 0);
 }
@@ -397,10 +348,10 @@ TEST(GrainMaterial, ARecipeStandsWhereAPictureStands) {
   const Grain grain = make_grain(rule);
   EXPECT_TRUE(grain.relief.periodic);
   EXPECT_NEAR(grain.tag.dynamic_friction, 0.42, 1e-6);
-  EXPECT_EQ(grain.report["height"]["method"], "recipe");
+  EXPECT_EQ(grain.height.method, "recipe");
   rule.recipe = "leather|seed=x";
   EXPECT_THROW(make_grain(rule), InvalidInput);
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

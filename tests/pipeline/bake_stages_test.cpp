@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/bake_stages.hpp"
 
 #include <gtest/gtest.h>
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 TEST(Plan, ASurfaceWithoutMaterialNeedsNothing) {
@@ -41,6 +41,11 @@ TEST(Plan, UnusableUvIsReplaced) {
       decision(make_plan({.grain = true, .feel = true}, {.cad = false, .uv = UvState::unusable}), Stage::unwrap).run);
 }
 
+TEST(Plan, OnlyMeshesWithDefectsAreRepaired) {
+  EXPECT_FALSE(decision(make_plan({.grain = true, .feel = true}, {.is_clean = true}), Stage::repair).run);
+  EXPECT_TRUE(decision(make_plan({.grain = true, .feel = true}, {.is_clean = true}), Stage::unwrap).run);
+}
+
 TEST(Plan, OnlyCadIsTessellated) {
   EXPECT_TRUE(decision(make_plan({}, {.cad = true}), Stage::tessellate).run);
   EXPECT_FALSE(decision(make_plan({}, {.cad = false}), Stage::tessellate).run);
@@ -49,4 +54,4 @@ TEST(Plan, OnlyCadIsTessellated) {
 static_assert(!decision(make_plan({}, {.cad = true}), Stage::unwrap).run, "the table is usable at compile time");
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

@@ -1,11 +1,11 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/bake_plan.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 /// A square of 10 mm whose uv runs over `units`.
@@ -66,7 +66,7 @@ TEST(Surfaces, ReplaceUvThatIsCollapsedMirroredStretchedOrNotANumber) {
   scene.parts[1].mesh.uv.values[3] = {1, 0};  // mirrors the second triangle
   for (Vec2& uv : scene.parts[2].mesh.uv.values) uv.y *= 0.1;
   scene.parts[3].mesh.uv.values[2].x = std::numeric_limits<double>::quiet_NaN();
-  for (const Surface& surface : plan_surfaces(scene, file))
+  for (const PartSurface& surface : plan_surfaces(scene, file))
     EXPECT_TRUE(decision(surface.plan, Stage::unwrap).run) << surface.label << ": " << surface.uv_note;
 }
 
@@ -92,4 +92,4 @@ TEST(Surfaces, ColoursRoundTripThroughSrgb) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

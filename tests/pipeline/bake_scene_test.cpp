@@ -1,9 +1,10 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/bake_scene.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,7 @@
 #include "papilla/texture/grain.hpp"
 #include "papilla_test/shapes.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,10 +78,7 @@ class BakeTest : public testing::Test {
     return scene;
   }
 
-  BakeResult run(Scene scene) {
-    surfaces_ = plan_surfaces(scene, rules_);
-    return bake(std::move(scene), surfaces_, {});
-  }
+  BakeResult run(Scene scene) const { return bake_scene(std::move(scene), rules_); }
 
   static nlohmann::json tag_of(const Material& material) {
     return nlohmann::json::parse(material.extras_json).at("haptic");
@@ -88,7 +86,6 @@ class BakeTest : public testing::Test {
 
   const fs::path folder_ = fs::temp_directory_path() / ("papilla-bake-" + std::to_string(::getpid()));
   Materials rules_;
-  std::vector<Surface> surfaces_;
 };
 
 TEST_F(BakeTest, APartWithoutGrainGetsNothingAndCostsNothing) {
@@ -197,6 +194,44 @@ TEST_F(BakeTest, TheSameInputGivesTheSameScene) {
   EXPECT_TRUE(read_file(folder_ / "a.glb") == read_file(folder_ / "b.glb"));
 }
 
+TEST_F(BakeTest, MapsAsUnwrapDoes) {
+  Scene scene;
+  for (const TriangleMesh& mesh : {test::torus(100, 30, 40, 20), test::cube(80), test::uv_sphere(60, 24, 12)}) {
+    Part part;
+    part.name = "dash " + std::to_string(scene.parts.size());
+    part.mesh.positions = mesh.positions;
+    part.mesh.triangles = mesh.triangles;
+    scene.parts.push_back(part);
+  }
+  scene = scene_of(std::move(scene.parts));
+  scene.format = "STEP";  // Clean: nothing is repaired.
+  UnwrapOptions options;
+  options.layout = UvLayout::tile;
+  options.tile_mm = {40, 20};
+  const UnwrapResult unwrapped = unwrap_scene(scene, options);
+  const BakeResult baked = run(scene);
+  ASSERT_EQ(baked.surfaces.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(baked.surfaces[i].mesh.triangles, unwrapped.scene.parts[i].mesh.triangles) << i;
+    EXPECT_EQ(baked.surfaces[i].mesh.uv.values, unwrapped.scene.parts[i].mesh.uv.values) << i;
+    EXPECT_EQ(baked.surfaces[i].mesh.uv.indices, unwrapped.scene.parts[i].mesh.uv.indices) << i;
+    // What is written: repeats of the grain, whole ones taken off chart by chart.
+    const TriangleMesh& mesh = baked.scene.parts[i].mesh;
+    for (std::size_t v = 0; v < mesh.uv.values.size(); ++v) {
+      const Vec2 repeats{unwrapped.scene.parts[i].mesh.uv.values[v].x / 40,
+                         unwrapped.scene.parts[i].mesh.uv.values[v].y / 20};
+      EXPECT_NEAR(std::remainder(mesh.uv.values[v].x - repeats.x, 1), 0, 1e-12);
+      EXPECT_NEAR(std::remainder(mesh.uv.values[v].y - repeats.y, 1), 0, 1e-12);
+    }
+  }
+}
+
+TEST_F(BakeTest, CancelEndsTheWork) {
+  int calls = 0;
+  EXPECT_THROW(bake_scene(scene_of({square("dash")}), rules_, {}, [&](const Progress&) { return ++calls < 2; }),
+               Cancelled);
+}
+
 TEST_F(BakeTest, NamesThePictureThatIsNone) {
   rules_.materials.at("grain").texture = folder_ / "missing.png";
   try {
@@ -208,4 +243,4 @@ TEST_F(BakeTest, NamesThePictureThatIsNone) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

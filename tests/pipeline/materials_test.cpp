@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/materials.hpp"
 
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "papilla/pipeline/grain.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/pipeline/grain.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ TEST_F(MaterialsTest, AMissingFileOrAFolderIsAnIoError) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/shared_parts.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 /// Three corners of a box that no motion but the identity takes onto themselves.
@@ -125,4 +125,4 @@ TEST(SharedParts, NodesWithChildrenKeepThemInPlace) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

@@ -1,20 +1,19 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/unwrap_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
-#include "papilla/pipeline/measure_scene.hpp"
-#include "exit_code.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/measure.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
 #include "papilla_test/shapes.hpp"
-#include "unwrap/held_option.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 Scene scene_of(TriangleMesh mesh) {
@@ -38,7 +37,8 @@ TEST(Unwrap, EveryMethodByNameGivesFiniteUvWithoutMirrors) {
   for (const auto& [name, method] : unwrap_methods()) {
     EXPECT_EQ(unwrap_method_name(method), name);
     Scene scene = scene_of(mesh);
-    const UnwrapReport report = unwrap_scene(scene, options_of(method));
+    const UnwrapResult report = unwrap_scene(scene, options_of(method));
+    scene = report.scene;
     ASSERT_FALSE(scene.parts[0].mesh.uv.empty()) << name;
     for (const Vec2 p : scene.parts[0].mesh.uv.values) EXPECT_TRUE(is_finite(p)) << name;
     if (method == UnwrapMethod::environment) continue;
@@ -52,11 +52,11 @@ TEST(Unwrap, AutomaticProjectsWhatIsSmallerThanTheGrain) {
   UnwrapOptions options = options_of(UnwrapMethod::automatic);
   options.tile_mm = {100, 100};
   Scene scene = scene_of(test::cube(5));
-  const UnwrapReport small = unwrap_scene(scene, options);
+  const UnwrapResult small = unwrap_scene(scene, options);
   EXPECT_EQ(small.parts[0].method, "triplanar");
   EXPECT_NE(small.parts[0].reason.find("8.66 mm"), std::string::npos) << small.parts[0].reason;
   scene = scene_of(test::cube(500));
-  const UnwrapReport large = unwrap_scene(scene, options);
+  const UnwrapResult large = unwrap_scene(scene, options);
   EXPECT_EQ(large.parts[0].method, "auto");
   EXPECT_EQ(large.parts[0].choices.size(), large.parts[0].flattening.charts.count);
   for (const ChartChoice& choice : large.parts[0].choices) EXPECT_EQ(choice.method, "exact");
@@ -69,7 +69,7 @@ TEST(Unwrap, GrainRunsAlongThePart) {
   options.method.grain = GrainSource::longest;
   options.layout = UvLayout::tile;
   Scene scene = scene_of(bar);
-  unwrap_scene(scene, options);
+  scene = unwrap_scene(scene, options).scene;
   const TriangleMesh& mesh = scene.parts[0].mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -90,7 +90,8 @@ TEST(Unwrap, ASecondSetOfUvOverlapsNowhere) {
   Scene scene = scene_of(test::torus(100, 30, 40, 20));
   scene.parts.push_back(scene.parts[0]);
   scene.parts[1].name = "other";
-  const UnwrapReport report = unwrap_scene(scene, options);
+  const UnwrapResult report = unwrap_scene(scene, options);
+  scene = report.scene;
   ASSERT_TRUE(report.unique);
   EXPECT_GE(report.unique->gutter_px, 3);
   TriangleMesh both;
@@ -117,7 +118,7 @@ TEST(Unwrap, PinsHoldTheNearestVertex) {
   options.method.charts = ChartSource::keep;
   options.method.pins = {{{0, 0, 0.1}, {5, 7}}, {{40, 30, 0}, {45, 37}}};
   Scene scene = scene_of(test::plane(40, 30, 8, 6));
-  unwrap_scene(scene, options);
+  scene = unwrap_scene(scene, options).scene;
   const TriangleMesh& mesh = scene.parts[0].mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -131,13 +132,13 @@ TEST(Unwrap, PinsAndIsoLinesOfOnePartLeaveTheOthersAlone) {
   UnwrapOptions options = options_of(UnwrapMethod::levy);
   options.layout = UvLayout::tile;
   options.method.charts = ChartSource::keep;
-  options.method.pins = {parse_pin("0,0,0=0,0@b*"), parse_pin("40,30,0=60,30@b*")};
-  options.method.iso_lines = {parse_iso_line("u=20:20,0,0;20,30,0@b*")};
+  options.method.pins = {{{0, 0, 0}, {0, 0}, "b*"}, {{40, 30, 0}, {60, 30}, "b*"}};
+  options.method.iso_lines = {{{{20, 0, 0}, {20, 30, 0}}, true, 20, "b*"}};
   Scene scene = scene_of(test::plane(40, 30, 8, 6));
   scene.parts[0].name = "a";
   scene.parts.push_back(scene.parts[0]);
   scene.parts[1].name = "board";
-  unwrap_scene(scene, options);
+  scene = unwrap_scene(scene, options).scene;
   std::size_t on_line = 0;
   for (std::size_t t = 0; t < scene.parts[1].mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -158,33 +159,16 @@ TEST(Unwrap, PinsAndIsoLinesOfOnePartLeaveTheOthersAlone) {
   EXPECT_NEAR(untouched.symmetric_dirichlet.max, 4, 1e-9);
 }
 
-TEST(HeldOption, ReadsPlacesLinesAndParts) {
-  const PlacedPin pin = parse_pin("1,-2,3.5=4,5@door:left");
-  EXPECT_EQ(pin.position, (Vec3{1, -2, 3.5}));
-  EXPECT_EQ(pin.uv, (Vec2{4, 5}));
-  EXPECT_EQ(pin.part, "door:left");
-  const PlacedIsoLine line = parse_iso_line("v:0,0,0;1,0,0;1,1,0");
-  EXPECT_FALSE(line.is_u);
-  EXPECT_FALSE(line.value);
-  EXPECT_EQ(line.points.size(), 3u);
-  EXPECT_TRUE(line.part.empty());
-  EXPECT_EQ(parse_iso_line("u=-2.5:0,0,0;1,0,0").value, -2.5);
-  for (const char* bad : {"", "1,2,3", "1,2,3=4", "1,2=3,4", "1,2,3=4,nan", "1,2,3=4,5,6"})
-    EXPECT_THROW(parse_pin(bad), UsageError) << bad;
-  for (const char* bad : {"", "u", "w:0,0,0;1,0,0", "u:0,0,0", "u=x:0,0,0;1,0,0", "u:0,0;1,0,0", "u:0,0,0;"})
-    EXPECT_THROW(parse_iso_line(bad), UsageError) << bad;
-}
-
-TEST(HeldOption, IsoLineTakesTheShortestPathOfEdges) {
+TEST(PlacedConstraints, IsoLineTakesTheShortestPathOfEdges) {
   const TriangleMesh mesh = test::plane(4, 3, 4, 3);
-  const LevyIsoLine line = iso_line_on(mesh, parse_iso_line("v:0,1,0;4,1,0"));
+  const LevyIsoLine line = iso_line_on(mesh, {{{0, 1, 0}, {4, 1, 0}}, false, {}, ""});
   ASSERT_EQ(line.vertices.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(mesh.positions[line.vertices[i]], (Vec3{static_cast<double>(i), 1, 0}));
   TriangleMesh apart = mesh;
   for (Vec3 p : {Vec3{10, 0, 0}, Vec3{11, 0, 0}, Vec3{10, 1, 0}}) apart.positions.push_back(p);
   const auto first = static_cast<Index>(mesh.positions.size());
   apart.triangles.push_back({first, first + 1, first + 2});
-  EXPECT_THROW(iso_line_on(apart, parse_iso_line("v:0,1,0;10,0,0")), InvalidInput);
+  EXPECT_THROW(iso_line_on(apart, {{{0, 1, 0}, {10, 0, 0}}, false, {}, ""}), InvalidInput);
 }
 
 TEST(Unwrap, ChartsAreChosenByTwoSeamCosts) {
@@ -197,7 +181,9 @@ TEST(Unwrap, ChartsAreChosenByTwoSeamCosts) {
     UnwrapOptions options = options_of(UnwrapMethod::automatic);
     options.method.choose_seam_cost = !cost;
     options.method.segmentation.seam_cost = cost.value_or(0.5);
-    const double seam_mm = unwrap_scene(scene, options).parts[0].seams.seam_mm;
+    const UnwrapResult unwrapped = unwrap_scene(scene, options);
+    const double seam_mm = unwrapped.parts[0].seams.seam_mm;
+    scene = unwrapped.scene;
     const DistortionReport r = measure_distortion(scene.parts[0].mesh, scene.parts[0].mesh.uv);
     return Outcome{seam_mm, (r.symmetric_dirichlet.mean - 4 + 1e-4) * std::pow(1 + seam_mm / std::sqrt(r.area_mm2), 5)};
   };
@@ -238,13 +224,11 @@ TEST(Unwrap, KeepRefusesWhatIsNoSurface) {
 TEST(DistortionReport, HistogramAddsUpAndColoursAreCorners) {
   Scene scene = scene_of(test::plane(4, 3, 4, 3));
   const SceneDistortion distortion = measure_scene(scene);
-  const Json histograms = histogram_json(distortion.report);
-  for (const auto& [name, histogram] : histograms.items()) {
-    double sum = 0;
-    for (const auto& share : histogram.at("area_fraction")) sum += share.get<double>();
-    EXPECT_NEAR(sum, 1, 1e-12) << name;
-    EXPECT_NEAR(histogram.at("area_fraction").front().get<double>(), 1, 1e-12) << name;  // an isometry
-    EXPECT_EQ(histogram.at("area_fraction").size(), histogram.at("below").size() + 1);
+  for (const auto& histogram : {dirichlet_histogram, stretch_histogram, angle_histogram}) {
+    const DistortionHistogram h = histogram(distortion.report);
+    EXPECT_NEAR(std::accumulate(h.area_shares.begin(), h.area_shares.end(), 0.0), 1, 1e-12);
+    EXPECT_NEAR(h.area_shares.front(), 1, 1e-12);  // an isometry
+    EXPECT_EQ(h.area_shares.size(), h.upper_ends.size() + 1);
   }
   colour_by_distortion(distortion, 5, scene);
   ASSERT_EQ(scene.parts[0].mesh.colors.indices.size(), scene.parts[0].mesh.triangles.size());
@@ -253,18 +237,19 @@ TEST(DistortionReport, HistogramAddsUpAndColoursAreCorners) {
 
 TEST(DistortionReport, NamesTheChartThatOwnsTheDistortion) {
   Scene scene = scene_of(test::plane(4, 3, 4, 3));
-  EXPECT_TRUE(worst_chart_json(scene, measure_scene(scene)).is_null());  // an isometry
+  EXPECT_FALSE(worst_chart(measure_scene(scene)));  // an isometry
   scene.parts.push_back(scene.parts[0]);
   scene.parts[1].name = "bad";
   for (Vec2& p : scene.parts[1].mesh.uv.values) p.x *= 2;
-  const Json worst = worst_chart_json(scene, measure_scene(scene));
-  EXPECT_EQ(worst.at("part"), "bad");
-  EXPECT_LT(worst.at("triangle").get<std::size_t>(), scene.parts[1].mesh.triangles.size());
+  const std::optional<WorstChart> worst = worst_chart(measure_scene(scene));
+  ASSERT_TRUE(worst);
+  EXPECT_EQ(worst->part, 1U);
+  EXPECT_LT(worst->triangle, scene.parts[1].mesh.triangles.size());
   // Areas 12 and 24 over 24 in space: stretched by f = √(2/3) and 2f beside f and f.
   const double f2 = 2.0 / 3, bad = 5 * f2 + 1.25 / f2, other = 2 * f2 + 2 / f2;
-  EXPECT_NEAR(worst.at("symmetric_dirichlet").at("mean").get<double>(), bad, 1e-9);
-  EXPECT_NEAR(worst.at("share_of_distortion").get<double>(), (bad - 4) / (bad + other - 8), 1e-9);
+  EXPECT_NEAR(worst->mean, bad, 1e-9);
+  EXPECT_NEAR(worst->share, (bad - 4) / (bad + other - 8), 1e-9);
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla
