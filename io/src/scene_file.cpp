@@ -75,9 +75,10 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, 
   return scene;
 }
 
-std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path) {
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
+                                     const WriteOptions& options) {
   const std::string extension = lower_extension(path);
-  if (extension == ".glb") return write_glb(scene, path);
+  if (extension == ".glb") return write_glb(scene, path, options);
   if (extension == ".obj") return write_obj(scene, path);
   if (extension == ".off") return write_off(scene, path);
   if (extension == ".ply") return write_ply(scene, path);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "papilla/core/progress.hpp"
+#include "papilla/io/glb_writer.hpp"
 #include "papilla/io/read_options.hpp"
 
 namespace papilla {
@@ -18,9 +19,12 @@ namespace papilla {
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {},
                  const ProgressCallback& progress = {});
 
+using WriteOptions = GlbWriteOptions;  ///< Other formats have none.
+
 /// Writes a file by its extension, in any case: .glb, .obj, .off, .ply, .stl.
 /// @returns what the format has no place for, one sentence each (Scene::losses are not repeated).
 /// @throws InvalidInput when the extension is unknown or the scene can't be written so; IoError when writing fails.
-std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
+                                     const WriteOptions& options = {});
 
 }  // namespace papilla

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The whole way from a CAD file to a scene that can be seen and felt: scenes in, scenes out. Each stage is a function
+/// of (input, options) whose result is a value; options have defaults that serve a 5 mm button and a 5 m car alike.
+///
+///   read_scene()          CAD, mesh or glTF file -> Scene                     io/scene_file.hpp
+///   part_statistics()     what is wrong with the meshes                       part_statistics.hpp
+///   repair_scene()        soup -> clean, oriented, manifold parts             repair_scene.hpp
+///   simplify_scene()      fewer triangles within a measured tolerance, LODs   simplify_scene.hpp, levels.hpp
+///   share_identical_parts() copies -> instances of one part                   shared_parts.hpp
+///   measure_perception()  what can be reached and seen; leave_out()           perception.hpp
+///   unwrap_scene()        charts and uv in millimetres                        unwrap_scene.hpp, unwrap_method.hpp
+///   measure_scene()       distortion of any uv                                measure_scene.hpp
+///   survey_picture()      class, symmetry and fractal dimension of a picture  texture_survey.hpp
+///   read_materials()      MATERIALS.json                                      materials.hpp
+///   plan_bake()           which stages a scene needs, and why                 bake_plan.hpp, bake_stages.hpp
+///   bake_scene()          grain and touch onto a scene                        bake_scene.hpp, grain.hpp
+///   weather_scene()       dirt, rust, snow and wear over its materials        weather_scene.hpp, weather_config.hpp
+///   write_scene()         Scene -> GLB, OBJ, PLY, STL, OFF                    io/scene_file.hpp
+///
+/// Units: millimetres, SI units in haptic tags. Errors: InvalidInput, IoError, SolverFailure, one line each that names
+/// file, part and place; Cancelled when a ProgressCallback returns false. Determinism: same input and options, same
+/// result, whatever the number of threads. Threads: parts run in parallel (TBB); limit them with
+/// oneapi::tbb::global_control. No function prints, and none keeps state between calls.
+
+#include "papilla/io/scene_file.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
+#include "papilla/pipeline/perception.hpp"
+#include "papilla/pipeline/repair_scene.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
+#include "papilla/pipeline/texture_survey.hpp"
+#include "papilla/pipeline/unwrap_scene.hpp"
+#include "papilla/pipeline/weather_scene.hpp"

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// The example as a stranger builds it.
+#include "../../../examples/bake.cpp"
