@@ -10,8 +10,12 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_bands.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/analysis_pictures.hpp"
 #include "papilla/texture/crop.hpp"
 #include "papilla/texture/texture_order.hpp"
+#include "pictures/pixel_text.hpp"
+#include "pictures/texture_plots.hpp"
 
 namespace papilla {
 namespace {
@@ -52,6 +56,10 @@ class MiddlePart {
   GreyImage image_;
 };
 
+bool needs_lattice(const SurveyOptions& options) {
+  return options.symmetry || options.order || !options.pictures.empty();
+}
+
 SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& options, const ProgressCallback& progress) {
   report_progress(progress, "symmetry", 0);
   SymmetryAnalysis analysis = analyze_symmetry(image, options.lattice, options.feature, progress);
@@ -61,13 +69,15 @@ SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& option
 
 void survey_whole(const ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
                   TextureSurvey& survey) {
-  if (options.symmetry || options.order) survey.symmetry = symmetry_of(survey.middle, options, progress);
+  if (needs_lattice(options)) survey.symmetry = symmetry_of(survey.middle, options, progress);
   if (options.fractal) survey.fractal = read_fractal_dimensions(survey.middle, progress);
   if (!options.order) return;
   const SymmetryAnalysis& symmetry = *survey.symmetry;
   survey.order = OrderSurvey{classify(survey.middle, symmetry.explained_variance(), symmetry.lattice.stripes),
-                             orientation_field(survey.middle), measure_suitability(survey.middle, symmetry.lattice),
-                             is_monochrome(bands.sample())};
+                             orientation_field(survey.middle),
+                             measure_suitability(survey.middle, symmetry.lattice),
+                             is_monochrome(bands.sample()),
+                             {}};
 }
 
 /// The lattice of the middle counts for the picture only where enough pieces have it too.
@@ -94,7 +104,6 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
   TextureOrder order;
   std::vector<FractalReadings> readings;
   std::vector<Lattice> lattices;
-  const bool wants_lattice = options.symmetry || options.order;
   const double count = static_cast<double>(pieces.columns) * pieces.rows;
   double done = 0;
   for (int row = 0; row < pieces.rows; ++row) {
@@ -108,7 +117,7 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
           crop(band, left, 0, start_of(column + 1, pieces.columns, survey.width) - left, band.height);
       if (options.fractal) readings.push_back(read_fractal_dimensions(piece));
       if (options.order) order.add(piece);
-      if (!wants_lattice) continue;
+      if (!needs_lattice(options)) continue;
       lattices.push_back(find_lattice(feature_matrix(piece), options.lattice));
       lattices.back().minima = {};
     }
@@ -116,18 +125,59 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
   report_progress(progress, "pieces of the picture", 1);
   survey.middle = middle.take();
   if (options.fractal) survey.fractal = mean_readings(readings);
-  if (wants_lattice) {
+  if (needs_lattice(options)) {
     survey.symmetry = symmetry_of(survey.middle, options, progress);
     check_lattice(*survey.symmetry, lattices, pieces.lattice);
   }
   if (options.order)
     survey.order = OrderSurvey{order.classify(survey.symmetry->explained_variance(), survey.symmetry->lattice.stripes),
                                order.orientation(pieces.columns, pieces.rows),
-                               order.suitability(survey.symmetry->lattice), is_monochrome(bands.sample())};
+                               order.suitability(survey.symmetry->lattice),
+                               is_monochrome(bands.sample()),
+                               {}};
   survey.pieces = pieces;
 }
 
+SymmetryGroups groups_of(const TextureSurvey& survey, SymmetryPattern pattern) {
+  SymmetryGroups groups;
+  const SymmetryAnalysis& symmetry = *survey.symmetry;
+  if (symmetry.lattice.found) groups.plane = find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px);
+  const GreyImage& image = survey.middle;
+  if (pattern == SymmetryPattern::strip) groups.strip = find_frieze_group(image);
+  if (pattern == SymmetryPattern::rosette)
+    groups.rosette = find_rosette_group(image, {(image.width - 1) / 2.0, (image.height - 1) / 2.0});
+  return groups;
+}
+
+std::vector<SurveyPicture> draw_survey(const TextureSurvey& survey, const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw IoError(folder.string() + ": " + failure.message());
+  const auto file = [&](const char* name) { return (folder / name).string(); };
+  std::vector<std::string> captions = {"picture", "feature matrix", "no lattice", "", ""};
+  if (survey.symmetry->part) captions = {"lattice", "feature matrix", "primitive", "synthesis", "rest"};
+  write_color_image(file("symmetry.png"), with_captions(symmetry_strip(*survey.symmetry), captions));
+  std::vector<SurveyPicture> pictures{{"symmetry", file("symmetry.png")}};
+  if (!survey.fractal || !survey.fractal->best) return pictures;
+  const auto draw = [&](const char* name, const std::string& path, const Plot& plot) {
+    pictures.push_back({name, path, write_plot(path, plot)});
+  };
+  draw("log-log", file("log-log.svg"), log_log_plot(named_readings(*survey.fractal)));
+  draw("hurst", file("hurst.svg"), hurst_plot(*survey.fractal->fshot));
+  return pictures;
+}
+
 }  // namespace
+
+std::array<FractalReading, 6> named_readings(const FractalReadings& readings) {
+  const auto estimate = [](const auto& reading) { return reading ? &*reading : nullptr; };
+  return {{{"box", k_least_fractal_side, estimate(readings.box)},
+           {"information", k_least_fractal_side, estimate(readings.information)},
+           {"correlation", k_least_fractal_side, estimate(readings.correlation)},
+           {"probability", k_least_probability_side, estimate(readings.probability)},
+           {"fshot", k_least_fractal_side, readings.fshot ? &readings.fshot->estimate : nullptr},
+           {"best", k_least_fractal_side, readings.best ? &readings.best->estimate : nullptr}}};
+}
 
 TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,
                              const ProgressCallback& progress) {
@@ -136,13 +186,16 @@ TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOpti
   survey.width = bands.width();
   survey.height = bands.height();
   survey.bits = bands.bits();
-  survey.pitch_mm = bands.pitch_mm();
+  survey.pitch_mm = options.pitch_mm > 0 ? options.pitch_mm : bands.pitch_mm();
   if (std::max(survey.width, survey.height) > options.largest_px) {
     survey_pieces(bands, options, progress, survey);
   } else {
     survey.middle = bands.next(survey.height);
     survey_whole(bands, options, progress, survey);
   }
+  if (options.symmetry) survey.groups = groups_of(survey, options.pattern);
+  if (survey.order) survey.order->plan = plan_analysis(survey.order->kind, survey.order->suitability);
+  if (!options.pictures.empty()) survey.pictures = draw_survey(survey, options.pictures);
   return survey;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/segmentation.hpp"

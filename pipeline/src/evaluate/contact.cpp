@@ -5,8 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
-#include "evaluate/wall.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
 #include "papilla/haptic/stroke.hpp"

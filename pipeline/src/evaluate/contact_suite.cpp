@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "evaluate/wall_press.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stability.hpp"

@@ -5,7 +5,7 @@
 
 #include "evaluate/picture_methods.hpp"
 #include "evaluate/extreme_pictures.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 
 namespace papilla {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "evaluate/environment.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
+#include "evaluate/kinds.hpp"
 #include "papilla/meshing/simplify.hpp"
 #include "papilla/param/projections.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/crop.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "evaluate/extreme_pictures.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/texture/feature_matrix.hpp"
 #include "papilla/texture/lattice.hpp"
 

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
 #include "evaluate/extreme_meshes.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/meshing/chart_topology.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/repair.hpp"

@@ -7,8 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "evaluate/environment.hpp"
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/cut_open.hpp"

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
 #include "evaluate/extreme_meshes.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"

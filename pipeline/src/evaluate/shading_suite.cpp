@@ -7,7 +7,7 @@
 
 #include "evaluate/picture_methods.hpp"
 #include "evaluate/extreme_pictures.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/relief_error.hpp"
 #include "papilla/texture/shading.hpp"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/simplify_ladder.hpp"

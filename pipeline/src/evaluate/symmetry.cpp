@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/crop.hpp"
 #include "papilla/texture/wallpaper_group.hpp"

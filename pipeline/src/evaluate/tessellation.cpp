@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla/param/natural.hpp"

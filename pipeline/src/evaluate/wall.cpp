@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "evaluate/wall.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "evaluate/kinds.hpp"
 #include "evaluate/wall_press.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stability.hpp"

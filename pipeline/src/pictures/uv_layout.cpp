@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "papilla/core/bounds.hpp"
-#include "papilla/pipeline/pictures/border_edges.hpp"
-#include "papilla/pipeline/pictures/pixel_text.hpp"
+#include "pictures/border_edges.hpp"
+#include "pictures/pixel_text.hpp"
 
 namespace papilla {
 namespace {
