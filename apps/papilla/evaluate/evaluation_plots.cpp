@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "evaluate/evaluation_files.hpp"
-#include "evaluate/pareto.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/pipeline/pictures/plot.hpp"
 

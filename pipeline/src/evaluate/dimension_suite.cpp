@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "evaluate/picture_methods.hpp"
 #include "evaluate/extreme_pictures.hpp"
+#include "evaluate/picture_methods.hpp"
 #include "evaluate/suite.hpp"
 
 namespace papilla {

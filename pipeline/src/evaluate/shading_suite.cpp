@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/picture_methods.hpp"
 #include "evaluate/extreme_pictures.hpp"
+#include "evaluate/picture_methods.hpp"
 #include "evaluate/suite.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/relief_error.hpp"
