@@ -23,10 +23,10 @@ namespace {
 constexpr std::int64_t k_most_band_pixels = std::int64_t{1} << 26;
 constexpr int k_least_band_rows = 128;
 
-/// Where part k of `count` equal parts of a side begins.
-int start_of(int k, int count, int side) { return static_cast<int>(std::int64_t{k} * side / count); }
+/// First pixel of part k of `count` equal parts of a side.
+int part_begin(int k, int count, int side) { return static_cast<int>(std::int64_t{k} * side / count); }
 
-int parts(std::int64_t side, std::int64_t most) { return static_cast<int>((side + most - 1) / most); }
+int part_count(std::int64_t side, std::int64_t most) { return static_cast<int>((side + most - 1) / most); }
 
 /// Rows and columns of the centred part of a side, at most `most` long.
 struct Window {
@@ -34,7 +34,7 @@ struct Window {
   Window(int side, int most) : begin((side - std::min(side, most)) / 2), length(std::min(side, most)) {}
 };
 
-/// Gathers the middle of a picture from its bands.
+/// Collects the middle of a picture from its bands.
 class MiddlePart {
  public:
   MiddlePart(int width, int height, int most) : across_(width, most), down_(height, most) {}
@@ -80,8 +80,8 @@ void survey_whole(const ImageBands& bands, const SurveyOptions& options, const P
                              {}};
 }
 
-/// The lattice of the middle counts for the picture only where enough pieces have it too.
-void check_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& lattices, LatticeAgreement& agreement) {
+/// Drops the lattice of the middle unless enough pieces have it too.
+void confirm_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& lattices, LatticeAgreement& agreement) {
   for (const Lattice& lattice : lattices) agreement.add(symmetry.lattice, lattice);
   if (!symmetry.lattice.found || agreement.holds()) return;
   symmetry.lattice.found = false;
@@ -95,9 +95,9 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
                    TextureSurvey& survey) {
   const int side = options.largest_px / 2;
   PieceSurvey pieces;
-  pieces.columns = parts(survey.width, side);
-  pieces.rows =
-      std::max(parts(survey.height, side), parts(std::int64_t{survey.width} * survey.height, k_most_band_pixels));
+  pieces.columns = part_count(survey.width, side);
+  pieces.rows = std::max(part_count(survey.height, side),
+                         part_count(std::int64_t{survey.width} * survey.height, k_most_band_pixels));
   if (survey.height > k_least_band_rows && survey.height / pieces.rows < k_least_band_rows / 2)
     throw InvalidInput(fmt::format("{} x {} pixels are too wide to be read in bands", survey.width, survey.height));
   MiddlePart middle(survey.width, survey.height, side);
@@ -107,14 +107,14 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
   const double count = static_cast<double>(pieces.columns) * pieces.rows;
   double done = 0;
   for (int row = 0; row < pieces.rows; ++row) {
-    const int top = start_of(row, pieces.rows, survey.height);
-    const GreyImage band = bands.next(start_of(row + 1, pieces.rows, survey.height) - top);
+    const int top = part_begin(row, pieces.rows, survey.height);
+    const GreyImage band = bands.next(part_begin(row + 1, pieces.rows, survey.height) - top);
     middle.add(band, top);
     for (int column = 0; column < pieces.columns; ++column) {
       report_progress(progress, "pieces of the picture", done++ / count);
-      const int left = start_of(column, pieces.columns, survey.width);
+      const int left = part_begin(column, pieces.columns, survey.width);
       const GreyImage piece =
-          crop(band, left, 0, start_of(column + 1, pieces.columns, survey.width) - left, band.height);
+          crop(band, left, 0, part_begin(column + 1, pieces.columns, survey.width) - left, band.height);
       if (options.fractal) readings.push_back(read_fractal_dimensions(piece));
       if (options.order) order.add(piece);
       if (!needs_lattice(options)) continue;
@@ -127,7 +127,7 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
   if (options.fractal) survey.fractal = mean_readings(readings);
   if (needs_lattice(options)) {
     survey.symmetry = symmetry_of(survey.middle, options, progress);
-    check_lattice(*survey.symmetry, lattices, pieces.lattice);
+    confirm_lattice(*survey.symmetry, lattices, pieces.lattice);
   }
   if (options.order)
     survey.order = OrderSurvey{order.classify(survey.symmetry->explained_variance(), survey.symmetry->lattice.stripes),

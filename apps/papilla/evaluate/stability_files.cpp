@@ -54,7 +54,7 @@ std::string counts_of(const StabilitySuite& suite) {
   return text;
 }
 
-/// A cell of a Markdown table: nothing in it ends the cell, and nothing is markup.
+/// A text as the content of a Markdown table's cell, markup escaped.
 std::string markdown_text(const std::string& text) {
   std::string out;
   for (const char c : text) {

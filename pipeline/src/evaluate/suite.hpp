@@ -30,7 +30,7 @@ StabilitySuite contact_stability(const StabilityRun& run);
 /// factorizations of surfaces do.
 double expected_seconds(double seconds, std::size_t few, std::size_t many);
 
-/// Fills a cell by work that sets outcome, numbers and note: takes the time, turns InvalidInput into `refuses` and
+/// Runs work that sets outcome, numbers and note of a cell: measures its time, turns InvalidInput into `refuses` and
 /// SolverFailure into `fails` with their message, and anything that is not finite into `breaks`; does not start when
 /// the budget does not allow what the work is expected to take.
 StabilityCell measured_cell(const StabilityRun& run, std::string method, std::string input,

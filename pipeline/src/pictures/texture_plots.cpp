@@ -13,7 +13,7 @@ namespace {
 
 using Style = PlotSeries::Style;
 
-/// Heights along the middle row or column, at most about 2000 of them.
+/// Heights along the middle row or column, thinned to about 2000.
 std::vector<Vec2> profile(const HeightMap& map, bool row) {
   const int count = row ? map.width : map.height, fixed = row ? map.height / 2 : map.width / 2;
   const double pitch = row ? map.pitch_mm_x : map.pitch_mm_y;
