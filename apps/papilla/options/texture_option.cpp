@@ -11,12 +11,6 @@
 namespace papilla::app {
 namespace {
 
-CLI::Option* add_pitch(CLI::App& verb, double& pitch_mm) {
-  return verb.add_option("--pitch", pitch_mm, "Millimetres per pixel; default from the file's resolution")
-      ->type_name("MM")
-      ->check(CLI::PositiveNumber);
-}
-
 std::vector<Channel> channels_named(const std::string& list) {
   std::vector<Channel> channels;
   if (list == "all") {
@@ -33,46 +27,11 @@ std::vector<Channel> channels_named(const std::string& list) {
 
 }  // namespace
 
-void SurveyOption::add_to(CLI::App& verb) {
-  add_pitch(verb, options_.pitch_mm);
-  verb.add_option("--only", only_, "Parts to analyse")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"fractal", "symmetry", "class"}))
-      ->capture_default_str();
-  verb.add_option("--pictures", pictures_,
-                  "Write the strip of the symmetry, the log-log plot and the polar Hurst plot into DIR")
-      ->type_name("DIR");
-  verb.add_option("--lattice", lattice_, "How minima become a lattice")
-      ->check(CLI::IsMember({"best", "projection"}))
-      ->capture_default_str();
-  verb.add_option("--feature", feature_, "Distortion of the feature matrix; absolute is slow")
-      ->check(CLI::IsMember({"squared", "absolute"}))
-      ->capture_default_str();
-  verb.add_flag("--force-lattice", force_lattice_, "Take the best lattice even if it is not significant");
-  verb.add_option("--pattern", pattern_,
-                  "strip adds the frieze group of a strip along x, rosette the group about the middle of the picture")
-      ->check(CLI::IsMember({"plane", "strip", "rosette"}))
-      ->capture_default_str();
-}
-
-SurveyOptions SurveyOption::options() const {
-  const auto wanted = [&](const char* part) { return std::find(only_.begin(), only_.end(), part) != only_.end(); };
-  SurveyOptions options = options_;
-  options.fractal = wanted("fractal");
-  options.symmetry = wanted("symmetry");
-  options.order = wanted("class");
-  if (pattern_ == "strip") options.pattern = SymmetryPattern::strip;
-  if (pattern_ == "rosette") options.pattern = SymmetryPattern::rosette;
-  if (lattice_ == "projection") options.lattice.method = LatticeMethod::projection;
-  if (force_lattice_) options.lattice.least_significance = 1e-9;  // The best lattice, whatever it explains.
-  if (feature_ == "absolute") options.feature = FeatureKind::absolute;
-  options.pictures = pictures_;
-  return options;
-}
-
 void HeightOption::add_to(CLI::App& verb) {
   verb.add_option("--normal", normal_, "Write the glTF normal map of the relief too")->type_name("FILE");
-  add_pitch(verb, options_.height.pitch_mm);
+  verb.add_option("--pitch", options_.height.pitch_mm, "Millimetres per pixel; default from the file's resolution")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber);
   verb.add_option("--depth", options_.height.depth_mm, "Peak to valley")
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
@@ -133,50 +92,6 @@ HeightFileOptions HeightOption::options(std::uint64_t seed, const ProgressCallba
   options.height.progress = progress;
   options.normal_map = normal_;
   options.pictures = pictures_;
-  return options;
-}
-
-void SynthesisOption::add_to(CLI::App& verb) {
-  std::vector<std::string> kinds;
-  for (const std::string_view name : grain_names()) kinds.emplace_back(name);
-  verb.add_option("--size", options_.size_px,
-                  "Pixels a side; 512 for grain, 256 for spectral and --like, 1025 for a graph, else 257")
-      ->type_name("N");
-  verb.add_option("--size-mm", options_.size_mm, "Side of the tile")
-      ->type_name("MM")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  verb.add_option("--height-mm", options_.height_mm, "Peak to valley")
-      ->type_name("MM")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  verb.add_option("--kind", kind_, "Grain")->check(CLI::IsMember(kinds))->capture_default_str();
-  verb.add_option("--light", light_, "Grain: direction to the light, x right, y down, z to the viewer")
-      ->type_name("X,Y,Z");
-  verb.add_option(
-          "--method", method_,
-          "Fractal: exact (fractional Brownian surface), spectral (tiles, smoother), brownian-surface (midpoint "
-          "displacement), cho (its three-step variant), brownian-graph (one row)")
-      ->check(CLI::IsMember({"exact", "spectral", "brownian-surface", "cho", "brownian-graph"}))
-      ->capture_default_str();
-  CLI::Option* hurst =
-      verb.add_option("--hurst", options_.hurst, "Fractal: H in (0, 1); the dimension is 3 - H")->capture_default_str();
-  verb.add_option("--dimension", options_.dimension, "Fractal: dimension in place of H, of a graph 2 - H")
-      ->type_name("D")
-      ->excludes(hurst);
-  verb.add_option("--like", like_, "Fractal: with the roughness and direction of this picture")->type_name("IMAGE");
-  verb.add_flag("--tile", options_.tile, "Fractal: the result shall tile");
-}
-
-SynthesisOptions SynthesisOption::options(const std::string& what, std::uint64_t seed,
-                                          const ProgressCallback& progress) const {
-  SynthesisOptions options = options_;
-  if (what == "grain") options.grain = grain_kind(kind_);
-  options.method = fractal_synthesis(method_);
-  options.like = like_;
-  if (options.grain && like_.empty() && !light_.empty()) options.light = parse_vector("--light", light_);
-  options.seed = seed;
-  options.progress = progress;
   return options;
 }
 

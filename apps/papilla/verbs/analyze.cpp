@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <memory>
 
 #include "json/texture_json.hpp"
-#include "options/texture_option.hpp"
 #include "text/texture_text.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -11,14 +11,29 @@ namespace papilla::app {
 namespace {
 
 struct Options {
-  std::string image;
-  SurveyOption survey;
+  std::string image, pictures, lattice = "best", feature = "squared", pattern = "plane";
+  std::vector<std::string> only = {"fractal", "symmetry", "class"};
+  bool force_lattice = false;
+  SurveyOptions survey;
 };
 
 Json run(const Options& options, VerbContext& context) {
-  const TextureSurvey survey = survey_picture(options.image, options.survey.options(), context.progress);
-  context.console.print(survey_text(options.image, survey));
-  return survey_json(options.image, survey);
+  const auto wanted = [&](const char* part) {
+    return std::find(options.only.begin(), options.only.end(), part) != options.only.end();
+  };
+  SurveyOptions survey = options.survey;
+  survey.fractal = wanted("fractal");
+  survey.symmetry = wanted("symmetry");
+  survey.order = wanted("class");
+  if (options.pattern == "strip") survey.pattern = SymmetryPattern::strip;
+  if (options.pattern == "rosette") survey.pattern = SymmetryPattern::rosette;
+  if (options.lattice == "projection") survey.lattice.method = LatticeMethod::projection;
+  if (options.force_lattice) survey.lattice.least_significance = 1e-9;  // The best lattice, whatever it explains.
+  if (options.feature == "absolute") survey.feature = FeatureKind::absolute;
+  survey.pictures = options.pictures;
+  const TextureSurvey result = survey_picture(options.image, survey, context.progress);
+  context.console.print(survey_text(options.image, result));
+  return survey_json(options.image, result);
 }
 
 }  // namespace
@@ -31,7 +46,27 @@ void add_analyze(CLI::App& program) {
                 "papilla synthesize grain --kind quads6 -o quads.png && papilla analyze quads.png --pictures pictures"},
                [options](VerbContext& context) { return run(*options, context); });
   verb->add_option("image", options->image, "Picture")->required()->type_name("IMAGE");
-  options->survey.add_to(*verb);
+  verb->add_option("--pitch", options->survey.pitch_mm, "Millimetres per pixel; default from the file's resolution")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--only", options->only, "Parts to analyse")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"fractal", "symmetry", "class"}))
+      ->capture_default_str();
+  verb->add_option("--pictures", options->pictures,
+                   "Write the strip of the symmetry, the log-log plot and the polar Hurst plot into DIR")
+      ->type_name("DIR");
+  verb->add_option("--lattice", options->lattice, "How minima become a lattice")
+      ->check(CLI::IsMember({"best", "projection"}))
+      ->capture_default_str();
+  verb->add_option("--feature", options->feature, "Distortion of the feature matrix; absolute is slow")
+      ->check(CLI::IsMember({"squared", "absolute"}))
+      ->capture_default_str();
+  verb->add_flag("--force-lattice", options->force_lattice, "Take the best lattice even if it is not significant");
+  verb->add_option("--pattern", options->pattern,
+                   "strip adds the frieze group of a strip along x, rosette the group about the middle of the picture")
+      ->check(CLI::IsMember({"plane", "strip", "rosette"}))
+      ->capture_default_str();
 }
 
 }  // namespace papilla::app

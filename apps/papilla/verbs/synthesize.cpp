@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "json/texture_json.hpp"
-#include "options/texture_option.hpp"
+#include "options/vector_option.hpp"
 #include "papilla/io/image_file.hpp"
 #include "text/texture_text.hpp"
 #include "verb.hpp"
@@ -12,12 +12,18 @@ namespace papilla::app {
 namespace {
 
 struct Options {
-  std::string what, output, relief;
-  SynthesisOption synthesis;
+  std::string what, output, relief, kind = "spheres8", light, method = "exact", like;
+  SynthesisOptions synthesis;
 };
 
 Json run(const Options& options, VerbContext& context) {
-  const SynthesisOptions synthesis = options.synthesis.options(options.what, context.seed, context.progress);
+  SynthesisOptions synthesis = options.synthesis;
+  if (options.what == "grain") synthesis.grain = grain_kind(options.kind);
+  if (synthesis.grain && !options.light.empty()) synthesis.light = parse_vector("--light", options.light);
+  synthesis.method = fractal_synthesis(options.method);
+  synthesis.like = options.like;
+  synthesis.seed = context.seed;
+  synthesis.progress = context.progress;
   const Synthesis result = synthesize_texture(synthesis);
   write_grey_image(options.output, result.picture, 16);
   if (!options.relief.empty()) write_height_file(options.relief, result.relief);
@@ -33,13 +39,43 @@ void add_synthesize(CLI::App& program) {
                             {"synthesize", "Makes test grains and fractal surfaces",
                              "papilla synthesize grain --kind leather -o leather.png --relief leather-height.png"},
                             [options](VerbContext& context) { return run(*options, context); });
+  std::vector<std::string> kinds;
+  for (const std::string_view name : grain_names()) kinds.emplace_back(name);
   verb->add_option("what", options->what, "grain or fractal")->required()->check(CLI::IsMember({"grain", "fractal"}));
   verb->add_option("-o,--output", options->output, "Picture: the lit grain, or the fractal surface as grey values")
       ->required()
       ->type_name("FILE");
   verb->add_option("--relief", options->relief, "True relief: 16-bit .png, or .exr or .tif in millimetres")
       ->type_name("FILE");
-  options->synthesis.add_to(*verb);
+  verb->add_option("--size", options->synthesis.size_px,
+                   "Pixels a side; 512 for grain, 256 for spectral and --like, 1025 for a graph, else 257")
+      ->type_name("N");
+  verb->add_option("--size-mm", options->synthesis.size_mm, "Side of the tile")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--height-mm", options->synthesis.height_mm, "Peak to valley")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--kind", options->kind, "Grain")->check(CLI::IsMember(kinds))->capture_default_str();
+  verb->add_option("--light", options->light, "Grain: direction to the light, x right, y down, z to the viewer")
+      ->type_name("X,Y,Z");
+  verb->add_option(
+          "--method", options->method,
+          "Fractal: exact (fractional Brownian surface), spectral (tiles, smoother), brownian-surface (midpoint "
+          "displacement), cho (its three-step variant), brownian-graph (one row)")
+      ->check(CLI::IsMember({"exact", "spectral", "brownian-surface", "cho", "brownian-graph"}))
+      ->capture_default_str();
+  CLI::Option* hurst =
+      verb->add_option("--hurst", options->synthesis.hurst, "Fractal: H in (0, 1); the dimension is 3 - H")
+          ->capture_default_str();
+  verb->add_option("--dimension", options->synthesis.dimension, "Fractal: dimension in place of H, of a graph 2 - H")
+      ->type_name("D")
+      ->excludes(hurst);
+  verb->add_option("--like", options->like, "Fractal: with the roughness and direction of this picture")
+      ->type_name("IMAGE");
+  verb->add_flag("--tile", options->synthesis.tile, "Fractal: the result shall tile");
 }
 
 }  // namespace papilla::app
