@@ -10,8 +10,12 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_bands.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/analysis_pictures.hpp"
 #include "papilla/texture/crop.hpp"
 #include "papilla/texture/texture_order.hpp"
+#include "pictures/pixel_text.hpp"
+#include "pictures/texture_plots.hpp"
 
 namespace papilla {
 namespace {
@@ -19,10 +23,10 @@ namespace {
 constexpr std::int64_t k_most_band_pixels = std::int64_t{1} << 26;
 constexpr int k_least_band_rows = 128;
 
-/// Where part k of `count` equal parts of a side begins.
-int start_of(int k, int count, int side) { return static_cast<int>(std::int64_t{k} * side / count); }
+/// First pixel of part k of `count` equal parts of a side.
+int part_begin(int k, int count, int side) { return static_cast<int>(std::int64_t{k} * side / count); }
 
-int parts(std::int64_t side, std::int64_t most) { return static_cast<int>((side + most - 1) / most); }
+int part_count(std::int64_t side, std::int64_t most) { return static_cast<int>((side + most - 1) / most); }
 
 /// Rows and columns of the centred part of a side, at most `most` long.
 struct Window {
@@ -30,7 +34,7 @@ struct Window {
   Window(int side, int most) : begin((side - std::min(side, most)) / 2), length(std::min(side, most)) {}
 };
 
-/// Gathers the middle of a picture from its bands.
+/// Collects the middle of a picture from its bands.
 class MiddlePart {
  public:
   MiddlePart(int width, int height, int most) : across_(width, most), down_(height, most) {}
@@ -52,6 +56,10 @@ class MiddlePart {
   GreyImage image_;
 };
 
+bool needs_lattice(const SurveyOptions& options) {
+  return options.symmetry || options.order || !options.pictures.empty();
+}
+
 SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& options, const ProgressCallback& progress) {
   report_progress(progress, "symmetry", 0);
   SymmetryAnalysis analysis = analyze_symmetry(image, options.lattice, options.feature, progress);
@@ -61,17 +69,19 @@ SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& option
 
 void survey_whole(const ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
                   TextureSurvey& survey) {
-  if (options.symmetry || options.order) survey.symmetry = symmetry_of(survey.middle, options, progress);
+  if (needs_lattice(options)) survey.symmetry = symmetry_of(survey.middle, options, progress);
   if (options.fractal) survey.fractal = read_fractal_dimensions(survey.middle, progress);
   if (!options.order) return;
   const SymmetryAnalysis& symmetry = *survey.symmetry;
   survey.order = OrderSurvey{classify(survey.middle, symmetry.explained_variance(), symmetry.lattice.stripes),
-                             orientation_field(survey.middle), measure_suitability(survey.middle, symmetry.lattice),
-                             is_monochrome(bands.sample())};
+                             orientation_field(survey.middle),
+                             measure_suitability(survey.middle, symmetry.lattice),
+                             is_monochrome(bands.sample()),
+                             {}};
 }
 
-/// The lattice of the middle counts for the picture only where enough pieces have it too.
-void check_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& lattices, LatticeAgreement& agreement) {
+/// Drops the lattice of the middle unless enough pieces have it too.
+void confirm_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& lattices, LatticeAgreement& agreement) {
   for (const Lattice& lattice : lattices) agreement.add(symmetry.lattice, lattice);
   if (!symmetry.lattice.found || agreement.holds()) return;
   symmetry.lattice.found = false;
@@ -85,30 +95,29 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
                    TextureSurvey& survey) {
   const int side = options.largest_px / 2;
   PieceSurvey pieces;
-  pieces.columns = parts(survey.width, side);
-  pieces.rows =
-      std::max(parts(survey.height, side), parts(std::int64_t{survey.width} * survey.height, k_most_band_pixels));
+  pieces.columns = part_count(survey.width, side);
+  pieces.rows = std::max(part_count(survey.height, side),
+                         part_count(std::int64_t{survey.width} * survey.height, k_most_band_pixels));
   if (survey.height > k_least_band_rows && survey.height / pieces.rows < k_least_band_rows / 2)
     throw InvalidInput(fmt::format("{} x {} pixels are too wide to be read in bands", survey.width, survey.height));
   MiddlePart middle(survey.width, survey.height, side);
   TextureOrder order;
   std::vector<FractalReadings> readings;
   std::vector<Lattice> lattices;
-  const bool wants_lattice = options.symmetry || options.order;
   const double count = static_cast<double>(pieces.columns) * pieces.rows;
   double done = 0;
   for (int row = 0; row < pieces.rows; ++row) {
-    const int top = start_of(row, pieces.rows, survey.height);
-    const GreyImage band = bands.next(start_of(row + 1, pieces.rows, survey.height) - top);
+    const int top = part_begin(row, pieces.rows, survey.height);
+    const GreyImage band = bands.next(part_begin(row + 1, pieces.rows, survey.height) - top);
     middle.add(band, top);
     for (int column = 0; column < pieces.columns; ++column) {
       report_progress(progress, "pieces of the picture", done++ / count);
-      const int left = start_of(column, pieces.columns, survey.width);
+      const int left = part_begin(column, pieces.columns, survey.width);
       const GreyImage piece =
-          crop(band, left, 0, start_of(column + 1, pieces.columns, survey.width) - left, band.height);
+          crop(band, left, 0, part_begin(column + 1, pieces.columns, survey.width) - left, band.height);
       if (options.fractal) readings.push_back(read_fractal_dimensions(piece));
       if (options.order) order.add(piece);
-      if (!wants_lattice) continue;
+      if (!needs_lattice(options)) continue;
       lattices.push_back(find_lattice(feature_matrix(piece), options.lattice));
       lattices.back().minima = {};
     }
@@ -116,18 +125,59 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
   report_progress(progress, "pieces of the picture", 1);
   survey.middle = middle.take();
   if (options.fractal) survey.fractal = mean_readings(readings);
-  if (wants_lattice) {
+  if (needs_lattice(options)) {
     survey.symmetry = symmetry_of(survey.middle, options, progress);
-    check_lattice(*survey.symmetry, lattices, pieces.lattice);
+    confirm_lattice(*survey.symmetry, lattices, pieces.lattice);
   }
   if (options.order)
     survey.order = OrderSurvey{order.classify(survey.symmetry->explained_variance(), survey.symmetry->lattice.stripes),
                                order.orientation(pieces.columns, pieces.rows),
-                               order.suitability(survey.symmetry->lattice), is_monochrome(bands.sample())};
+                               order.suitability(survey.symmetry->lattice),
+                               is_monochrome(bands.sample()),
+                               {}};
   survey.pieces = pieces;
 }
 
+SymmetryGroups groups_of(const TextureSurvey& survey, SymmetryPattern pattern) {
+  SymmetryGroups groups;
+  const SymmetryAnalysis& symmetry = *survey.symmetry;
+  if (symmetry.lattice.found) groups.plane = find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px);
+  const GreyImage& image = survey.middle;
+  if (pattern == SymmetryPattern::strip) groups.strip = find_frieze_group(image);
+  if (pattern == SymmetryPattern::rosette)
+    groups.rosette = find_rosette_group(image, {(image.width - 1) / 2.0, (image.height - 1) / 2.0});
+  return groups;
+}
+
+std::vector<SurveyPicture> draw_survey(const TextureSurvey& survey, const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw IoError(folder.string() + ": " + failure.message());
+  const auto file = [&](const char* name) { return (folder / name).string(); };
+  std::vector<std::string> captions = {"picture", "feature matrix", "no lattice", "", ""};
+  if (survey.symmetry->part) captions = {"lattice", "feature matrix", "primitive", "synthesis", "rest"};
+  write_color_image(file("symmetry.png"), with_captions(symmetry_strip(*survey.symmetry), captions));
+  std::vector<SurveyPicture> pictures{{"symmetry", file("symmetry.png")}};
+  if (!survey.fractal || !survey.fractal->best) return pictures;
+  const auto draw = [&](const char* name, const std::string& path, const Plot& plot) {
+    pictures.push_back({name, path, write_plot(path, plot)});
+  };
+  draw("log-log", file("log-log.svg"), log_log_plot(named_readings(*survey.fractal)));
+  draw("hurst", file("hurst.svg"), hurst_plot(*survey.fractal->fshot));
+  return pictures;
+}
+
 }  // namespace
+
+std::array<FractalReading, 6> named_readings(const FractalReadings& readings) {
+  const auto estimate = [](const auto& reading) { return reading ? &*reading : nullptr; };
+  return {{{"box", k_least_fractal_side, estimate(readings.box)},
+           {"information", k_least_fractal_side, estimate(readings.information)},
+           {"correlation", k_least_fractal_side, estimate(readings.correlation)},
+           {"probability", k_least_probability_side, estimate(readings.probability)},
+           {"fshot", k_least_fractal_side, readings.fshot ? &readings.fshot->estimate : nullptr},
+           {"best", k_least_fractal_side, readings.best ? &readings.best->estimate : nullptr}}};
+}
 
 TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,
                              const ProgressCallback& progress) {
@@ -136,13 +186,16 @@ TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOpti
   survey.width = bands.width();
   survey.height = bands.height();
   survey.bits = bands.bits();
-  survey.pitch_mm = bands.pitch_mm();
+  survey.pitch_mm = options.pitch_mm > 0 ? options.pitch_mm : bands.pitch_mm();
   if (std::max(survey.width, survey.height) > options.largest_px) {
     survey_pieces(bands, options, progress, survey);
   } else {
     survey.middle = bands.next(survey.height);
     survey_whole(bands, options, progress, survey);
   }
+  if (options.symmetry) survey.groups = groups_of(survey, options.pattern);
+  if (survey.order) survey.order->plan = plan_analysis(survey.order->kind, survey.order->suitability);
+  if (!options.pictures.empty()) survey.pictures = draw_survey(survey, options.pictures);
   return survey;
 }
 

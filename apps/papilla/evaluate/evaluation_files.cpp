@@ -3,47 +3,33 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
-#include "evaluate/pareto.hpp"
+#include "papilla/core/atomic_file.hpp"
+#include "papilla/core/error.hpp"
 
 namespace papilla::app {
-namespace {
-
-Json trace_json(const Trace& trace) {
-  Json json = Json::array();
-  for (const TraceSample& s : trace) json.push_back({{"seconds", s.seconds}, {"error", s.error}});
-  return json;
+EvaluationFolder::EvaluationFolder(const std::string& path, const std::string& kind)
+    : stem_(std::filesystem::path(path) / ("evaluate-" + kind)) {
+  std::error_code error;
+  is_new_ = std::filesystem::create_directories(path, error);
+  if (!std::filesystem::is_directory(path)) throw IoError(path + ": cannot be made a folder");
 }
 
-}  // namespace
+EvaluationFolder::~EvaluationFolder() {
+  std::error_code not_empty;
+  if (is_new_ && files_.empty()) std::filesystem::remove(stem_.parent_path(), not_empty);
+}
+
+void EvaluationFolder::write(const std::string& ending, const std::string& content) {
+  const std::string file = stem_.string() + ending;
+  write_atomically(file, content);
+  files_.push_back(file);
+}
 
 std::string csv_field(const std::string& field) {
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
   std::string out = "\"";
   for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
-}
-
-Json runs_json(const std::vector<EvaluationRun>& runs) {
-  Json json = Json::array();
-  for (const EvaluationRun& run : runs) {
-    Json repeats = Json::array();
-    for (const Trace& repeat : run.repeats) repeats.push_back(trace_json(repeat));
-    Json entry = {{"method", run.method},
-                  {"solver", run.solver},
-                  {"input", run.input},
-                  {"error_name", run.error_name},
-                  {"trace", trace_json(run.trace)},
-                  {"repeats", std::move(repeats)},
-                  {"stop", run.stop},
-                  {"notes", run.notes}};
-    if (!run.shares.shares.empty())
-      entry["shares"] = {
-          {"error_name", run.shares.error_name}, {"edges", run.shares.edges}, {"shares", run.shares.shares}};
-    json.push_back(std::move(entry));
-  }
-  return json;
 }
 
 std::string runs_csv(const std::vector<EvaluationRun>& runs) {
@@ -60,23 +46,17 @@ std::string runs_csv(const std::vector<EvaluationRun>& runs) {
   return csv;
 }
 
-std::vector<EvaluationGroup> runs_groups(const std::vector<EvaluationRun>& runs) {
-  std::vector<EvaluationGroup> groups;
-  std::map<std::pair<std::string, std::string>, std::size_t> place;
+std::string runs_summary(const std::vector<EvaluationRun>& runs, const std::vector<EvaluationGroup>& groups) {
+  std::string text;
   for (const EvaluationRun& run : runs) {
-    const auto [at, added] = place.try_emplace({run.input, run.error_name}, groups.size());
-    if (added) groups.push_back({run.input, run.error_name, {}, {}, {}});
-    groups[at->second].runs.push_back(&run);
+    text += fmt::format("{}, {}: {}{}\n", run.name(), run.input, run.error_name, run.valid ? "" : " (not valid)");
+    for (const TraceSample& s : run.trace) text += fmt::format("  {:>10.4f} s  {:.6g}\n", s.seconds, s.error);
+    if (run.trace.empty()) text += "  " + run.stop + "\n";
   }
-  for (EvaluationGroup& group : groups) {
-    std::vector<Trace> traces;
-    for (const EvaluationRun* run : group.runs)
-      if (run->valid) traces.push_back(run->trace);
-    group.front = pareto_front(traces);
-    for (const EvaluationRun* run : group.runs)
-      if (run->valid && reaches_front(run->trace, group.front)) group.on_front.push_back(run->name());
-  }
-  return groups;
+  for (const EvaluationGroup& group : groups)
+    text += fmt::format("on the Pareto front of {}, {}: {}\n", group.input, group.error_name,
+                        fmt::join(group.on_front, ", "));
+  return text;
 }
 
 }  // namespace papilla::app

@@ -1,46 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "papilla/pipeline/evaluate/stability.hpp"
 
 namespace papilla::app {
 
-/// runs[] {method, solver, input, error_name, trace[] {seconds, error}, repeats[][] {seconds, error}, stop, valid,
-/// notes, shares {error_name, edges[], shares[]}}.
-Json runs_json(const std::vector<EvaluationRun>& runs);
+/// The output folder of an evaluation: writes evaluate-KIND plus an ending and collects the names. A folder that it
+/// made is removed again when it stays empty.
+class EvaluationFolder {
+ public:
+  /// @throws IoError when `path` can't be made a folder.
+  EvaluationFolder(const std::string& path, const std::string& kind);
+  ~EvaluationFolder();
+  EvaluationFolder(const EvaluationFolder&) = delete;
+  EvaluationFolder& operator=(const EvaluationFolder&) = delete;
 
-/// method,solver,input,error_name,repeat,seconds,error: a line a sample, fields quoted as RFC 4180 has it. Repeat 0 is
-/// the curve of median times.
+  void write(const std::string& ending, const std::string& content);
+  const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  std::filesystem::path stem_;
+  bool is_new_ = false;
+  std::vector<std::string> files_;
+};
+
+/// A field of a CSV line, quoted where RFC 4180 requires it.
+std::string csv_field(const std::string& field);
+
+/// method,solver,input,error_name,repeat,seconds,error: a line a sample. Repeat 0 is the curve of median times.
 std::string runs_csv(const std::vector<EvaluationRun>& runs);
 
-/// A field of a CSV line, quoted where it must be.
-std::string csv_field(const std::string& field);
+/// For people: every curve, and what is on each Pareto front.
+std::string runs_summary(const std::vector<EvaluationRun>& runs, const std::vector<EvaluationGroup>& groups);
 
 /// A picture of runs, as SVG.
 struct EvaluationPicture {
   std::string title, svg;
 };
 
-/// Runs with an input and an error in common, and who is on their Pareto front.
-struct EvaluationGroup {
-  std::string input, error_name;
-  std::vector<const EvaluationRun*> runs;
-  Trace front;
-  std::vector<std::string> on_front;  ///< Names of the runs that reach it.
-};
-
-/// @param runs must outlive the groups.
-std::vector<EvaluationGroup> runs_groups(const std::vector<EvaluationRun>& runs);
-
 /// Per group the error over run time with the front and every repeat, the last errors as bars, and where the runs have
 /// them the shares of the surface. Empty without gnuplot.
 std::vector<EvaluationPicture> runs_pictures(const std::vector<EvaluationGroup>& groups);
 
-/// One page that needs no other file: all pictures and tables of the runs, method against input.
+/// A self-contained page: all pictures and tables of the runs, method against input.
 std::string runs_html(const std::string& kind, const std::vector<EvaluationPicture>& pictures,
                       const std::vector<EvaluationRun>& runs);
+
+/// suite,method,input,outcome,error,residual,iterations,seconds,note: a line a cell.
+std::string stability_csv(const std::vector<StabilitySuite>& suites);
+/// A table a suite: inputs down, methods across, in every cell the outcome and the error; then all notes.
+std::string stability_markdown(const std::vector<StabilitySuite>& suites);
+/// The same tables as a self-contained page.
+std::string stability_html(const std::vector<StabilitySuite>& suites);
+/// How often each outcome occurs, a line a suite; then what breaks.
+std::string stability_summary(const std::vector<StabilitySuite>& suites);
 
 }  // namespace papilla::app

@@ -10,8 +10,8 @@
 namespace papilla::app {
 namespace {
 
-/// An SVG as part of an HTML page: without what comes before its root element.
-std::string_view inlined(std::string_view svg) {
+/// The root element of an SVG file, for use in an HTML page.
+std::string_view svg_element(std::string_view svg) {
   const std::size_t root = svg.find("<svg");
   return root == std::string_view::npos ? svg : svg.substr(root);
 }
@@ -23,7 +23,7 @@ std::string last_of(const EvaluationRun& run) {
                      run.valid ? "" : ", <b>not valid</b>");
 }
 
-/// Method against input: the last error, its time and why it stopped.
+/// Table of methods against inputs: the last error, its time and the stop reason.
 std::string matrix_of(const std::string& error_name, const std::vector<const EvaluationRun*>& runs) {
   std::vector<std::string> inputs, methods;
   std::map<std::pair<std::string, std::string>, const EvaluationRun*> cell;
@@ -83,7 +83,7 @@ std::string runs_html(const std::string& kind, const std::vector<EvaluationPictu
                            : "<p>Every dot is a measurement; the lines join medians. Grey, and marked with *: what no "
                              "other valid run beats in both error and time. An error of 0 is drawn a decade below the "
                              "smallest other one.</p>\n";
-  for (const EvaluationPicture& picture : pictures) html += inlined(picture.svg);
+  for (const EvaluationPicture& picture : pictures) html += svg_element(picture.svg);
   return html + tables_of(runs) + "</body></html>\n";
 }
 

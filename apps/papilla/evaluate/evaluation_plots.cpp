@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "evaluate/evaluation_files.hpp"
-#include "evaluate/pareto.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/pipeline/pictures/plot.hpp"
 
@@ -15,7 +14,7 @@ namespace {
 
 using Style = PlotSeries::Style;
 
-/// The smallest positive error of a group: where errors of 0 are drawn on a logarithmic axis, a decade lower.
+/// Where errors of 0 are drawn on a logarithmic axis: a decade below the smallest positive error of the group.
 double floor_of(const EvaluationGroup& group) {
   double least = std::numeric_limits<double>::infinity();
   for (const EvaluationRun* run : group.runs)
@@ -36,7 +35,7 @@ std::string legend_of(const EvaluationGroup& group, const EvaluationRun& run) {
   return on_front ? run.name() + " *" : run.name();
 }
 
-// Of the pictures, in pixels: where curves are drawn, what stands around them without the legend, and a letter.
+// Widths in pixels: of the plot area, of the margins without the legend, and of a letter.
 constexpr int k_curves_px = 520, k_around_px = 200, k_letter_px = 7;
 
 int longest(const std::vector<std::string>& names) {
@@ -45,16 +44,16 @@ int longest(const std::vector<std::string>& names) {
   return static_cast<int>(most);
 }
 
-/// What the curves leave free on their left so that the name of the first on the front fits, of what they take.
+/// Free space left of the curves for the longest name, as a share of their width.
 double room_for(const std::vector<std::string>& names) {
   const double name = std::min(static_cast<double>(k_letter_px * longest(names)) / k_curves_px, 0.6);
   return name / (1 - name);
 }
 
-/// The names of those on the front at the places where each of them first is on it. Nothing lies left of and below the
-/// front, so that is where the names have room: the axes begin so much earlier that the first one fits.
-void name_front(const EvaluationGroup& group, double floor, Plot& plot) {
-  constexpr double k_room_y = 0.15, k_line = 0.045;  // of what the points take
+/// Labels every run on the front at its first sample there. The labels lie left of and below the front, where there are
+/// no samples; the axes are extended so that the first one fits.
+void label_front(const EvaluationGroup& group, double floor, Plot& plot) {
+  constexpr double k_room_y = 0.15, k_line = 0.045;  // Of the range of the points.
   const double room_x = room_for(group.on_front);
   Bounds2 bounds;
   for (const PlotSeries& series : plot.series)
@@ -94,7 +93,7 @@ Plot curves_of(const EvaluationGroup& group) {
       if (run.repeats.size() > 1)
         plot.series.push_back({"", points_of(repeat, floor), Style::points, static_cast<int>(i)});
   }
-  name_front(group, floor, plot);
+  label_front(group, floor, plot);
   return plot;
 }
 

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/evaluate/built_in.hpp"
-
-#include <fmt/format.h>
-
 #include <set>
 
-#include "papilla/pipeline/bake_scene.hpp"
 #include "evaluate/extreme_meshes.hpp"
 #include "evaluate/extreme_pictures.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/sample_solids.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/texture/grain.hpp"
 
 namespace papilla {
@@ -19,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that every file system takes.
+/// A name that is valid in every file system.
 std::string file_name(const std::string& name, const char* extension) {
   std::string out;
   for (const char c : name) out += c == ' ' || c == ',' || c == '/' ? '-' : c;
@@ -66,7 +63,7 @@ std::vector<std::string> solids(const fs::path& folder) {
   return {file.string()};
 }
 
-/// A dome with leather on it, as a bake makes it.
+/// A baked dome with leather on it.
 std::vector<std::string> leather_dome(const fs::path& folder) {
   MaterialRule leather;
   leather.name = "leather";
@@ -86,15 +83,14 @@ std::vector<std::string> leather_dome(const fs::path& folder) {
   dome.name = "dome";
   dome.mesh = std::move(inputs.front().mesh);
   Scene scene = single_part_scene(std::move(dome), "PLY");
-  const std::vector<Surface> surfaces = plan_surfaces(scene, rules);
   const fs::path file = folder / "leather dome.glb";
-  write_glb(bake(std::move(scene), surfaces, {}).scene, file, {});
+  write_glb(bake_scene(std::move(scene), rules).scene, file, {});
   return {file.string()};
 }
 
 }  // namespace
 
-std::vector<std::string> write_built_in_inputs(const std::string& kind, const fs::path& folder) {
+std::vector<std::string> write_built_in_inputs(std::string_view kind, const fs::path& folder) {
   if (kind == "param" || kind == "charts" || kind == "weld" || kind == "simplification") return meshes(folder);
   if (kind == "fractal" || kind == "symmetry") return pictures(folder, kind == "symmetry");
   if (kind == "height") return reliefs(folder);

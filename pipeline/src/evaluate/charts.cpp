@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/segmentation.hpp"
@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t k_most_parts = 3;
 constexpr double k_growth = 2;
 
-/// From charts that hardly any seam is too much for to pieces that are cut where it helps at all.
+/// From seams only where the distortion is large to seams wherever they reduce it at all.
 constexpr std::array k_seam_costs = {1.0, 0.3, 0.1, 0.03, 0.01, 0.003};
 
 double area_of(const TriangleMesh& mesh) {
@@ -28,7 +28,7 @@ double area_of(const TriangleMesh& mesh) {
   return doubled / 2;
 }
 
-/// Two curves over the ladder: what the best map of the charts costs, and how long their seams are.
+/// Two curves over the ladder: distortion of the map by flatten_automatic(), and length of the seams.
 void add_runs(const std::string& name, const TriangleMesh& mesh, const Budget& budget,
               std::vector<EvaluationRun>& runs) {
   const double root_area = std::sqrt(area_of(mesh));
@@ -36,9 +36,9 @@ void add_runs(const std::string& name, const TriangleMesh& mesh, const Budget& b
   EvaluationRun distortion{"charts", "seam costs", name, "symmetric Dirichlet - 4 of the charts' map", {}, "direct"};
   EvaluationRun seams = distortion;
   seams.error_name = "length of the seams / root of the area";
-  Rungs rungs(budget, k_growth);
+  Ladder ladder(budget, k_growth);
   for (const double cost : k_seam_costs) {
-    if (!rungs.next()) break;
+    if (!ladder.next()) break;
     SegmentationOptions options;
     options.seam_cost = cost;
     const Stopwatch clock;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "evaluate/wall_press.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stability.hpp"
@@ -12,7 +12,7 @@
 namespace papilla {
 namespace {
 
-/// What keeps a wall from shaking the hand.
+/// Stabilization of a wall.
 struct Guard {
   const char* name;
   bool clamp, control;
@@ -44,12 +44,12 @@ void press(const Case& input, const Guard& guard, StabilityCell& cell) {
   if (input.delay_s > 0) caps.dynamics.delay_s = input.delay_s;
   const double limit =
       stiffness_limit(caps.dynamics, 1 / input.rate_hz, std::min(input.damping, caps.dynamics.damping / 2));
-  const WallFelt felt = press_wall(
+  const WallResponse response = press_wall(
       caps, {input.stiffness, input.damping, input.rate_hz, WallPress{}.seconds, guard.clamp, guard.control});
-  cell.error = felt.rest_speed_m_per_s;
-  cell.residual = felt.given_j.back();
+  cell.error = response.rest_speed_m_per_s;
+  cell.residual = response.given_j.back();
   cell.note = fmt::format("passive up to {:.4g} N/m; felt {:.4g} N/m, {:.3g} N·s/m; largest force {:.3g} N", limit,
-                          felt.stiffness, felt.damping, felt.largest_force_n);
+                          response.stiffness, response.damping, response.largest_force_n);
   if (*cell.error > k_still_m_per_s) cell.outcome = Outcome::breaks;
 }
 

@@ -3,17 +3,17 @@
 
 #include <cmath>
 
-#include "evaluate/picture_methods.hpp"
 #include "evaluate/extreme_pictures.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/picture_methods.hpp"
+#include "evaluate/suite.hpp"
 
 namespace papilla {
 namespace {
 
-/// A dimension is one of a surface; half a unit off the truth is no longer a reading of it.
+/// Surfaces have dimensions from 2 to 3: an error of half that range is no result.
 constexpr double k_unusable = 0.5;
 
-void estimate(const FractalMethod& method, const NamedPicture& input, StabilityCell& cell) {
+void measure_error(const FractalMethod& method, const NamedPicture& input, StabilityCell& cell) {
   const FractalEstimate found = method.estimate(input.picture);
   cell.residual = (found.high - found.low) / 2;
   cell.note = fmt::format("D {:.4f}, 95 % from {:.4f} to {:.4f}", found.dimension, found.low, found.high);
@@ -26,7 +26,7 @@ void estimate(const FractalMethod& method, const NamedPicture& input, StabilityC
 StabilitySuite dimension_stability(const StabilityRun& run) {
   StabilitySuite suite{
       "dimension", "Fractal dimension", "distance to the true dimension", "half width of the 95 % interval", {}};
-  fill_suite(suite, run, extreme_pictures(), fractal_methods(), estimate);
+  fill_suite(suite, run, extreme_pictures(), fractal_methods(), measure_error);
   return suite;
 }
 

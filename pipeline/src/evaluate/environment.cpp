@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "evaluate/environment.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
+#include "evaluate/kinds.hpp"
 #include "papilla/meshing/simplify.hpp"
 #include "papilla/param/projections.hpp"
 
@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::array<std::size_t, 4> k_divisors = {64, 16, 4, 1};
 constexpr std::size_t k_least_triangles = 8;
-constexpr double k_growth = 1.5;  // simplifying the whole mesh outweighs the map
+constexpr double k_growth = 1.5;  // Simplifying takes longer than the map.
 
-Vec2 corners_mean(const CornerAttribute<Vec2>& uv, std::size_t t) {
+Vec2 centroid_uv(const CornerAttribute<Vec2>& uv, std::size_t t) {
   const auto& [a, b, c] = uv.indices[t];
   return (1.0 / 3) * (uv.values[a] + uv.values[b] + uv.values[c]);
 }
 
-/// A vertex of its own in the middle of every triangle, which takes the triangle's normal; the others keep theirs.
-TriangleMesh with_middles(const TriangleMesh& mesh) {
+/// Every triangle split at its centroid: the new vertex gets the triangle's normal, the others keep theirs.
+TriangleMesh split_at_centroids(const TriangleMesh& mesh) {
   TriangleMesh split;
   split.positions = mesh.positions;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -35,11 +35,11 @@ TriangleMesh with_middles(const TriangleMesh& mesh) {
 }
 
 double interpolation_error(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv) {
-  const CornerAttribute<Vec2> exact = environment_uv(with_middles(mesh));
+  const CornerAttribute<Vec2> exact = environment_uv(split_at_centroids(mesh));
   double sum = 0, total = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const double area = norm(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
-    sum += area * norm(exact.values[mesh.positions.size() + t] - corners_mean(uv, t));
+    sum += area * norm(exact.values[mesh.positions.size() + t] - centroid_uv(uv, t));
     total += area;
   }
   return total > 0 ? sum / total : 0;
@@ -50,9 +50,9 @@ double interpolation_error(const TriangleMesh& mesh, const CornerAttribute<Vec2>
 EvaluationRun environment_run(const TriangleMesh& mesh, const std::string& input, const Budget& budget) {
   EvaluationRun run{"environment", "", input, "mean error of uv in the middles of triangles, in pictures", {},
                     "direct"};
-  Rungs rungs(budget, k_growth);
+  Ladder ladder(budget, k_growth);
   for (const std::size_t divisor : k_divisors) {
-    if (!rungs.next()) break;
+    if (!ladder.next()) break;
     SimplifyOptions fewer;
     fewer.target_triangles = std::max(mesh.triangles.size() / divisor, k_least_triangles);
     const TriangleMesh coarse = divisor == 1 ? mesh : simplify(mesh, fewer).mesh;

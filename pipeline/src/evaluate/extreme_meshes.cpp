@@ -11,7 +11,7 @@ namespace {
 constexpr int k_cells = 40;
 constexpr double k_side_mm = 100;
 
-/// n × m quads over the unit square, each of two triangles, at surface(s, t), with (s, t) as CAD parameters.
+/// Samples surface(s, t) over the unit square on n × m quads of two triangles, with (s, t) as CAD parameters.
 template <class Surface>
 TriangleMesh patch(int n, int m, Surface&& surface) {
   TriangleMesh mesh;
@@ -46,10 +46,10 @@ TriangleMesh scaled(TriangleMesh mesh, Vec3 by) {
 
 TriangleMesh scaled(double by) { return scaled(dome_mesh(k_cells), {by, by, by}); }
 
-/// The dome squeezed along x until its triangles have the aspect.
+/// The dome scaled along x so that its triangles have this aspect ratio.
 TriangleMesh needles(double aspect) { return scaled(dome_mesh(k_cells), {1 / aspect, 1, 1}); }
 
-/// The factor by which a triangle of the dome gets the area.
+/// The scale at which a triangle of the dome has this area.
 double scale_to_area(double area_mm2) {
   const double side = k_side_mm / k_cells;
   return std::sqrt(2 * area_mm2) / side;
@@ -61,7 +61,7 @@ TriangleMesh moved(Vec3 by) {
   return mesh;
 }
 
-/// Every seventh inner vertex is put onto its neighbour, `share` of the way.
+/// Some inner vertices are moved towards a neighbour by `share` of the edge.
 TriangleMesh squashed(double share) {
   TriangleMesh mesh = dome_mesh(k_cells);
   constexpr int row = k_cells + 1;
@@ -73,7 +73,7 @@ TriangleMesh squashed(double share) {
   return mesh;
 }
 
-/// Some triangles have their three corners on a line: the inner vertex lies on the middle of the opposite edge.
+/// Some triangles have collinear corners: a vertex is moved to the midpoint of the opposite edge.
 TriangleMesh collinear() {
   TriangleMesh mesh = dome_mesh(k_cells);
   constexpr int row = k_cells + 1;
@@ -85,7 +85,7 @@ TriangleMesh collinear() {
   return mesh;
 }
 
-/// A sphere of which a cap of 3 degrees is missing.
+/// A sphere without a polar cap of 3 degrees.
 TriangleMesh nearly_closed_sphere() {
   TriangleMesh mesh;
   constexpr int around = 64, up = 48;
@@ -107,7 +107,7 @@ TriangleMesh nearly_closed_sphere() {
   return mesh;
 }
 
-/// A tube thirty times as long as its radius with a closed tip.
+/// A tube 30 radii long with one closed end.
 TriangleMesh finger() {
   TriangleMesh mesh;
   constexpr int around = 32, along = 120;

@@ -42,7 +42,7 @@ GreyImage fractal(double hurst, int size) {
   return to_grey_image(brownian_surface_exact(options));
 }
 
-/// A square lattice of cosine bumps, under noise of `sigma` times the signal's deviation.
+/// A square lattice of cosine bumps plus noise of `sigma` times the signal's standard deviation.
 GreyImage lattice(double period, double sigma) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal(0, 1);

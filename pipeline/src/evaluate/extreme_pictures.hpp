@@ -9,7 +9,7 @@
 
 namespace papilla {
 
-/// A picture and what is known of it.
+/// A picture with its known properties.
 struct NamedPicture {
   std::string name;
   GreyImage picture;
@@ -17,7 +17,7 @@ struct NamedPicture {
   std::optional<double> period_px;  ///< Of a square lattice along the axes; 0: there is none.
 };
 
-/// Pictures that are made to break what reads them: flat, black, white, of one bit, noise, with a spike, of one pixel
+/// Pictures that are made to break estimators: flat, black, white, of one bit, noise, with a spike, of one pixel
 /// and one row; fractal surfaces with H from 0.01 to 0.99; lattices under noise and with 2 pixels a cell.
 std::vector<NamedPicture> extreme_pictures();
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/crop.hpp"
@@ -24,10 +24,10 @@ std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
   for (const FractalMethod& method : fractal_methods()) {
     EvaluationRun run{method.name, "analyze", input.name, "half width of the 95 % interval of the dimension",
                       {},          "direct",  ""};
-    Rungs rungs(input.budget, k_growth_by_side);
+    Ladder ladder(input.budget, k_growth_by_side);
     for (const int side : sides) {
       if (side < method.least_side) continue;
-      if (!rungs.next()) break;
+      if (!ladder.next()) break;
       const GreyImage part = middle_part(image, side);
       const Stopwatch clock;
       const FractalEstimate estimate = method.estimate(part);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/crop.hpp"
@@ -47,14 +47,14 @@ void add_sample(EvaluationRun& run, double seconds, const ReliefError& error, co
       fmt::format("{}: correlation {:.3f}, after scaling {:.4f}; ", what, error.correlation, error.scaled_mean);
 }
 
-EvaluationRun over_steps(const EvaluationInput& input, const ShadingMethod& method, const HeightMap& truth,
-                         Vec3 light) {
+EvaluationRun run_over_steps(const EvaluationInput& input, const ShadingMethod& method, const HeightMap& truth,
+                             Vec3 light) {
   EvaluationRun run = depth_run(input, method.name, light);
   const GreyImage picture = render_lambert(truth, light);
   ShadingOptions options{.light = light, .periodic = truth.periodic};
-  Rungs rungs(input.budget, k_growth_by_steps);
+  Ladder ladder(input.budget, k_growth_by_steps);
   for (const int iterations : k_iterations) {
-    if (!rungs.next()) break;
+    if (!ladder.next()) break;
     options.iterations = iterations;
     const Stopwatch clock;
     const ShadingResult result = method.solve(picture, options);
@@ -65,14 +65,14 @@ EvaluationRun over_steps(const EvaluationInput& input, const ShadingMethod& meth
   return run;
 }
 
-/// A method without steps on growing middle parts of the relief: heights in pixels of the picture of each.
+/// A method without steps on growing middle parts of the relief. @param heights of a picture, in pixels.
 template <class Heights>
-EvaluationRun over_sizes(const EvaluationInput& input, const char* method, const GreyImage& image, Vec3 light,
-                         Heights&& heights) {
+EvaluationRun run_over_sizes(const EvaluationInput& input, const char* method, const GreyImage& image, Vec3 light,
+                             Heights&& heights) {
   EvaluationRun run = depth_run(input, method, light);
-  Rungs rungs(input.budget, k_growth_by_side);
+  Ladder ladder(input.budget, k_growth_by_side);
   for (const int side : rising_sides(std::min(image.width, image.height))) {
-    if (!rungs.next()) break;
+    if (!ladder.next()) break;
     const HeightMap truth = relief_of(middle_part(image, side));
     const GreyImage picture = render_lambert(truth, light);
     const Stopwatch clock;
@@ -83,8 +83,8 @@ EvaluationRun over_sizes(const EvaluationInput& input, const char* method, const
   return run;
 }
 
-/// Grey taken for height, with the true depth: what is told is the shape.
-std::vector<double> read_as_height(const GreyImage& picture, const HeightMap& truth) {
+/// Grey read as height, scaled to the true depth, so that the error is one of shape.
+std::vector<double> heights_from_grey(const GreyImage& picture, const HeightMap& truth) {
   const auto [low, high] = std::minmax_element(truth.mm.begin(), truth.mm.end());
   HeightOptions options;
   options.method = HeightMethod::intensity;
@@ -101,14 +101,14 @@ void add_depth_runs(const EvaluationInput& input, const GreyImage& image, Vec3 l
   for (const ShadingMethod& method : shading_methods())
     runs.push_back(
         method.iterates
-            ? over_steps(input, method, relief_of(image), light)
-            : over_sizes(input, method.name, image, light, [&](const GreyImage& picture, const HeightMap& truth) {
+            ? run_over_steps(input, method, relief_of(image), light)
+            : run_over_sizes(input, method.name, image, light, [&](const GreyImage& picture, const HeightMap& truth) {
                 return method.solve(picture, {.light = light, .periodic = truth.periodic}).height_px;
               }));
-  runs.push_back(over_sizes(input, k_intensity, image, light, read_as_height));
+  runs.push_back(run_over_sizes(input, k_intensity, image, light, heights_from_grey));
 }
 
-EvaluationRun residual_only(const EvaluationInput& input, const ShadingMethod& method, const GreyImage& picture) {
+EvaluationRun residual_run(const EvaluationInput& input, const ShadingMethod& method, const GreyImage& picture) {
   EvaluationRun run{method.name, "height", input.name, "rms of brightness - R, grey over albedo", {}, "", ""};
   const LightEstimate light = estimate_light(picture);
   const double mean =
@@ -137,7 +137,7 @@ std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input) {
     for (const Vec3 light : {Vec3{0.3, 0.3, 1}, Vec3{1, 0, 1}, Vec3{1, 1, 1}})
       add_depth_runs(input, image, normalized(light), runs);
   else
-    for (const ShadingMethod& method : shading_methods()) runs.push_back(residual_only(input, method, image));
+    for (const ShadingMethod& method : shading_methods()) runs.push_back(residual_run(input, method, image));
   return runs;
 }
 

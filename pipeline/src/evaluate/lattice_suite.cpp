@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "evaluate/extreme_pictures.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/texture/feature_matrix.hpp"
 #include "papilla/texture/lattice.hpp"
 
@@ -23,7 +23,7 @@ constexpr std::array<Method, 3> k_methods = {
      {"squared, projection", feature_matrix, LatticeMethod::projection},
      {"absolute, best", [](const GreyImage& image) { return absolute_feature_matrix(image); }, LatticeMethod::best}}};
 
-void find(const Method& method, const NamedPicture& input, StabilityCell& cell) {
+void measure_lattice(const Method& method, const NamedPicture& input, StabilityCell& cell) {
   LatticeOptions options;
   options.method = method.lattice;
   const Lattice found = find_lattice(method.matrix(input.picture), options);
@@ -48,7 +48,7 @@ void find(const Method& method, const NamedPicture& input, StabilityCell& cell) 
 StabilitySuite lattice_stability(const StabilityRun& run) {
   StabilitySuite suite{
       "lattice", "Lattice", "largest error of a lattice vector's length in pixels", "significance of the lattice", {}};
-  fill_suite(suite, run, extreme_pictures(), k_methods, find);
+  fill_suite(suite, run, extreme_pictures(), k_methods, measure_lattice);
   return suite;
 }
 

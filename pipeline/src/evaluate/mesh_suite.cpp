@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
 #include "evaluate/extreme_meshes.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/meshing/chart_topology.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/repair.hpp"
@@ -20,8 +19,8 @@ namespace {
 
 constexpr double k_tolerance = 1e-3;  // Of the diagonal, for simplification.
 
-/// Every triangle with corners of its own, as STL has it.
-TriangleMesh soup_of(const TriangleMesh& mesh) {
+/// A triangle soup, as in STL: no two triangles share a vertex.
+TriangleMesh soup_from(const TriangleMesh& mesh) {
   TriangleMesh soup;
   for (const Triangle& triangle : mesh.triangles) {
     const auto first = static_cast<Index>(soup.positions.size());
@@ -31,7 +30,7 @@ TriangleMesh soup_of(const TriangleMesh& mesh) {
   return soup;
 }
 
-double defects_of(const TriangleMesh& mesh) {
+double defect_count(const TriangleMesh& mesh) {
   const MeshStatistics s = mesh_statistics(mesh);
   return static_cast<double>(s.nonmanifold_edges + s.degenerate_triangles + s.duplicate_triangles + s.flipped_edges +
                              s.t_junctions);
@@ -40,7 +39,7 @@ double defects_of(const TriangleMesh& mesh) {
 void weld_soup(const TriangleMesh& mesh, StabilityCell& cell) {
   const double diagonal = bounds_of(mesh).diagonal();
   const std::size_t before = mesh.triangles.size();
-  const WeldResult result = weld(soup_of(mesh));
+  const WeldResult result = weld(soup_from(mesh));
   cell.error = result.max_deviation_mm / diagonal;
   cell.note = fmt::format("{} vertices, {} of {} triangles", result.mesh.positions.size(), result.mesh.triangles.size(),
                           before);
@@ -49,9 +48,9 @@ void weld_soup(const TriangleMesh& mesh, StabilityCell& cell) {
 
 void repair_soup(const TriangleMesh& mesh, StabilityCell& cell) {
   const double diagonal = bounds_of(mesh).diagonal();
-  const RepairResult result = repair(soup_of(mesh));
+  const RepairResult result = repair(soup_from(mesh));
   cell.error = result.max_deviation_mm / diagonal;
-  cell.residual = defects_of(result.mesh);
+  cell.residual = defect_count(result.mesh);
   cell.iterations = static_cast<int>(result.passes);
   cell.note = fmt::format("{} of {} triangles", result.mesh.triangles.size(), mesh.triangles.size());
   if (*cell.residual > 0 || !result.settled) cell.outcome = Outcome::breaks;

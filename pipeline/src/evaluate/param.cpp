@@ -7,8 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "evaluate/environment.hpp"
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/cut_open.hpp"
@@ -21,28 +20,28 @@
 namespace papilla {
 namespace {
 
-/// Budgets of iterations, for methods that have them.
+/// Limits of iterations, for methods that iterate.
 constexpr std::array k_iterations = {1, 2, 5, 10, 20, 50, 100, 200, 500};
 
-/// Gauss-Seidel moves one vertex at a time: sweeps per iteration of the others.
+/// Gauss-Seidel sweeps per iteration of the other methods: a sweep moves one vertex at a time.
 constexpr int k_sweeps = 20;
 
-/// A rung is expected to take this many times what the one before took, its measurement included.
+/// Expected time of a rung over that of the one before, measurement included.
 constexpr double k_growth = 2.5;
 
-/// Edges of the shares of the symmetric Dirichlet energy above 4: two a decade.
+/// Range of the histogram of symmetric Dirichlet - 4; two bins a decade.
 constexpr double k_least_excess = 1e-8, k_most_excess = 1e8;
 
-/// One variant of a method, run with a budget of iterations.
+/// A variant of a method.
 struct Variant {
   std::string method, solver;
   bool iterates = false;
   std::function<Flattening(const TriangleMesh&, int iterations)> run;
-  bool keeps_trace = false;  ///< Its own error over time is worth a curve.
+  bool keeps_trace = false;  ///< Draw its own error over time too.
   std::string own_error;
 };
 
-/// One chart as a mesh of its own: all methods get the same one.
+/// The chart that all methods map, as a mesh.
 struct Chart {
   TriangleMesh mesh;
   ChartSet charts;
@@ -51,7 +50,7 @@ struct Chart {
 
 ChartSet one_chart(const TriangleMesh& mesh) { return {std::vector<std::uint32_t>(mesh.triangles.size(), 0), 1, 0}; }
 
-/// The chart with the most area of the given ones, cut open.
+/// The chart with the largest area, cut open.
 Chart largest_chart(const TriangleMesh& mesh, const ChartSet& charts) {
   const TriangleMesh open = cut_open(mesh, charts);
   std::vector<double> area(charts.count, 0);
@@ -80,7 +79,7 @@ Chart largest_chart(const TriangleMesh& mesh, const ChartSet& charts) {
   return chart;
 }
 
-/// The part as it is when it can be mapped in one piece, else the largest of its charts.
+/// The whole part if it can be mapped in one piece, else the largest of its charts.
 Chart chart_of(TriangleMesh mesh) {
   mesh = weld_equal(std::move(mesh)).mesh;
   const ChartSet components = components_as_charts(mesh);
@@ -91,8 +90,8 @@ Chart chart_of(TriangleMesh mesh) {
     try {
       flatten_lscm(mesh, components, strict);
       return {std::move(mesh), components, "the whole part as one chart"};
-    } catch (const InvalidInput&) {   // no disk
-    } catch (const SolverFailure&) {  // one, but too curved for this map
+    } catch (const InvalidInput&) {   // Not a disk.
+    } catch (const SolverFailure&) {  // A disk, but too curved for this map.
       return {std::move(mesh), components, "the whole part as one chart"};
     }
   }
@@ -226,7 +225,7 @@ bool is_valid(const DistortionReport& r) {
   return r.flipped == 0 && r.degenerate_uv == 0 && r.overlap_within_charts <= 0;
 }
 
-/// How the area spreads over the excess of the symmetric Dirichlet energy.
+/// Histogram of symmetric Dirichlet - 4 by area.
 ErrorShares shares_of(const DistortionReport& report) {
   ErrorShares shares{"symmetric Dirichlet - 4", {}, {}};
   for (double edge = k_least_excess; edge <= 1.01 * k_most_excess; edge *= std::sqrt(10.0))
@@ -253,7 +252,7 @@ std::string describe(const DistortionReport& r, const Flattening& f) {
   return text;
 }
 
-/// The runs of a variant: the distortion, Maillot's lengths and, where it tells more, what the method itself minimises.
+/// The curves of a variant: symmetric Dirichlet, Maillot's length energy and, with keeps_trace, the method's own error.
 class VariantRuns {
  public:
   VariantRuns(const Variant& variant, const Chart& chart, const std::string& input)
@@ -265,12 +264,12 @@ class VariantRuns {
     lengths_.error_name = "Maillot's length energy / sum of squared edges";
   }
 
-  /// Rung by rung, as long as the time is expected to do.
-  void climb(const Budget& budget) {
-    Rungs rungs(budget, k_growth);
+  /// Raises the limit of iterations while the budget allows it and the result changes.
+  void run_ladder(const Budget& budget) {
+    Ladder ladder(budget, k_growth);
     for (const int iterations : k_iterations)
-      if (!rungs.next() || !step(iterations)) break;
-    if (dirichlet_.stop.empty()) say(k_time_spent, chart_.notes);
+      if (!ladder.next() || !step(iterations)) break;
+    if (dirichlet_.stop.empty()) set_stop(k_time_spent, chart_.notes);
   }
 
   void move_to(std::vector<EvaluationRun>& runs) {
@@ -282,7 +281,7 @@ class VariantRuns {
   }
 
  private:
-  void say(const std::string& stop, const std::string& notes) {
+  void set_stop(const std::string& stop, const std::string& notes) {
     dirichlet_.stop = lengths_.stop = stop;
     dirichlet_.notes = lengths_.notes = notes;
   }
@@ -294,8 +293,8 @@ class VariantRuns {
     try {
       flattening = variant_.run(chart_.mesh, iterations);
     } catch (const SolverFailure& error) {
-      say("no result", fmt::format("{} iterations: {}; {}", iterations, error.what(), chart_.notes));
-      return variant_.iterates;  // more iterations may undo the flips
+      set_stop("no result", fmt::format("{} iterations: {}; {}", iterations, error.what(), chart_.notes));
+      return variant_.iterates;  // More iterations may undo the flips.
     }
     const double seconds = clock.seconds();
     const DistortionReport report = measure_distortion(chart_.mesh, flattening.uv);
@@ -305,7 +304,7 @@ class VariantRuns {
       dirichlet_.trace.push_back({seconds, error});
       lengths_.trace.push_back({seconds, report.maillot_length});
     }
-    say(std::string(to_string(flattening.stop)), describe(report, flattening) + "; " + chart_.notes);
+    set_stop(std::string(to_string(flattening.stop)), describe(report, flattening) + "; " + chart_.notes);
     dirichlet_.valid = lengths_.valid = is_valid(report);
     dirichlet_.shares = shares_of(report);
     if (flattening.charts.count > 1) dirichlet_.input = lengths_.input = input_ + ", in several pieces";
@@ -335,7 +334,7 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     report_progress(input.progress, "evaluate", static_cast<double>(i) / static_cast<double>(all.size()));
     VariantRuns of_variant(all[i], chart, name);
-    of_variant.climb(input.budget.share(all.size() - i));
+    of_variant.run_ladder(input.budget.share(all.size() - i));
     of_variant.move_to(runs);
   }
   runs.push_back(environment_run(chart.mesh, name, input.budget));

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
 #include "evaluate/extreme_meshes.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"
@@ -21,7 +20,7 @@ struct Variant {
   MethodOptions options;
 };
 
-/// For a chart, of methods that iterate: a descent that creeps on a million triangles ends with what it has.
+/// Per chart, for methods that iterate: slow convergence on a million triangles ends with the result so far.
 constexpr double k_time_limit_s = 120;
 
 std::vector<Variant> variants() {
@@ -43,7 +42,7 @@ std::vector<Variant> variants() {
   return all;
 }
 
-void map(const TriangleMesh& mesh, MethodOptions options, StabilityCell& cell) {
+void measure_map(const TriangleMesh& mesh, MethodOptions options, StabilityCell& cell) {
   PartContext context;
   context.scene_extent_mm = bounds_of(mesh).diagonal();
   if (!takes_charts(options.method)) options.charts = ChartSource::automatic;
@@ -89,7 +88,9 @@ StabilitySuite param_stability(const StabilityRun& run) {
   for (NamedMesh& input : inputs) input.mesh = weld_equal(std::move(input.mesh)).mesh;
   fill_suite(
       suite, run, inputs, variants(),
-      [](const Variant& method, const NamedMesh& input, StabilityCell& cell) { map(input.mesh, method.options, cell); },
+      [](const Variant& method, const NamedMesh& input, StabilityCell& cell) {
+        measure_map(input.mesh, method.options, cell);
+      },
       triangles_of);
   return suite;
 }

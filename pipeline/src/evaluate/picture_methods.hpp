@@ -16,17 +16,17 @@ struct FractalMethod {
   FractalEstimate (*estimate)(const GreyImage&);
 };
 
-/// All of them, the named ones of the literature first.
+/// All estimators, those of the literature first.
 std::span<const FractalMethod> fractal_methods();
 
-/// A way from shading to heights.
+/// A method of shape from shading.
 struct ShadingMethod {
   const char* name;
   ShadingResult (*solve)(const GreyImage&, const ShadingOptions&);
   bool iterates;
 };
 
-/// All of them.
+/// All methods.
 std::span<const ShadingMethod> shading_methods();
 
 }  // namespace papilla

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/picture_methods.hpp"
 #include "evaluate/extreme_pictures.hpp"
-#include "papilla/pipeline/evaluate/stability.hpp"
+#include "evaluate/picture_methods.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/relief_error.hpp"
 #include "papilla/texture/shading.hpp"
@@ -26,7 +26,7 @@ Case lit(std::string name, const HeightMap& relief, Vec3 light) {
   ShadingOptions options;
   options.light = light;
   options.periodic = true;
-  // A picture can only be made for a light from the front.
+  // render_lambert() needs a light in front of the surface.
   const Vec3 shown = light.z > 0 ? light : Vec3{light.x, light.y, 1e-3};
   return {std::move(name), render_lambert(relief, normalized(shown)), options, relief};
 }
@@ -43,16 +43,17 @@ std::vector<Case> cases() {
   for (float& mm : steep.mm) mm *= 100;
   all.push_back(lit("spheres, a hundred times as high", steep, {1, 0, 1}));
   for (NamedPicture& input : extreme_pictures()) {
-    if (input.dimension && *input.dimension > 2 && *input.dimension < 3) continue;  // no reliefs under light
+    if (input.dimension && *input.dimension > 2 && *input.dimension < 3)
+      continue;  // Fractal grey values are no lit reliefs.
     all.push_back({input.name, std::move(input.picture), {}, std::nullopt});
   }
   return all;
 }
 
-/// Worse than half the range is worse than a flat answer.
+/// A flat result has a mean error of at most half the range.
 constexpr double k_unusable = 0.5;
 
-void solve(const ShadingMethod& method, const Case& input, StabilityCell& cell) {
+void measure_depth_error(const ShadingMethod& method, const Case& input, StabilityCell& cell) {
   const ShadingResult result = method.solve(input.picture, input.options);
   if (!result.trace.empty()) {
     cell.residual = result.trace.back().error;
@@ -74,7 +75,7 @@ StabilitySuite shading_stability(const StabilityRun& run) {
                        "mean depth error over the range of the relief",
                        "rms of brightness − R, grey over albedo",
                        {}};
-  fill_suite(suite, run, cases(), shading_methods(), solve);
+  fill_suite(suite, run, cases(), shading_methods(), measure_depth_error);
   return suite;
 }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/simplify_ladder.hpp"
@@ -12,7 +12,7 @@ namespace papilla {
 namespace {
 
 constexpr std::size_t k_most_parts = 5;
-/// Of the part's diagonal: from what is seen in a close-up to what is seen across a room.
+/// Of the part's diagonal: from invisible in a close-up to visible across a room.
 constexpr std::array<double, 7> k_tolerances = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2};
 
 /// Two curves over the ladder, and one a tolerance over the passes.

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/evaluate/stability.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "evaluate/suite.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla {
+namespace {
+
+/// In the order of the tables, the slowest first.
+constexpr std::array k_suites = {param_stability,   mesh_stability,    dimension_stability,
+                                 lattice_stability, shading_stability, contact_stability};
+
+}  // namespace
 
 std::string_view to_string(Outcome outcome) noexcept {
   switch (outcome) {
@@ -50,6 +58,15 @@ StabilityCell measured_cell(const StabilityRun& run, std::string method, std::st
   }
   cell.seconds = clock.seconds();
   return cell;
+}
+
+std::vector<StabilitySuite> evaluate_stability(double seconds, const ProgressCallback& progress) {
+  const Budget budget(seconds);
+  std::vector<StabilitySuite> suites;
+  for (std::size_t left = k_suites.size(); left > 0; --left)  // The slowest runs last, with all the time left over.
+    suites.push_back(k_suites[left - 1]({progress, budget.share(left)}));
+  std::reverse(suites.begin(), suites.end());
+  return suites;
 }
 
 }  // namespace papilla

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/crop.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
@@ -31,9 +31,9 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input) {
   for (const Variant& variant : k_variants) {
     EvaluationRun run{variant.name, "analyze", input.name, "share of the variance that the lattice does not explain",
                       {},           "direct",  ""};
-    Rungs rungs(input.budget, k_growth_by_side);
+    Ladder ladder(input.budget, k_growth_by_side);
     for (const int side : rising_sides(std::min({image.width, image.height, variant.most_side}))) {
-      if (!rungs.next()) break;
+      if (!ladder.next()) break;
       const GreyImage part = middle_part(image, side);
       const Stopwatch clock;
       const SymmetryAnalysis analysis = analyze_symmetry(part, {.method = variant.method}, variant.feature);

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla/param/natural.hpp"
@@ -11,7 +11,7 @@
 namespace papilla {
 namespace {
 
-/// From a room's distance to what a fingertip feels.
+/// From invisible across a room to below what a fingertip can feel.
 constexpr double k_coarsest_mm = 2, k_finest_mm = 0.02;
 constexpr std::size_t k_steps = 7, k_natural_steps = 5;
 constexpr double k_growth = 2.2;
@@ -23,12 +23,12 @@ CadReadOptions cad_options(const ReadOptions& read) {
   return options;
 }
 
-/// The map that the surfaces bring along, of all parts at each of the coarser chords.
+/// The map by the CAD surfaces' own parameters, of all parts at each of the coarser chords.
 EvaluationRun natural_run(const EvaluationInput& input, const std::vector<double>& chords, CadReadOptions options) {
   EvaluationRun run{"natural", "", input.name, "mean angle error of the CAD surfaces' own u and v [°]", {}, "direct"};
-  Rungs rungs(input.budget, k_growth);
+  Ladder ladder(input.budget, k_growth);
   for (const double chord : chords) {
-    if (!rungs.next()) break;
+    if (!ladder.next()) break;
     options.chord_mm = chord;
     const Scene scene = read_cad(input.file, options);
     double seconds = 0, sum = 0, area = 0;
@@ -65,9 +65,9 @@ std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input) {
                           ""};
   std::vector<double> chords = chord_ladder(k_coarsest_mm, k_finest_mm, k_steps);
   const Budget half = input.budget.share(2);
-  Rungs rungs(half, k_growth);
+  Ladder ladder(half, k_growth);
   for (const double chord : chords) {
-    if (!rungs.next()) break;
+    if (!ladder.next()) break;
     const TessellationSample sample =
         trace_tessellation(input.file, {chord}, cad_options(read), input.progress).front();
     deviation.trace.push_back({sample.seconds, sample.deviation_mm});

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 
@@ -13,10 +13,10 @@ namespace papilla {
 namespace {
 
 constexpr std::size_t k_most_parts = 5;
-/// From below the noise of single precision to what no CAD export needs, of the part's diagonal.
+/// Of the part's diagonal: from below single precision to above any gap in CAD exports.
 constexpr std::array<double, 9> k_tolerances = {1e-9, 1e-8, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 1e-4, 1e-3};
 
-std::string notes_of(const WeldStep& step) {
+std::string step_notes(const WeldStep& step) {
   return fmt::format("tolerance {:.3g} mm: {} boundary and {} non-manifold edges, {} triangles, moved {:.3g} mm; ",
                      step.tolerance_mm, step.boundary_edges, step.nonmanifold_edges, step.triangles,
                      step.max_deviation_mm);
@@ -40,7 +40,7 @@ std::vector<EvaluationRun> evaluate_weld(const EvaluationInput& input) {
     for (const WeldStep& step : weld_ladder(part.mesh, tolerances)) {
       edges.trace.push_back({step.seconds, static_cast<double>(step.boundary_edges)});
       moved.trace.push_back({step.seconds, step.max_deviation_mm});
-      edges.notes += notes_of(step);
+      edges.notes += step_notes(step);
     }
     moved.notes = edges.notes;
     runs.push_back(std::move(edges));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/pictures/border_edges.hpp"
+#include "pictures/border_edges.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/pictures/pixel_text.hpp"
+#include "pictures/pixel_text.hpp"
 
 #include <algorithm>
 #include <array>

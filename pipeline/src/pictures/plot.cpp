@@ -28,7 +28,7 @@ using Style = PlotSeries::Style;
 constexpr std::array k_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#6B6B00", "#000000"};
 constexpr std::array k_dashes{"1", "2", "3", "4"};
 
-/// A string of gnuplot in which nothing is special.
+/// A gnuplot string literal without escapes.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -69,7 +69,7 @@ bool has_points(const Plot& plot, const PlotSeries& series) {
   return std::any_of(series.points.begin(), series.points.end(), [&](Vec2 p) { return can_be_drawn(plot, p); });
 }
 
-/// What an axis shows: its given ends, or the points.
+/// Range of an axis.
 struct Extent {
   double low = INFINITY, high = 0;
   double decades() const { return low < high ? std::log10(high / low) : 0; }
@@ -84,14 +84,13 @@ Extent extent_of(const Plot& plot, double Vec2::*axis) {
   return extent;
 }
 
-/// 1, 2 or 5 times a power of ten, not far from `about`.
+/// The number closest to `about` of 1, 2 or 5 times a power of ten.
 double round_step(double about) {
   const double power = std::pow(10, std::floor(std::log10(about))), share = about / power;
   return power * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
 }
 
-/// Round numbers for a logarithmic axis on which few powers of ten are seen: with their multiples by 2 and 5, or, where
-/// those are few, too, in even steps.
+/// Ticks of a logarithmic axis that spans few decades: 1, 2 and 5 times powers of ten, or even steps below 0.8 decades.
 std::string few_ticks(const Extent& extent) {
   std::string ticks;
   const auto add = [&](double value) { ticks += fmt::format("{}{:g}", ticks.empty() ? "" : ", ", value); };
@@ -106,7 +105,7 @@ std::string few_ticks(const Extent& extent) {
   return ticks;
 }
 
-/// A logarithmic axis: powers of ten, or of two as plain numbers; plain numbers also where few powers are seen.
+/// Commands for a logarithmic axis: powers of ten; plain numbers for base 2 and where it spans few decades.
 std::string log_axis(char axis, double base, const Extent& extent) {
   constexpr double k_few_decades = 2;
   std::string script = fmt::format("set logscale {} {:g}\n", axis, base);
@@ -157,7 +156,7 @@ std::string script_of(const Plot& plot) {
   return script + command + "\n";
 }
 
-/// Runs gnuplot in a folder. @returns whether it is there.
+/// Runs gnuplot in a folder. @returns whether it is installed.
 bool run_gnuplot(const fs::path& folder) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/pictures/relief.hpp"
+#include "pictures/relief.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/srgb.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/pipeline/pictures/border_edges.hpp"
-#include "pictures/mip_pyramid.hpp"
+#include "pictures/border_edges.hpp"
 
 namespace papilla {
 namespace {
@@ -22,14 +22,85 @@ namespace {
 constexpr Vec3 k_clay{0.42, 0.44, 0.47};
 constexpr double k_field_of_view = 0.6;  // radians, vertical: about the perspective of a 50 mm lens
 
+std::size_t offset(int width, int x, int y) {
+  return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+}
+
+int wrapped(int i, int n) { return ((i % n) + n) % n; }
+
+/// A mip map: a picture at halving resolutions, sampled with repeat and bilinear interpolation.
+class MipPyramid {
+ public:
+  /// @param encoded_srgb colours are linearised, so that averages keep the brightness.
+  MipPyramid(const ColorImage& image, bool encoded_srgb);
+
+  /// The mean colour over about `texels` texels of the full picture (an area), components in [0, 1]. uv (0, 0) is the
+  /// bottom left corner, v grows upwards, as in scenes.
+  Vec3 sample(Vec2 uv, double texels) const;
+
+  double texel_count() const { return static_cast<double>(levels_[0].width) * levels_[0].height; }
+
+ private:
+  struct Level {
+    int width, height;
+    std::vector<float> rgb;
+  };
+  std::vector<Level> levels_;
+};
+
+MipPyramid::MipPyramid(const ColorImage& image, bool encoded_srgb) {
+  std::array<float, 256> decode{};
+  for (int i = 0; i < 256; ++i) {
+    const double c = i / 255.0;
+    decode[static_cast<std::size_t>(i)] = static_cast<float>(encoded_srgb ? linear_from_srgb(c) : c);
+  }
+  Level base{image.width, image.height, std::vector<float>(image.pixels.size())};
+  std::transform(image.pixels.begin(), image.pixels.end(), base.rgb.begin(),
+                 [&](unsigned char c) { return decode[c]; });
+  levels_.push_back(std::move(base));
+  while (levels_.back().width > 1 || levels_.back().height > 1) {
+    const Level& fine = levels_.back();
+    Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
+    coarse.rgb.resize(offset(coarse.width, 0, coarse.height));
+    for (int y = 0; y < coarse.height; ++y) {
+      for (int x = 0; x < coarse.width; ++x) {
+        const int x0 = std::min(2 * x, fine.width - 1), x1 = std::min(2 * x + 1, fine.width - 1);
+        const int y0 = std::min(2 * y, fine.height - 1), y1 = std::min(2 * y + 1, fine.height - 1);
+        for (std::size_t c = 0; c < 3; ++c)
+          coarse.rgb[offset(coarse.width, x, y) + c] =
+              0.25F * (fine.rgb[offset(fine.width, x0, y0) + c] + fine.rgb[offset(fine.width, x1, y0) + c] +
+                       fine.rgb[offset(fine.width, x0, y1) + c] + fine.rgb[offset(fine.width, x1, y1) + c]);
+      }
+    }
+    levels_.push_back(std::move(coarse));
+  }
+}
+
+Vec3 MipPyramid::sample(Vec2 uv, double texels) const {
+  const double lod = 0.5 * std::log2(std::max(texels, 1.0));
+  const auto number = static_cast<std::size_t>(std::clamp(std::lround(lod), 0L, static_cast<long>(levels_.size()) - 1));
+  const Level& level = levels_[number];
+  const double x = (uv.x - std::floor(uv.x)) * level.width - 0.5,
+               y = (1 - (uv.y - std::floor(uv.y))) * level.height - 0.5;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const double fx = x - x0, fy = y - y0;
+  std::array<double, 3> sum{};
+  for (const auto& [dx, dy, weight] : {std::tuple{0, 0, (1 - fx) * (1 - fy)}, std::tuple{1, 0, fx * (1 - fy)},
+                                       std::tuple{0, 1, (1 - fx) * fy}, std::tuple{1, 1, fx * fy}}) {
+    const float* texel = &level.rgb[offset(level.width, wrapped(x0 + dx, level.width), wrapped(y0 + dy, level.height))];
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(texel[c]);
+  }
+  return {sum[0], sum[1], sum[2]};
+}
+
 struct Camera {
   Vec3 position, right, up, forward;
   double focal = 1;  // in samples
   double center_x = 0, center_y = 0;
 };
 
-/// What shading needs of one material.
-struct Surface {
+/// The inputs of shade() from one material.
+struct ShadedMaterial {
   Vec3 color{1, 1, 1};
   double roughness = 0.8, metallic = 0;
   double opacity = 1;
@@ -50,10 +121,10 @@ struct Sample {
   float r = 0.93F, g = 0.94F, b = 0.95F;  // background, linear
 };
 
-/// Constants of one triangle: its tangent frame and how much of the uv plane a sample covers.
+/// A triangle on its way to the raster: corners, material, tangent frame and uv footprint of a sample.
 struct TriangleSetup {
   Vertex v[3];
-  const Surface* surface = nullptr;
+  const ShadedMaterial* material = nullptr;
   double doubled_area = 0;  // in samples, signed
   Vec3 tangent, bitangent;
   bool has_uv = false;
@@ -80,37 +151,38 @@ class Pyramids {
   std::vector<std::shared_ptr<const MipPyramid>> color_, raw_;
 };
 
-/// Dark surfaces keep their hue, and become bright enough for their relief to be seen.
+/// Scales dark colours up, hue kept, so that the shading of relief is visible.
 Vec3 brightened(Vec3 color) {
   constexpr double k_visible = 0.3;
   const double brightest = std::max({color.x, color.y, color.z, 1e-3});
   return brightest >= k_visible ? color : (k_visible / brightest) * color;
 }
 
-Surface make_surface(const Scene& scene, std::size_t index, const RenderOptions& options, Pyramids& pyramids) {
+ShadedMaterial shaded_material(const Scene& scene, std::size_t index, const SceneViewOptions& options,
+                               Pyramids& pyramids) {
   const Material& material = scene.materials[index];
-  Surface surface;
-  surface.color = {material.base_color[0], material.base_color[1], material.base_color[2]};
-  if (options.close_up) surface.color = brightened(surface.color);
-  surface.roughness = material.roughness;
-  surface.metallic = material.metallic;
-  if (index < options.mm_per_uv.size()) surface.mm_per_uv = options.mm_per_uv[index];
+  ShadedMaterial shaded;
+  shaded.color = {material.base_color[0], material.base_color[1], material.base_color[2]};
+  if (options.close_up) shaded.color = brightened(shaded.color);
+  shaded.roughness = material.roughness;
+  shaded.metallic = material.metallic;
+  if (index < options.mm_per_uv.size()) shaded.mm_per_uv = options.mm_per_uv[index];
   if (options.mode == RenderMode::triangles) return {.color = k_clay};
-  if (options.mode != RenderMode::material) return surface;
-  if (material.alpha_mode == "BLEND") surface.opacity = std::clamp(material.base_color[3], 0.0, 1.0);
-  surface.color_map = pyramids.get(material.base_color_texture, true);
-  surface.normal_map = pyramids.get(material.normal_texture, false);
+  if (options.mode != RenderMode::material) return shaded;
+  if (material.alpha_mode == "BLEND") shaded.opacity = std::clamp(material.base_color[3], 0.0, 1.0);
+  shaded.color_map = pyramids.get(material.base_color_texture, true);
+  shaded.normal_map = pyramids.get(material.normal_texture, false);
   if (material.base_color_texture && material.base_color_texture->transform)
-    surface.color_transform = *material.base_color_texture->transform;
+    shaded.color_transform = *material.base_color_texture->transform;
   if (material.normal_texture) {
-    surface.normal_scale = material.normal_texture->factor;
-    if (material.normal_texture->transform) surface.normal_transform = *material.normal_texture->transform;
+    shaded.normal_scale = material.normal_texture->factor;
+    if (material.normal_texture->transform) shaded.normal_transform = *material.normal_texture->transform;
   }
-  return surface;
+  return shaded;
 }
 
-/// Looks from `position` along `forward`, horizon level.
-Camera aim(Vec3 position, Vec3 forward, const RenderOptions& options) {
+/// At `position`, looking along `forward`, with a level horizon.
+Camera level_camera(Vec3 position, Vec3 forward, const SceneViewOptions& options) {
   Camera camera;
   camera.position = position;
   camera.forward = forward;
@@ -123,8 +195,8 @@ Camera aim(Vec3 position, Vec3 forward, const RenderOptions& options) {
   return camera;
 }
 
-/// Shifts and scales the picture so that all vertices fill it but for a margin.
-void fit(Camera& camera, const std::vector<TriangleSetup>& triangles, const RenderOptions& options) {
+/// Sets focal length and centre so that all vertices fill the picture except for a margin.
+void fit_to_vertices(Camera& camera, const std::vector<TriangleSetup>& triangles, const SceneViewOptions& options) {
   constexpr double k_filled = 0.94;
   Bounds2 bounds;
   for (const TriangleSetup& t : triangles)
@@ -140,11 +212,11 @@ void fit(Camera& camera, const std::vector<TriangleSetup>& triangles, const Rend
   camera.center_y = 0.5 * height + camera.focal * middle.y;
 }
 
-Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triangles, const RenderOptions& options) {
+Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triangles, const SceneViewOptions& options) {
   if (options.close_up) {
     const Vec3 position = camera_position(*options.close_up, scene.up);
     const Vec3 point = transform_point(to_y_up(scene.up), options.close_up->point);
-    return aim(position, normalized(point - position), options);
+    return level_camera(position, normalized(point - position), options);
   }
   Bounds3 bounds;
   for (const TriangleSetup& t : triangles)
@@ -152,8 +224,9 @@ Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triang
   const Vec3 towards = normalized(options.towards_camera);
   if (norm(towards) == 0) throw InvalidInput("render_scene: towards_camera is the zero vector");
   const double radius = std::max(0.5 * bounds.diagonal(), 1e-9);
-  Camera camera = aim(bounds.middle() + (radius / std::sin(0.5 * k_field_of_view)) * towards, -towards, options);
-  fit(camera, triangles, options);
+  Camera camera =
+      level_camera(bounds.middle() + (radius / std::sin(0.5 * k_field_of_view)) * towards, -towards, options);
+  fit_to_vertices(camera, triangles, options);
   return camera;
 }
 
@@ -162,8 +235,8 @@ Vertex between(const Vertex& a, const Vertex& b, double t) {
   return {mix(&Vertex::world), mix(&Vertex::normal), mix(&Vertex::uv)};
 }
 
-/// Cuts away what lies nearer to the camera than `near` along its axis.
-void clip(std::vector<TriangleSetup>& triangles, const Camera& camera, double near) {
+/// Clips all triangles at the plane `near` before the camera.
+void clip_near(std::vector<TriangleSetup>& triangles, const Camera& camera, double near) {
   std::vector<TriangleSetup> cut;
   std::erase_if(triangles, [&](const TriangleSetup& t) {
     double ahead[3];
@@ -171,7 +244,7 @@ void clip(std::vector<TriangleSetup>& triangles, const Camera& camera, double ne
     const auto inside = std::count_if(std::begin(ahead), std::end(ahead), [](double a) { return a > 0; });
     if (inside == 3) return false;
     if (inside == 0) return true;
-    // From the corner that is alone on its side; p and q lie on the edges to the next and the last.
+    // `alone` is the only corner on its side of the plane; p and q are where its two edges cross the plane.
     std::size_t alone = 0;
     while ((ahead[alone] > 0) != (inside == 1)) ++alone;
     const std::size_t next = (alone + 1) % 3, last = (alone + 2) % 3;
@@ -194,7 +267,7 @@ void clip(std::vector<TriangleSetup>& triangles, const Camera& camera, double ne
   triangles.insert(triangles.end(), cut.begin(), cut.end());
 }
 
-/// Of the plane that a triangle lies in, a sample sees depth³/(focal²·distance of the plane).
+/// uv area under one sample, divided by depth³: on a plane at distance d a sample covers depth³ / (focal² d).
 double uv_area_per_cubic_depth(const TriangleSetup& t, const Camera& camera) {
   const Vec3 twice = cross(t.v[1].world - t.v[0].world, t.v[2].world - t.v[0].world);
   const double volume = camera.focal * camera.focal * std::abs(dot(twice, t.v[0].world - camera.position));
@@ -208,7 +281,7 @@ void project(const Camera& camera, Vertex& vertex) {
   vertex.y = camera.center_y - camera.focal * dot(d, camera.up) * vertex.inverse_depth;
 }
 
-/// The directions in the surface in which u and v grow: x and y of a normal map.
+/// Tangent (u grows) and bitangent (v grows): the x and y axes of the normal map.
 void tangent_frame(TriangleSetup& t) {
   const Vec3 e1 = t.v[1].world - t.v[0].world, e2 = t.v[2].world - t.v[0].world;
   const Vec2 d1 = t.v[1].uv - t.v[0].uv, d2 = t.v[2].uv - t.v[0].uv;
@@ -219,13 +292,13 @@ void tangent_frame(TriangleSetup& t) {
 }
 
 Vec3 checker_color(const TriangleSetup& t, Vec2 uv, double checker_mm) {
-  if (!t.has_uv || t.surface->mm_per_uv.x <= 0) return {0.55, 0.55, 0.57};
-  const double x = uv.x * t.surface->mm_per_uv.x / checker_mm, y = uv.y * t.surface->mm_per_uv.y / checker_mm;
+  if (!t.has_uv || t.material->mm_per_uv.x <= 0) return {0.55, 0.55, 0.57};
+  const double x = uv.x * t.material->mm_per_uv.x / checker_mm, y = uv.y * t.material->mm_per_uv.y / checker_mm;
   const bool odd = (static_cast<long long>(std::floor(x)) + static_cast<long long>(std::floor(y))) & 1;
   return odd ? Vec3{0.85, 0.47, 0.09} : Vec3{0.05, 0.16, 0.32};
 }
 
-Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& camera, const RenderOptions& options) {
+Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& camera, const SceneViewOptions& options) {
   const auto mix = [&](auto member) {
     return weight[0] * (t.v[0].*member) + weight[1] * (t.v[1].*member) + weight[2] * (t.v[2].*member);
   };
@@ -235,45 +308,44 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
   const Vec3 view = normalized(camera.position - position);
   if (dot(normal, view) < 0) normal = -normal;
 
-  const Surface& surface = *t.surface;
-  Vec3 color = surface.color;
+  const ShadedMaterial& material = *t.material;
+  Vec3 color = material.color;
   if (options.mode == RenderMode::checker) {
     color = checker_color(t, uv, options.checker_mm);
   } else if (t.has_uv) {
     const double depth = dot(position - camera.position, camera.forward);
     const double uv_area = t.uv_area_per_cubic_depth * depth * depth * depth;
-    if (surface.color_map) {
-      const TextureTransform& map = surface.color_transform;
-      const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * surface.color_map->texel_count();
-      const Vec3 texel = surface.color_map->sample(transform_uv(map, uv), texels);
+    if (material.color_map) {
+      const TextureTransform& map = material.color_transform;
+      const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.color_map->texel_count();
+      const Vec3 texel = material.color_map->sample(transform_uv(map, uv), texels);
       color = {color.x * texel.x, color.y * texel.y, color.z * texel.z};
     }
-    if (surface.normal_map && norm(t.tangent) > 0) {
-      const TextureTransform& map = surface.normal_transform;
-      const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * surface.normal_map->texel_count();
-      const Vec3 texel = surface.normal_map->sample(transform_uv(map, uv), texels);
+    if (material.normal_map && norm(t.tangent) > 0) {
+      const TextureTransform& map = material.normal_transform;
+      const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.normal_map->texel_count();
+      const Vec3 texel = material.normal_map->sample(transform_uv(map, uv), texels);
       const Vec3 tangent = normalized(t.tangent - dot(t.tangent, normal) * normal);
       const Vec3 side = cross(normal, tangent);
       const Vec3 bitangent = dot(side, t.bitangent) < 0 ? -side : side;
-      normal = normalized(surface.normal_scale * (2 * texel.x - 1) * tangent +
-                          surface.normal_scale * (2 * texel.y - 1) * bitangent + (2 * texel.z - 1) * normal);
+      normal = normalized(material.normal_scale * (2 * texel.x - 1) * tangent +
+                          material.normal_scale * (2 * texel.y - 1) * bitangent + (2 * texel.z - 1) * normal);
     }
   }
 
-  // A close-up is lit at a grazing angle, which brings relief out.
+  // A close-up is lit at a grazing angle, which makes relief visible.
   const double towards = options.close_up ? 0.45 : 0.6;
   const Vec3 key = normalized(0.5 * camera.right + 0.9 * camera.up - towards * camera.forward);
   const Vec3 fill = normalized(-0.9 * camera.right + 0.2 * camera.up - 0.5 * camera.forward);
   const double diffuse = 0.35 + 1.25 * std::max(0.0, dot(normal, key)) + 0.4 * std::max(0.0, dot(normal, fill));
-  const double gloss = 1 - surface.roughness;
+  const double gloss = 1 - material.roughness;
   const double exponent = 8 + 120 * gloss * gloss;
   const double highlight =
       (0.05 + 0.5 * gloss) * std::pow(std::max(0.0, dot(normal, normalized(key + view))), exponent);
-  return (diffuse * (1 - 0.4 * surface.metallic)) * color + highlight * Vec3{1, 1, 1};
+  return (diffuse * (1 - 0.4 * material.metallic)) * color + highlight * Vec3{1, 1, 1};
 }
 
-/// What the edges of the triangle make of the colour of a sample, whose barycentric coordinates on the screen these
-/// are.
+/// The colour of a sample with edges and borders drawn over it. @param screen barycentric coordinates on the screen.
 Vec3 with_edges(const TriangleSetup& t, const double (&screen)[3], Vec3 color, int samples) {
   constexpr double k_border_px = 1.6, k_edge_px = 0.6, k_edge_share = 0.55;
   constexpr Vec3 k_border{0.75, 0.06, 0.02}, k_edge{0.02, 0.03, 0.05};
@@ -287,12 +359,12 @@ Vec3 with_edges(const TriangleSetup& t, const double (&screen)[3], Vec3 color, i
   return color;
 }
 
-/// Samples on an edge belong to one of the two triangles that share it, which see it in opposite directions.
+/// Fill rule: a sample on an edge belongs to exactly one of the two triangles that share the edge.
 bool owns_edge(const Vertex& a, const Vertex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
-/// Fills the samples of the rows [row_begin, row_end) that the triangle covers and nothing nearer does. What lies
-/// behind glass shines through in the share that it lets pass, so that glass comes last, the farthest first.
-void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions& options, int width, int row_begin,
+/// Shades the samples in rows [row_begin, row_end) that the triangle covers and that pass the depth test. Transparent
+/// triangles are blended over what is there and write no depth: they must come last, the farthest first.
+void rasterize(const TriangleSetup& t, const Camera& camera, const SceneViewOptions& options, int width, int row_begin,
                int row_end, std::vector<Sample>& samples) {
   const auto [low_x, high_x] = std::minmax({t.v[0].x, t.v[1].x, t.v[2].x});
   const auto [low_y, high_y] = std::minmax({t.v[0].y, t.v[1].y, t.v[2].y});
@@ -321,17 +393,17 @@ void rasterize(const TriangleSetup& t, const Camera& camera, const RenderOptions
       for (int k = 0; k < 3; ++k) weight[k] = screen[k] * t.v[k].inverse_depth / inverse_depth;
       Vec3 color = shade(t, weight, camera, options);
       if (options.mode == RenderMode::triangles) color = with_edges(t, screen, color, options.samples);
-      const auto mixed = [opacity = t.surface->opacity](float behind, double own) {
+      const auto mixed = [opacity = t.material->opacity](float behind, double own) {
         return static_cast<float>((1 - opacity) * static_cast<double>(behind) + opacity * own);
       };
-      sample = {t.surface->opacity < 1 ? sample.inverse_depth : static_cast<float>(inverse_depth),
+      sample = {t.material->opacity < 1 ? sample.inverse_depth : static_cast<float>(inverse_depth),
                 mixed(sample.r, color.x), mixed(sample.g, color.y), mixed(sample.b, color.z)};
     }
   }
 }
 
 std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vector<Instance>& uses,
-                                            const std::vector<Surface>& surfaces, const Surface& plain,
+                                            const std::vector<ShadedMaterial>& materials, const ShadedMaterial& plain,
                                             bool with_borders) {
   std::vector<TriangleSetup> triangles;
   const Transform turn = to_y_up(scene.up);
@@ -344,7 +416,7 @@ std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vecto
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       TriangleSetup t;
       const std::uint32_t slot = mesh.material.empty() ? 0 : mesh.material[i];
-      t.surface = slot < part.materials.size() ? &surfaces[part.materials[slot]] : &plain;
+      t.material = slot < part.materials.size() ? &materials[part.materials[slot]] : &plain;
       t.has_uv = mesh.uv.has_value(i);
       for (std::size_t k = 0; k < 3; ++k) {
         t.v[k].world = transform_point(world, mesh.positions[mesh.triangles[i][k]]);
@@ -364,20 +436,20 @@ std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vecto
   return triangles;
 }
 
-/// Moves glass to the end, the farthest first.
-void sort_glass(std::vector<TriangleSetup>& triangles) {
-  const auto glass = std::stable_partition(triangles.begin(), triangles.end(),
-                                           [](const TriangleSetup& t) { return t.surface->opacity >= 1; });
+/// Moves transparent triangles to the end, the farthest first.
+void sort_transparent(std::vector<TriangleSetup>& triangles) {
+  const auto transparent = std::stable_partition(triangles.begin(), triangles.end(),
+                                                 [](const TriangleSetup& t) { return t.material->opacity >= 1; });
   const auto nearness = [](const TriangleSetup& t) {
     return t.v[0].inverse_depth + t.v[1].inverse_depth + t.v[2].inverse_depth;
   };
-  std::stable_sort(glass, triangles.end(),
+  std::stable_sort(transparent, triangles.end(),
                    [&](const TriangleSetup& a, const TriangleSetup& b) { return nearness(a) < nearness(b); });
 }
 
 unsigned char encode(double linear) { return static_cast<unsigned char>(std::lround(255 * srgb_from_linear(linear))); }
 
-ColorImage resolve(const std::vector<Sample>& samples, const RenderOptions& options) {
+ColorImage resolve(const std::vector<Sample>& samples, const SceneViewOptions& options) {
   ColorImage image{options.width, options.height, {}};
   image.pixels.reserve(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
   const auto stride = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.samples);
@@ -407,20 +479,20 @@ Vec3 camera_position(const CloseUp& close_up, UpAxis up) {
   return transform_point(turn, close_up.point) + (0.5 * close_up.extent_mm / std::tan(0.5 * k_field_of_view)) * towards;
 }
 
-ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
+ColorImage render_scene(const Scene& scene, const SceneViewOptions& options) {
   if (options.width < 1 || options.height < 1 || options.samples < 1 || options.width > 16384 || options.height > 16384)
     throw InvalidInput("render_scene: width and height must be 1 to 16384, samples at least 1");
   Pyramids pyramids(scene);
-  std::vector<Surface> surfaces;
+  std::vector<ShadedMaterial> materials;
   for (std::size_t m = 0; m < scene.materials.size(); ++m)
-    surfaces.push_back(make_surface(scene, m, options, pyramids));
-  const Surface plain{.color = options.mode == RenderMode::triangles ? k_clay : Vec3{1, 1, 1}};
+    materials.push_back(shaded_material(scene, m, options, pyramids));
+  const ShadedMaterial plain{.color = options.mode == RenderMode::triangles ? k_clay : Vec3{1, 1, 1}};
   std::vector<TriangleSetup> triangles =
-      set_up_triangles(scene, instances(scene), surfaces, plain, options.mode == RenderMode::triangles);
+      set_up_triangles(scene, instances(scene), materials, plain, options.mode == RenderMode::triangles);
   if (triangles.empty()) throw InvalidInput("render_scene: the scene has no triangle");
 
   const Camera camera = place_camera(scene, triangles, options);
-  clip(triangles, camera, options.close_up ? 0.05 * options.close_up->extent_mm : 0);
+  clip_near(triangles, camera, options.close_up ? 0.05 * options.close_up->extent_mm : 0);
   for (TriangleSetup& t : triangles) {
     for (Vertex& v : t.v) project(camera, v);
     t.doubled_area =
@@ -428,7 +500,7 @@ ColorImage render_scene(const Scene& scene, const RenderOptions& options) {
     if (t.has_uv) t.uv_area_per_cubic_depth = uv_area_per_cubic_depth(t, camera);
   }
   std::erase_if(triangles, [](const TriangleSetup& t) { return !(std::abs(t.doubled_area) > 0); });
-  sort_glass(triangles);
+  sort_transparent(triangles);
 
   const int width = options.width * options.samples, height = options.height * options.samples;
   std::vector<Sample> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/pictures/texture_plots.hpp"
+#include "pictures/texture_plots.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using Style = PlotSeries::Style;
 
-/// Heights along the middle row or column, at most about 2000 of them.
+/// Heights along the middle row or column, thinned to about 2000.
 std::vector<Vec2> profile(const HeightMap& map, bool row) {
   const int count = row ? map.width : map.height, fixed = row ? map.height / 2 : map.width / 2;
   const double pitch = row ? map.pitch_mm_x : map.pitch_mm_y;
@@ -27,16 +27,17 @@ std::vector<Vec2> profile(const HeightMap& map, bool row) {
 
 }  // namespace
 
-Plot log_log_plot(const std::vector<LogLogSeries>& series) {
+Plot log_log_plot(std::span<const FractalReading> readings) {
   Plot plot{.title = "Fractal dimension, 95 % interval",
             .x_name = "scale: side, window or lag [pixels]",
             .y_name = "measure, relative to that at the least scale",
             .log_x = true,
             .log_y = true,
             .log_x_base = 2};
-  for (const LogLogSeries& one : series) {
-    const FractalEstimate& e = one.estimate;
-    PlotSeries drawn{fmt::format("{}: D = {:.3f} [{:.3f}, {:.3f}]", one.name, e.dimension, e.low, e.high), {}};
+  for (const FractalReading& reading : readings) {
+    if (!reading.estimate) continue;
+    const FractalEstimate& e = *reading.estimate;
+    PlotSeries drawn{fmt::format("{}: D = {:.3f} [{:.3f}, {:.3f}]", reading.name, e.dimension, e.low, e.high), {}};
     drawn.look = static_cast<int>(plot.series.size());
     double first = 0;
     for (const ScalePoint& point : e.curve) {

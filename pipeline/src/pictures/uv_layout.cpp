@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "papilla/core/bounds.hpp"
-#include "papilla/pipeline/pictures/border_edges.hpp"
-#include "papilla/pipeline/pictures/pixel_text.hpp"
+#include "pictures/border_edges.hpp"
+#include "pictures/pixel_text.hpp"
 
 namespace papilla {
 namespace {
@@ -96,7 +96,7 @@ void draw_legend(Canvas& canvas, int top, double worst) {
 }
 
 /// Averages squares of samples into pixels.
-void shrink(const Canvas& fine, int samples, Canvas& target) {
+void downsample(const Canvas& fine, int samples, Canvas& target) {
   const int divisor = samples * samples;
   for (int y = 0; y < fine.image.height / samples; ++y)
     for (int x = 0; x < fine.image.width / samples; ++x) {
@@ -150,7 +150,7 @@ ColorImage draw_uv_layout(const CornerAttribute<Vec2>& uv, const DistortionRepor
       if (borders[t][k])
         draw_line(fine, place(uv.indices[t][k]), place(uv.indices[t][(k + 1) % 3]), options.samples, k_ink);
   Canvas canvas(width, height + k_legend_height);
-  shrink(fine, options.samples, canvas);
+  downsample(fine, options.samples, canvas);
   draw_legend(canvas, height + k_margin / 2, options.worst);
   return canvas.image;
 }

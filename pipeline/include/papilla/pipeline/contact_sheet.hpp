@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,15 +11,21 @@
 
 namespace papilla {
 
-/// What a contact sheet says of a recipe.
+/// Name and text of a recipe.
+using NamedRecipe = std::pair<std::string, std::string>;
+
+/// One recipe of a contact sheet.
 struct SheetEntry {
   std::string name, recipe;
   std::string text;                    ///< The library's entry of that name, else the recipe.
-  std::vector<std::string> uses;       ///< Recipes of the library that it rests on.
+  std::vector<std::string> uses;       ///< Recipes of the library that it is built from.
   double low = 0, high = 0, mean = 0;  ///< Of the height.
   double seam = 0;    ///< Largest step across the border over the largest step within; about 1 where it tiles.
   std::string error;  ///< Why it has no picture.
 };
+
+/// White pixels between the tiles and around them.
+inline constexpr int k_sheet_gap_px = 4;
 
 struct ContactSheet {
   ColorImage picture;  ///< Tiles with shading, row by row in the order given.
@@ -28,16 +35,20 @@ struct ContactSheet {
 
 /// Pictures of recipes side by side, colours lit by the height.
 /// @pre side >= 8.
-ContactSheet make_contact_sheet(const std::vector<std::pair<std::string, std::string>>& recipes,
-                                const RecipeLibrary& library, const CompileOptions& options, int side);
+ContactSheet make_contact_sheet(const std::vector<NamedRecipe>& recipes, const RecipeLibrary& library,
+                                const CompileOptions& options, int side, const ProgressCallback& progress = {});
 
-/// Every type's name and the plainest recipe of it that shows something.
-std::vector<std::pair<std::string, std::string>> examples_of_types();
+/// A recipe for every texture type: its defaults, or the least that makes the type visible.
+std::vector<NamedRecipe> examples_of_types();
 
-/// The sheet as an HTML page: every tile above its name, cut out of the picture, and a table.
-std::string sheet_page(const ContactSheet& sheet, const std::string& picture_file);
+/// Every recipe of the library; an ageing recipe on top of a material that it suits.
+std::vector<NamedRecipe> examples_of_library(const RecipeLibrary& library);
+
+/// Names of the library's recipes by their `idtype`; "none" for those without.
+std::map<std::string, std::vector<std::string>> recipes_by_category(const RecipeLibrary& library);
 
 /// Colours lit from the upper left by the slopes of the height; `relief` is the depth in texels of a height of 1.
-ColorImage shaded(const RenderedTexture& texture, double relief);
+/// @pre `texture` has colour and bump.
+ColorImage light_texture(const RenderedTexture& texture, double relief);
 
 }  // namespace papilla

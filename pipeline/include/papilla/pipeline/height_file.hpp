@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "papilla/texture/height_map.hpp"
+#include "papilla/texture/height_from_image.hpp"
 
 namespace papilla {
 
@@ -11,5 +14,41 @@ namespace papilla {
 /// 32-bit float .exr, .tif, .tiff in millimetres.
 /// @throws InvalidInput for other extensions; IoError when writing fails.
 void write_height_file(const std::filesystem::path& path, const HeightMap& map);
+
+/// Options of height_of_picture_file().
+struct HeightFileOptions {
+  HeightOptions height;
+  std::filesystem::path normal_map;  ///< File for the glTF normal map of the relief; empty: none.
+  std::filesystem::path pictures;    ///< Folder for HeightFiles::pictures; empty: none are drawn.
+  bool opposite = false;             ///< Write opposite_relief() too, as NAME-opposite.EXT beside the output.
+  bool deeper = false;               ///< Write the relief 2 and 4 times as deep too, as NAME-x2.EXT and NAME-x4.EXT.
+};
+
+/// A file with the relief at another depth.
+struct DeeperRelief {
+  int factor;
+  std::string file;
+};
+
+/// A file that shows the relief.
+struct ReliefPicture {
+  std::string name, file;
+  bool drawn = true;                   ///< False: gnuplot, which draws it, is not installed.
+  std::optional<double> exaggeration;  ///< Of the heights in a lit relief.
+  double scale_bar_mm = 0;             ///< Length of the scale bar; 0: there is none.
+};
+
+/// What height_of_picture_file() computed and the files that it wrote beside the output.
+struct HeightFiles {
+  HeightResult result;
+  std::string opposite;  ///< Empty: not asked for.
+  std::vector<DeeperRelief> deeper;
+  std::vector<ReliefPicture> pictures;  ///< relief.png and relief-opposite.png, lit; section.svg.
+};
+
+/// Reads a picture of a surface and writes its height_from_image().
+/// @throws InvalidInput, IoError as read_grey_image(), height_from_image() and write_height_file().
+HeightFiles height_of_picture_file(const std::filesystem::path& picture, const std::filesystem::path& output,
+                                   const HeightFileOptions& options);
 
 }  // namespace papilla

@@ -13,10 +13,10 @@ namespace papilla {
 /// The built-in recipes and those of the given files.
 RecipeLibrary load_recipes(const std::vector<std::string>& files);
 
-/// Reads pictures of recipes through OpenImageIO; relative names are taken from `folder`.
+/// Options with which recipes may name pictures of any format that read_color_image() takes, relative to `folder`.
 CompileOptions recipe_options(const std::filesystem::path& folder);
 
-/// Whether a name in a settings file is a recipe rather than a picture: a known type or recipe, alone or before a bar.
+/// Whether a text names a recipe rather than a file: a known type or recipe, alone or before a bar.
 bool looks_like_recipe(const std::string& text, const RecipeLibrary& library);
 
 /// Colours of [0, 1], three a texel, as a picture of 8 bits.

@@ -14,35 +14,35 @@ namespace papilla {
 /// logarithmic axis, are left out.
 struct PlotSeries {
   enum class Style { line_and_points, line, points, steps, band, bars };
-  std::string name;  ///< In the legend; empty: not there.
+  std::string name;  ///< In the legend; empty: none.
   std::vector<Vec2> points;
   Style style = Style::line_and_points;
   int look = 0;  ///< Series of equal look share colour, dash and mark; 8 colours that differ for every kind of colour
                  ///< vision [Okabe and Ito 2008], then the same ones dashed.
 };
 
-/// Words in a plot, which end at a point in the axes' units, below it.
+/// A text whose upper right corner is at a point in the axes' units.
 struct PlotLabel {
   std::string text;
   Vec2 at;
 };
 
-/// A plot of any number of series. In polar plots x is the angle in degrees, clockwise from
-/// the right, and y the radius.
+/// A plot of any number of series. In polar plots x is the angle in degrees, clockwise from the right, and y the
+/// radius.
 struct Plot {
   std::string title = {}, x_name = {}, y_name = {};
   bool log_x = false, log_y = false, polar = false;
   double log_x_base = 10;                  ///< 10, or 2 for ticks at powers of two.
-  double radius = 0;                       ///< Of a polar plot; 0: as the points need it.
-  std::vector<std::string> x_labels = {};  ///< In place of numbers: label i stands at x = i.
+  double radius = 0;                       ///< Of a polar plot; 0: from the points.
+  std::vector<std::string> x_labels = {};  ///< Instead of numbers: label i at x = i.
   std::vector<PlotSeries> series = {};
   std::vector<PlotLabel> labels = {};
-  Vec2 low = {}, high = {};  ///< Ends of both axes; where they are equal the points decide.
+  Vec2 low = {}, high = {};  ///< Ends of both axes; equal: from the points.
   int width_px = 960, height_px = 520;
 };
 
-/// The plot as SVG, drawn by gnuplot; nothing when that program is not installed or the plot has no point.
-/// Names are data, never commands. Deterministic for one version of gnuplot.
+/// The plot as SVG, drawn by gnuplot; nothing when it is not installed or the plot has no point. Names are quoted, so
+/// that none can be a command. Deterministic for one version of gnuplot.
 /// @throws IoError when the temporary folder can't be written or gnuplot fails.
 std::optional<std::string> plot_svg(const Plot& plot);
 

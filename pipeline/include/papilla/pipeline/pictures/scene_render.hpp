@@ -13,20 +13,21 @@ namespace papilla {
 enum class RenderMode {
   material,   ///< Base colour, its texture and the normal map.
   triangles,  ///< Grey, edges of triangles dark, borders (edges of one triangle, by indices) red and wide.
-  checker     ///< Squares of `checker_mm` on everything that has uv, to see scale, stretch and seams.
+  checker     ///< Squares of `checker_mm` on everything that has uv: shows scale, stretch and seams.
 };
 
-/// A look at one spot, in the scene's own axes and millimetres.
+/// A view of one point of the surface, in the scene's own axes and millimetres.
 struct CloseUp {
   Vec3 point, normal;
-  double extent_mm = 100;  ///< Height of what the picture shows there.
+  double extent_mm = 100;  ///< Height of the visible area at the point.
 };
 
-/// Where its camera stands: before the surface, from above and a little aside, so that relief casts its shading. In
-/// glTF axes. @param up of the scene.
+/// Position of its camera in glTF axes: in front of the surface, raised and a little to the side, so that relief is
+/// shaded. @param up of the scene.
 Vec3 camera_position(const CloseUp& close_up, UpAxis up);
 
-struct RenderOptions {
+/// Options of render_scene().
+struct SceneViewOptions {
   RenderMode mode = RenderMode::material;
   int width = 1600, height = 1000;
   int samples = 2;                       ///< Per pixel and axis.
@@ -38,9 +39,9 @@ struct RenderOptions {
 };
 
 /// A picture of the scene by perspective projection with a depth buffer, mip-mapped textures, one key and one fill
-/// light. Materials whose alpha mode is BLEND are see-through; sorted by triangles, not by samples. Deterministic.
+/// light. Materials whose alpha mode is BLEND are transparent, sorted by triangles, not by samples. Deterministic.
 /// Cost: proportional to triangles and pixels; memory 16 bytes a sample.
 /// @throws InvalidInput when the scene has no triangle or a texture can't be decoded.
-ColorImage render_scene(const Scene& scene, const RenderOptions& options);
+ColorImage render_scene(const Scene& scene, const SceneViewOptions& options);
 
 }  // namespace papilla

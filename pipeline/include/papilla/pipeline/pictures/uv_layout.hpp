@@ -15,14 +15,14 @@ struct UvLayoutOptions {
   double worst = 5;    ///< Symmetric Dirichlet distortion at the end of the scale; above 4.
 };
 
-/// A colour of sRGB, 0 to 255.
+/// An sRGB colour, 0 to 255.
 using Rgb = std::array<unsigned char, 3>;
 
-/// The colour of a triangle by its symmetric Dirichlet distortion, as draw_uv_layout() has it.
+/// The colour of a triangle by its symmetric Dirichlet distortion, as in draw_uv_layout().
 Rgb distortion_colour(const TriangleDistortion& distortion, double worst);
 
 /// Draws the triangles in the plane, v upwards, each in the colour of its symmetric Dirichlet distortion on a scale
-/// from 4 (isometry, dark blue) to `worst` and more (yellow), which grows evenly in lightness for every kind of colour
+/// from 4 (isometry, dark blue) to `worst` and more (yellow), with even steps of lightness for every kind of colour
 /// vision (viridis). Flipped and degenerate triangles are red, chart borders black. The legend below has the scale with
 /// its numbers. Triangles without uv are left out.
 /// @param report of measure_distortion() with this uv.

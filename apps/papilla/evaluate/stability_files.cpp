@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "evaluate/stability/stability_files.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,9 +10,6 @@
 namespace papilla::app {
 namespace {
 
-/// In the order of the tables, the dearest first.
-constexpr std::array k_suites = {param_stability,   mesh_stability,    dimension_stability,
-                                 lattice_stability, shading_stability, contact_stability};
 constexpr std::array k_outcomes = {Outcome::holds, Outcome::falls_back, Outcome::refuses,
                                    Outcome::fails, Outcome::breaks,     Outcome::not_run};
 constexpr const char* k_legend =
@@ -22,7 +17,7 @@ constexpr const char* k_legend =
     "clear "
     "error and no result. breaks: a result that can't be used. not run: the time was spent.";
 
-/// Names in the order in which they first come.
+/// The distinct names, in the order of their first cells.
 std::vector<std::string> names_of(const StabilitySuite& suite, std::string StabilityCell::*name) {
   std::vector<std::string> names;
   for (const StabilityCell& cell : suite.cells)
@@ -46,8 +41,6 @@ std::string cell_text(const StabilityCell& cell) {
   return text;
 }
 
-Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
 std::size_t count(const StabilitySuite& suite, Outcome outcome) {
   return static_cast<std::size_t>(std::count_if(suite.cells.begin(), suite.cells.end(),
                                                 [&](const StabilityCell& cell) { return cell.outcome == outcome; }));
@@ -61,7 +54,7 @@ std::string counts_of(const StabilitySuite& suite) {
   return text;
 }
 
-/// A cell of a Markdown table: nothing in it ends the cell, and nothing is markup.
+/// A text as the content of a Markdown table's cell, markup escaped.
 std::string markdown_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -77,40 +70,10 @@ std::string outcome_class(Outcome outcome) {
 
 }  // namespace
 
-StabilityTables run_stability_suites(const ProgressCallback& progress, const Budget& budget) {
-  StabilityTables tables;
-  for (std::size_t left = k_suites.size(); left > 0; --left)  // the dearest last: they get what the others leave
-    tables.push_back(k_suites[left - 1]({progress, budget.share(left)}));
-  std::reverse(tables.begin(), tables.end());
-  return tables;
-}
-
-Json stability_json(const StabilityTables& tables) {
-  Json suites = Json::array();
-  for (const StabilitySuite& suite : tables) {
-    Json cells = Json::array();
-    for (const StabilityCell& cell : suite.cells)
-      cells.push_back({{"method", cell.method},
-                       {"input", cell.input},
-                       {"outcome", to_string(cell.outcome)},
-                       {"error", json_of(cell.error)},
-                       {"residual", json_of(cell.residual)},
-                       {"iterations", cell.iterations ? Json(*cell.iterations) : Json()},
-                       {"seconds", cell.seconds},
-                       {"note", cell.note}});
-    suites.push_back({{"name", suite.name},
-                      {"title", suite.title},
-                      {"error_name", suite.error_name},
-                      {"residual_name", suite.residual_name},
-                      {"cells", std::move(cells)}});
-  }
-  return suites;
-}
-
-std::string stability_csv(const StabilityTables& tables) {
+std::string stability_csv(const std::vector<StabilitySuite>& suites) {
   std::string csv = "suite,method,input,outcome,error,residual,iterations,seconds,note\r\n";
   const auto field = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
-  for (const StabilitySuite& suite : tables)
+  for (const StabilitySuite& suite : suites)
     for (const StabilityCell& cell : suite.cells)
       csv += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", suite.name, csv_field(cell.method), csv_field(cell.input),
                          to_string(cell.outcome), field(cell.error), field(cell.residual), field(cell.iterations),
@@ -118,10 +81,10 @@ std::string stability_csv(const StabilityTables& tables) {
   return csv;
 }
 
-std::string stability_markdown(const StabilityTables& tables) {
+std::string stability_markdown(const std::vector<StabilitySuite>& suites) {
   std::string md = "# Where each method holds and where it breaks\n\nMade by `papilla evaluate stability`. " +
                    std::string(k_legend) + " A dash: the number has no meaning there.\n";
-  for (const StabilitySuite& suite : tables) {
+  for (const StabilitySuite& suite : suites) {
     const auto methods = names_of(suite, &StabilityCell::method), inputs = names_of(suite, &StabilityCell::input);
     md += fmt::format("\n## {}\n\n{}. The number is the {}.\n\n| input |", suite.title, counts_of(suite),
                       suite.error_name);
@@ -147,7 +110,7 @@ std::string stability_markdown(const StabilityTables& tables) {
   return md;
 }
 
-std::string stability_html(const StabilityTables& tables) {
+std::string stability_html(const std::vector<StabilitySuite>& suites) {
   std::string html =
       "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><meta name='color-scheme' content='light dark'>"
       "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; style-src 'unsafe-inline'\">"
@@ -156,7 +119,7 @@ std::string stability_html(const StabilityTables& tables) {
       "td,th{padding:2px 8px;text-align:left;border:1px solid #8886}.bad{font-weight:bold;background:#d5550044}"
       ".other{background:#e69f0022}</style></head><body>\n<h1>Where each method holds and where it breaks</h1>\n<p>" +
       html_text(k_legend) + " Point at a cell for the rest.</p>\n";
-  for (const StabilitySuite& suite : tables) {
+  for (const StabilitySuite& suite : suites) {
     const auto methods = names_of(suite, &StabilityCell::method), inputs = names_of(suite, &StabilityCell::input);
     html += fmt::format("<h2>{}</h2>\n<p>{}. The number is the {}.</p>\n<table><tr><th>input</th>",
                         html_text(suite.title), counts_of(suite), html_text(suite.error_name));
@@ -179,9 +142,9 @@ std::string stability_html(const StabilityTables& tables) {
   return html + "</body></html>\n";
 }
 
-std::string stability_summary(const StabilityTables& tables) {
+std::string stability_summary(const std::vector<StabilitySuite>& suites) {
   std::string text;
-  for (const StabilitySuite& suite : tables) {
+  for (const StabilitySuite& suite : suites) {
     text += fmt::format("{:<28} {}\n", suite.title, counts_of(suite));
     for (const StabilityCell& cell : suite.cells)
       if (cell.outcome == Outcome::breaks)

@@ -1,15 +1,15 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "papilla/pipeline/texture_survey.hpp"
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/texture_survey.hpp"
 #include "texture/fixtures.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 double grain(int x, int y) { return 0.5 + 0.2 * std::cos(0.5 * x) * std::cos(0.4 * y) + 0.1 * std::cos(x + 0.4 * y); }
@@ -70,4 +70,4 @@ TEST(Survey, StripsOfOneRowHaveAResult) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

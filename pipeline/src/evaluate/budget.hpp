@@ -8,8 +8,8 @@
 
 namespace papilla {
 
-/// Wall time that an evaluation may take, from when it is made. Work that has begun is not cut short: what is honoured
-/// is that nothing begins that is not expected to end in time.
+/// Wall time that an evaluation may take, counted from construction. Work that has begun is not interrupted; no work is
+/// begun that is not expected to end in time.
 class Budget {
  public:
   Budget() = default;
@@ -20,7 +20,7 @@ class Budget {
   bool spent() const { return left() <= 0; }
   bool allows(double expected_seconds) const { return expected_seconds <= left(); }
 
-  /// A fair part of what is left for the next of `count` pieces of work.
+  /// An equal part of the time left, for the next of `count` pieces of work.
   Budget share(std::size_t count) const {
     return Budget(left() / static_cast<double>(std::max<std::size_t>(count, 1)));
   }
@@ -30,13 +30,14 @@ class Budget {
   Stopwatch clock_;
 };
 
-/// A ladder of work whose rungs grow.
-class Rungs {
+/// Work in steps of growing cost.
+class Ladder {
  public:
-  /// @param growth a rung is expected to take this many times what the one before took.
-  Rungs(const Budget& budget, double growth) : budget_(budget), growth_(growth) {}
+  /// @param growth expected time of a rung over that of the one before.
+  Ladder(const Budget& budget, double growth) : budget_(budget), growth_(growth) {}
 
-  /// Whether the next rung may begin: the first one while there is time, each further one when it is expected to end.
+  /// Whether the next rung may begin: the first one while time is left, a further one when it is expected to end in
+  /// time.
   bool next() {
     const bool allowed = !budget_.spent() && budget_.allows(begun_ ? growth_ * clock_.seconds() : 0);
     begun_ = true;
@@ -51,7 +52,7 @@ class Rungs {
   Stopwatch clock_;
 };
 
-/// Why a method has no sample.
+/// EvaluationRun::stop of a method that had no time.
 inline constexpr const char* k_time_spent = "not run: the time was spent";
 
 }  // namespace papilla

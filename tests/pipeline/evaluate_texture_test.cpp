@@ -1,15 +1,15 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "papilla/pipeline/evaluate/evaluation.hpp"
+#include "evaluate/kinds.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/grain.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ TEST_F(EvaluateTexture, NothingBeginsWhenTheTimeIsSpentAndAllIsNamed) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

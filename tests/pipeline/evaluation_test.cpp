@@ -1,19 +1,17 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "papilla/pipeline/evaluate/built_in.hpp"
-#include "evaluate/environment.hpp"
-#include "evaluate/evaluation_files.hpp"
-#include "evaluate/pareto.hpp"
+#include "evaluate/kinds.hpp"
 #include "evaluate/wall_press.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/core/temporary_folder.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stability.hpp"
 #include "papilla/io/scene_file.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 int g_runs = 0;
@@ -59,29 +57,26 @@ TEST(Evaluation, InvalidResultsAreOnNoFront) {
                                   {"holds", "", "file", "error", {{1, 0.1}}, "direct"},
                                   {"other", "", "file 2", "error", {{1, 0.1}}, "direct"}};
   runs[0].valid = false;
-  const auto groups = runs_groups(runs);
+  const auto groups = group_runs(runs);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].runs.size(), 2U);
   EXPECT_EQ(groups[0].on_front, std::vector<std::string>{"holds"});
 }
 
-TEST(Evaluation, QuotesAndEscapesNames) {
-  const std::vector<EvaluationRun> runs{
-      {"a<b>", "\"x\"", "f,1", "error", {{0.5, 2}}, "direct", "<script>", true, {}, {{{0.25, 2}}}}};
-  EXPECT_EQ(runs_csv(runs),
-            "method,solver,input,error_name,repeat,seconds,error\r\n"
-            "a<b>,\"\"\"x\"\"\",\"f,1\",error,0,0.5,2\r\n"
-            "a<b>,\"\"\"x\"\"\",\"f,1\",error,1,0.25,2\r\n");
-  const std::string html = runs_html("kind", {}, runs);
-  EXPECT_EQ(html.find("<script>"), std::string::npos);
-  EXPECT_NE(html.find("a&lt;b&gt;"), std::string::npos);
-  EXPECT_EQ(runs_json(runs)[0]["repeats"][0][0]["seconds"], 0.25);
+TEST(Evaluation, NamesFilesAndRefusesUnknownKinds) {
+  EXPECT_THROW(evaluate({.kind = "no such kind"}), InvalidInput);
+  const TemporaryFolder folder("papilla-test");
+  const std::vector<std::string> files = write_built_in_inputs("weld", folder.path());
+  const Evaluation evaluation = evaluate({.kind = "weld", .files = files, .read = {}, .repeats = 1});
+  EXPECT_EQ(evaluation.files, files);
+  ASSERT_FALSE(evaluation.runs.empty());
+  EXPECT_EQ(evaluation.runs[0].input.find(folder.path().string()), std::string::npos);
 }
 
 TEST(Evaluation, HasInputsOfItsOwnThatItCanRead) {
   for (const EvaluationKind& kind : evaluation_kinds()) {
     const TemporaryFolder folder("papilla-test");
-    const std::vector<std::string> files = write_built_in_inputs(std::string(kind.name), folder.path());
+    const std::vector<std::string> files = write_built_in_inputs(kind.name, folder.path());
     EXPECT_FALSE(files.empty()) << kind.name;
     for (const std::string& file : files) EXPECT_GT(std::filesystem::file_size(file), 100U) << file;
   }
@@ -103,9 +98,9 @@ TEST(Budget, SharesWhatIsLeft) {
   EXPECT_TRUE(Budget(0).spent());
 }
 
-TEST(Rungs, EndWhenTheNextOneIsTooLong) {
+TEST(Ladder, EndWhenTheNextOneIsTooLong) {
   const Budget endless, none(0), short_one(1e-4);
-  Rungs always(endless, 1e9), never(none, 1), once(short_one, 1e9);
+  Ladder always(endless, 1e9), never(none, 1), once(short_one, 1e9);
   EXPECT_TRUE(always.next());
   EXPECT_TRUE(always.next());
   EXPECT_FALSE(never.next());
@@ -152,7 +147,7 @@ TEST(EvaluateCharts, SeamsOfASheetAreNotWorthIt) {
 
 TEST(PressWall, HoldsWhatIsSoftAndShakesWhatIsStiff) {
   const DeviceCaps touch = device_preset("touch").caps();
-  const WallFelt soft = press_wall(touch, {.stiffness = 100}), stiff = press_wall(touch, {.stiffness = 1e5});
+  const WallResponse soft = press_wall(touch, {.stiffness = 100}), stiff = press_wall(touch, {.stiffness = 1e5});
   EXPECT_LT(soft.rest_speed_m_per_s, k_still_m_per_s);
   EXPECT_EQ(soft.given_j.back(), 0);
   EXPECT_EQ(soft.given_j.size(), 3000U);
@@ -160,10 +155,10 @@ TEST(PressWall, HoldsWhatIsSoftAndShakesWhatIsStiff) {
               1.2);  // two springs in a row, and what the hand brings along
   EXPECT_GT(stiff.rest_speed_m_per_s, k_still_m_per_s);
   EXPECT_GT(stiff.given_j.back(), 0.1);
-  const WallFelt clamped = press_wall(touch, {.stiffness = 1e5, .clamp = true});
+  const WallResponse clamped = press_wall(touch, {.stiffness = 1e5, .clamp = true});
   EXPECT_DOUBLE_EQ(clamped.stiffness, stiffness_limit(touch.dynamics, 1e-3, 0));
   EXPECT_LT(clamped.rest_speed_m_per_s, k_still_m_per_s);
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

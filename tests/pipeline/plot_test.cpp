@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "papilla/pipeline/pictures/plot.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 bool gnuplot_is_there() { return std::system("gnuplot --version > /dev/null 2>&1") == 0; }
@@ -69,4 +69,4 @@ TEST(Plot, NumbersALogarithmicAxisHoweverLittleItShows) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "evaluate/extreme_meshes.hpp"
-#include "evaluate/stability/stability_files.hpp"
+#include "evaluate/suite.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/statistics.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 TEST(Stability, CellsTellErrorsFromResults) {
@@ -105,17 +105,5 @@ TEST(Stability, ExtremeMeshesAreWhatTheyAreCalled) {
               2e19);
 }
 
-TEST(Stability, TablesHaveNoBlankCell) {
-  StabilitySuite suite{"s", "S", "e", "r", {}};
-  suite.cells.push_back({"a|b", "in", Outcome::holds, 0.5, {}, {}, 0.1, ""});
-  suite.cells.push_back({"c", "in", Outcome::refuses, {}, {}, 3, 0.1, "a <reason>"});
-  const std::string md = stability_markdown({suite});
-  EXPECT_EQ(md.find("|  |"), std::string::npos);
-  EXPECT_NE(md.find("| in | holds 0.5 | refuses |"), std::string::npos);
-  EXPECT_NE(md.find("a\\|b"), std::string::npos);
-  EXPECT_EQ(stability_html({suite}).find("<reason>"), std::string::npos);
-  EXPECT_NE(stability_csv({suite}).find("s,c,in,refuses,,,3,0.1,a <reason>"), std::string::npos);
-}
-
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "papilla/core/error.hpp"
-#include "papilla/pipeline/pictures/border_edges.hpp"
-#include "papilla/pipeline/pictures/pixel_text.hpp"
 #include "papilla/pipeline/pictures/scene_render.hpp"
+#include "pictures/border_edges.hpp"
+#include "pictures/pixel_text.hpp"
 
-namespace papilla::app {
+namespace papilla {
 namespace {
 
 TEST(BorderEdges, BelongToOneTriangle) {
@@ -120,7 +120,7 @@ TEST(CloseUp, ShowsTrianglesThatGoOnBehindTheCamera) {
     part.materials = {0};
     Scene scene = single_part_scene(std::move(part), "test");
     scene.materials.resize(1);
-    RenderOptions options{.mode = RenderMode::checker, .width = 200, .height = 200};
+    SceneViewOptions options{.mode = RenderMode::checker, .width = 200, .height = 200};
     options.close_up = CloseUp{{3, 4, 0}, {0, 0, 1}, 100};
     options.mm_per_uv = {{1000, 1000}};
     const ColorImage picture = render_scene(scene, options);
@@ -137,4 +137,4 @@ TEST(CloseUp, ShowsTrianglesThatGoOnBehindTheCamera) {
 }
 
 }  // namespace
-}  // namespace papilla::app
+}  // namespace papilla

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "json/texture_json.hpp"
+
+#include <algorithm>
+
+#include "json/scene_json.hpp"
+
+namespace papilla::app {
+namespace {
+
+Json positive_or_null(double value) { return value > 0 ? Json(value) : Json(nullptr); }
+
+Json curve_json(const FractalEstimate& estimate) {
+  Json json{{"low", estimate.low}, {"high", estimate.high}, {"curve", Json::array()}};
+  for (const ScalePoint& point : estimate.curve)
+    json["curve"].push_back({{"scale", point.scale}, {"measure", point.measure}});
+  return json;
+}
+
+Json signature_json(const FshotSignature& s) {
+  return {{"sta", s.sta}, {"str", s.str}, {"fs_h", s.fs_h}, {"fs_v", s.fs_v}, {"angle_deg", s.angle_deg}};
+}
+
+Json fshot_json(const FshotSignature& signature) {
+  Json json = signature_json(signature);
+  json["directions"] = Json::array();
+  for (const DirectionalHurst& d : signature.directions)
+    json["directions"].push_back({{"angle_deg", d.angle_deg}, {"hurst", d.hurst}, {"low", d.low}, {"high", d.high}});
+  return json;
+}
+
+Json best_json(const BestDimension& best) {
+  const FractalEstimate& e = best.estimate;
+  Json json{{"dimension", e.dimension}, {"hurst", e.hurst}, {"low", e.low}, {"high", e.high}};
+  json["directional_hurst"] = {{"0", best.directional_hurst[0]},
+                               {"90", best.directional_hurst[1]},
+                               {"45", best.directional_hurst[2]},
+                               {"-45", best.directional_hurst[3]}};
+  json["quantization_step"] = best.quantization_step;
+  return json;
+}
+
+/// Null for methods that need a larger picture.
+Json fractal_json(const FractalReadings& readings) {
+  Json json = Json::object(), details = Json::object();
+  for (const auto& [name, least_side, estimate] : named_readings(readings)) {
+    const std::string key(name);
+    json[key] = estimate ? Json(estimate->dimension) : Json(nullptr);
+    if (estimate) details[key] = curve_json(*estimate);
+  }
+  if (readings.fshot) json["fshot"] = fshot_json(*readings.fshot);
+  if (readings.best) json["best"] = best_json(*readings.best);
+  json["details"] = std::move(details);
+  return json;
+}
+
+template <class Points>
+Json points_json(const Points& points) {
+  Json json = Json::array();
+  for (const Vec2 p : points) json.push_back({p.x, p.y});
+  return json;
+}
+
+Json symmetry_json(const TextureSurvey& survey) {
+  const SymmetryAnalysis& analysis = *survey.symmetry;
+  Json json{{"lattice", analysis.lattice.found}, {"vectors_px", nullptr}, {"vectors_mm", nullptr}, {"group", nullptr}};
+  json["explained_variance"] = analysis.explained_variance();
+  json["significance"] = analysis.lattice.significance;
+  json["reason"] = analysis.lattice.reason;
+  if (!survey.groups->plane) return json;
+  const WallpaperSymmetry& group = *survey.groups->plane;
+  const auto& [a, b] = analysis.lattice.vectors_px;
+  json["vectors_px"] = {{a.x, a.y}, {b.x, b.y}};
+  if (const double pitch = survey.pitch_mm; pitch > 0)
+    json["vectors_mm"] = {{a.x * pitch, a.y * pitch}, {b.x * pitch, b.y * pitch}};
+  json["cells"] = analysis.part->cells;
+  json["group"] = to_string(group.group);
+  json["group_order"] = group.order;
+  json["group_kept"] = group.kept;
+  json["origin_px"] = {group.origin_px.x, group.origin_px.y};
+  json["region_px"] = points_json(group.region_px);
+  json["groups_tried"] = Json::array();
+  for (const WallpaperCandidate& candidate : group.candidates)
+    json["groups_tried"].push_back(
+        {{"group", to_string(candidate.group)}, {"kept", candidate.kept}, {"criterion", candidate.criterion}});
+  return json;
+}
+
+Json strip_json(const FriezeSymmetry& frieze) {
+  Json json{{"repeats", frieze.found}, {"reason", frieze.reason}, {"group", nullptr}};
+  if (!frieze.found) return json;
+  json["group"] = to_string(frieze.group);
+  json["group_order"] = frieze.order;
+  json["period_px"] = frieze.period_px;
+  json["group_kept"] = frieze.kept;
+  json["origin_x"] = frieze.origin_x;
+  json["axis_y"] = frieze.axis_y;
+  json["region_px"] = points_json(frieze.region_px);
+  return json;
+}
+
+Json rosette_json(const RosetteSymmetry& rosette) {
+  return {{"group", rosette.name()},
+          {"rotations", rosette.rotations},
+          {"mirrors", rosette.mirrors},
+          {"group_kept", rosette.kept},
+          {"centre_px", {rosette.centre_px.x, rosette.centre_px.y}},
+          {"mirror_deg", rosette.mirrors ? Json(rosette.mirror_deg) : Json(nullptr)},
+          {"sector_deg", rosette.sector_deg}};
+}
+
+Json steps_json(const AnalysisPlan& steps) {
+  Json json = Json::array();
+  for (const PlanStep& step : steps) json.push_back({{"step", step.step}, {"run", step.run}, {"reason", step.reason}});
+  return json;
+}
+
+void add_order(Json& json, const OrderSurvey& order) {
+  const TextureClass& c = order.kind;
+  const OrientationField& field = order.orientation;
+  const Suitability& s = order.suitability;
+  json["class"] = {{"name", to_string(c.kind)},
+                   {"disordered", c.disordered},
+                   {"weakly_ordered", c.weakly_ordered},
+                   {"strongly_ordered", c.strongly_ordered}};
+  json["orientation"] = {{"columns", field.columns},
+                         {"rows", field.rows},
+                         {"angle_deg", field.angle_deg},
+                         {"coherence", field.coherence},
+                         {"mean_coherence", field.mean_coherence},
+                         {"spread", field.spread}};
+  json["suitability"] = {{"homogeneous", s.homogeneous},
+                         {"directional", s.directional},
+                         {"symmetric", s.symmetric},
+                         {"monochrome", order.monochrome}};
+  json["plan"] = steps_json(order.plan);
+}
+
+Json pieces_json(const TextureSurvey& survey) {
+  if (!survey.pieces) return nullptr;
+  const auto& [columns, rows, lattice] = *survey.pieces;
+  return {{"columns", columns},
+          {"rows", rows},
+          {"symmetry_px", {survey.middle.width, survey.middle.height}},
+          {"lattice", {{"same", lattice.same}, {"other", lattice.other}, {"none", lattice.none}}}};
+}
+
+/// The direction to the light; null for heights without one.
+Json light_json(const HeightResult& result, Vec3 light) {
+  return result.method != HeightMethod::intensity ? Json{light.x, light.y, light.z} : Json(nullptr);
+}
+
+Json alternative_json(const HeightFiles& files) {
+  if (files.opposite.empty()) return nullptr;
+  const Vec3 light = files.result.light;
+  return {{"file", files.opposite},
+          {"light", light_json(files.result, {-light.x, -light.y, light.z})},
+          {"reason", files.result.method != HeightMethod::intensity
+                         ? "light from the opposite azimuth on the inverted relief gives the same picture"
+                         : "nothing in the picture says whether bright is high"}};
+}
+
+Json numbers_json(const PictureNumbers& n) {
+  return {{"size", {n.width, n.height}},
+          {"mean", n.mean},
+          {"contrast", n.contrast},
+          {"gradient", n.gradient},
+          {"contrast_ratio", n.contrast_ratio},
+          {"knots", n.knots},
+          {"seam_x", n.tiling.seam_x},
+          {"seam_y", n.tiling.seam_y},
+          {"tiles", n.tiling.tiles}};
+}
+
+}  // namespace
+
+Json survey_json(const std::string& image, const TextureSurvey& survey) {
+  Json json{{"image", image}, {"size", {survey.width, survey.height}}, {"bits", survey.bits}};
+  json["pieces"] = pieces_json(survey);
+  json["pitch_mm"] = positive_or_null(survey.pitch_mm);
+  if (survey.fractal) json["fractal"] = fractal_json(*survey.fractal);
+  if (survey.groups) {
+    json["symmetry"] = symmetry_json(survey);
+    if (survey.groups->strip) json["strip"] = strip_json(*survey.groups->strip);
+    if (survey.groups->rosette) json["rosette"] = rosette_json(*survey.groups->rosette);
+  }
+  if (survey.order) add_order(json, *survey.order);
+  for (const SurveyPicture& picture : survey.pictures)
+    if (picture.drawn) json["pictures"].push_back({{"name", picture.name}, {"file", picture.file}});
+  return json;
+}
+
+Json height_json(const HeightFiles& files) {
+  const HeightResult& result = files.result;
+  Json json{{"method", to_string(result.method)}, {"reason", result.reason}};
+  json["light"] = light_json(result, result.light);
+  json["light_estimated"] = result.light_estimated;
+  json["light_coherence"] = result.light_estimated ? Json(result.light_coherence) : Json(nullptr);
+  json["size"] = {result.map.width, result.map.height};
+  json["pitch_mm"] = positive_or_null(result.map.pitch_mm_x);
+  json["depth_mm"] = result.depth_mm;
+  json["rms_mm"] = result.rms_mm;
+  json["periodic"] = result.map.periodic;
+  json["roughness"] = {{"source", to_string(result.roughness)}, {"rms_mm", result.roughness_rms_mm}};
+  json["shortest_wavelength_mm"] = positive_or_null(result.shortest_wavelength_mm);
+  json["guessed_share"] = result.guessed_share;
+  json["tile"] = nullptr;
+  if (result.tile)
+    json["tile"] = {{"size", {result.tile->width, result.tile->height}},
+                    {"lattice_vectors", result.tile->combination},
+                    {"strain", result.tile->strain}};
+  json["measured"] = result.measured;
+  json["assumed"] = result.assumed;
+  json["stop"] = to_string(result.stop);
+  json["trace"] = trace_json(result.trace);
+  json["alternative"] = alternative_json(files);
+  for (const auto& [factor, file] : files.deeper) json["variants"].push_back({{"factor", factor}, {"file", file}});
+  for (const ReliefPicture& picture : files.pictures) {
+    if (!picture.drawn) continue;
+    Json entry{{"name", picture.name}, {"file", picture.file}};
+    if (picture.exaggeration) {
+      entry["exaggeration"] = *picture.exaggeration;
+      entry["scale_bar_mm"] = positive_or_null(picture.scale_bar_mm);
+    }
+    json["pictures"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json prepared_json(const std::string& image, const PreparedPicture& prepared) {
+  return {{"image", image},
+          {"before", numbers_json(prepared.before)},
+          {"after", numbers_json(prepared.after)},
+          {"pitch_mm", positive_or_null(prepared.image.pitch_mm)},
+          {"steps", steps_json(prepared.steps)},
+          {"warnings", prepared.warnings}};
+}
+
+Json synthesis_json(const std::string& what, const Synthesis& synthesis, const SynthesisOptions& options) {
+  const HeightMap& relief = synthesis.relief;
+  const auto [low, high] = std::minmax_element(relief.mm.begin(), relief.mm.end());
+  Json json{{"what", what}, {"method", synthesis.method}, {"size", {relief.width, relief.height}}};
+  json["pitch_mm"] = relief.pitch_mm_x;
+  json["range"] = {*low, *high};
+  json["periodic"] = relief.periodic;
+  json["seed"] = options.seed;
+  if (synthesis.hurst) json["hurst"] = *synthesis.hurst;
+  if (synthesis.like)
+    json["like"] = {{"image", options.like.string()},
+                    {"target", signature_json(synthesis.like->target)},
+                    {"achieved", signature_json(synthesis.like->achieved)},
+                    {"hurst", synthesis.like->hurst},
+                    {"hurst_across", synthesis.like->hurst_across}};
+  return json;
+}
+
+Json texture_json(const TextureFiles& files) {
+  const ProceduralTexture& texture = *files.texture;
+  Json json{{"recipe", files.recipe}, {"size", {files.width, files.height}}, {"channels", Json::array()}};
+  for (const ChannelFile& channel : files.channels) {
+    Json entry{{"name", to_string(channel.channel)},
+               {"file", channel.file},
+               {"min", channel.low},
+               {"max", channel.high},
+               {"mean", channel.mean}};
+    if (channel.time) entry["time"] = *channel.time;
+    json["channels"].push_back(std::move(entry));
+  }
+  if (!files.normal_maps.empty()) json["normal_maps"] = files.normal_maps;
+  json["uses"] = texture.recipes_used();
+  json["depends_on"] = {{"time", texture.depends_on_time()},
+                        {"normal", texture.depends_on_normal()},
+                        {"position", texture.depends_on_position()},
+                        {"sky", texture.depends_on_sky()},
+                        {"neighbours", texture.depends_on_neighbours()}};
+  json["seconds"] = files.seconds;
+  if (!files.video.empty()) json["video"] = files.video;
+  return json;
+}
+
+Json sheet_json(const ContactSheet& sheet) {
+  Json json{{"sheet", "sheet.png"}, {"page", "sheet.html"}, {"columns", sheet.columns}, {"entries", Json::array()}};
+  for (const SheetEntry& e : sheet.entries)
+    json["entries"].push_back({{"name", e.name},
+                               {"recipe", e.recipe},
+                               {"uses", e.uses},
+                               {"min", e.low},
+                               {"max", e.high},
+                               {"mean", e.mean},
+                               {"seam", e.seam},
+                               {"error", e.error}});
+  return json;
+}
+
+}  // namespace papilla::app

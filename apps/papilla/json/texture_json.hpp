@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "json/json.hpp"
+#include "papilla/pipeline/contact_sheet.hpp"
+#include "papilla/pipeline/height_file.hpp"
+#include "papilla/pipeline/synthesis.hpp"
+#include "papilla/pipeline/texture_files.hpp"
+#include "papilla/pipeline/texture_survey.hpp"
+#include "papilla/texture/prepare.hpp"
+
+namespace papilla::app {
+
+// Results on textures under the key names of docs/files.md.
+
+/// Of `analyze`, `height`, `prepare`, `synthesize`, `texture` and `texture --sheet`.
+Json survey_json(const std::string& image, const TextureSurvey& survey);
+Json height_json(const HeightFiles& files);
+Json prepared_json(const std::string& image, const PreparedPicture& prepared);
+Json synthesis_json(const std::string& what, const Synthesis& synthesis, const SynthesisOptions& options);
+Json texture_json(const TextureFiles& files);
+Json sheet_json(const ContactSheet& sheet);
+
+}  // namespace papilla::app

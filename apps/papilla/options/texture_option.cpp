@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/texture_option.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "exit_code.hpp"
+#include "options/vector_option.hpp"
+
+namespace papilla::app {
+namespace {
+
+std::vector<Channel> channels_named(const std::string& list) {
+  std::vector<Channel> channels;
+  if (list == "all") {
+    for (int c = 0; c < k_channels; ++c) channels.push_back(static_cast<Channel>(c));
+    return channels;
+  }
+  for (std::size_t start = 0; start <= list.size();) {
+    const std::size_t end = std::min(list.find(',', start), list.size());
+    channels.push_back(channel_named(list.substr(start, end - start)));
+    start = end + 1;
+  }
+  return channels;
+}
+
+}  // namespace
+
+void HeightOption::add_to(CLI::App& verb) {
+  verb.add_option("--normal", normal_, "Write the glTF normal map of the relief too")->type_name("FILE");
+  verb.add_option("--pitch", options_.height.pitch_mm, "Millimetres per pixel; default from the file's resolution")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--depth", options_.height.depth_mm, "Peak to valley")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--method", method_, "How grey becomes height")
+      ->check(CLI::IsMember({"auto", "variational", "pentland", "tsai-shah", "intensity"}))
+      ->capture_default_str();
+  verb.add_option("--light", light_, "Direction to the light: x right, y down, z to the viewer")
+      ->type_name("auto|X,Y,Z")
+      ->capture_default_str();
+  verb.add_option("--periodic", periodic_, "Whether the height shall tile; auto looks whether the picture does")
+      ->check(CLI::IsMember({"auto", "yes", "no"}))
+      ->capture_default_str();
+  verb.add_option("--roughness", roughness_,
+                  "With a lattice: relief and roughness as one (whole), or the relief of the symmetric part with no "
+                  "roughness, the residual, or a synthesized surface like it")
+      ->check(CLI::IsMember({"whole", "none", "residual", "synthesized"}))
+      ->capture_default_str();
+  verb.add_option("--cut", cut_, "Leave out shorter waves; auto: two ticks of the device at --speed")
+      ->type_name("auto|none|MM")
+      ->capture_default_str();
+  verb.add_option("--rate", rate_hz_, "Of the device, for --cut auto")
+      ->type_name("HZ")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--speed", speed_mm_per_s_, "Of the hand, for --cut auto")
+      ->type_name("MM/S")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_flag("--tile", options_.height.tile,
+                "One tile of the lattice, exactly periodic whatever its angle; its roughness is synthesized");
+  verb.add_flag("--alternative", options_.opposite,
+                "Write the relief that the opposite light would make of the same picture too");
+  verb.add_flag("--variants", options_.deeper, "Write the relief twice and four times as deep too");
+  verb.add_option("--pictures", pictures_, "Write the lit relief, its opposite and the cross-section into DIR")
+      ->type_name("DIR");
+}
+
+double HeightOption::cut_mm() const {
+  if (cut_ == "none") return 0;
+  if (cut_ == "auto") return shortest_playable_wavelength_mm(speed_mm_per_s_, rate_hz_);
+  double value = 0;
+  const char* end = cut_.data() + cut_.size();
+  const auto parsed = std::from_chars(cut_.data(), end, value);
+  if (parsed.ec != std::errc() || parsed.ptr != end || !(value > 0) || !std::isfinite(value))
+    throw UsageError("--cut " + cut_ + " is not auto, none or a positive number of millimetres");
+  return value;
+}
+
+HeightFileOptions HeightOption::options(std::uint64_t seed, const ProgressCallback& progress) const {
+  HeightFileOptions options = options_;
+  options.height.method = height_method(method_);
+  if (light_ != "auto") options.height.light = parse_vector("--light", light_);
+  if (periodic_ != "auto") options.height.periodic = periodic_ == "yes";
+  options.height.roughness = height_roughness(roughness_);
+  options.height.shortest_wavelength_mm = cut_mm();
+  options.height.seed = seed;
+  options.height.progress = progress;
+  options.normal_map = normal_;
+  options.pictures = pictures_;
+  return options;
+}
+
+void TextureOption::add_to(CLI::App& verb) {
+  verb.add_option("recipe", recipe, "Recipe: type|parameter=value|..., or the name of one")->type_name("RECIPE");
+  verb.add_option("-o,--output", output, "Folder of the pictures")->type_name("DIR");
+  verb.add_option("--size", size_, "Texels a side, or width and height")
+      ->expected(1, 2)
+      ->delimiter('x')
+      ->check(CLI::Range(1, 65536))
+      ->type_name("N[xN]");
+  verb.add_option("--channels", channels_, "Channels separated by commas, or all")
+      ->type_name("LIST")
+      ->capture_default_str();
+  verb.add_option("--bits", files.bits, "8 or 16 (PNG), 32 (EXR); colours have 8")
+      ->check(CLI::IsMember({8, 16, 32}))
+      ->capture_default_str();
+  verb.add_flag("--normalize", files.normalize, "Stretch every channel to its full range");
+  verb.add_flag("--normal", files.normal_map, "Write the glTF normal map of the height too");
+  verb.add_option("--size-mm", files.size_mm, "Side of the picture, for the normal map")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM")
+      ->capture_default_str();
+  verb.add_option("--depth-mm", files.depth_mm, "Height of 1, for the normal map")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM")
+      ->capture_default_str();
+  verb.add_option("--time", files.time, "0 new to 1 worn")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("T")
+      ->capture_default_str();
+  CLI::Option* steps = verb.add_option("--steps", files.steps, "A series of pictures from time 0 to 1")
+                           ->check(CLI::Range(1, 9999))
+                           ->type_name("N");
+  verb.add_flag("--video", files.video, "The series as an animated GIF, lit, too")->needs(steps);
+  verb.add_flag("--seamless", files.seamless, "The pictures tile");
+  verb.add_option("--library", libraries, "Files of named recipes, on top of the built-in ones")->type_name("FILE");
+  verb.add_option("--sheet", sheet, "A contact sheet: of all types, or of the library")
+      ->check(CLI::IsMember({"types", "library"}));
+  verb.add_option("--tile", tile_px, "Texels a side of a picture on the sheet")
+      ->check(CLI::Range(8, 1024))
+      ->type_name("N")
+      ->capture_default_str();
+  verb.add_option("--list", list,
+                  "Print types, functions, recipes, categories of recipes, reference, or the parameters of a type")
+      ->type_name("WHAT")
+      ->expected(0, 1)
+      ->default_str("types");
+  verb.add_option("--suggest", suggest, "Print recipes that suit a material of this name")->type_name("NAME");
+  verb.add_option("--mutate", files.mutation, "Change the recipe's numbers by up to this share; --seed chooses")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE");
+}
+
+TextureFileOptions TextureOption::options(std::uint64_t seed, const ProgressCallback& progress) const {
+  TextureFileOptions options = files;
+  options.width = size_[0], options.height = size_.size() > 1 ? size_[1] : size_[0];
+  options.channels = channels_named(channels_);
+  options.seed = seed;
+  options.progress = progress;
+  return options;
+}
+
+}  // namespace papilla::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "papilla/pipeline/height_file.hpp"
+#include "papilla/pipeline/texture_files.hpp"
+
+namespace papilla::app {
+
+/// Options of `height`, in the order of its help.
+class HeightOption {
+ public:
+  void add_to(CLI::App& verb);
+  /// @throws UsageError for --light and --cut that are neither a word of theirs nor numbers.
+  HeightFileOptions options(std::uint64_t seed, const ProgressCallback& progress) const;
+
+ private:
+  double cut_mm() const;
+
+  HeightFileOptions options_;
+  std::string normal_, pictures_;
+  std::string method_ = "auto", light_ = "auto", periodic_ = "auto", roughness_ = "whole", cut_ = "none";
+  double rate_hz_ = 1000, speed_mm_per_s_ = 100;
+};
+
+/// Options of `texture`, in the order of its help: pictures of a recipe, or a contact sheet, or a list.
+class TextureOption {
+ public:
+  std::string recipe, output, list, sheet, suggest;
+  std::vector<std::string> libraries;
+  int tile_px = 128;
+  TextureFileOptions files;  ///< Without size and channels: see options().
+
+  void add_to(CLI::App& verb);
+  /// @throws InvalidInput for a channel that there is not.
+  TextureFileOptions options(std::uint64_t seed, const ProgressCallback& progress) const;
+
+ private:
+  std::string channels_ = "color,bump";
+  std::vector<int> size_{512};
+};
+
+}  // namespace papilla::app

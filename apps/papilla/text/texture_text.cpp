@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "text/texture_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace papilla::app {
+namespace {
+
+/// A text that grows by formatted pieces.
+class Lines {
+ public:
+  template <class... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void add_readings(Lines& lines, const FractalReadings& readings) {
+  for (const auto& [name, least_side, estimate] : named_readings(readings)) {
+    if (estimate)
+      lines.add("fractal    {:<12} D = {:.3f}  [{:.3f}, {:.3f}]\n", name, estimate->dimension, estimate->low,
+                estimate->high);
+    else
+      lines.add("fractal    {:<12} needs {} pixels a side\n", name, least_side);
+  }
+}
+
+void add_groups(Lines& lines, const TextureSurvey& survey) {
+  const SymmetryAnalysis& analysis = *survey.symmetry;
+  const Lattice& lattice = analysis.lattice;
+  if (const auto& group = survey.groups->plane) {
+    const auto& [a, b] = lattice.vectors_px;
+    lines.add("symmetry   group {}: averaging over its {} operations keeps {:.1f} % of the cell\n",
+              to_string(group->group), group->order, 100 * group->kept);
+    lines.add("symmetry   lattice ({:.2f}, {:.2f}), ({:.2f}, {:.2f}) pixels, significance {:.2f}, explains {:.0f} %\n",
+              a.x, a.y, b.x, b.y, lattice.significance, 100 * analysis.explained_variance());
+  } else {
+    lines.add("symmetry   no lattice: {} (significance {:.2f})\n", lattice.reason, lattice.significance);
+  }
+  if (const auto& strip = survey.groups->strip)
+    lines.add("strip      {}: {}\n", strip->found ? to_string(strip->group) : "no group", strip->reason);
+  if (const auto& rosette = survey.groups->rosette)
+    lines.add("rosette    {} about ({:.1f}, {:.1f}), keeps {:.1f} %\n", rosette->name(), rosette->centre_px.x,
+              rosette->centre_px.y, 100 * rosette->kept);
+}
+
+void add_order(Lines& lines, const OrderSurvey& order) {
+  const TextureClass& c = order.kind;
+  lines.add("class      {}: disordered {:.2f}, weakly ordered {:.2f}, strongly ordered {:.2f}\n", to_string(c.kind),
+            c.disordered, c.weakly_ordered, c.strongly_ordered);
+  for (const PlanStep& step : order.plan)
+    lines.add("plan       {:<4} {:<20} {}\n", step.run ? "run" : "skip", step.step, step.reason);
+}
+
+void add_written(Lines& lines, const std::string& file, bool drawn) {
+  if (drawn)
+    lines.add("written    {}\n", file);
+  else
+    lines.add("not drawn  {}: gnuplot is not installed\n", file);
+}
+
+void add_numbers(Lines& lines, const char* when, const PictureNumbers& n) {
+  lines.add(
+      "{:<10} {} x {}, contrast {:.3f}, gradient {:.2f}, contrast ratio {:.2f}, knots {}, seams {:.2f} / {:.2f}, {}\n",
+      when, n.width, n.height, n.contrast, n.gradient, n.contrast_ratio, n.knots, n.tiling.seam_x, n.tiling.seam_y,
+      n.tiling.tiles ? "tiles" : "does not tile");
+}
+
+}  // namespace
+
+std::string survey_text(const std::string& image, const TextureSurvey& survey) {
+  Lines lines;
+  lines.add("{}: {} x {} pixels, {} bit, pitch {}\n", image, survey.width, survey.height, survey.bits,
+            survey.pitch_mm > 0 ? fmt::format("{:.4f} mm", survey.pitch_mm)
+                                : "unknown (no resolution in the file, no --pitch)");
+  if (survey.pieces) {
+    const auto& [columns, rows, lattice] = *survey.pieces;
+    lines.add("pieces     {} x {}; symmetry from the middle {} x {} pixels\n", columns, rows, survey.middle.width,
+              survey.middle.height);
+    if (survey.symmetry)
+      lines.add("pieces     lattice as in the middle {}, another {}, none {}\n", lattice.same, lattice.other,
+                lattice.none);
+  }
+  if (survey.fractal) add_readings(lines, *survey.fractal);
+  if (survey.groups) add_groups(lines, survey);
+  if (survey.order) add_order(lines, *survey.order);
+  for (const SurveyPicture& picture : survey.pictures) {
+    add_written(lines, picture.file, picture.drawn);
+    if (picture.name == "symmetry")
+      lines.add(
+          "           from the left: picture with lattice, feature matrix with minima, primitive, synthesis, rest\n");
+  }
+  return lines.take();
+}
+
+std::string height_text(const std::string& image, const std::string& output, const HeightFiles& files) {
+  const HeightResult& result = files.result;
+  Lines lines;
+  lines.add("{}: {} ({})\n", image, to_string(result.method), result.reason);
+  if (result.light_estimated)
+    lines.add("light      {:.2f}, {:.2f}, {:.2f}: azimuth estimated (coherence {:.2f}), elevation assumed\n",
+              result.light.x, result.light.y, result.light.z, result.light_coherence);
+  lines.add("relief     {} x {} samples, depth {:.3f} mm, rms {:.4f} mm, {}\n", result.map.width, result.map.height,
+            result.depth_mm, result.rms_mm, result.map.periodic ? "tiles" : "does not tile");
+  if (result.map.pitch_mm_x > 0)
+    lines.add("pitch      {:.4f} mm a pixel\n", result.map.pitch_mm_x);
+  else
+    lines.add("pitch      unknown: the file has no resolution, give --pitch\n");
+  if (result.tile) lines.add("tile       of the lattice, strain {:.2f} %\n", 100 * result.tile->strain);
+  if (!result.trace.empty())
+    lines.add("shading    residual {:.4f} after {} steps, {:.2f} s, {}\n", result.trace.back().error,
+              result.trace.size(), result.trace.back().seconds, to_string(result.stop));
+  if (result.roughness != HeightRoughness::whole)
+    lines.add("roughness  {}, rms {:.4f} mm\n", to_string(result.roughness), result.roughness_rms_mm);
+  if (result.guessed_share > 0)
+    lines.add("guessed    {:.0f} % of the slopes run across the light\n", 100 * result.guessed_share);
+  for (const std::string& what : result.measured) lines.add("measured   {}\n", what);
+  for (const std::string& what : result.assumed) lines.add("assumed    {}\n", what);
+  lines.add("written    {}\n", output);
+  if (!files.opposite.empty()) lines.add("written    {}: the same picture under the opposite light\n", files.opposite);
+  for (const DeeperRelief& deeper : files.deeper) lines.add("written    {}\n", deeper.file);
+  for (const ReliefPicture& picture : files.pictures)
+    if (picture.exaggeration)
+      lines.add("written    {}, heights times {:.3g}{}\n", picture.file, *picture.exaggeration,
+                picture.scale_bar_mm > 0 ? fmt::format(", the bar is {:g} mm", picture.scale_bar_mm) : "");
+    else
+      add_written(lines, picture.file, picture.drawn);
+  return lines.take();
+}
+
+std::string prepared_text(const std::string& output, const PreparedPicture& prepared) {
+  Lines lines;
+  add_numbers(lines, "before", prepared.before);
+  for (const PlanStep& step : prepared.steps)
+    lines.add("{:<10} {:<16} {}\n", step.run ? "run" : "skip", step.step, step.reason);
+  add_numbers(lines, "after", prepared.after);
+  for (const std::string& warning : prepared.warnings) lines.add("warning    {}\n", warning);
+  lines.add("written    {}\n", output);
+  return lines.take();
+}
+
+std::string synthesis_text(const std::string& what, const std::string& output, const std::string& relief,
+                           const Synthesis& synthesis, const SynthesisOptions& options) {
+  Lines lines;
+  if (!options.grain && options.tile && options.method == FractalSynthesis::exact)
+    lines.add("--tile takes the spectral method: exact surfaces do not tile\n");
+  if (const auto& like = synthesis.like)
+    lines.add("like       {}: Sta {:.3f} (wanted {:.3f}), Str {:.3f} (wanted {:.3f})\n", options.like.string(),
+              like->achieved.sta, like->target.sta, like->achieved.str, like->target.str);
+  const HeightMap& map = synthesis.relief;
+  const auto [low, high] = std::minmax_element(map.mm.begin(), map.mm.end());
+  lines.add("{} {}: {} x {} pixels of {:.4f} mm, heights {:.3f} to {:.3f} mm, {}\nwritten {}{}{}\n", what,
+            synthesis.method, map.width, map.height, map.pitch_mm_x, *low, *high,
+            map.periodic ? "tiles" : "does not tile", output, relief.empty() ? "" : " and ", relief);
+  return lines.take();
+}
+
+std::string texture_text(const TextureFiles& files) {
+  Lines lines;
+  for (const ChannelFile& channel : files.channels)
+    lines.add("{:<24} {:.4f} to {:.4f}, mean {:.4f}\n", channel.file, static_cast<double>(channel.low),
+              static_cast<double>(channel.high), channel.mean);
+  return lines.take();
+}
+
+}  // namespace papilla::app
