@@ -12,7 +12,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/meshing/sight_lines.hpp"
-#include "papilla/pipeline/pictures/relief.hpp"
+#include "pictures/relief.hpp"
 #include "papilla/pipeline/pictures/scene_render.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "placed_meshes.hpp"
@@ -98,7 +98,7 @@ std::optional<CloseUp> close_up_of(const BakedSurface& surface, const std::vecto
 }
 
 /// The largest surface of every grain, so near that three repeats fill the picture.
-void add_close_ups(const BakeResult& result, const std::vector<const BakedSurface*>& by_size, RenderOptions render,
+void add_close_ups(const BakeResult& result, const std::vector<const BakedSurface*>& by_size, SceneViewOptions render,
                    PictureFolder& pictures) {
   render.mode = RenderMode::material;
   render.width = render.height = 800;
@@ -120,7 +120,7 @@ std::vector<std::string> write_bake_pictures(const BakeResult& result, const std
                                         const ProgressCallback& progress) {
   const std::vector<const BakedSurface*> surfaces = largest_surfaces(result.surfaces);
   PictureFolder pictures(folder, 2 + surfaces.size() + 3 * result.grains.size(), progress);
-  RenderOptions render;
+  SceneViewOptions render;
   render.mm_per_uv = result.mm_per_uv;
   pictures.add("scene", render_scene(result.scene, render));
   render.mode = RenderMode::checker;

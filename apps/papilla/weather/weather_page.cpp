@@ -45,7 +45,7 @@ std::string row(const WeatheredMaterial& material) {
 }  // namespace
 
 ColorImage view_of(const Scene& scene) {
-  RenderOptions options;
+  SceneViewOptions options;
   options.width = 800, options.height = 600;
   return render_scene(scene, options);
 }
