@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Through a handle of its own: the other process' is gone.
+/// Opens the device again: the handle of the other process is gone.
 void switch_off(const HidInfo& info, const std::vector<HidReport>& reports) {
   const auto transport = open_hid(info);
   for (const HidReport& report : reports) transport->write(report);

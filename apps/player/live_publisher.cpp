@@ -14,10 +14,10 @@ namespace papilla::player {
 namespace {
 
 constexpr int k_backlog = 8;
-/// Bytes that wait for a listener, some twenty samples: who lags sees what is now, not what was seconds ago.
+/// Send buffer of a client, about twenty samples: a slow client skips samples instead of seeing old ones.
 constexpr int k_waiting_bytes = 8192;
 
-/// Sends what the connection takes at once and keeps the rest. False when it is closed.
+/// Sends without blocking and leaves the rest in `rest`. @returns false when the connection is closed.
 bool send_now(int connection, std::string& rest) {
   while (!rest.empty()) {
     const ssize_t sent = ::send(connection, rest.data(), rest.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -28,8 +28,8 @@ bool send_now(int connection, std::string& rest) {
   return true;
 }
 
-/// A socket left by a player that was killed is taken over; a file of another kind or a living player is not.
-void clear_the_way(const std::string& path) {
+/// Removes the socket of a player that was killed. @throws IoError for another kind of file and for a running player.
+void remove_stale_socket(const std::string& path) {
   struct stat about {};
   if (::lstat(path.c_str(), &about) != 0) return;
   if (!S_ISSOCK(about.st_mode)) throw IoError(path + ": is there and is no socket");
@@ -42,7 +42,7 @@ void clear_the_way(const std::string& path) {
 
 int listen_at(const std::string& path) {
   const sockaddr_un address = app::live_address(path);
-  clear_the_way(path);
+  remove_stale_socket(path);
   const int made = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const mode_t before = ::umask(0177);
   const bool bound = made >= 0 && ::bind(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
@@ -53,13 +53,13 @@ int listen_at(const std::string& path) {
   throw IoError(path + ": " + std::strerror(bound ? errno : why));
 }
 
-std::string numbers(Vec3 v) { return fmt::format("[{:.7g},{:.7g},{:.7g}]", v.x, v.y, v.z); }
+std::string vector_json(Vec3 v) { return fmt::format("[{:.7g},{:.7g},{:.7g}]", v.x, v.y, v.z); }
 
 }  // namespace
 
 std::string live_line(std::uint64_t tick, const RecordRow& row) {
-  // A device may report what is no number, and JSON has no word for it.
-  const auto vector = [](Vec3 v) { return is_finite(v) ? numbers(v) : std::string("null"); };
+  // JSON has no NaN.
+  const auto vector = [](Vec3 v) { return is_finite(v) ? vector_json(v) : std::string("null"); };
   return fmt::format(R"({{"tick":{},"t":{:.6g},"probe":{},"proxy":{},"force":{},"contact":{}}})", tick, row.t,
                      vector(row.probe), vector(row.proxy), vector(row.force), row.in_contact);
 }
@@ -72,7 +72,7 @@ LivePublisher::LivePublisher(std::string path, std::string greeting)
 LivePublisher::~LivePublisher() {
   thread_.request_stop();
   thread_.join();
-  for (Listener& listener : listeners_) ::close(listener.connection);
+  for (Client& client : clients_) ::close(client.connection);
   ::close(socket_);
   ::unlink(path_.c_str());
 }
@@ -97,18 +97,18 @@ void LivePublisher::accept_new() {
   const int connection = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (connection < 0) return;
   ::setsockopt(connection, SOL_SOCKET, SO_SNDBUF, &k_waiting_bytes, sizeof k_waiting_bytes);
-  Listener listener{connection, greeting_ + '\n'};
-  if (listeners_.size() < k_most_listeners && send_now(connection, listener.rest))
-    listeners_.push_back(std::move(listener));
+  Client client{connection, greeting_ + '\n'};
+  if (clients_.size() < k_most_clients && send_now(connection, client.rest))
+    clients_.push_back(std::move(client));
   else
     ::close(connection);
 }
 
 void LivePublisher::publish(const std::string& text) {
-  std::erase_if(listeners_, [&](Listener& listener) {
-    if (listener.rest.empty()) listener.rest = text;
-    if (send_now(listener.connection, listener.rest)) return false;
-    ::close(listener.connection);
+  std::erase_if(clients_, [&](Client& client) {
+    if (client.rest.empty()) client.rest = text;
+    if (send_now(client.connection, client.rest)) return false;
+    ::close(client.connection);
     return true;
   });
 }

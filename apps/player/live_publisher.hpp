@@ -10,46 +10,46 @@
 
 namespace papilla::player {
 
-/// Tells whoever connects to a local socket where probe and proxy are and what force acts, k_live_hz times a second,
-/// one JSON object a line (docs/live.md), from a thread of its own: the loop only stores into a slot.
+/// Sends probe, proxy and force to every client of a local socket, k_live_hz times a second, one JSON object a line
+/// (docs/live.md). It runs in its own thread; the loop only stores into a slot.
 ///
-/// A listener that does not read fast enough misses samples; it never holds up the others or the loop. The socket is
-/// the user's alone (mode 0600) and is removed at the end.
+/// A client that reads too slowly misses samples and never blocks the others or the loop. The socket has mode 0600 and
+/// is removed at the end.
 class LivePublisher {
  public:
   static constexpr int k_live_hz = 60;
-  static constexpr std::size_t k_most_listeners = 64;
+  static constexpr std::size_t k_most_clients = 64;
 
-  /// @param greeting the first line that every listener gets, without line end.
-  /// @throws IoError when the socket can't be made, or another player listens there; InvalidInput as live_address().
+  /// @param greeting first line for every client, without line end.
+  /// @throws IoError when the socket can't be created or another player uses it; InvalidInput as live_address().
   LivePublisher(std::string path, std::string greeting);
   ~LivePublisher();
   LivePublisher(const LivePublisher&) = delete;
   LivePublisher& operator=(const LivePublisher&) = delete;
 
-  /// The loop's sink; see LoopOptions::latest.
+  /// For LoopOptions::latest.
   LatestSlot<RecordRow>& slot() noexcept { return slot_; }
 
  private:
-  /// A connection and what it has not yet taken of the line that it is being sent.
-  struct Listener {
+  /// A connection and the unsent rest of its current line.
+  struct Client {
     int connection = -1;
     std::string rest;
   };
 
   void serve(const std::stop_token& end);
   void accept_new();
-  /// Sends what is left of older lines, and the text to those who have taken all of them.
+  /// Sends the rest of older lines, and `text` to clients without one.
   void publish(const std::string& text);
 
   std::string path_, greeting_;
   int socket_ = -1;
-  std::vector<Listener> listeners_;
+  std::vector<Client> clients_;
   LatestSlot<RecordRow> slot_;
   std::jthread thread_;
 };
 
-/// One sample as a line, without line end.
+/// A sample as one line of JSON, without line end.
 std::string live_line(std::uint64_t tick, const RecordRow& row);
 
 }  // namespace papilla::player

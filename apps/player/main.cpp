@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "device_choice.hpp"
 #include "exit_code.hpp"
-#include "file_watch.hpp"
 #include "live_publisher.hpp"
 #include "live_socket.hpp"
-#include "live_view.hpp"
 #include "number_check.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
@@ -47,14 +55,13 @@ struct Options {
 
 constexpr double k_default_seconds = 2;
 constexpr double k_longest_seconds = 1e6;
-constexpr double k_longest_way_m = 1000;    // Of a motion of our own: it is computed before the first tick.
-constexpr double k_default_reach_m = 0.15;  // A little more than any workspace's radius.
-constexpr double k_clearance_m = 0.01;      // Of a real device's middle from the surface.
+constexpr double k_longest_way_m = 1000;    // Of a synthetic motion, which is computed before the first tick.
+constexpr double k_default_reach_m = 0.15;  // More than the radius of every workspace.
+constexpr double k_clearance_m = 0.01;      // Default distance of a workspace's centre from the surface.
 
 const std::map<std::string, Motion> k_motions = {
     {"stroke", Motion::stroke}, {"circle", Motion::circle}, {"slide", Motion::slide}, {"tap", Motion::tap}};
 
-/// What can be reached and carried of the scene.
 HapticSceneOptions scene_options(const Options& options, const DeviceChoice& choice) {
   HapticSceneOptions scene;
   scene.probe_radius_m = 1e-3 * options.probe_radius_mm;
@@ -73,7 +80,7 @@ HapticSceneOptions scene_options(const Options& options, const DeviceChoice& cho
   return scene;
 }
 
-Trajectory hand_of(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
+Trajectory make_hand(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
   if (!options.trajectory.empty()) return parse_trajectory(read_file(options.trajectory), options.trajectory);
   const LargestMaterial largest = largest_material(scene);
   StrokeOptions stroke;
@@ -88,8 +95,8 @@ Trajectory hand_of(const Options& options, const HapticScene& scene, const Conta
   return press_and_stroke(surface, largest.material, largest.centre, stroke);
 }
 
-/// Where the middle of a real device's workspace lies: given, or a little in front of the largest tagged surface.
-Vec3 origin_of(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
+/// Centre of a real device's workspace: --origin, or k_clearance_m in front of the largest tagged surface.
+Vec3 workspace_origin(const Options& options, const HapticScene& scene, const ContactSurface& surface) {
   if (!options.origin.empty()) return {options.origin[0], options.origin[1], options.origin[2]};
   const LargestMaterial largest = largest_material(scene);
   const double everywhere = norm(largest.centre - surface.low()) + norm(surface.high() - surface.low());
@@ -98,18 +105,18 @@ Vec3 origin_of(const Options& options, const HapticScene& scene, const ContactSu
   return nearest->point + (k_clearance_m + nearest->height_m + surface.probe_radius_m()) * nearest->face_normal;
 }
 
-std::uint64_t ticks_of(const Options& options, const std::optional<Trajectory>& hand) {
+std::uint64_t tick_count(const Options& options, const std::optional<Trajectory>& hand) {
   double seconds = options.seconds;
   const bool of_file = !options.trajectory.empty() && hand;
   if (!(seconds > 0))
     seconds = of_file ? hand->end_s() - hand->start_s() : hand ? k_default_seconds : k_longest_seconds;
   if (!(seconds <= k_longest_seconds)) throw InvalidInput("the run would last longer than a million seconds");
-  // The recording of n ticks ends at tick n − 1: the same number when it is played again.
+  // A recording of n ticks ends at tick n − 1, and is replayed with n ticks.
   return static_cast<std::uint64_t>(std::llround(seconds * options.rate_hz)) +
          (options.seconds > 0 || !of_file ? 0 : 1);
 }
 
-/// The first line that listeners get.
+/// The first line of the --live protocol.
 std::string live_greeting(const RunReport& report, const Options& options) {
   const nlohmann::ordered_json greeting = {{"papilla_live", 1},
                                            {"file", std::filesystem::absolute(options.file).string()},
@@ -118,8 +125,8 @@ std::string live_greeting(const RunReport& report, const Options& options) {
   return greeting.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-/// What is written may be neither what is read nor written twice.
-void refuse_same_files(const Options& options) {
+/// Outputs must differ from the inputs and from each other.
+void check_output_paths(const Options& options) {
   const auto canonical = [](const std::string& file) {
     std::error_code ignored;
     return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
@@ -134,8 +141,43 @@ void refuse_same_files(const Options& options) {
     throw app::UsageError(options.json + ": named by --record and by --json");
 }
 
+/// Identity and state of a file.
+struct FileStamp {
+  dev_t device = 0;
+  ino_t inode = 0;
+  off_t bytes = -1;  ///< −1: there is none.
+  std::int64_t changed_ns = 0;
+  friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+
+FileStamp stamp_of(const std::filesystem::path& path) noexcept {
+  struct stat s {};
+  if (::stat(path.c_str(), &s) != 0) return {};
+  return {s.st_dev, s.st_ino, s.st_size, std::int64_t{1000000000} * s.st_mtim.tv_sec + s.st_mtim.tv_nsec};
+}
+
+/// A thread that calls `action` every `period` until it returns false or the object is destroyed.
+std::jthread repeat_every(std::chrono::milliseconds period, std::function<bool()> action) {
+  return std::jthread([period, action = std::move(action)](const std::stop_token& end) {
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex);
+    while (!wake.wait_for(lock, end, period, [&] { return end.stop_requested(); }) && action()) {
+    }
+  });
+}
+
+void print_status(const LoopStatus& s) {
+  fmt::print(
+      stderr,
+      "\r\033[K{} ticks, force {:.2f} N, contact on {}, lost on {}, late on {}, tick {:.1f} us, wake-up {:.0f} us",
+      s.ticks.load(), s.force_n.load(), s.contact_ticks.load(), s.lost_contact_ticks.load(), s.missed_deadlines.load(),
+      s.tick_us.load(), s.wakeup_us.load());
+  std::fflush(stderr);
+}
+
 int run(const Options& options) {
-  refuse_same_files(options);
+  check_output_paths(options);
   const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
   RunReport report;
@@ -157,8 +199,8 @@ int run(const Options& options) {
     }
   }();
   std::optional<Trajectory> hand;
-  if (choice.preset != nullptr) hand = hand_of(options, scene, surface);
-  const Vec3 origin = choice.preset != nullptr ? Vec3{} : origin_of(options, scene, surface);
+  if (choice.preset != nullptr) hand = make_hand(options, scene, surface);
+  const Vec3 origin = choice.preset != nullptr ? Vec3{} : workspace_origin(options, scene, surface);
   scene.mesh = {};
   report.load_seconds = clock.seconds();
   report.triangles = surface.triangles();
@@ -190,7 +232,7 @@ int run(const Options& options) {
   std::vector<RecordRow> rows;
   LoopOptions loop;
   loop.rate_hz = options.rate_hz;
-  loop.ticks = ticks_of(options, hand);
+  loop.ticks = tick_count(options, hand);
   loop.hand = hand ? &*hand : nullptr;
   loop.record = options.record.empty() ? nullptr : &rows;
   loop.stop = &g_stop;
@@ -198,18 +240,25 @@ int run(const Options& options) {
   loop.watchdog_s = 1e-3 * options.watchdog_ms;
   LoopStatus status;
   loop.status = &status;
-  bool file_changed = false;
+  std::atomic<bool> file_changed{false};
   {
-    const FileWatch watch(options.file, stamp, g_stop);
+    const auto watch = repeat_every(std::chrono::milliseconds(100), [&] {
+      if (stamp_of(options.file) == stamp) return true;
+      file_changed = g_stop = true;
+      return false;
+    });
     std::optional<LivePublisher> publisher;
     if (options.live) publisher.emplace(*options.live, live_greeting(report, options));
     if (publisher) loop.latest = &publisher->slot();
-    const std::optional<LiveView> view = options.quiet ? std::nullopt : std::optional<LiveView>(std::in_place, status);
+    std::optional<std::jthread> view;
+    const bool shown = !options.quiet && ::isatty(STDERR_FILENO) != 0;
+    if (shown) view = repeat_every(std::chrono::milliseconds(200), [&] { return print_status(status), true; });
     report.loop = run_haptic_loop(device, surface, loop);
-    file_changed = watch.changed();
+    view.reset();
+    if (shown) print_status(status), std::fputc('\n', stderr);
   }
 
-  std::exception_ptr unwritten;  // Told after the rest is.
+  std::exception_ptr unwritten;  // Rethrown after the other outputs are written.
   try {
     if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
   } catch (const Error&) {

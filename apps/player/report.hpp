@@ -11,7 +11,7 @@
 
 namespace papilla::player {
 
-/// Everything that a run yields.
+/// The result of a run.
 struct RunReport {
   std::string file, device;
   double rate_hz = 0, stiffness_limit = 0, load_seconds = 0;
@@ -26,7 +26,7 @@ struct RunReport {
 
 nlohmann::ordered_json to_json(const RunReport& report);
 
-/// A few lines for people.
+/// The result as text.
 std::string summary(const RunReport& report);
 
 }  // namespace papilla::player

@@ -12,8 +12,8 @@
 namespace papilla::player {
 namespace {
 
-/// True when the other process said farewell before its end of the pipe closed.
-bool heard_farewell(int pipe_end) {
+/// Whether the other process wrote the release byte before it closed the pipe.
+bool read_release(int pipe_end) {
   char byte = 0;
   ssize_t got = -1;
   do got = ::read(pipe_end, &byte, 1);
@@ -28,11 +28,11 @@ Sentinel::Sentinel(const std::function<void()>& switch_off) {
   if (::pipe2(ends, O_CLOEXEC) != 0) return;
   child_ = ::fork();
   if (child_ == 0) {
-    // What ends the player from a terminal reaches the whole group.
+    // Signals of the terminal reach the whole process group.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
     ::close(ends[1]);
     try {
-      if (!heard_farewell(ends[0])) switch_off();
+      if (!read_release(ends[0])) switch_off();
     } catch (...) {
       ::_exit(1);
     }
@@ -42,15 +42,15 @@ Sentinel::Sentinel(const std::function<void()>& switch_off) {
   if (child_ < 0)
     ::close(ends[1]);
   else
-    farewell_ = ends[1];
+    pipe_ = ends[1];
 }
 
 Sentinel::~Sentinel() {
   if (child_ <= 0) return;
   const char byte = 1;
-  while (::write(farewell_, &byte, 1) < 0 && errno == EINTR) {
+  while (::write(pipe_, &byte, 1) < 0 && errno == EINTR) {
   }
-  ::close(farewell_);
+  ::close(pipe_);
   while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }

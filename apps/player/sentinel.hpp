@@ -5,11 +5,10 @@
 
 namespace papilla::player {
 
-/// A second process that switches a device off when this one dies without doing so, even by SIGKILL. It holds one end
-/// of a pipe; when the other end closes without a farewell, it runs `switch_off` and ends.
+/// A second process that switches a device off when this one dies without doing so, even by SIGKILL. It reads from a
+/// pipe; when the other end closes without the release byte of the destructor, it runs `switch_off` and exits.
 ///
-/// Make it before threads and locked memory. Where no process can be forked there is no sentinel, and watched() says
-/// so.
+/// Construct it before threads and locked memory. watched() is false when no process could be forked.
 class Sentinel {
  public:
   explicit Sentinel(const std::function<void()>& switch_off);
@@ -20,7 +19,7 @@ class Sentinel {
   bool watched() const noexcept { return child_ > 0; }
 
  private:
-  int child_ = -1, farewell_ = -1;
+  int child_ = -1, pipe_ = -1;
 };
 
 }  // namespace papilla::player

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/bvh.hpp"
+#include "bvh.hpp"
 
 #include <numeric>
 
@@ -9,7 +9,7 @@ namespace papilla {
 namespace {
 
 constexpr int k_bins = 16;
-constexpr int k_sah_depth = 48;  // Halving from here on adds at most 31 levels: below the stack's 96.
+constexpr int k_sah_depth = 48;  // Halving below adds at most 31 levels, which fits a stack of 96.
 
 float centre(const Box3f& box, std::size_t axis) noexcept { return 0.5F * box.low[axis] + 0.5F * box.high[axis]; }
 
@@ -35,7 +35,7 @@ int bin_of(float c, float low, float scale) noexcept {
   return std::clamp(static_cast<int>((c - low) * scale), 0, k_bins - 1);
 }
 
-/// The cheapest of the 15 planes of one axis: area × count of both sides.
+/// The cheapest of the 15 planes of one axis by Σ area × count of both sides.
 void try_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items, const Box3f& centres,
               std::size_t axis, Split& best) {
   const float extent = centres.high[axis] - centres.low[axis];
@@ -64,7 +64,7 @@ void try_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items
 }
 
 /// Reorders `items` and returns how many belong to the first child.
-std::size_t divide(std::span<const Box3f> boxes, std::span<std::uint32_t> items, int depth) {
+std::size_t partition_items(std::span<const Box3f> boxes, std::span<std::uint32_t> items, int depth) {
   Box3f centres;
   for (const std::uint32_t item : items) {
     const std::array<float, 3> c = {centre(boxes[item], 0), centre(boxes[item], 1), centre(boxes[item], 2)};
@@ -108,7 +108,7 @@ Bvh::Bvh(std::span<const Box3f> boxes, std::uint32_t leaf_size) : order_(boxes.s
       nodes_[task.node].count = task.count;
       continue;
     }
-    const auto left = static_cast<std::uint32_t>(divide(boxes, items, task.depth));
+    const auto left = static_cast<std::uint32_t>(partition_items(boxes, items, task.depth));
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[task.node].first = child;
     nodes_.resize(nodes_.size() + 2);

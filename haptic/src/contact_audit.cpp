@@ -3,27 +3,27 @@
 
 namespace papilla {
 
-/// How often the proxy's way goes through triangles. Where the straight one is free, the turns don't matter.
-int ContactAudit::crossings(Vec3 to, std::span<const Vec3> turns) const noexcept {
+/// Crossings of the proxy's path with triangles; 0 when the straight segment is free.
+int ContactAudit::crossings(Vec3 to, std::span<const Vec3> waypoints) const noexcept {
   if (surface_->crossings(proxy_, to) == 0) return 0;
   int sum = 0;
   Vec3 from = proxy_;
-  for (const Vec3& turn : turns) {
-    sum += surface_->crossings(from, turn);
-    from = turn;
+  for (const Vec3& waypoint : waypoints) {
+    sum += surface_->crossings(from, waypoint);
+    from = waypoint;
   }
   return sum + surface_->crossings(from, to);
 }
 
-bool ContactAudit::lost(Vec3 probe, const ProxyState& state, std::span<const Vec3> turns) noexcept {
-  if (!ContactSurface::is_place(probe)) return false;
-  const int through = started_ ? crossings(state.proxy, turns) : 0;
+bool ContactAudit::update(Vec3 probe, const ProxyState& state, std::span<const Vec3> waypoints) noexcept {
+  if (!ContactSurface::is_valid_position(probe)) return false;
+  const int crossed = started_ ? crossings(state.proxy, waypoints) : 0;
   proxy_ = state.proxy;
   started_ = true;
-  if (through % 2 == 1) behind_ = !behind_;
-  if (through > 0) return true;
+  if (crossed % 2 == 1) inside_ = !inside_;
+  if (crossed > 0) return true;
   if (state.in_contact) return false;
-  if (behind_ || norm(probe - state.proxy) > surface_->tolerance_m()) return true;
+  if (inside_ || norm(probe - state.proxy) > surface_->tolerance_m()) return true;
 
   const double radius = surface_->probe_radius_m();
   const auto near = surface_->closest_point(probe, radius + surface_->tallest_relief_m());

@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
+#include "contact_triangles.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/haptic/contact_surface.hpp"
-#include "relief_base.hpp"
 
 namespace papilla {
 namespace {
 
-constexpr double k_skin_m = 2e-5;      // Closes gaps of 40 µm; a tenth of what a fingertip resolves as roughness edge.
-constexpr double k_skin_share = 1e-3;  // Of the extent, for scenes smaller than 20 mm.
+constexpr double k_skin_m = 2e-5;            // Closes gaps of 40 µm; a tenth of the edge that a fingertip resolves.
+constexpr double k_skin_share = 1e-3;        // Of the extent, for scenes smaller than 20 mm.
 constexpr double k_least_skin_share = 2e-6;  // Of the extent: thirty times the rounding of single precision.
 constexpr std::size_t k_most_materials = 32767;
+constexpr int k_shortenings = 8;  // Halvings of the offset before a vertex that inverts triangles keeps its place.
+constexpr double k_least_cosine = 0.3;  // A face that tilts by more than 72 degrees counts as inverted.
+constexpr double k_least_miter = 0.5;   // Sharp corners move at most twice the height.
 
-void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
-           const std::vector<HeightField>& heights, double radius) {
+/// The mesh moved inwards to the lowest height of each material's relief.
+struct ReliefBase {
+  std::vector<Vec3> corners;   ///< Three per triangle.
+  std::vector<double> shifts;  ///< Three per triangle: offset of the corner along its vertex normal, ≤ 0.
+};
+
+void check_input(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
+                 const std::vector<HeightField>& heights, double radius) {
   const auto fail = [](const std::string& what) { throw InvalidInput("ContactSurface: " + what); };
   const std::size_t n = mesh.triangles.size();
   if (!(radius >= 0) || !std::isfinite(radius)) fail("the probe radius " + std::to_string(radius) + " is not >= 0");
@@ -50,7 +59,7 @@ void check(const ContactMesh& mesh, const std::vector<ContactMaterial>& material
   }
 }
 
-/// A box of the float just below low − grow and just above high + grow.
+/// The box of three vertices grown by `grow`, rounded outwards to floats.
 Box3f box_of(const std::array<std::array<float, 3>, 3>& v, double grow) noexcept {
   Box3f box;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -62,10 +71,105 @@ Box3f box_of(const std::array<std::array<float, 3>, 3>& v, double grow) noexcept
   return box;
 }
 
+Vec3 face_normal(Vec3 a, Vec3 b, Vec3 c) { return normalized(cross(b - a, c - a)); }
+
+double angle_at(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 u = normalized(b - a), v = normalized(c - a);
+  return std::acos(std::clamp(dot(u, v), -1.0, 1.0));
+}
+
+/// For each vertex the index of its position, the same for vertices that coincide.
+std::vector<std::uint32_t> places_of(const std::vector<Vec3>& positions, std::size_t& count) {
+  std::vector<std::uint32_t> order(positions.size()), place(positions.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return positions[a] < positions[b]; });
+  count = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && !(positions[order[i]] == positions[order[i - 1]])) ++count;
+    place[order[i]] = static_cast<std::uint32_t>(count);
+  }
+  if (!order.empty()) ++count;
+  return place;
+}
+
+/// Vertices at the same position move together, by the lowest height of the materials that meet there, along the mean
+/// of their normals weighted by angle (corner normals where given, else face normals), lengthened at sharp edges so
+/// that faces move by the full height. The offset is shortened where a triangle would be inverted. Cost: a sort of the
+/// vertices.
+ReliefBase relief_base(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
+                       const std::vector<HeightField>& heights) {
+  const std::size_t n = mesh.triangles.size();
+  const auto corner = [&](std::size_t t, std::size_t k) { return mesh.positions[mesh.triangles[t][k]]; };
+  const auto lowest = [&](std::size_t t) {
+    const auto& height = materials[mesh.material.empty() ? 0 : mesh.material[t]].height;
+    return height ? std::min(0.0, heights[*height].min_m()) : 0.0;
+  };
+  ReliefBase base;
+  base.corners.resize(3 * n);
+  base.shifts.assign(3 * n, 0.0);
+  for (std::size_t t = 0; t < n; ++t)
+    for (std::size_t k = 0; k < 3; ++k) base.corners[3 * t + k] = corner(t, k);
+  bool moves = false;
+  for (std::size_t t = 0; t < n && !moves; ++t) moves = lowest(t) < 0;
+  if (!moves) return base;
+
+  std::size_t count = 0;
+  const std::vector<std::uint32_t> place = places_of(mesh.positions, count);
+  std::vector<Vec3> normal(count);
+  std::vector<double> shift(count, 0.0), cosines(count, 0.0), weights(count, 0.0);
+  for (std::size_t t = 0; t < n; ++t) {
+    const Vec3 face = face_normal(corner(t, 0), corner(t, 1), corner(t, 2));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t p = place[mesh.triangles[t][k]];
+      const double angle = angle_at(corner(t, k), corner(t, (k + 1) % 3), corner(t, (k + 2) % 3));
+      const Vec3 given = mesh.corner_normals.empty() ? face : mesh.corner_normals[3 * t + k];
+      normal[p] = normal[p] + angle * (is_finite(given) && dot(given, face) > 0 ? normalized(given) : face);
+      shift[p] = std::min(shift[p], lowest(t));
+    }
+  }
+  for (Vec3& v : normal) v = normalized(v);
+  for (std::size_t t = 0; t < n; ++t) {
+    const Vec3 face = face_normal(corner(t, 0), corner(t, 1), corner(t, 2));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t p = place[mesh.triangles[t][k]];
+      const double angle = angle_at(corner(t, k), corner(t, (k + 1) % 3), corner(t, (k + 2) % 3));
+      cosines[p] += angle * dot(face, normal[p]);
+      weights[p] += angle;
+    }
+  }
+  for (std::size_t p = 0; p < count; ++p)
+    if (weights[p] > 0) normal[p] = (1 / std::clamp(cosines[p] / weights[p], k_least_miter, 1.0)) * normal[p];
+
+  const auto moved = [&](std::size_t t, std::size_t k) {
+    const std::uint32_t p = place[mesh.triangles[t][k]];
+    return corner(t, k) + shift[p] * normal[p];
+  };
+  for (int round = 0; round <= k_shortenings; ++round) {
+    std::vector<std::uint32_t> inverted;
+    for (std::size_t t = 0; t < n; ++t) {
+      const Vec3 before = face_normal(corner(t, 0), corner(t, 1), corner(t, 2));
+      if (before == Vec3{} || dot(before, face_normal(moved(t, 0), moved(t, 1), moved(t, 2))) >= k_least_cosine)
+        continue;
+      for (const std::uint32_t v : mesh.triangles[t]) inverted.push_back(place[v]);
+    }
+    if (inverted.empty()) break;
+    std::sort(inverted.begin(), inverted.end());
+    inverted.erase(std::unique(inverted.begin(), inverted.end()), inverted.end());
+    for (const std::uint32_t p : inverted) shift[p] = round == k_shortenings ? 0 : 0.5 * shift[p];
+  }
+  for (std::size_t t = 0; t < n; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      base.corners[3 * t + k] = moved(t, k);
+      base.shifts[3 * t + k] = shift[place[mesh.triangles[t][k]]];
+    }
+  return base;
+}
+
 }  // namespace
 
-/// Those of the mesh where they are on the face's side, else the face's.
-std::array<ContactSurface::PackedNormal, 3> ContactSurface::corner_normals(const ContactMesh& mesh, std::size_t t) {
+/// The corner normals of the mesh; the face normal where one is not on the face's side.
+std::array<ContactTriangles::PackedNormal, 3> ContactTriangles::packed_corner_normals(const ContactMesh& mesh,
+                                                                                      std::size_t t) {
   const auto at = [&](std::size_t k) { return mesh.positions[mesh.triangles[t][k]]; };
   const Vec3 face = normalized(cross(at(1) - at(0), at(2) - at(0)));
   std::array<PackedNormal, 3> result;
@@ -76,10 +180,10 @@ std::array<ContactSurface::PackedNormal, 3> ContactSurface::corner_normals(const
   return result;
 }
 
-ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMaterial> materials,
-                               std::vector<HeightField> heights, double probe_radius_m)
+ContactTriangles::ContactTriangles(const ContactMesh& mesh, std::vector<ContactMaterial> materials,
+                                   std::vector<HeightField> heights, double probe_radius_m)
     : materials_(std::move(materials)), heights_(std::move(heights)), radius_(probe_radius_m) {
-  check(mesh, materials_, heights_, radius_);
+  check_input(mesh, materials_, heights_, radius_);
   const ReliefBase base = relief_base(mesh, materials_, heights_);
 
   const std::size_t n = mesh.triangles.size();
@@ -146,7 +250,7 @@ ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMater
     const std::uint32_t t = kept[item];
     material_.push_back(static_cast<std::uint16_t>(material_of(t) | (has_relief(t) ? k_relief_bit : 0U)));
     source_.push_back(t);
-    if (any_shading) normals_.push_back(corner_normals(mesh, t));
+    if (any_shading) normals_.push_back(packed_corner_normals(mesh, t));
   }
 }
 

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "contact_triangle.hpp"
+#include "contact_triangles.hpp"
 
 namespace papilla {
 namespace {
 
-constexpr double k_above = 1 - 1e-6;  // Cosine of less than 1.5 mrad off a triangle's normal.
-constexpr double k_level = 1e-6;      // Square of a slope that moves the nearest point by a thousandth of the skin.
+constexpr double k_above = 1 - 1e-6;  // Cosine of 1.4 mrad: closer to the normal counts as above the face.
+constexpr double k_level = 1e-6;      // Square of a slope below which the closest point moves by 1/1000 of the skin.
 
 }  // namespace
 
-/// The highest that the relief of a triangle can be above its base.
-double ContactSurface::top_of(std::uint32_t place) const noexcept {
+/// Upper bound of the relief of a triangle above its base.
+double ContactTriangles::relief_top(std::uint32_t place) const noexcept {
   if (!has_relief(place)) return 0;
   const auto& height = materials_[material_of(place)].height;
   const float lowest = std::min({relief(place, 0).shift, relief(place, 1).shift, relief(place, 2).shift});
   return std::max(0.0, (height ? heights_[*height].max_m() : 0.0) - static_cast<double>(lowest));
 }
 
-ContactSurface::Face ContactSurface::face(std::uint32_t place) const noexcept {
+ContactTriangles::Face ContactTriangles::face(std::uint32_t place) const noexcept {
   Face face;
   face.t = corners(place);
   face.ab = face.t.b - face.t.a;
@@ -44,12 +44,11 @@ ContactSurface::Face ContactSurface::face(std::uint32_t place) const noexcept {
   face.shift = shift(0);
   face.shift_v = shift(1) - face.shift;
   face.shift_w = shift(2) - face.shift;
-  face.top = top_of(place);
+  face.top = relief_top(place);
   return face;
 }
 
-/// Height of the relief above the base at a foot, and its gradient within the triangle's plane.
-double ContactSurface::relief_at(const Face& face, const Foot& foot, Vec3* gradient) noexcept {
+double ContactTriangles::relief_height(const Face& face, const Foot& foot, Vec3* gradient) noexcept {
   HeightSample sample;
   if (face.height != nullptr) sample = face.height->sample(face.uv + foot.v * face.uv_v + foot.w * face.uv_w);
   const double height = sample.height_m - (face.shift + foot.v * face.shift_v + foot.w * face.shift_w);
@@ -61,22 +60,22 @@ double ContactSurface::relief_at(const Face& face, const Foot& foot, Vec3* gradi
   return height;
 }
 
-/// The relief with the skin on it along its normal, less the skin: how much farther than over the base a probe above
-/// the foot stands. Touched there is the point c + s·∇h/√(1 + |∇h|²) of a relief with a slope ∇h. By the height alone
-/// the nearest point of a curved relief would move by the slope times the skin.
-double ContactSurface::lift_at(const Face& face, const Foot& foot, Vec3* slope) const noexcept {
-  const double height = relief_at(face, foot, slope);
+/// Height of the relief with the skin on it along its normal, less the skin. Above the foot c it is touched at
+/// c + s·∇h/√(1 + |∇h|²), where ∇h is the slope of the relief; with the height at c alone the closest point of a curved
+/// relief would be off by the slope times the skin.
+double ContactTriangles::skinned_relief_height(const Face& face, const Foot& foot, Vec3* slope) const noexcept {
+  const double height = relief_height(face, foot, slope);
   const double steep = dot(*slope, *slope);
   if (!(steep > k_level)) return height;
   const Vec2 way = face.weights_of((skin_ / std::sqrt(1 + steep)) * *slope);
   Foot touched = foot;
   touched.v += way.x;
   touched.w += way.y;
-  const double there = relief_at(face, touched, slope);
+  const double there = relief_height(face, touched, slope);
   return std::max(0.0, there + skin_ / std::sqrt(1 + dot(*slope, *slope)) - skin_);
 }
 
-ContactSurface::Clearance ContactSurface::clearance_of(const Face& face, Vec3 x) const noexcept {
+ContactTriangles::Clearance ContactTriangles::clearance_of(const Face& face, Vec3 x) const noexcept {
   const Foot f = foot(face.t, x);
   Clearance result;
   result.d = x - f.point;
@@ -99,10 +98,10 @@ ContactSurface::Clearance ContactSurface::clearance_of(const Face& face, Vec3 x)
   }
   cosine = f.on == Foot::On::face ? 1 : std::min(1.0, cosine);
   Vec3 slope;
-  result.lift = lift_at(face, f, &slope);
+  result.lift = skinned_relief_height(face, f, &slope);
   result.value -= cosine * result.lift;
-  // Beside the triangle the foot moves along its edge only, or not at all. Right above the edge it moves both ways:
-  // there a neighbour goes on.
+  // For x outside the face's prism the foot moves along the edge only, or not at all. Right above the edge it moves in
+  // both directions, as a neighbour continues there.
   const bool above = f.on == Foot::On::face || cosine > k_above;
   if (f.on == Foot::On::edge && !above) slope = (dot(slope, f.edge) / dot(f.edge, f.edge)) * f.edge;
   if (f.on != Foot::On::corner || above) result.gradient = result.gradient - cosine * slope;

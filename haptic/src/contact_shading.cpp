@@ -2,20 +2,20 @@
 #include <algorithm>
 #include <array>
 
-#include "contact_triangle.hpp"
+#include "contact_triangles.hpp"
 
 namespace papilla {
 namespace {
 
-constexpr int k_most_faces = 16;
-constexpr int k_rounds = 64;
-constexpr double k_steps = 32767;  // From the middle of the square to its border.
+constexpr int k_most_faces = 16;   // Touched at once; more add nothing to a normal.
+constexpr int k_rounds = 64;       // Of coordinate descent.
+constexpr double k_steps = 32767;  // Half the side of the unfolded octahedron.
 
 double side_of(double v) noexcept { return v < 0 ? -1 : 1; }
 
 /// argmin |normal − Σ λ f|² with λ ≥ 0, by coordinate descent (Hildreth).
-void weigh(Vec3 normal, const std::array<Vec3, k_most_faces>& faces, int count,
-           std::array<double, k_most_faces>& weight) noexcept {
+void fit_weights(Vec3 normal, const std::array<Vec3, k_most_faces>& faces, int count,
+                 std::array<double, k_most_faces>& weight) noexcept {
   Vec3 left = normal;
   for (int round = 0; round < k_rounds; ++round)
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -27,7 +27,7 @@ void weigh(Vec3 normal, const std::array<Vec3, k_most_faces>& faces, int count,
 
 }  // namespace
 
-ContactSurface::PackedNormal ContactSurface::packed(Vec3 n) noexcept {
+ContactTriangles::PackedNormal ContactTriangles::packed(Vec3 n) noexcept {
   const double size = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
   if (!(size > 0)) return {};
   double u = n.x / size, v = n.y / size;
@@ -39,14 +39,14 @@ ContactSurface::PackedNormal ContactSurface::packed(Vec3 n) noexcept {
   return {static_cast<std::int16_t>(std::lround(k_steps * u)), static_cast<std::int16_t>(std::lround(k_steps * v))};
 }
 
-Vec3 ContactSurface::unpacked(PackedNormal n) noexcept {
+Vec3 ContactTriangles::unpacked(PackedNormal n) noexcept {
   Vec3 v{n[0] / k_steps, n[1] / k_steps, 0};
   v.z = 1 - std::abs(v.x) - std::abs(v.y);
   if (v.z < 0) v = {(1 - std::abs(v.y)) * side_of(v.x), (1 - std::abs(v.x)) * side_of(v.y), v.z};
   return normalized(v);
 }
 
-Vec3 ContactSurface::shaded_normal(Vec3 proxy, Vec3 normal) const noexcept {
+Vec3 ContactTriangles::shaded_normal(Vec3 proxy, Vec3 normal) const noexcept {
   if (normals_.empty()) return normal;
   const Vec3 x = proxy - origin_;
   std::array<Vec3, k_most_faces> faces, shades;
@@ -70,7 +70,7 @@ Vec3 ContactSurface::shaded_normal(Vec3 proxy, Vec3 normal) const noexcept {
   });
   if (plain || count == 0) return normal;
   std::array<double, k_most_faces> weight{};
-  weigh(normal, faces, count, weight);
+  fit_weights(normal, faces, count, weight);
   Vec3 sum;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sum = sum + weight[i] * shades[i];
   return norm(sum) > 0 ? normalized(sum) : normal;

@@ -2,92 +2,92 @@
 #include <algorithm>
 #include <bit>
 
-#include "contact_triangle.hpp"
+#include "contact_triangles.hpp"
 
 namespace papilla {
 namespace {
 
-// Of the tolerance. Coplanar neighbours touch later than the face by ε²/2r, ε the distance to the common edge: the
-// times must be finer than that, or the neighbour's tilted normal would be taken.
+// Accuracy of a contact, of the tolerance. A coplanar neighbour is touched later than the face by ε²/2r, ε the distance
+// to the common edge: contacts must be resolved finer, or the neighbour's tilted normal would be taken.
 constexpr double k_close = 1e-7;
-constexpr double k_beside = 0.25;  // Of the tolerance.
-constexpr double k_same_direction = 1 - 1e-9;
-constexpr double k_short_way = 16;  // Skins; and how much farther each piece of a long way leads than the one before.
-constexpr int k_newton_steps = 40;
-constexpr int k_march_steps = 512;
-constexpr double k_nearer = 0.5;
-constexpr int k_sink_steps = 24;
-constexpr double k_above_level = 1e-4;  // Of the tolerance.
+constexpr double k_crease = 0.25;              // Of the tolerance: distance within which a second face is a crease.
+constexpr double k_same_direction = 1 - 1e-9;  // Cosine of normals that count as equal.
+constexpr double k_short_way = 16;             // Skins; also the growth of the pieces of a long segment.
+constexpr int k_newton_steps = 40;             // Bound; convergence is quadratic.
+constexpr int k_march_steps = 512;             // Most steps over a relief, whatever the number of its texels.
+constexpr double k_nearer = 0.5;               // Of the rest of the segment: next share tried by stays_clear().
+constexpr int k_level_steps = 24;              // Bound of the regula falsi.
+constexpr double k_above_level = 1e-4;         // Of the tolerance: accuracy of the level.
 
 }  // namespace
 
-/// A place on a way.
-struct ContactSurface::Sunk {
+/// The clearance at a parameter of the segment.
+struct ContactTriangles::WaySample {
   double t;
   Clearance clearance;
 };
 
-/// The way of a probe, from + t·way up to t_max, and what it has met.
-struct ContactSurface::Sweep {
+/// The segment of a probe, from + t·way up to t_max, and its first contact.
+struct ContactTriangles::Sweep {
   Vec3 from, way;
-  double grace = 0;  ///< What is met so much of the way after the first hit stands beside it.
+  double grace = 0;  ///< A contact that is later than the first by at most this is the other face of a crease.
   double t_max = 1;
   std::optional<SweepHit> best{};
   bool best_is_flat = false;
 
-  /// Until where a hit still matters. A little after t: what is met at the same place must not be left out by a
-  /// rounding.
+  /// Largest parameter of a contact that still matters. A little more than t, so that rounding does not hide a contact
+  /// at the same place.
   double until() const noexcept {
     return best ? std::min(t_max, best->t + std::max(grace, 1e-9 * best->t + 1e-12)) : t_max;
   }
 
-  /// The earlier of two hits; of those at the same place, usually the start, the deeper one: where triangles meet flat,
-  /// it is the one that x stands above. Of equals the first of the mesh, so that the order of looking doesn't matter.
+  /// The earlier of two contacts; at the same parameter, usually 0, the deeper one, which among coplanar triangles is
+  /// the one below the probe; among equals the one with the lower index, so that the order of the search is irrelevant.
   template <class Hit, class Other>
   static bool comes_before(const Hit& a, const Other& b) noexcept {
     if (a.t != b.t) return a.t < b.t;
     return a.penetration_m != b.penetration_m ? a.penetration_m > b.penetration_m : a.triangle < b.triangle;
   }
 
-  /// @param flat it is met above its face, where it is a plane: only such can stand beside another.
-  void take(SweepHit hit, bool flat) noexcept {
+  /// @param flat the triangle is plain and touched above its face: only such faces form a crease.
+  void add(SweepHit hit, bool flat) noexcept {
     if (!best) {
       best = hit;
       best_is_flat = flat;
       return;
     }
-    const auto beside = best->beside;
+    const auto crease = best->crease;
     if (comes_before(hit, *best)) {
       std::swap(hit, *best);
       std::swap(flat, best_is_flat);
     }
-    best->beside.reset();
-    if (flat) stand_beside({hit.t, hit.normal, hit.penetration_m, hit.triangle, hit.material});
-    if (beside) stand_beside(*beside);
+    best->crease.reset();
+    if (flat) add_crease({hit.t, hit.normal, hit.penetration_m, hit.triangle, hit.material});
+    if (crease) add_crease(*crease);
   }
 
-  void stand_beside(const SweepHit::Beside& hit) noexcept {
+  void add_crease(const SweepHit::Crease& hit) noexcept {
     if (hit.t > best->t + grace || dot(hit.normal, best->normal) >= k_same_direction) return;
-    if (!best->beside || comes_before(hit, *best->beside)) best->beside = hit;
+    if (!best->crease || comes_before(hit, *best->crease)) best->crease = hit;
   }
 };
 
-[[gnu::always_inline]] inline void ContactSurface::look(const Corners& t, Vec3 from, Vec3 way, double at,
-                                                        Approach& state) noexcept {
-  const Vec3 x = from + at * way;
+[[gnu::always_inline]] inline void ContactTriangles::move_approach(const Corners& t, Vec3 from, Vec3 way, double to,
+                                                                   Approach& state) noexcept {
+  const Vec3 x = from + to * way;
   const Foot near = foot(t, x);
-  state.t = at;
+  state.t = to;
   state.d = x - near.point;
   state.above = near.on == Foot::On::face;
   state.distance = norm(state.d);
 }
 
-/// Goes on from `state` to the first t up to t_max where from + t·way is within `radius` of the triangle. The distance
-/// to a convex set is convex on a line, so Newton's steps from outside end at or before the contact: nothing is passed
-/// over, and the tangent tells early that t = 1 isn't within `least`. @returns false when there is none, or never less
-/// than `least`.
-bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
-                              Approach& state) const noexcept {
+/// Conservative advancement from `state` to the first t up to t_max where from + t·way is within `radius` of the
+/// triangle. The distance to a convex set is convex along a line, so a Newton step from outside ends at or before the
+/// contact, and the tangent proves early that t = 1 is not within `least`.
+/// @returns false when there is no such t, or when the distance never falls below `least`.
+bool ContactTriangles::advance(const Corners& t, Vec3 from, Vec3 way, double radius, double least, double t_max,
+                               Approach& state) const noexcept {
   const double close = k_close * tolerance_m();
   for (int step = 0; step < k_newton_steps; ++step) {
     if (state.distance <= radius + close) return true;
@@ -96,53 +96,54 @@ bool ContactSurface::approach(const Corners& t, Vec3 from, Vec3 way, double radi
     const double way_there = (state.distance - radius) * state.distance;
     if (way_there > (t_max - state.t) * descent) return false;
     if ((state.distance - least - close) * state.distance > (1 - state.t) * descent) return false;
-    look(t, from, way, state.t + way_there / descent, state);
+    move_approach(t, from, way, state.t + way_there / descent, state);
   }
   return true;
 }
 
-/// Whether the way from `state` comes within `least` of the triangle. The point that is nearest to its start tells it
-/// most often: the triangle is at least as near as that.
-bool ContactSurface::goes_deep(const Corners& t, Vec3 from, Vec3 way, double least, Approach state) const noexcept {
+/// Whether the segment from `state` comes within `least` of the triangle. The distance to the closest point of the
+/// start is an upper bound and decides most often.
+bool ContactTriangles::comes_within(const Corners& t, Vec3 from, Vec3 way, double least,
+                                    Approach state) const noexcept {
   const double along = std::clamp(-dot(state.d, way) / dot(way, way), 0.0, 1 - state.t);
-  return norm(state.d + along * way) <= least || approach(t, from, way, least, least, 1, state);
+  return norm(state.d + along * way) <= least || advance(t, from, way, least, least, 1, state);
 }
 
-void ContactSurface::sweep_one(std::uint32_t place, Sweep& sweep) const noexcept {
+void ContactTriangles::sweep_triangle(std::uint32_t place, Sweep& sweep) const noexcept {
   if (tallest_ > 0 && has_relief(place))
     sweep_relief(place, sweep);
   else
     sweep_plain(place, sweep);
 }
 
-void ContactSurface::sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept {
+void ContactTriangles::sweep_plain(std::uint32_t place, Sweep& sweep) const noexcept {
   const Corners t = corners(place);
   const Vec3 from = sweep.from, way = sweep.way;
   const double contact = contact_radius_m(), t_max = sweep.until();
   Approach touch;
-  look(t, from, way, 0, touch);
+  move_approach(t, from, way, 0, touch);
   if ((touch.distance - contact - k_close * tolerance_m()) * touch.distance > -t_max * dot(touch.d, way)) return;
-  // Whether it goes deep is asked first: a neighbour that the way only grazes is told at once, its touch found slowly.
-  if (!goes_deep(t, from, way, contact - tolerance_m(), touch)) return;
-  if (!approach(t, from, way, contact, contact - tolerance_m(), t_max, touch)) return;
+  // The depth is tested first: a grazed neighbour is rejected at once, while its contact converges slowly.
+  if (!comes_within(t, from, way, contact - tolerance_m(), touch)) return;
+  if (!advance(t, from, way, contact, contact - tolerance_m(), t_max, touch)) return;
   Vec3 normal = (1 / touch.distance) * touch.d;
   if (!(touch.distance > 0)) {
     normal = normalized(cross(t.b - t.a, t.c - t.a));
     if (dot(normal, way) > 0) normal = -normal;
   }
   if (dot(normal, way) >= 0) return;
-  sweep.take({touch.t, normal, contact - touch.distance, source_of(place), material_of(place), {}}, touch.above);
+  sweep.add({touch.t, normal, contact - touch.distance, source_of(place), material_of(place), {}}, touch.above);
 }
 
-/// A way as a triangle with relief sees it.
-struct ContactSurface::WayOver {
+/// A segment relative to a triangle with relief.
+struct ContactTriangles::FaceWay {
   const Face& face;
   Vec3 way;
-  double rise, slide;   ///< How far it leads along the normal and along the face.
-  double texels = 0;    ///< How many of the relief it crosses.
-  double steepest = 0;  ///< As the relief, with its base, is at most.
+  double rise, slide;   ///< Lengths along the normal and along the face.
+  double texels = 0;    ///< Number of texels that it crosses.
+  double steepest = 0;  ///< Upper bound of the slope of the relief above the base.
 
-  WayOver(const Face& f, Vec3 w) noexcept
+  FaceWay(const Face& f, Vec3 w) noexcept
       : face(f), way(w), rise(dot(f.normal, w)), slide(std::sqrt(std::max(0.0, dot(w, w) - rise * rise))) {
     if (f.height == nullptr) return;
     const auto [per_u, per_v] = f.height->texels_per_uv();
@@ -154,11 +155,11 @@ struct ContactSurface::WayOver {
   }
 };
 
-/// Whether a share of the way from where the clearance is `now` stays clear. The triangle lies behind the plane through
-/// the foot that looks at the probe, so that the distance is at least that from this plane; the foot goes no farther
-/// than the way does along the face; and the relief counts by at most the cosine that the highest point of the way has
-/// at that distance. With the skin on it the relief is no steeper than without.
-bool ContactSurface::stays_clear(const WayOver& over, const Clearance& now, double share) const noexcept {
+/// Whether a share of the segment, from the sample `now` on, provably stays clear. The triangle lies behind the plane
+/// through the foot orthogonal to `now.d`, which bounds the distance from below; the foot moves no farther than the
+/// probe does along the face, which bounds the relief by its steepest slope; and the cosine is at most that of the
+/// highest point of the segment at that distance. The skin makes the relief no steeper.
+bool ContactTriangles::stays_clear(const FaceWay& over, const Clearance& now, double share) const noexcept {
   const double nearest = now.distance + std::min(0.0, share * dot(now.d, over.way) / now.distance);
   const double room = nearest - contact_radius_m();
   if (!(room > 0)) return false;
@@ -167,34 +168,34 @@ bool ContactSurface::stays_clear(const WayOver& over, const Clearance& now, doub
   return room > cosine * std::min(over.face.top, now.lift + share * over.steepest * over.slide) + tolerance_m();
 }
 
-/// Steps over the relief, as far as the way surely stays clear or half a texel, and finds the level in the step that
-/// goes in.
-void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
+/// Marches over the relief, each time as far as stays_clear() proves or half a texel, and refines the contact in the
+/// step that enters.
+void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noexcept {
   const Vec3 from = sweep.from, way = sweep.way;
   const double t_max = sweep.until();
-  const double length = norm(way), reach = contact_radius_m() + top_of(place);
+  const double length = norm(way), reach = contact_radius_m() + relief_top(place);
   Approach entry;
-  look(corners(place), from, way, 0, entry);
-  if (!approach(corners(place), from, way, reach, reach - tolerance_m(), t_max, entry)) return;
+  move_approach(corners(place), from, way, 0, entry);
+  if (!advance(corners(place), from, way, reach, reach - tolerance_m(), t_max, entry)) return;
   const Face face = this->face(place);
-  const WayOver over(face, way);
+  const FaceWay over(face, way);
   const double finest = std::max(0.5 / std::max(over.texels, 0.5), 1.0 / k_march_steps);
 
-  // On a hollow every tangent goes in at once: half the tolerance lets the probe get on.
+  // In a hollow every tangent enters at once: half the tolerance lets the probe move on.
   const double level = -0.5 * tolerance_m();
-  Sunk outside{entry.t, clearance_of(face, from + entry.t * way)}, inside = outside;
+  WaySample outside{entry.t, clearance_of(face, from + entry.t * way)}, inside = outside;
   double allowed = -tolerance_m();
   for (bool first = true;; first = false) {
     const Clearance& now = inside.clearance;
-    // A probe that is too deep already may rise.
+    // A probe that is too deep at the start may rise.
     if (now.value < allowed && (!first || dot(now.gradient, way) < 0)) break;
     allowed = std::min(-tolerance_m(), now.value);
     if (now.value >= level) outside = inside;
     if (inside.t >= t_max) return;
-    // Not past the base: behind it the clearance grows again.
+    // Never past the base, behind which the clearance grows again.
     const double base = std::max(0.5 * now.distance, tolerance_m());
     double next = std::min(t_max, inside.t + std::min(finest, base / length));
-    if (!(next > inside.t)) break;  // Too small a step for a number: it stops here.
+    if (!(next > inside.t)) break;  // The step is below the resolution of t.
     if (now.value > tolerance_m()) {
       const double rest = t_max - inside.t;
       if (stays_clear(over, now, rest)) return;
@@ -204,23 +205,23 @@ void ContactSurface::sweep_relief(std::uint32_t place, Sweep& sweep) const noexc
     }
     inside = {next, clearance_of(face, from + next * way)};
   }
-  const Sunk there = sink(face, from, way, level, outside, inside);
-  sweep.take(
+  const WaySample there = find_level(face, from, way, level, outside, inside);
+  sweep.add(
       {there.t, normalized(there.clearance.gradient), -there.clearance.value, source_of(place), material_of(place), {}},
       false);
 }
 
-/// A place between the two, from + t·way, that is at the level and no more than a little above it: regula falsi, where
-/// an end that stays counts half each time [Dowell and Jarratt, BIT 11, 1971].
-ContactSurface::Sunk ContactSurface::sink(const Face& face, Vec3 from, Vec3 way, double level, Sunk outside,
-                                          const Sunk& inside) const noexcept {
+/// The sample between two where the clearance falls to the level, at most k_above_level above it: regula falsi with
+/// halved weights of the end that stays (Illinois) [Dowell and Jarratt, BIT 11, 1971].
+ContactTriangles::WaySample ContactTriangles::find_level(const Face& face, Vec3 from, Vec3 way, double level,
+                                                         WaySample outside, const WaySample& inside) const noexcept {
   const double close = k_above_level * tolerance_m(), target = level + close;
   double above = outside.clearance.value - target, below = inside.clearance.value - target, end = inside.t;
   bool moved_outside = false, moved_inside = false;
-  for (int step = 0; step < k_sink_steps && outside.clearance.value > target + close && end - outside.t > 1e-9;
+  for (int step = 0; step < k_level_steps && outside.clearance.value > target + close && end - outside.t > 1e-9;
        ++step) {
     const double at = outside.t + (end - outside.t) * above / (above - below);
-    const Sunk now{at, clearance_of(face, from + at * way)};
+    const WaySample now{at, clearance_of(face, from + at * way)};
     if (now.clearance.value >= level) {
       if (moved_outside) below *= 0.5;
       outside = now;
@@ -236,7 +237,7 @@ ContactSurface::Sunk ContactSurface::sink(const Face& face, Vec3 from, Vec3 way,
   return outside;
 }
 
-bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcept {
+bool ContactTriangles::is_outside(std::uint32_t place, const Box3f& box) const noexcept {
   const Corner &a = clusters_.corner(place, 0), &b = clusters_.corner(place, 1), &c = clusters_.corner(place, 2);
   bool apart = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -246,23 +247,22 @@ bool ContactSurface::beside(std::uint32_t place, const Box3f& box) const noexcep
   return apart;
 }
 
-/// On relief nothing later is looked at: a hit stands where the relief is half the tolerance deep, which can be before
-/// another that was found first.
-ContactSurface::Sweep ContactSurface::sweep_between(Vec3 from, Vec3 to) const noexcept {
+/// Scenes with relief have no grace: contacts are found at half the tolerance, so a later one may be earlier in truth.
+ContactTriangles::Sweep ContactTriangles::make_sweep(Vec3 from, Vec3 to) const noexcept {
   const Vec3 way = to - from;
   const double length = norm(way);
-  return {from - origin_, way, tallest_ > 0 || length == 0 ? 0 : k_beside * tolerance_m() / length};
+  return {from - origin_, way, tallest_ > 0 || length == 0 ? 0 : k_crease * tolerance_m() / length};
 }
 
-void ContactSurface::sweep_cluster(std::uint32_t cluster, Sweep& sweep) const noexcept {
+void ContactTriangles::sweep_cluster(std::uint32_t cluster, Sweep& sweep) const noexcept {
   const Box3f box = box_around(sweep.from, sweep.from + sweep.until() * sweep.way, contact_radius_m());
   clusters_.in_box(cluster, box, [&](std::uint32_t place) noexcept {
-    if (has_relief(place) || !beside(place, box)) sweep_one(place, sweep);
+    if (has_relief(place) || !is_outside(place, box)) sweep_triangle(place, sweep);
   });
 }
 
-std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to) const noexcept {
-  Sweep sweep = sweep_between(from, to);
+std::optional<SweepHit> ContactTriangles::sweep(Vec3 from, Vec3 to) const noexcept {
+  Sweep sweep = make_sweep(from, to);
   double t_max = 1;
   clusters_.along(sweep.from, sweep.way, contact_radius_m(), t_max, [&](std::uint32_t cluster) noexcept {
     sweep_cluster(cluster, sweep);
@@ -271,9 +271,9 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to) const noexcept
   return sweep.best;
 }
 
-bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) const noexcept {
+bool ContactTriangles::gather(Vec3 centre, double radius_m, Neighbourhood& near) const noexcept {
   constexpr std::uint32_t k_full = TriangleClusters::k_most / TriangleClusters::k_block;
-  std::array<std::uint32_t, Neighbourhood::k_blocks / k_full> met;  // More would hardly fit: most are full.
+  std::array<std::uint32_t, Neighbourhood::k_blocks / k_full> met;  // Most clusters are full.
   std::uint32_t count = 0;
   bool fits = true;
   double radius = radius_m + contact_radius_m();
@@ -290,19 +290,19 @@ bool ContactSurface::gather(Vec3 centre, double radius_m, Neighbourhood& near) c
     const std::uint32_t first = clusters_.first_block(met[i]), end = first + clusters_.blocks_of(met[i]);
     for (std::uint32_t block = first; block < end && fits; ++block) {
       fits = !near.full();
-      if (!fits || near.add_made(block)) continue;
+      if (!fits || near.add_known(block)) continue;
       near.add(block, clusters_.box_of(block));
       clusters_.prefetch_block(block);
     }
   }
-  if (!fits) near.forget_place();
+  if (!fits) near.clear_boxes();
   return fits;
 }
 
 static_assert(TriangleClusters::k_block == Neighbourhood::k_lanes);
 
-/// Of the triangles of block i of the neighbourhood. Lanes without a triangle repeat the last.
-void ContactSurface::make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept {
+/// Makes the prisms of block i of the neighbourhood. Lanes without a triangle repeat the last one.
+void ContactTriangles::make_prisms(std::uint32_t i, Neighbourhood& near) const noexcept {
   const std::uint32_t block = near.block(i), begin = block * Neighbourhood::k_lanes;
   const std::uint32_t last = clusters_.triangles_in(block) - 1;
   const Corner origin = clusters_.corner(begin, 0);
@@ -313,23 +313,23 @@ void ContactSurface::make_prisms(std::uint32_t i, Neighbourhood& near) const noe
       const Corner& corner = clusters_.corner(place, k);
       for (std::size_t axis = 0; axis < 3; ++axis) corners.x[3 * k + axis][lane] = corner[axis] - origin[axis];
     }
-    corners.top[lane] = tallest_ > 0 ? static_cast<float>(top_of(place)) : 0;
+    corners.top[lane] = tallest_ > 0 ? static_cast<float>(relief_top(place)) : 0;
   }
   near.make(i, origin, corners);
 }
 
-std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood& near) const noexcept {
+std::optional<SweepHit> ContactTriangles::sweep(Vec3 from, Vec3 to, Neighbourhood& near) const noexcept {
   double seen = 0;
   const auto hit = sweep(from, to, near, seen);
   return hit || seen >= 1 ? hit : sweep(from, to);
 }
 
-std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept {
-  Sweep sweep = sweep_between(from, to);
+std::optional<SweepHit> ContactTriangles::sweep(Vec3 from, Vec3 to, Neighbourhood& near, double& seen) const noexcept {
+  Sweep sweep = make_sweep(from, to);
   const double length = norm(sweep.way), margin = near.margin(sweep.from + seen * sweep.way);
   if (!(margin > 0)) return std::nullopt;
   const double known = (1 - seen) * length > margin ? seen + margin / length : 1;
-  // A long way goes into the surface and is most often stopped where it starts, a short one leads along it.
+  // A long segment leads into the surface and is most often stopped at its start; a short one leads along it.
   double piece = length > k_short_way * skin_ ? skin_ / length : 1;
   while (!sweep.best && seen < known) {
     sweep.t_max = std::min(seen + piece, known);
@@ -340,9 +340,9 @@ std::optional<SweepHit> ContactSurface::sweep(Vec3 from, Vec3 to, Neighbourhood&
   return sweep.best;
 }
 
-/// Looks at the triangles in the order in which they could be met at the earliest, until none can be met before the
-/// hit. Nothing is met before `since`.
-void ContactSurface::sweep_prisms(Neighbourhood& near, double since, Sweep& sweep) const noexcept {
+/// Tests the triangles in the order of the lower bounds of their contacts, until none can come before the hit. There is
+/// no contact before `since`.
+void ContactTriangles::sweep_prisms(Neighbourhood& near, double since, Sweep& sweep) const noexcept {
   struct Open {
     float earliest;
     std::uint32_t place;
@@ -354,28 +354,28 @@ void ContactSurface::sweep_prisms(Neighbourhood& near, double since, Sweep& swee
   const double until = sweep.t_max;
   const std::uint32_t block_count = near.along(from + since * way, (until - since) * way, contact, blocks);
   std::uint32_t count = 0;
-  Neighbourhood::Meetings meetings;
-  const auto meet = [&]() noexcept {
-    near.near_way(from, way, contact, tolerance_m(), since, until, meetings);
-    for (std::uint32_t i = 0; i < meetings.count; ++i) {
-      const std::uint32_t block = near.block(meetings.block[i]);
-      std::uint32_t met = meetings.met[i] & ((1U << clusters_.triangles_in(block)) - 1);
+  Neighbourhood::ContactBounds bounds;
+  const auto test_blocks = [&]() noexcept {
+    near.bound_contacts(from, way, contact, tolerance_m(), since, until, bounds);
+    for (std::uint32_t i = 0; i < bounds.count; ++i) {
+      const std::uint32_t block = near.block(bounds.block[i]);
+      std::uint32_t met = bounds.met[i] & ((1U << clusters_.triangles_in(block)) - 1);
       for (; met != 0; met &= met - 1) {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(met));
-        open[count++] = {meetings.earliest[i][lane], block * Neighbourhood::k_lanes + lane};
+        open[count++] = {bounds.earliest[i][lane], block * Neighbourhood::k_lanes + lane};
       }
     }
-    meetings.count = 0;
+    bounds.count = 0;
   };
   for (std::uint32_t b = 0; b < block_count; ++b) {
-    if (!near.is_made(blocks[b])) {
-      meet();  // Before one of them has to make room.
+    if (!near.has_prisms(blocks[b])) {
+      test_blocks();  // Before a new block replaces one of them.
       make_prisms(blocks[b], near);
     }
-    meetings.block[meetings.count++] = blocks[b];
-    if (meetings.count == Neighbourhood::k_together) meet();
+    bounds.block[bounds.count++] = blocks[b];
+    if (bounds.count == Neighbourhood::k_together) test_blocks();
   }
-  meet();
+  test_blocks();
   while (count > 0) {
     std::uint32_t next = 0;
     for (std::uint32_t k = 1; k < count; ++k)
@@ -383,7 +383,7 @@ void ContactSurface::sweep_prisms(Neighbourhood& near, double since, Sweep& swee
     const Open now = open[next];
     if (static_cast<double>(now.earliest) > sweep.until()) break;
     open[next] = open[--count];
-    sweep_one(now.place, sweep);
+    sweep_triangle(now.place, sweep);
   }
 }
 

@@ -11,7 +11,7 @@ Vec3 heightfield_force(const ContactSurface& surface, const ProxyState& state, V
   const Vec3 back = state.proxy - probe, n = state.normal;
   const Vec3 along = back - dot(back, n) * n;
   const double push = material.stiffness * state.load_m - material.damping * dot(velocity, n);
-  return std::max(0.0, push) * state.felt_normal + material.stiffness * along;
+  return std::max(0.0, push) * state.shaded_normal + material.stiffness * along;
 }
 
 }  // namespace papilla

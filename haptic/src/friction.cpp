@@ -7,9 +7,9 @@
 namespace papilla {
 namespace {
 
-constexpr double k_memory_s = 1e-2;
+constexpr double k_memory_s = 1e-2;  // Assumed.
 
-Vec3 along(Vec3 v, Vec3 normal) noexcept { return v - dot(v, normal) * normal; }
+Vec3 tangential(Vec3 v, Vec3 normal) noexcept { return v - dot(v, normal) * normal; }
 
 }  // namespace
 
@@ -35,23 +35,24 @@ Vec3 BristleFriction::force(const ContactMaterial& material, Vec3 normal, double
                             double period_s) noexcept {
   const double stiffness =
       material.bristle_stiffness > 0 ? std::min(material.bristle_stiffness, material.stiffness) : material.stiffness;
-  const Vec3 way = along(moved, normal);
+  const Vec3 way = tangential(moved, normal);
   const double length = norm(way);
   if (period_s > 0) speed_ += friction_memory_share(period_s) * (length / period_s - speed_);
   const double most = material.static_friction * load_n;
   if (!(stiffness > 0) || !(most > 0)) {
-    bend_ = {};
+    deflection_ = {};
     return {};
   }
-  bend_ = along(bend_, normal);
+  deflection_ = tangential(deflection_, normal);
   if (length > 0) {
     const double steady = friction_coefficient(material, speed_) * load_n / stiffness;
     const double left = steady > 0 ? std::exp(-length / steady) : 0;
     const Vec3 end = (steady / length) * way;
-    bend_ = end + left * (bend_ - end);
+    deflection_ = end + left * (deflection_ - end);
   }
-  if (const double bent = norm(bend_); stiffness * bent > most) bend_ = (most / (stiffness * bent)) * bend_;
-  return -stiffness * bend_;
+  if (const double deflected = norm(deflection_); stiffness * deflected > most)
+    deflection_ = (most / (stiffness * deflected)) * deflection_;
+  return -stiffness * deflection_;
 }
 
 }  // namespace papilla

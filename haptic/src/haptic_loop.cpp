@@ -22,18 +22,18 @@ namespace {
 
 constexpr int k_priority = 80;  // Below the kernel's own threads at 99, above interrupt threads at 50.
 constexpr std::uint64_t k_longest_recording = 20'000'000;
-constexpr double k_longest_frame_s = 0.05;    // A device that is silent for longer is seen by the guard.
-constexpr double k_largest_lag_periods = 10;  // After a longer stall the clock starts anew instead of catching up.
-// How long before a tick the loop is to be awake, of a period and at most: waking takes some of that, the rest is spun.
+constexpr double k_longest_frame_s = 0.05;    // The guard reports a device that is silent for longer.
+constexpr double k_largest_lag_periods = 10;  // After a longer stall the schedule is moved instead of caught up.
+// Wake-up before a tick, as a share of the period and at most; the rest is spun.
 constexpr double k_early_share = 0.05, k_longest_spin_ns = 5e4;
 
-double seconds_of(clockid_t clock) noexcept {
+double clock_seconds(clockid_t clock) noexcept {
   timespec t{};
   clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Absolute times of the ticks, in nanoseconds of the monotonic clock.
+/// Schedule of the ticks in nanoseconds of the monotonic clock.
 class Pacer {
  public:
   explicit Pacer(double period_s) noexcept
@@ -41,9 +41,8 @@ class Pacer {
         early_ns_(std::min(k_early_share * period_ns_, k_longest_spin_ns)),
         start_ns_(now_ns()) {}
 
-  /// Sleeps until just before tick `i`, spins until it is due and returns how late that ended, in microseconds; nothing
-  /// when the tick is due already, so that one stall counts once, as in cyclictest, and not for every tick that it has
-  /// delayed.
+  /// Sleeps until just before tick `i` and spins until it is due. @returns the lateness in microseconds; nothing when
+  /// the tick is overdue already, so that one stall counts once, as in cyclictest.
   std::optional<double> wait(std::uint64_t i) noexcept {
     const double due = due_ns(i);
     if (now_ns() >= due) return std::nullopt;
@@ -58,7 +57,7 @@ class Pacer {
     return (now - due) * 1e-3;
   }
 
-  /// Whether tick i + 1 should have begun. After a long stall later ticks are moved.
+  /// Whether tick i + 1 is overdue. After a long stall the later ticks are moved.
   bool missed(std::uint64_t i) noexcept {
     const double late = now_ns() - due_ns(i + 1);
     if (late > k_largest_lag_periods * period_ns_) start_ns_ += late;
@@ -76,7 +75,7 @@ class Pacer {
   double period_ns_, early_ns_, start_ns_;
 };
 
-/// Fixed priority and locked memory as long as it lives, where the system grants them.
+/// Fixed priority and locked memory for its lifetime, where the system grants them.
 class Realtime {
  public:
   explicit Realtime(LoopResult& result) {
@@ -92,7 +91,7 @@ class Realtime {
     if (!fixed_) note("SCHED_FIFO");
     locked_ = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
     if (!locked_) note("mlockall");
-    // As long as this is open no processor sleeps so deeply that waking takes time; where it is not allowed, it does.
+    // While this file is open, processors stay out of deep sleep states.
     constexpr std::int32_t k_no_latency = 0;
     latency_ = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
     if (latency_ >= 0 && ::write(latency_, &k_no_latency, sizeof k_no_latency) < 0) note("/dev/cpu_dma_latency");
@@ -113,7 +112,7 @@ class Realtime {
   bool fixed_ = false, locked_ = false;
 };
 
-/// Leaves the device without force on every way out.
+/// Stops the device at the end of its scope.
 class StopAtEnd {
  public:
   explicit StopAtEnd(HapticDevice& device) noexcept : device_(device) {}
@@ -128,7 +127,8 @@ class StopAtEnd {
   HapticDevice& device_;
 };
 
-void show(LoopStatus& status, const LoopResult& result, double force_n, double tick_us, double late_us) noexcept {
+void publish_status(LoopStatus& status, const LoopResult& result, double force_n, double tick_us,
+                    double late_us) noexcept {
   constexpr auto relaxed = std::memory_order_relaxed;
   status.ticks.store(result.ticks, relaxed);
   status.contact_ticks.store(result.contact_ticks, relaxed);
@@ -158,7 +158,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
   const double start_s = options.hand ? options.hand->start_s() : 0;
   if (options.record) {
     options.record->clear();
-    options.record->resize(options.ticks);  // Touches every page, so that none is missing in the loop.
+    options.record->resize(options.ticks);  // Touches every page, so that none faults in the loop.
   }
   SafetyLimits limits = safety_limits(device.caps().max_force_n);
   limits.watchdog_s = options.watchdog_s;
@@ -167,7 +167,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
   const StopAtEnd stop_at_end(device);
   {
     const Realtime realtime(result);
-    const double begin = seconds_of(CLOCK_MONOTONIC);
+    const double begin = clock_seconds(CLOCK_MONOTONIC);
     Pacer pacer(period);
     while (result.ticks < options.ticks && !(options.stop && options.stop->load(std::memory_order_relaxed))) {
       const std::uint64_t i = result.ticks;
@@ -177,17 +177,17 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       else if (options.paced)
         late_us = pacer.wait(i);
       if (late_us) result.wakeup_us.add(*late_us);
-      const double awake = seconds_of(CLOCK_MONOTONIC), before = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+      const double awake = clock_seconds(CLOCK_MONOTONIC), before = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
       DeviceState state;
       result.device_lost = !device.read(state);
       if (result.device_lost) break;
       const Vec3 force = tick(state);
       result.device_lost = !device.write(force);
-      const double tick_us = (seconds_of(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6;
+      const double tick_us = (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6;
       result.tick_us.add(tick_us);
 
       ++result.ticks;
-      if (device.is_clock() ? seconds_of(CLOCK_MONOTONIC) - awake > period : options.paced && pacer.missed(i))
+      if (device.is_clock() ? clock_seconds(CLOCK_MONOTONIC) - awake > period : options.paced && pacer.missed(i))
         ++result.missed_deadlines;
       if (tick.proxy().in_contact) ++result.contact_ticks;
       if (tick.lost()) ++result.lost_contact_ticks;
@@ -203,11 +203,11 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
         if (options.record) (*options.record)[i] = row;
         if (options.latest) options.latest->store(row);
       }
-      if (options.status) show(*options.status, result, norm(force), tick_us, late_us.value_or(0));
+      if (options.status) publish_status(*options.status, result, norm(force), tick_us, late_us.value_or(0));
       result.fault = tick.guard().fault();
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
     }
-    result.seconds = seconds_of(CLOCK_MONOTONIC) - begin;
+    result.seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
     result.passivity_interventions = tick.passivity_interventions();
   }
   if (options.record) options.record->resize(result.ticks);

@@ -9,7 +9,7 @@
 namespace papilla {
 namespace {
 
-constexpr double k_largest_texel = 1e9;  // Texel coordinates beyond are cut, so that they fit an integer.
+constexpr double k_largest_texel = 1e9;  // Larger texel coordinates are clamped to fit an integer.
 
 long wrapped(long i, long n, Wrap mode) noexcept {
   if (i >= 0 && i < n) return i;
@@ -78,13 +78,12 @@ std::uint16_t HeightField::texel(long x, long y) const noexcept {
   return samples_[static_cast<std::size_t>(row * width_ + column)];
 }
 
-/// Least and largest sample; with bicubic interpolation also of the values halfway between samples, where it goes
-/// beyond them the most. Steepest along rows and columns: a cubic between its samples p1 and p2, p0 and p3 beside them,
-/// is the Bézier curve of the points p1, p1 + (p2 − p0)/6, p2 − (p3 − p1)/6 and p2, nowhere steeper than three times
-/// the longest step between them. Between rows slopes are mixed by the cubic's weights, the sum of whose sizes is 5/4
-/// at most.
+/// Range of the samples; with bicubic interpolation also of the values halfway between them, where overshoot is
+/// largest. Slopes along rows and columns: the cubic between the samples p1 and p2 with the neighbours p0 and p3 is the
+/// Bézier curve of p1, p1 + (p2 − p0)/6, p2 − (p3 − p1)/6 and p2, so its slope is at most three times the longest edge
+/// of that polygon. Between rows slopes are blended with the cubic's weights, whose absolute sum is at most 5/4.
 HeightField::Extremes HeightField::extremes() const {
-  // Whole numbers: 16 times what is halfway between samples, 256 times what is between four rows of those.
+  // In integers: 16 times the value halfway between samples, 256 times that between four rows of these.
   const auto halfway = [](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     return 9 * (b + c) - a - d;
   };
@@ -134,11 +133,11 @@ HeightField::Extremes HeightField::extremes() const {
           {static_cast<double>(steps[0]), static_cast<double>(steps[1])}};
 }
 
-/// Sums over k_taps × k_taps samples from (x, y) on, columns first, so that a processor takes several at once.
+/// Weighted sums over k_taps × k_taps samples from (x, y) on, columns first, for SIMD.
 template <std::size_t k_taps>
 HeightField::Weighted HeightField::weighted(long x, long y, const Weights& along_x,
                                             const Weights& along_y) const noexcept {
-  // On maps that repeat most places lie within some copy.
+  // On repeating maps most footprints lie inside one copy.
   const long left = options_.wrap[0] == Wrap::repeat ? wrapped(x, width_, Wrap::repeat) : x;
   const long top = options_.wrap[1] == Wrap::repeat ? wrapped(y, height_, Wrap::repeat) : y;
   const bool inside = left >= 0 && left + static_cast<long>(k_taps) <= width_;
@@ -215,12 +214,12 @@ HeightField HeightField::dilated(double radius_m, Vec2 metres_per_uv) const {
     throw InvalidInput("HeightField::dilated: needs radius >= 0 and metres per uv > 0");
   const double range = max_m_ - min_m_;
   const double reach = range >= radius_m ? radius_m : std::sqrt(range * (2 * radius_m - range));
-  // One texel step in metres, along both picture axes: the inverse of A, scaled to metres.
+  // One texel in metres along both picture axes: the inverse of A, scaled to metres.
   const double det = a_[0][0] * a_[1][1] - a_[0][1] * a_[1][0];
   if (reach == 0 || det == 0) return *this;
   const Vec2 step_x{a_[1][1] / det * metres_per_uv.x, -a_[1][0] / det * metres_per_uv.y};
   const Vec2 step_y{-a_[0][1] / det * metres_per_uv.x, a_[0][0] / det * metres_per_uv.y};
-  // Texels whose offsets can lie within reach: the height of the cell's parallelogram bounds each index.
+  // The height of the texel's parallelogram bounds the offsets within reach.
   const double area = std::abs(cross(step_x, step_y));
   const double columns = reach * norm(step_y) / area, rows = reach * norm(step_x) / area;
   if (!(columns <= 64 && rows <= 64))

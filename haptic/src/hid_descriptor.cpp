@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/hid_descriptor.hpp"
+#include "hid_descriptor.hpp"
 
 #include <algorithm>
 #include <string>
@@ -57,7 +57,7 @@ class Parser {
 
   std::uint32_t byte_at(std::size_t i) const { return std::to_integer<std::uint32_t>(bytes_[i]); }
 
-  /// Steps over long items; false at the end.
+  /// The next short item; false at the end.
   bool next(Item& item) {
     while (at_ < bytes_.size()) {
       const std::uint32_t prefix = byte_at(at_);
@@ -112,7 +112,7 @@ class Parser {
         break;
       case 5: {
         const auto exponent = static_cast<int>(item.number());
-        // Devices write a nibble in two's complement, or a plain number.
+        // Devices write a nibble in two's complement or a plain number.
         g.unit_exponent =
             exponent >= 0 && exponent <= 15 ? (exponent > 7 ? exponent - 16 : exponent) : std::clamp(exponent, -8, 7);
         break;
@@ -192,7 +192,7 @@ class Parser {
     f.null_state = (item.data & 0x40U) != 0;
     f.usages = usages_;
     if (f.variable) {
-      // The last usage stands for all further elements.
+      // The last usage applies to all further elements.
       if (g.report_count > k_most_usages - std::min(usage_count_, k_most_usages)) fail(item.at, "has too many usages");
       usage_count_ += g.report_count;
       f.usages.resize(g.report_count, usages_.back());
@@ -201,7 +201,7 @@ class Parser {
     result_.fields.push_back(std::move(f));
   }
 
-  /// A maximum below a minimum that is not negative was meant without a sign, as 25 FF is often.
+  /// A maximum below a non-negative minimum was meant as unsigned, as 25 FF often is.
   static std::int64_t upper(std::int64_t low, std::int64_t high, std::uint32_t unsigned_high) {
     return high < low && low >= 0 ? static_cast<std::int64_t>(unsigned_high) : high;
   }

@@ -16,7 +16,7 @@
 namespace papilla {
 namespace {
 
-/// hidapi 0.13 has no call for it.
+/// The report descriptor, for which hidapi 0.13 has no call.
 std::vector<std::byte> read_descriptor(const char* path) {
   const int file = ::open(path, O_RDONLY | O_CLOEXEC);
   if (file < 0) return {};
@@ -38,16 +38,16 @@ std::string utf8(const wchar_t* text) {
   std::string out;
   for (; text != nullptr && *text != 0; ++text) {
     const auto c = static_cast<std::uint32_t>(*text);
-    const auto put = [&](std::uint32_t byte) { out += static_cast<char>(byte); };
+    const auto append = [&](std::uint32_t byte) { out += static_cast<char>(byte); };
     if (c < 0x80) {
-      put(c);
+      append(c);
     } else if (c < 0x800) {
-      put(0xC0 | c >> 6);
-      put(0x80 | (c & 0x3F));
+      append(0xC0 | c >> 6);
+      append(0x80 | (c & 0x3F));
     } else if (c < 0x10000) {
-      put(0xE0 | c >> 12);
-      put(0x80 | (c >> 6 & 0x3F));
-      put(0x80 | (c & 0x3F));
+      append(0xE0 | c >> 12);
+      append(0x80 | (c >> 6 & 0x3F));
+      append(0x80 | (c & 0x3F));
     }
   }
   return out;
@@ -114,7 +114,7 @@ std::vector<HidInfo> list_hid_devices() {
   hid_device_info* const list = hid_enumerate(0, 0);
   for (const hid_device_info* i = list; i != nullptr; i = i->next) {
     const bool known = std::any_of(devices.begin(), devices.end(), [&](const HidInfo& d) { return d.path == i->path; });
-    // One entry per outermost collection in hidapi, one per device here.
+    // hidapi lists each outermost collection; here each device is listed once.
     if (!known)
       devices.push_back({i->path, i->vendor_id, i->product_id, utf8(i->serial_number), utf8(i->product_string),
                          read_descriptor(i->path)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/large_array.hpp"
+#include "large_array.hpp"
 
 #include <sys/mman.h>
 
@@ -10,7 +10,7 @@ namespace papilla {
 namespace {
 
 constexpr std::size_t k_page = std::size_t{2} << 20;
-constexpr std::size_t k_least = 2 * k_page;  // Less isn't worth the rounding.
+constexpr std::size_t k_least = 2 * k_page;  // Below, rounding up to a page would waste too much.
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void* large_allocate(std::size_t bytes) {
     memory = std::malloc(bytes);
   } else {
     memory = std::aligned_alloc(k_page, (bytes + k_page - 1) / k_page * k_page);
-    if (memory != nullptr) ::madvise(memory, bytes, MADV_HUGEPAGE);  // A wish; refused it is ordinary memory.
+    if (memory != nullptr) ::madvise(memory, bytes, MADV_HUGEPAGE);  // Only a hint.
   }
   if (memory == nullptr) throw std::bad_alloc();
   return memory;

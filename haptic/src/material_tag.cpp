@@ -5,16 +5,20 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/units.hpp"
 #include "papilla/haptic/friction.hpp"
+#include "papilla/haptic/sha256.hpp"
 #include "papilla/haptic/stimulus.hpp"
+#include "papilla/texture/height_map.hpp"
 
 namespace papilla {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Reads members of one object; what is odd becomes a warning and leaves the default in place.
+/// Reads the members of one object. Wrong types and ranges become warnings and leave the default.
 class Members {
  public:
   Members(const Json& object, std::string place, std::vector<HapticWarning>& warnings)
@@ -32,7 +36,7 @@ class Members {
     return read >= low && read <= high;
   }
 
-  /// @param other the member whose value is used instead, if that is a number in range; else the default is.
+  /// @param other the member that replaces a wrong value, if it is a number in range; else the default does.
   bool number(const char* name, const char* code, double low, double high, double& value,
               const char* other = nullptr) const {
     if (!has(name)) return false;
@@ -87,7 +91,7 @@ class Members {
   std::vector<HapticWarning>& warnings_;
 };
 
-constexpr double k_any = 1e12;  // Larger numbers are no lengths, stiffnesses or frictions of anything.
+constexpr double k_any = 1e12;  // Bound of numbers without a bound of their own.
 constexpr int k_largest_picture = 1 << 16;
 
 std::optional<Wrap> wrap_of(const Json& value) {
@@ -349,6 +353,19 @@ Json tag_json(const MaterialTag& tag) {
 Json parse(std::string_view text) { return Json::parse(text, nullptr, false); }
 
 }  // namespace
+
+HeightTag make_height_tag(const HeightMap& relief, const EncodedRelief& encoded) {
+  HeightTag tag;
+  tag.uri = encoded.uri.empty() ? "data:image/png;base64," + encode_base64(encoded.png) : encoded.uri;
+  tag.sha256 = sha256_hex(encoded.png);
+  tag.size = {relief.width, relief.height};
+  tag.scale_m = k_metres_per_mm * encoded.scale_mm;
+  tag.offset_m = k_metres_per_mm * encoded.offset_mm;
+  tag.metres_per_uv = {k_metres_per_mm * relief.pitch_mm_x * relief.width,
+                       k_metres_per_mm * relief.pitch_mm_y * relief.height};
+  tag.rms_m = k_metres_per_mm * encoded.rms_mm;
+  return tag;
+}
 
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings) {
   return read_tag(parse(json), warnings);

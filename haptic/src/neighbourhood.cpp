@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/neighbourhood.hpp"
+#include "neighbourhood.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-// The loops below are made once for each width of vectors, and the processor chooses. (Not with sanitizers, which can't
-// run before the choice is made.)
+// The loops below are compiled for each vector width and selected at load time (not with sanitizers, whose runtime is
+// not initialised when ifuncs are resolved).
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define PAPILLA_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
@@ -18,7 +18,7 @@ namespace papilla {
 namespace {
 
 constexpr float k_margin = 2e-6F;  // Relative; a dozen roundings of single precision.
-constexpr float k_never = 2;
+constexpr float k_never = 2;       // A parameter beyond the segment.
 constexpr float k_least = 1e-25F;  // Keeps a quotient finite.
 
 constexpr float k_rounding = 4e-7F;  // Relative; a few roundings.
@@ -38,16 +38,17 @@ struct Neighbourhood::Loops {
   struct Passing;
   struct Nearness;
   static Nearness nearness(const Prisms& t, const Passing& p, std::size_t i, float at) noexcept;
-  static std::uint32_t meet(const Prisms& t, const float* x, const float* w, float reach, float least, float until,
-                            float* earliest, Passing& p) noexcept;
-  static std::uint32_t turn(const Prisms& t, const Passing& p, float reach, float least, float* earliest) noexcept;
+  static std::uint32_t first_bounds(const Prisms& t, const float* x, const float* w, float reach, float least,
+                                    float until, float* earliest, Passing& p) noexcept;
+  static std::uint32_t second_bounds(const Prisms& t, const Passing& p, float reach, float least,
+                                     float* earliest) noexcept;
   struct InBox;
   static InBox along_axes(const Boxes& b, std::size_t i, float x, float y, float z) noexcept;
   static std::uint32_t box_distances(const Boxes& b, const float* x, float distance, float* result) noexcept;
   static std::uint32_t near_boxes(const Boxes& b, const float* x, const float* half, float reach) noexcept;
 };
 
-/// Plane and edge planes of each triangle. Whatever the rounded normals are, corners bound all that lies between them.
+/// Plane and edge planes of each triangle. The offsets are taken from the corners, so rounded normals do no harm.
 PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p) noexcept {
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -79,7 +80,7 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p)
     p.n[0][i] = nx, p.n[1][i] = ny, p.n[2][i] = nz;
     p.middle[i] = 0.5F * (low + high);
     p.thick[i] = 0.5F * (high - low) + more;
-    // Along the longest edge, orthogonal to n whatever its rounding.
+    // Along the longest edge, orthogonal to the rounded n.
     const float ul = ux * ux + uy * uy + uz * uz, vl = vx * vx + vy * vy + vz * vz, wl = wx * wx + wy * wy + wz * wz;
     const bool u = ul >= vl && ul >= wl, v = vl >= wl;
     const float lx = u ? mx[0] : v ? mx[1] : mx[2], ly = u ? my[0] : v ? my[1] : my[2];
@@ -93,8 +94,8 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p)
   }
 }
 
-/// Along the mean normal, and the axis of the frame that lies most across it: blocks are cut along the frame's axes.
-/// The centre is that of the corners.
+/// Box along the mean normal and the coordinate axis that is most orthogonal to it: clusters are split along coordinate
+/// axes. The centre is that of the corners.
 PAPILLA_WIDE void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noexcept {
   float n0 = 0, n1 = 0, n2 = 0;
 #pragma GCC ivdep
@@ -144,7 +145,7 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noe
   }
 }
 
-/// @returns a bit for each that is nearer than `distance`.
+/// @returns a bit for each triangle that is nearer than `distance`.
 PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::distances(const Prisms& t, const float* x, float distance,
                                                            float* result) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2];
@@ -165,14 +166,14 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::distances(const Prisms& t, cons
   return bits;
 }
 
-/// How a point that starts at x and moves by w a unit of time stands to each prism: where it is and how fast it goes
-/// over the plane, beyond the planes of the edges, and from halfway.
+/// Signed distances of x to the planes of each prism, and their derivatives for a velocity w: plane, edge planes,
+/// middle of the longest edge.
 struct Neighbourhood::Loops::Passing {
   Lanes n, m0, m1, m2, e;
   Lanes wn, w0, w1, w2, we;
 };
 
-/// g, the distance from a prism at a time, and its descent −g·dg/dt.
+/// g, the distance to a prism at t, and its descent −g·dg/dt.
 struct Neighbourhood::Loops::Nearness {
   float g, descent;
 };
@@ -191,11 +192,12 @@ struct Neighbourhood::Loops::Nearness {
   return {std::sqrt(ds * ds + dm * dm), -(ds * p.wn[i] + dm * wm)};
 }
 
-/// The distance g is convex: at t' it is at least g − (t' − t)·descent/g. So reach c is not met before
-/// t + (g − c)·g/descent, and what lies below g − (1 − t)·max(descent, 0)/g not at all.
-/// @returns a bit for each that may be met by `until`, from the time in `earliest` on.
-PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::meet(const Prisms& t, const float* x, const float* w, float reach,
-                                                      float least, float until, float* earliest, Passing& p) noexcept {
+/// First bound. The distance g is convex: at t' it is at least g − (t' − t)·descent/g. So the distance c is not reached
+/// before t + (g − c)·g/descent, and no distance below g − (1 − t)·max(descent, 0)/g is reached at all.
+/// @returns a bit for each triangle with earliest ≤ until; the search starts at the parameter in `earliest`.
+PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::first_bounds(const Prisms& t, const float* x, const float* w,
+                                                              float reach, float least, float until, float* earliest,
+                                                              Passing& p) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -220,10 +222,10 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::meet(const Prisms& t, const flo
   return bits;
 }
 
-/// Of ways that go on to t = 1: the next tangent, one at the end, and one where these cross. The least distance is not
-/// below where neighbours of the three cross, nor below that at the end if the way still leads down there.
-PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::turn(const Prisms& t, const Passing& p, float reach, float least,
-                                                      float* earliest) noexcept {
+/// Second bound, for segments up to t = 1: from the tangents of the distance at `earliest`, at the end, and where these
+/// two cross. The minimum is not below the crossings of neighbouring tangents, and is the end's if g still falls there.
+PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::second_bounds(const Prisms& t, const Passing& p, float reach,
+                                                               float least, float* earliest) noexcept {
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
     const float at = earliest[i], left = std::max(1 - at, 0.0F);
@@ -234,7 +236,7 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::turn(const Prisms& t, const Pas
     const float turned = std::clamp((g - g1 + up * left) / std::max(down + up, k_least), 0.0F, left);
     const auto [g2, descent2] = nearness(t, p, i, at + turned);
     const float slope2 = -descent2 / std::max(g2, k_least);
-    // From the middle tangent towards where the distance falls, to the other tangent on that side.
+    // From the middle tangent to the outer one on the side where the distance falls.
     const float other = slope2 > 0 ? down : up, over = slope2 > 0 ? g - turned * down : g1 - (left - turned) * up;
     const float lower = g2 - (g2 - over) * std::abs(slope2) / std::max(std::abs(slope2) + other, k_least);
     const float bottom = descent1 >= 0 ? g1 : lower;
@@ -246,7 +248,7 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::turn(const Prisms& t, const Pas
   return bits;
 }
 
-/// A vector in the axes of box i.
+/// A vector in the frame of box i.
 struct Neighbourhood::Loops::InBox {
   float x, y, z;
 };
@@ -276,8 +278,8 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::box_distances(const Boxes& b, c
   return bits;
 }
 
-/// With d from a box to x, the middle of a way from x − half to x + half, no point of that is nearer to the box than
-/// |d| − |d·half|/|d|. @returns a bit for each of k_lanes boxes where that is at most `reach`.
+/// With d from a box to x, the middle of the segment from x − half to x + half, no point of it is nearer to the box
+/// than |d| − |d·half|/|d|. @returns a bit for each of k_lanes boxes where that is at most `reach`.
 PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::near_boxes(const Boxes& b, const float* x, const float* half,
                                                             float reach) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2], h0 = half[0], h1 = half[1], h2 = half[2];
@@ -299,7 +301,7 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::near_boxes(const Boxes& b, cons
 }
 
 void Neighbourhood::clear() noexcept {
-  forget_place();
+  clear_boxes();
   made_.fill(k_no_block);
 }
 
@@ -326,9 +328,9 @@ void Neighbourhood::add(std::uint32_t block, const Box3f& box) noexcept {
   block_[count_++] = block;
 }
 
-bool Neighbourhood::add_made(std::uint32_t block) noexcept {
+bool Neighbourhood::add_known(std::uint32_t block) noexcept {
   block_[count_] = block;
-  if (!is_made(count_)) return false;
+  if (!has_prisms(count_)) return false;
   set_box(count_, made_box_[slot(count_)]);
   ++count_;
   return true;
@@ -353,7 +355,7 @@ std::uint32_t Neighbourhood::along(Vec3 from, Vec3 way, double distance, Numbers
   const Vec3 half = 0.5 * way, middle = from + half;
   const std::array<float, 3> x = floats_of(middle), h = floats_of(half);
   const auto reach = static_cast<float>(distance);
-  // Rounding turns the direction to a box beyond `reach` by less than the error over `reach`.
+  // Rounding turns the direction to a box beyond `reach` by less than error/reach.
   const float error = k_margin * size_of(middle);
   const float most = reach * (1 + k_margin) + error + (error / reach + k_margin) * size_of(half);
   std::uint32_t count = 0;
@@ -390,28 +392,28 @@ std::uint32_t Neighbourhood::distances(std::uint32_t i, Vec3 from, double distan
   return Loops::distances(prisms_[slot(i)], x.data(), static_cast<float>(distance) * (1 + k_margin), least.data());
 }
 
-void Neighbourhood::near_way(Vec3 from, Vec3 way, double contact, double deep, double since, double until,
-                             Meetings& meetings) const noexcept {
+void Neighbourhood::bound_contacts(Vec3 from, Vec3 way, double contact, double deep, double since, double until,
+                                   ContactBounds& bounds) const noexcept {
   const std::array<float, 3> w = floats_of(way);
   const auto c = static_cast<float>(contact), d = static_cast<float>(deep);
   const float last = static_cast<float>(until) * (1 + k_margin), first = static_cast<float>(since) * (1 - k_margin);
   std::array<Loops::Passing, k_together> passing;
   std::array<float, k_together> error;
-  for (std::uint32_t i = 0; i < meetings.count; ++i) {
-    const std::uint32_t at = slot(meetings.block[i]);
+  for (std::uint32_t i = 0; i < bounds.count; ++i) {
+    const std::uint32_t at = slot(bounds.block[i]);
     const std::array<float, 3>& o = origin_[at];
     const Vec3 start = from - Vec3{static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
     const std::array<float, 3> x = floats_of(start);
     error[i] = 4 * k_margin * (c + size_of(start) + size_of(way));
-    meetings.earliest[i].fill(first);
-    meetings.met[i] = Loops::meet(prisms_[at], x.data(), w.data(), c + error[i], c + error[i] - d, last,
-                                  meetings.earliest[i].data(), passing[i]);
+    bounds.earliest[i].fill(first);
+    bounds.met[i] = Loops::first_bounds(prisms_[at], x.data(), w.data(), c + error[i], c + error[i] - d, last,
+                                        bounds.earliest[i].data(), passing[i]);
   }
   if (until < 1) return;
-  for (std::uint32_t i = 0; i < meetings.count; ++i)
-    if (meetings.met[i] != 0)
-      meetings.met[i] = Loops::turn(prisms_[slot(meetings.block[i])], passing[i], c + error[i], c + error[i] - d,
-                                    meetings.earliest[i].data());
+  for (std::uint32_t i = 0; i < bounds.count; ++i)
+    if (bounds.met[i] != 0)
+      bounds.met[i] = Loops::second_bounds(prisms_[slot(bounds.block[i])], passing[i], c + error[i], c + error[i] - d,
+                                           bounds.earliest[i].data());
 }
 
 }  // namespace papilla

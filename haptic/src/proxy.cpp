@@ -2,78 +2,122 @@
 #include "papilla/haptic/proxy.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "constraint_set.hpp"
+#include "contact_triangles.hpp"
 #include "papilla/haptic/friction.hpp"
 
 namespace papilla {
 namespace {
 
-/// Of the shortest step. Near the end a step of s brings only s²/2·depth.
-constexpr double k_least_gain = 0.02;
-// Of the probe's way in the tick: what a tick needs around the proxy, and what is gathered for the ticks to come.
-constexpr double k_needed_travels = 0.3, k_wanted_travels = 3;
-constexpr double k_lead = 0.5;   // Of what is gathered: how far before the proxy its centre lies.
-constexpr int k_pieces = 3;      // Of a way, each with what is gathered where it begins; what is longer asks the tree.
-constexpr double k_far = 1.5;    // Of the probe's way: a proxy that goes farther slips down a slope.
-constexpr int k_hops = 6;        // Down a slope.
-constexpr double k_lift = 0.25;  // Of the skin: how deep a hollow may be that holds no proxy.
-constexpr int k_leap_sweeps = 4 * k_hops;  // At most: up, along, down, and off a rim.
-// Radii aside for one down: a straight way around a rim that cuts 3 % of the radius off.
-constexpr double k_around = 4;
-constexpr int k_few = 8;             // Sweeps; one that took more of them has felt its way.
-constexpr double k_held = 0.1;       // Of the probe's way: a proxy that goes no farther is held.
-constexpr double k_regrowth = 1.01;  // Per tick, after more was asked for than fits.
-constexpr double k_same_normal = 0.95;
-constexpr double k_same_way = 0.9;      // Cosine of the angle between two steps along a crease.
-constexpr double k_longest_stride = 4;  // Of what the planes say, where a crease goes on and on.
-constexpr double k_drop = 8;            // Of the shortest step: twice as far as a resting proxy can be off.
+// The constants of the descent: unit, reason, source. ε = τ/4 is the shortest step, τ the tolerance of the surface,
+// travel the way of the probe in the tick; all units scale with the scene or the motion. [g] follows from geometry or
+// rounding, [b] is tuned: with it the long runs of papilla-bench-contact meet their targets of time and of distance to
+// a slow reference descent.
+constexpr double k_least_sine2 = 1e-8;  // sin²: planes within 0.1 mrad of parallel form no edge [g]
+// Settle.
+constexpr double k_least_gain = 0.02;   // ε: a round that gains less is the last; a step s gains s²/(2·depth) [b]
+constexpr double k_held = 0.1;          // travel: in a crease, a proxy that moved less gets one more round [b]
+constexpr double k_crept = 2;           // ε: a longer step along a crease may have reached the end of a wall [b]
+constexpr double k_press = 8;           // ε: twice the error of a resting proxy, which is τ [g]
+constexpr double k_same_normal = 0.95;  // cosine: normal of a plane that is found again [b]
+// Steps along a crease.
+constexpr double k_same_way = 0.9;      // cosine between two steps that a secant may connect [b]
+constexpr double k_longest_stride = 4;  // of the planes' step, where the secant has no root ahead [b]
+// Hops towards the nearest place.
+constexpr double k_least_hop = 8;         // τ: a nearer place is left to the descent [b]
+constexpr double k_far = 1.5;             // travel: longest hop; a proxy that moved farther slipped down a slope [b]
+constexpr int k_hops = 6;                 // of that length, down a slope [b]
+constexpr int k_hop_sweeps = 4 * k_hops;  // at most: up, along, down, around a rim [g]
+constexpr int k_few = 8;                  // sweeps: a descent that took more followed the surface closely [b]
+constexpr double k_lift = 0.25;           // skin: a shallower hollow holds no proxy (docs/contact.md) [b]
+constexpr double k_around = 4;            // radii aside for one down: a chord that cuts 3 % of the radius [g]
+// Gathering, for speed; hops see only what is gathered.
+constexpr double k_needed_travels = 0.3;  // travel: margin around the proxy that a sweep wants [b]
+constexpr double k_wanted_travels = 3;    // travel: gathered radius, for this tick and the next ones [b]
+constexpr double k_wanted_skins = 4;      // skin: the same of a probe at rest [b]
+constexpr double k_lead = 0.5;            // of that radius: how far ahead of the proxy its centre lies [b]
+constexpr int k_pieces = 3;               // gathers along one sweep, then the tree is searched [b]
+constexpr double k_regrowth = 1.01;       // per tick: growth of the largest radius after more than fits [b]
+constexpr std::uint32_t k_sparse = 64;    // blocks, of 512: with fewer a radius twice as large is tried [b]
 
-}  // namespace
-
-/// What came of one hop: nothing nearer is there, the way is not free, or the proxy was moved.
-enum class Proxy::Hop { none, blocked, moved };
-
-/// Where the proxy was, where the probe is seen from there, how far that has come, and how far one hop may lead.
-struct Proxy::Tick {
-  Vec3 start, goal;
-  double travel, farthest;
+/// A half-space that the proxy must not leave: normal · x ≥ offset.
+struct HalfSpace {
+  Vec3 normal;
+  double offset = 0;
+  std::uint32_t material = 0;
 };
 
-/// What came of a few hops: how the last one ended, and the place they were aimed at.
-struct Proxy::Leap {
-  Hop last = Hop::none;
-  Vec3 aim{};
+/// The point of a few half-spaces that is closest to a goal.
+struct ConstrainedPoint {
+  Vec3 point;
+  std::uint32_t active = 0;  ///< Bit i: half-space i carries load.
+  int count = 0;             ///< Bits set in `active`, at most 3.
+  bool found = false;
 };
 
-/// The step before along a crease, which bends while the step is straight.
-struct Proxy::Stride {
-  Vec3 direction;
-  double length = 0, wanted = 0;  ///< As far as it went, and as far as the planes said.
-
-  void take(Vec3 step, double step_wanted) noexcept {
-    length = norm(step);
-    wanted = step_wanted;
-    direction = (1 / length) * step;
-  }
-
-  /// How much longer or shorter the next step has to be than the planes say. From one to the next, what they say
-  /// changes in proportion to the way that was gone, so that the secant leads to where they say that it is there.
-  /// @param farthest how far it may go at most.
-  double factor(Vec3 step, double step_wanted, double farthest) const noexcept {
-    const double along = dot(step, direction), fall = wanted - along;
-    if (length == 0 || std::abs(along) < k_same_way * step_wanted) return 1;
-    const double secant = fall > 0 ? std::abs(along) * length / fall : k_longest_stride * step_wanted;
-    return std::min(secant, farthest) / step_wanted;
-  }
+struct Candidate {
+  Vec3 point;
+  bool valid = false;  ///< All multipliers are ≥ 0.
 };
 
-/// The half-spaces found in this tick, in coordinates around the proxy of the tick's start.
-struct Proxy::Planes {
-  HalfSpace plane[k_planes];
-  Vec3 found_at[k_planes];
+Candidate on_one(Vec3 goal, const HalfSpace& a) noexcept {
+  const double need = a.offset - dot(a.normal, goal);
+  return {goal + need * a.normal, need >= 0};
+}
+
+Candidate on_two(Vec3 goal, const HalfSpace& a, const HalfSpace& b) noexcept {
+  const double c = dot(a.normal, b.normal), det = 1 - c * c;
+  if (det < k_least_sine2) return {};
+  const double ra = a.offset - dot(a.normal, goal), rb = b.offset - dot(b.normal, goal);
+  const double la = (ra - c * rb) / det, lb = (rb - c * ra) / det;
+  return {goal + la * a.normal + lb * b.normal, la >= 0 && lb >= 0};
+}
+
+Candidate on_three(Vec3 goal, const HalfSpace& a, const HalfSpace& b, const HalfSpace& c) noexcept {
+  const Vec3 bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal), ab = cross(a.normal, b.normal);
+  const double det = dot(a.normal, bc);
+  if (det * det < k_least_sine2) return {};
+  const Vec3 corner = (1 / det) * (a.offset * bc + b.offset * ca + c.offset * ab);
+  // corner − goal = Σ λ n; the rows of the inverse of (na nb nc) are bc, ca, ab over det.
+  const Vec3 d = corner - goal;
+  return {corner, dot(d, bc) / det >= 0 && dot(d, ca) / det >= 0 && dot(d, ab) / det >= 0};
+}
+
+/// argmin |x − goal|² subject to every half-space: of all sets of at most three active planes the first whose
+/// multipliers are ≥ 0 and that violates no other plane by more than `slack` (Karush-Kuhn-Tucker conditions, sufficient
+/// for a convex problem). At most 92 small systems for 8 planes.
+ConstrainedPoint constrain(Vec3 goal, const HalfSpace* planes, int count, double slack) noexcept {
+  ConstrainedPoint best;
+  best.point = goal;
+  const auto accept = [&](const Candidate& candidate, std::uint32_t active) noexcept {
+    if (!candidate.valid) return false;
+    for (int i = 0; i < count; ++i)
+      if (!(active >> i & 1U) && dot(planes[i].normal, candidate.point) < planes[i].offset - slack) return false;
+    best = {candidate.point, active, std::popcount(active), true};
+    return true;
+  };
+  if (accept({goal, true}, 0)) return best;
+  for (int i = 0; i < count; ++i)
+    if (accept(on_one(goal, planes[i]), 1U << i)) return best;
+  for (int i = 0; i < count; ++i)
+    for (int j = i + 1; j < count; ++j)
+      if (accept(on_two(goal, planes[i], planes[j]), 1U << i | 1U << j)) return best;
+  for (int i = 0; i < count; ++i)
+    for (int j = i + 1; j < count; ++j)
+      for (int k = j + 1; k < count; ++k)
+        if (accept(on_three(goal, planes[i], planes[j], planes[k]), 1U << i | 1U << j | 1U << k)) return best;
+  return best;
+}
+
+/// The planes of the contacts of a tick, relative to the proxy at its start.
+struct Planes {
+  HalfSpace plane[Proxy::k_planes];
+  Vec3 found_at[Proxy::k_planes];
   int count = 0;
 
   void add(const HalfSpace& found, Vec3 at) noexcept {
@@ -92,22 +136,285 @@ struct Proxy::Planes {
   }
 };
 
-void Proxy::reset(Vec3 position) noexcept {
+/// The last step along a crease, which bends while the step is straight.
+struct Stride {
+  Vec3 direction;
+  double length = 0, wanted = 0;  ///< Length as taken, and as the planes gave it.
+
+  void record(Vec3 step, double step_wanted) noexcept {
+    length = norm(step);
+    wanted = step_wanted;
+    direction = (1 / length) * step;
+  }
+
+  /// Ratio of the next step to that of the planes. The step of the planes shrinks in proportion to the way covered, so
+  /// the secant through the last two leads to its root.
+  /// @param farthest longest step.
+  double factor(Vec3 step, double step_wanted, double farthest) const noexcept {
+    const double along = dot(step, direction), fall = wanted - along;
+    if (length == 0 || std::abs(along) < k_same_way * step_wanted) return 1;
+    const double secant = fall > 0 ? std::abs(along) * length / fall : k_longest_stride * step_wanted;
+    return std::min(secant, farthest) / step_wanted;
+  }
+};
+
+/// How a hop ended: no nearer place, an obstacle on its way, or the proxy was moved.
+enum class Hop { none, blocked, moved };
+
+/// A series of hops: how the last one ended, and where they were aimed at.
+struct Hops {
+  Hop last = Hop::none;
+  Vec3 aim{};
+};
+
+/// The data of one tick. Positions are relative to `start`: small numbers, full precision.
+struct Tick {
+  Vec3 start;           ///< Proxy of the tick before, in the frame of the scene.
+  Vec3 goal;            ///< The probe.
+  double travel = 0;    ///< Way of the probe in this tick.
+  double farthest = 0;  ///< Longest hop.
+  Vec3 press_normal;    ///< A proxy that friction holds is pressed against this direction,
+  double press = 0;     ///< by this length; 0: it follows the probe.
+  Vec3 x{}, slid{};     ///< The proxy, and its way along the surface.
+  Planes planes{};
+  ProxyState next{};  ///< The result.
+  Hops first{};       ///< Hops at the start of the tick.
+  Stride stride{};
+  double nearest = std::numeric_limits<double>::infinity();  ///< Distance from the probe after the last round.
+  bool free = false;                                         ///< No surface is between proxy and probe.
+  bool hopped_again = false;                                 ///< After it had come to rest.
+  bool crept = false;                                        ///< The last step led along a crease.
+  bool extra_round = false;                                  ///< A round without gain was granted.
+};
+
+/// Where the planes let the proxy go.
+struct Aim {
+  ConstrainedPoint at;
+  Vec3 step;
+  double wanted = 0;     ///< |x* − x|.
+  double held = 0;       ///< μδ: what friction takes from that.
+  bool presses = false;  ///< The step leads along the normal instead.
+};
+
+enum class Next { done, aim, sweep };
+
+}  // namespace
+
+class Proxy::Descent {
+ public:
+  explicit Descent(const ContactTriangles& surface) noexcept
+      : surface_(&surface), shortest_(surface.tolerance_m() / 4) {}
+
+  void reset(Vec3 position) noexcept;
+  const ProxyState& update(Vec3 probe, double period_s) noexcept;
+  const ProxyState& state() const noexcept { return state_; }
+  std::span<const Vec3> waypoints() const noexcept { return {waypoints_.data(), waypoint_count_}; }
+
+ private:
+  Tick begin_tick(Vec3 probe) noexcept;
+  Aim aim(Tick& tick) const noexcept;
+  Next settle(Tick& tick, const Aim& aim) noexcept;
+  Next settle_held(Tick& tick, const Aim& aim) noexcept;
+  static void apply_friction(Aim& aim) noexcept;
+  void stretch_along_crease(const Tick& tick, Aim& aim) const noexcept;
+  bool sweep_step(Tick& tick, const Aim& aim) noexcept;
+  const ProxyState& end_tick(Tick& tick, double period_s) noexcept;
+
+  double friction_of(std::uint32_t material) const noexcept;
+  void save_planes(const Planes& planes, std::uint32_t active, Vec3 x) noexcept;
+  void restore_planes(Vec3 goal, Planes& planes) noexcept;
+  bool crease_holds(Tick& tick, std::uint32_t active) noexcept;
+  void add_contact(Tick& tick, const SweepHit& hit, Vec3 way) const noexcept;
+  void add_rest(Tick& tick, const ContactTriangles::Rest& rest) noexcept;
+  Hop hop(Tick& tick, const ContactTriangles::Rest& rest, Vec3 normal, double lift_m) noexcept;
+  Hops hop_to_nearest(Tick& tick, Vec3 normal, double lift_m) noexcept;
+  std::optional<SweepHit> sweep(Vec3 from, Vec3 way, double travel) noexcept;
+  void ensure_gathered(Vec3 from, double needed, double travel) noexcept;
+  void add_waypoint(Vec3 at) noexcept { waypoints_[waypoint_count_++] = at; }
+
+  const ContactTriangles* surface_;
+  double shortest_;  // ε
+  ProxyState state_;
+  double slide_speed_ = 0;  // m/s, smoothed.
+  bool started_ = false;
+  Vec3 probe_;                       // Of the tick before.
+  Vec3 ahead_;                       // Unit direction of the probe's way in this tick; zero when that is short.
+  std::array<HalfSpace, 3> held_{};  // Planes that held the proxy in a crease, relative to it.
+  std::size_t held_count_ = 0;
+  std::array<Vec3, k_steps> waypoints_{};  // At most one for each sweep.
+  std::size_t waypoint_count_ = 0;
+  Neighbourhood near_;
+  double widest_m_ = 1;  // Radius that is likely to fit into near_.
+};
+
+void Proxy::Descent::reset(Vec3 position) noexcept {
   state_ = ProxyState{};
   state_.proxy = position;
   probe_ = position;
   near_.clear();
-  held_count_ = turn_count_ = 0;
+  held_count_ = waypoint_count_ = 0;
   slide_speed_ = 0;
   started_ = true;
 }
 
-double Proxy::friction(const ContactMaterial& m) const noexcept {
+const ProxyState& Proxy::Descent::update(Vec3 probe, double period_s) noexcept {
+  if (!ContactSurface::is_valid_position(probe)) return state_;
+  if (!started_) reset(probe);
+  Tick tick = begin_tick(probe);
+  for (;;) {
+    Aim aim = this->aim(tick);
+    const Next next = settle(tick, aim);
+    if (next == Next::done) break;
+    if (next == Next::aim) continue;
+    apply_friction(aim);
+    stretch_along_crease(tick, aim);
+    if (!sweep_step(tick, aim)) break;
+  }
+  return end_tick(tick, period_s);
+}
+
+/// Starts from the planes of the tick before. Without friction the nearest place is tried first: on smooth ground two
+/// sweeps lead there, whatever the edges between.
+Tick Proxy::Descent::begin_tick(Vec3 probe) noexcept {
+  Tick tick;
+  tick.travel = norm(probe - probe_);
+  ahead_ = tick.travel > shortest_ ? (1 / tick.travel) * (probe - probe_) : Vec3{};
+  probe_ = probe;
+  tick.start = state_.proxy;
+  tick.goal = probe - tick.start;
+  tick.farthest = k_far * tick.travel + surface_->skin_m();
+  waypoint_count_ = 0;
+  restore_planes(tick.goal, tick.planes);
+  tick.press_normal = state_.normal;
+  if (state_.in_contact && friction_of(state_.material) > 0) tick.press = k_press * shortest_;
+  if (state_.in_contact && tick.press == 0 && tick.travel > shortest_) {
+    tick.first = hop_to_nearest(tick, state_.normal, 0);
+    tick.slid = tick.x;
+  }
+  if (tick.planes.count > 0) tick.nearest = norm(tick.goal - tick.x);
+  return tick;
+}
+
+/// The closest point that the planes allow; with active planes it gives normal, load and material of the contact.
+Aim Proxy::Descent::aim(Tick& tick) const noexcept {
+  Aim aim{constrain(tick.goal, tick.planes.plane, tick.planes.count, shortest_), {}};
+  if (!aim.at.found) return aim;
+  aim.step = aim.at.point - tick.x;
+  aim.wanted = norm(aim.step);
+  aim.presses = aim.at.count == 0 && tick.press > 0;
+  if (aim.presses) aim.step = -tick.press * tick.press_normal;
+  if (aim.at.count == 0) return aim;
+
+  const Vec3 behind = aim.at.point - tick.goal;
+  const double depth = norm(behind);
+  const HalfSpace& loaded = tick.planes.plane[std::countr_zero(aim.at.active)];
+  ProxyState& next = tick.next;
+  next.in_contact = true;
+  next.constraints = aim.at.count;
+  next.normal = depth > 0 ? (1 / depth) * behind : loaded.normal;
+  next.load_m = std::max(0.0, depth - surface_->skin_m());
+  next.material = loaded.material;
+  aim.held = friction_of(next.material) * next.load_m;
+  return aim;
+}
+
+/// Whether the proxy is at rest. Without active planes it is when it reached the probe, or when a round that started
+/// from here led back and no nearer. A proxy that crept a little along a crease gets one round more, because a wall may
+/// have ended there.
+Next Proxy::Descent::settle(Tick& tick, const Aim& aim) noexcept {
+  if (!aim.at.found) return Next::done;
+  if (aim.presses) return Next::sweep;
+  if (aim.at.count > 0) return aim.wanted - aim.held <= shortest_ ? settle_held(tick, aim) : Next::sweep;
+  tick.free = aim.wanted == 0;
+  const bool no_nearer = tick.planes.count == 0 && aim.wanted > tick.nearest - k_least_gain * shortest_;
+  const bool may_go_on = tick.crept && !tick.extra_round && norm(tick.x) <= k_held * tick.travel;
+  if (tick.free || (no_nearer && !may_go_on)) return Next::done;
+  tick.extra_round = tick.extra_round || no_nearer;
+  if (tick.planes.count == 0) tick.nearest = aim.wanted;
+  return Next::sweep;
+}
+
+/// The step that is left is too short. The proxy is at rest if the planes of a crease still exist, and if no hop leads
+/// nearer: tried once, when the first hops were blocked far from here, or when the proxy slipped far in a few sweeps.
+Next Proxy::Descent::settle_held(Tick& tick, const Aim& aim) noexcept {
+  if (aim.at.count > 1 && !crease_holds(tick, aim.at.active)) {
+    tick.planes.count = 0;
+    return Next::aim;
+  }
+  const bool blocked = tick.first.last == Hop::blocked && norm(tick.first.aim - tick.x) > tick.travel;
+  const bool slipped = tick.next.sweeps <= k_few && norm(tick.x) > k_far * tick.travel;
+  if (!tick.hopped_again && aim.held == 0 && (blocked || slipped) && tick.next.sweeps + k_hop_sweeps <= k_steps) {
+    tick.hopped_again = true;
+    const Vec3 before = tick.x;
+    hop_to_nearest(tick, tick.next.normal, blocked ? k_lift * surface_->skin_m() : 0);
+    if (!(tick.x == before)) return Next::aim;
+  }
+  if (aim.at.count > 1) save_planes(tick.planes, aim.at.active, tick.x);
+  return Next::done;
+}
+
+/// Coulomb's cone: the step ends where the rest of it is μδ.
+void Proxy::Descent::apply_friction(Aim& aim) noexcept {
+  if (aim.at.count > 0) aim.step = (1 - aim.held / aim.wanted) * aim.step;
+}
+
+/// Stretches a step along a crease by the secant, where there is no friction. s beyond the aim the proxy rises by
+/// s²/(2·depth), and half a tolerance is allowed. On relief successive steps are not related closely enough.
+void Proxy::Descent::stretch_along_crease(const Tick& tick, Aim& aim) const noexcept {
+  if (aim.at.count < 2 || aim.held > 0 || surface_->tallest_relief_m() > 0) return;
+  const double farthest = aim.wanted + std::sqrt(norm(tick.goal - tick.x) * surface_->tolerance_m());
+  aim.step = tick.stride.factor(aim.step, aim.wanted, farthest) * aim.step;
+}
+
+/// Moves the proxy up to the first contact of the step. @returns false when the tick ends there.
+bool Proxy::Descent::sweep_step(Tick& tick, const Aim& aim) noexcept {
+  if (tick.next.sweeps == k_steps) return false;
+  ++tick.next.sweeps;
+  const auto hit = sweep(tick.start + tick.x, aim.step, tick.travel);
+  tick.press = 0;
+  if (aim.presses && !hit) return true;
+  const Vec3 moved = (hit ? hit->t : 1) * aim.step;
+  tick.x = tick.x + moved;
+  add_waypoint(tick.start + tick.x);
+  if (aim.at.count > 0) tick.slid = tick.slid + moved;
+  tick.free = !hit && tick.planes.count == 0;
+  if (tick.free) return false;
+  if (!hit) {
+    if (friction_of(tick.next.material) > 0) tick.press = norm(moved) + k_press * shortest_;
+    tick.press_normal = tick.next.normal;
+    tick.crept = aim.at.count > 1 && norm(moved) > k_crept * shortest_;
+    if (aim.at.count > 1) tick.stride.record(moved, aim.wanted);
+    tick.planes.count = 0;
+    return true;
+  }
+  if (norm(moved) > shortest_) tick.planes.keep(aim.at.active);
+  if (tick.planes.count == k_planes) return false;
+  add_contact(tick, *hit, aim.step);
+  return true;
+}
+
+const ProxyState& Proxy::Descent::end_tick(Tick& tick, double period_s) noexcept {
+  ProxyState& next = tick.next;
+  if (tick.free) next = ProxyState{};
+  next.proxy = tick.start + tick.x;
+  next.shaded_normal = next.normal;
+  if (next.in_contact && surface_->material(next.material).shading)
+    next.shaded_normal = surface_->shaded_normal(next.proxy, next.normal);
+  const double distance = norm(tick.slid);
+  next.sliding = next.in_contact && distance > surface_->tolerance_m();
+  if (period_s > 0) slide_speed_ += friction_memory_share(period_s) * (distance / period_s - slide_speed_);
+  state_ = next;
+  return state_;
+}
+
+/// μ at the present sliding speed; 0 for other models than Coulomb's, which leave the proxy free.
+double Proxy::Descent::friction_of(std::uint32_t material) const noexcept {
+  const ContactMaterial& m = surface_->material(material);
   return m.friction == FrictionModel::coulomb ? friction_coefficient(m, slide_speed_) : 0;
 }
 
-/// Remembers the planes that hold the proxy at x, if all of them were found there.
-void Proxy::remember(const Planes& planes, std::uint32_t active, Vec3 x) noexcept {
+/// Keeps the active planes for the next tick, if all of them were found at x.
+void Proxy::Descent::save_planes(const Planes& planes, std::uint32_t active, Vec3 x) noexcept {
   for (int i = 0; i < planes.count; ++i) {
     if (!(active >> i & 1U)) continue;
     const HalfSpace& plane = planes.plane[i];
@@ -115,62 +422,131 @@ void Proxy::remember(const Planes& planes, std::uint32_t active, Vec3 x) noexcep
       held_count_ = 0;
       return;
     }
-    held_[static_cast<std::size_t>(held_count_++)] = {plane.normal, plane.offset - dot(plane.normal, x),
-                                                      plane.material};
+    held_[held_count_++] = {plane.normal, plane.offset - dot(plane.normal, x), plane.material};
   }
 }
 
-/// The planes that held the proxy when the tick before ended: it hasn't moved since, so they need not be found anew as
-/// long as the probe pulls into them.
-void Proxy::recall(Vec3 goal, Planes& planes) noexcept {
+/// The planes of save_planes(), if the probe still pulls into one of them: the proxy has not moved since.
+void Proxy::Descent::restore_planes(Vec3 goal, Planes& planes) noexcept {
   bool pulls = false;
-  for (int i = 0; i < held_count_; ++i) {
-    const Held& held = held_[static_cast<std::size_t>(i)];
-    planes.add({held.normal, held.offset, held.material}, {});
-    pulls = pulls || dot(held.normal, goal) < held.offset;
+  for (std::size_t i = 0; i < held_count_; ++i) {
+    planes.add(held_[i], {});
+    pulls = pulls || dot(held_[i].normal, goal) < held_[i].offset;
   }
   if (!pulls) planes.count = 0;
   held_count_ = 0;
 }
 
-/// Says what holds the proxy when it wants to go to `aim` and would like to be at `goal`.
-void Proxy::hold(const ConstrainedPoint& aim, const Planes& planes, Vec3 goal, ProxyState& next) const noexcept {
-  const Vec3 behind = aim.point - goal;
-  const double depth = norm(behind);
-  int loaded = 0;
-  while (!(aim.active >> loaded & 1U)) ++loaded;
-  next.in_contact = true;
-  next.constraints = aim.count;
-  next.normal = depth > 0 ? (1 / depth) * behind : planes.plane[loaded].normal;
-  next.load_m = std::max(0.0, depth - surface_->skin_m());
-  next.material = planes.plane[loaded].material;
-}
-
-void Proxy::turn(Vec3 at) noexcept { turns_[static_cast<std::size_t>(turn_count_++)] = at; }
-
-/// Sees to it that what lies within `needed` of `from` is gathered, unless that is too much.
-void Proxy::look_around(Vec3 from, double needed, double travel) noexcept {
-  if (surface_->margin(from, near_) < needed) gather(from, needed, travel);
-}
-
-void Proxy::gather(Vec3 from, double needed, double travel) noexcept {
-  const double radius = std::min(k_wanted_travels * travel + 4 * surface_->skin_m(), widest_m_);
-  if ((1 - k_lead) * radius < needed) {
-    near_.forget_place();
-    widest_m_ *= k_regrowth;
-  } else if (!surface_->gather(from + (k_lead * radius) * ahead_, radius, near_)) {
-    widest_m_ = 0.5 * radius;
-  } else if (near_.blocks() < Neighbourhood::k_blocks / 8) {
-    widest_m_ = std::max(widest_m_, 2 * radius);
+/// Whether the surfaces behind the planes of a crease still exist at x: the proxy may have slid past one of them.
+bool Proxy::Descent::crease_holds(Tick& tick, std::uint32_t active) noexcept {
+  const double drop = k_press * shortest_;
+  for (int i = 0; i < tick.planes.count; ++i) {
+    const Vec3 normal = tick.planes.plane[i].normal, from = tick.start + tick.x;
+    if (!(active >> i & 1U) || norm(tick.x - tick.planes.found_at[i]) <= drop || tick.next.sweeps == k_steps) continue;
+    ++tick.next.sweeps;
+    const auto hit = surface_->sweep(from, from - drop * normal, near_);
+    if (!hit || dot(hit->normal, normal) < k_same_normal) return false;
   }
+  return true;
 }
 
-/// ContactSurface::sweep(); a way that leaves what is gathered goes on with what is gathered where it does.
-std::optional<SweepHit> Proxy::sweep(Vec3 from, Vec3 way, double travel) noexcept {
+/// Adds the plane of a contact at x on the step `way`; in a crease the planes of both faces.
+void Proxy::Descent::add_contact(Tick& tick, const SweepHit& hit, Vec3 way) const noexcept {
+  tick.next.in_contact = true;
+  // Undoes the penetration that the sweep allows; far less than the skin, so nothing is passed.
+  const double tolerance = surface_->tolerance_m(), first = std::clamp(hit.penetration_m, 0.0, tolerance);
+  if (hit.crease && tick.planes.count + 2 <= k_planes) {
+    const auto& crease = *hit.crease;
+    const double second =
+        dot(crease.normal, (crease.t - hit.t) * way) + std::clamp(crease.penetration_m, 0.0, tolerance);
+    // The shortest way to where both are touched.
+    const double c = dot(hit.normal, crease.normal), s = 1 - c * c;
+    const Vec3 out = ((first - c * second) / s) * hit.normal + ((second - c * first) / s) * crease.normal;
+    if (norm(out) <= tolerance) {
+      tick.x = tick.x + out;
+      tick.planes.add({hit.normal, dot(hit.normal, tick.x), hit.material}, tick.x);
+      tick.planes.add({crease.normal, dot(crease.normal, tick.x), crease.material}, tick.x);
+      return;
+    }
+  }
+  tick.x = tick.x + first * hit.normal;
+  tick.planes.add({hit.normal, dot(hit.normal, tick.x), hit.material}, tick.x);
+}
+
+/// Adds the plane that holds the proxy at the nearest place: the goal lies straight behind the touched point. The rim
+/// of a sheet holds nothing; there the proxy goes around it.
+void Proxy::Descent::add_rest(Tick& tick, const ContactTriangles::Rest& rest) noexcept {
+  const Vec3 out = normalized(tick.x - tick.goal);
+  const Vec3 aside = rest.off - dot(rest.off, out) * out;
+  if (!(aside == Vec3{})) {
+    const double radius = surface_->contact_radius_m();
+    const Vec3 around = (k_around / norm(aside) * radius) * aside - radius * out;
+    ++tick.next.sweeps;
+    if (!sweep(tick.start + tick.x, around, tick.travel)) {
+      if (norm(tick.x + around - tick.goal) >= norm(tick.x - tick.goal)) return;
+      tick.x = tick.x + around;
+      add_waypoint(tick.start + tick.x);
+      return;
+    }
+  }
+  tick.planes.add({out, dot(out, tick.x), rest.material}, tick.x);
+}
+
+/// Moves towards a place to rest: up by lift_m along `normal`, along the surface, and down. Only if these ways are free
+/// and lead nearer to the goal; then the planes are those found there.
+Hop Proxy::Descent::hop(Tick& tick, const ContactTriangles::Rest& rest, Vec3 normal, double lift_m) noexcept {
+  const Vec3 x = tick.x, place = rest.place - tick.start, up = lift_m * normal;
+  const double now = norm(tick.goal - x);
+  Vec3 over = place - std::min(dot(normal, place - x), 0.0) * normal;
+  const double way = norm(over - x);
+  if (way <= k_least_hop * surface_->tolerance_m()) return Hop::none;
+  if (way > tick.farthest) over = x + (tick.farthest / way) * (over - x);
+  over = over + up;
+  if (lift_m > 0) {
+    ++tick.next.sweeps;
+    if (sweep(tick.start + x, up, tick.travel)) return Hop::blocked;
+  }
+  ++tick.next.sweeps;
+  if (sweep(tick.start + x + up, over - x - up, tick.travel)) return Hop::blocked;
+  ++tick.next.sweeps;
+  const Vec3 down = place - over;
+  const auto hit = sweep(tick.start + over, down, tick.travel);
+  const Vec3 there = over + (hit ? hit->t : 1) * down;
+  if (norm(tick.goal - there) >= now - surface_->tolerance_m()) return Hop::none;
+  if (lift_m > 0) add_waypoint(tick.start + x + up);
+  add_waypoint(tick.start + over);
+  add_waypoint(tick.start + there);
+  tick.x = there;
+  tick.planes.count = 0;
+  tick.next.in_contact = true;
+  if (hit) {
+    add_contact(tick, *hit, down);
+  } else {
+    add_rest(tick, rest);
+  }
+  return Hop::moved;
+}
+
+Hops Proxy::Descent::hop_to_nearest(Tick& tick, Vec3 normal, double lift_m) noexcept {
+  // Gathers what a hop can reach, or as much as is likely to fit.
+  ensure_gathered(tick.start + tick.x, std::min(tick.farthest, (1 - k_lead) * widest_m_), tick.travel);
+  const double now = norm(tick.goal - tick.x), tolerance = surface_->tolerance_m();
+  const auto rest = surface_->rest_candidate(tick.start + tick.goal, now - 2 * tolerance, normal, near_);
+  if (!rest) return {};
+  Hops hops{Hop::moved, rest->place - tick.start};
+  for (int i = 0; i < k_hops && hops.last == Hop::moved; ++i) {
+    hops.last = hop(tick, *rest, normal, lift_m);
+    normal = normalized(tick.x - tick.goal);
+  }
+  return hops;
+}
+
+/// First contact on from + t·way. Where the segment leaves the gathered ball, more is gathered.
+std::optional<SweepHit> Proxy::Descent::sweep(Vec3 from, Vec3 way, double travel) noexcept {
   double seen = 0;
   for (int piece = 0; piece < k_pieces; ++piece) {
     const double here = std::min(travel, norm(way));
-    look_around(from + seen * way, k_needed_travels * here + surface_->skin_m(), here);
+    ensure_gathered(from + seen * way, k_needed_travels * here + surface_->skin_m(), here);
     const double before = seen;
     const auto hit = surface_->sweep(from, from + way, near_, seen);
     if (hit || seen >= 1) return hit;
@@ -179,218 +555,28 @@ std::optional<SweepHit> Proxy::sweep(Vec3 from, Vec3 way, double travel) noexcep
   return surface_->sweep(from, from + way);
 }
 
-/// Whether the planes that hold the proxy in a crease are still there: it may have slid past what one was found on.
-bool Proxy::all_stand(const Planes& planes, std::uint32_t active, Vec3 start, Vec3 x, ProxyState& next) noexcept {
-  const double drop = 2 * surface_->tolerance_m();
-  for (int i = 0; i < planes.count; ++i) {
-    if (!(active >> i & 1U) || norm(x - planes.found_at[i]) <= drop || next.sweeps == k_steps) continue;
-    ++next.sweeps;
-    const auto hit = surface_->sweep(start + x, start + x - drop * planes.plane[i].normal, near_);
-    if (!hit || dot(hit->normal, planes.plane[i].normal) < k_same_normal) return false;
+/// Gathers what lies within `needed` of `from`, unless it is there already or does not fit.
+void Proxy::Descent::ensure_gathered(Vec3 from, double needed, double travel) noexcept {
+  if (surface_->margin(from, near_) >= needed) return;
+  const double radius = std::min(k_wanted_travels * travel + k_wanted_skins * surface_->skin_m(), widest_m_);
+  if ((1 - k_lead) * radius < needed) {
+    near_.clear_boxes();
+    widest_m_ *= k_regrowth;
+  } else if (!surface_->gather(from + (k_lead * radius) * ahead_, radius, near_)) {
+    widest_m_ = 0.5 * radius;
+  } else if (near_.blocks() < k_sparse) {
+    widest_m_ = std::max(widest_m_, 2 * radius);
   }
-  return true;
 }
 
-/// What stopped the proxy at x on its way is a constraint from now on.
-void Proxy::touch(const SweepHit& hit, Vec3 way, Planes& planes, Vec3& x, ProxyState& next) const noexcept {
-  next.in_contact = true;
-  // Out of what the sweep lets a probe sink in; far less than the skin, so nothing is passed.
-  const double tolerance = surface_->tolerance_m(), first = std::clamp(hit.penetration_m, 0.0, tolerance);
-  if (hit.beside && planes.count + 2 <= k_planes) {
-    const auto& beside = *hit.beside;
-    const double second =
-        dot(beside.normal, (beside.t - hit.t) * way) + std::clamp(beside.penetration_m, 0.0, tolerance);
-    // The shortest way into the crease, where both are touched.
-    const double c = dot(hit.normal, beside.normal), s = 1 - c * c;
-    const Vec3 out = ((first - c * second) / s) * hit.normal + ((second - c * first) / s) * beside.normal;
-    if (norm(out) <= tolerance) {
-      x = x + out;
-      planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
-      planes.add({beside.normal, dot(beside.normal, x), beside.material}, x);
-      return;
-    }
-  }
-  x = x + first * hit.normal;
-  planes.add({hit.normal, dot(hit.normal, x), hit.material}, x);
-}
+Proxy::Proxy(const ContactSurface& surface) : descent_(std::make_unique<Descent>(*surface.triangles_)) {}
+Proxy::Proxy(Proxy&&) noexcept = default;
+Proxy& Proxy::operator=(Proxy&&) noexcept = default;
+Proxy::~Proxy() = default;
 
-/// What holds the proxy at the nearest place of all: the goal lies straight behind what is touched. Where that is the
-/// rim of a sheet nothing does, and the proxy slips around it.
-void Proxy::rest_on(const Tick& tick, const ContactSurface::Rest& aim, Planes& planes, Vec3& x,
-                    ProxyState& next) noexcept {
-  const Vec3 out = normalized(x - tick.goal);
-  const Vec3 aside = aim.off - dot(aim.off, out) * out;
-  if (!(aside == Vec3{})) {
-    const double radius = surface_->contact_radius_m();
-    const Vec3 around = (k_around / norm(aside) * radius) * aside - radius * out;
-    ++next.sweeps;
-    if (!sweep(tick.start + x, around, tick.travel)) {
-      if (norm(x + around - tick.goal) >= norm(x - tick.goal)) return;
-      x = x + around;
-      turn(tick.start + x);
-      return;
-    }
-  }
-  planes.add({out, dot(out, x), aim.material}, x);
-}
-
-/// Goes towards a place to rest by a free way along the surface, whose normal is given, and one down, if that leads
-/// nearer to the goal; then `planes` is what the proxy rests on there, as far as it is known.
-Proxy::Hop Proxy::hop(const Tick& tick, const ContactSurface::Rest& aim, Vec3 normal, double lift_m, Planes& planes,
-                      Vec3& x, ProxyState& next) noexcept {
-  const double now = norm(tick.goal - x), tolerance = surface_->tolerance_m();
-  const Vec3 rest = aim.place - tick.start, up = lift_m * normal;
-  Vec3 over = rest - std::min(dot(normal, rest - x), 0.0) * normal;
-  const double way = norm(over - x);
-  if (way <= k_drop * tolerance) return Hop::none;
-  if (way > tick.farthest) over = x + (tick.farthest / way) * (over - x);
-  over = over + up;
-  if (lift_m > 0) {
-    ++next.sweeps;
-    if (sweep(tick.start + x, up, tick.travel)) return Hop::blocked;
-  }
-  ++next.sweeps;
-  if (sweep(tick.start + x + up, over - x - up, tick.travel)) return Hop::blocked;
-  ++next.sweeps;
-  const Vec3 down = rest - over;
-  const auto hit = sweep(tick.start + over, down, tick.travel);
-  const Vec3 there = over + (hit ? hit->t : 1) * down;
-  if (norm(tick.goal - there) >= now - tolerance) return Hop::none;
-  if (lift_m > 0) turn(tick.start + x + up);
-  turn(tick.start + over);
-  turn(tick.start + there);
-  x = there;
-  planes.count = 0;
-  next.in_contact = true;
-  if (hit) {
-    touch(*hit, down, planes, x, next);
-  } else {
-    rest_on(tick, aim, planes, x, next);
-  }
-  return Hop::moved;
-}
-
-/// Tries whether the nearest place of all can be reached by hops.
-Proxy::Leap Proxy::leap(const Tick& tick, Vec3 normal, double lift_m, Planes& planes, Vec3& x,
-                        ProxyState& next) noexcept {
-  // A hop's length around, or as much as is likely to fit.
-  look_around(tick.start + x, std::min(tick.farthest, (1 - k_lead) * widest_m_), tick.travel);
-  const double now = norm(tick.goal - x), tolerance = surface_->tolerance_m();
-  const auto aim = surface_->likely_rest(tick.start + tick.goal, now - 2 * tolerance, normal, near_);
-  if (!aim) return {};
-  Leap leap{Hop::moved, aim->place - tick.start};
-  for (int i = 0; i < k_hops && leap.last == Hop::moved; ++i) {
-    leap.last = hop(tick, *aim, normal, lift_m, planes, x, next);
-    normal = normalized(x - tick.goal);
-  }
-  return leap;
-}
-
-const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept {
-  if (!ContactSurface::is_place(probe)) return state_;
-  if (!started_) reset(probe);
-  const double shortest = surface_->tolerance_m() / 4;
-  const double travel = norm(probe - probe_);
-  ahead_ = travel > shortest ? (1 / travel) * (probe - probe_) : Vec3{};
-  probe_ = probe;
-  const Vec3 start = state_.proxy;  // Everything below is relative to it: small numbers, full precision.
-  const Vec3 goal = probe - start;
-
-  turn_count_ = 0;
-  ProxyState next;
-  Planes planes;
-  recall(goal, planes);
-  Vec3 x{}, slid{};
-  bool free = false, leapt = false, crept = false, again = false;
-  // What friction holds is pressed back along the normal: on the straight way to the probe it would creep along.
-  Vec3 normal = state_.normal;
-  double drop = state_.in_contact && friction(surface_->material(state_.material)) > 0 ? k_drop * shortest : 0;
-  // Along smooth ground the nearest place is at hand most often: two ways lead there, whatever the edges between.
-  const Tick tick{start, goal, travel, k_far * travel + surface_->skin_m()};
-  Leap first;
-  Stride stride;
-  if (state_.in_contact && drop == 0 && travel > shortest) {
-    first = leap(tick, state_.normal, 0, planes, x, next);
-    slid = x;
-  }
-  double nearest = planes.count > 0 ? norm(goal - x) : std::numeric_limits<double>::infinity();
-  for (;;) {
-    const ConstrainedPoint aim = closest_point(goal, planes.plane, planes.count, shortest);
-    if (!aim.found) break;
-    Vec3 step = aim.point - x;
-    const double wanted = norm(step);
-    const bool drops = aim.count == 0 && drop > 0;
-    if (drops) {
-      step = -drop * normal;
-    } else if (aim.count > 0) {
-      hold(aim, planes, goal, next);
-      const double held = friction(surface_->material(next.material)) * next.load_m;
-      if (wanted - held <= shortest) {
-        const bool stays = aim.count == 1 || all_stand(planes, aim.active, start, x, next);
-        if (!stays) {
-          planes.count = 0;
-          continue;
-        }
-        const bool walled = first.last == Hop::blocked && norm(first.aim - x) > travel;
-        const bool slipped = next.sweeps <= k_few && norm(x) > k_far * travel;
-        if (!leapt && held == 0 && (walled || slipped) && next.sweeps + k_leap_sweeps <= k_steps) {
-          leapt = true;
-          const Vec3 before = x;
-          leap(tick, next.normal, walled ? k_lift * surface_->skin_m() : 0, planes, x, next);
-          if (!(x == before)) continue;
-        }
-        if (aim.count > 1) remember(planes, aim.active, x);
-        break;
-      }
-      step = (1 - held / wanted) * step;
-      // Beyond its aim by s the step rises by s²/2·depth: half a tolerance is let pass. Relief says too little from
-      // step to step.
-      if (aim.count > 1 && held == 0 && surface_->tallest_relief_m() == 0)
-        step = stride.factor(step, wanted, wanted + std::sqrt(norm(goal - x) * surface_->tolerance_m())) * step;
-    } else {
-      free = wanted == 0;
-      // A round that started from here and came back no nearer: converged to within the tolerance. Only a proxy that is
-      // held in a crease, and has crept a little along it, may have come to where a wall falls away: a round later it's
-      // seen.
-      const bool no_nearer = planes.count == 0 && wanted > nearest - k_least_gain * shortest;
-      if (free || (no_nearer && (again || !crept || norm(x) > k_held * travel))) break;
-      again = again || no_nearer;
-      if (planes.count == 0) nearest = wanted;
-    }
-    if (next.sweeps == k_steps) break;
-    ++next.sweeps;
-    const auto hit = sweep(start + x, step, travel);
-    drop = 0;
-    if (drops && !hit) continue;
-    const Vec3 way = step;
-    step = (hit ? hit->t : 1) * step;
-    x = x + step;
-    turn(start + x);
-    if (aim.count > 0) slid = slid + step;
-    free = !hit && planes.count == 0;
-    if (free) break;
-    if (!hit) {
-      if (friction(surface_->material(next.material)) > 0) drop = norm(step) + k_drop * shortest;
-      normal = next.normal;
-      crept = aim.count > 1 && norm(step) > 2 * shortest;
-      if (aim.count > 1) stride.take(step, wanted);
-      planes.count = 0;
-      continue;
-    }
-    if (norm(step) > shortest) planes.keep(aim.active);
-    if (planes.count == k_planes) break;
-    touch(*hit, way, planes, x, next);
-  }
-  if (free) next = ProxyState{};
-  next.felt_normal = next.normal;
-  if (next.in_contact && surface_->material(next.material).shading)
-    next.felt_normal = surface_->shaded_normal(start + x, next.normal);
-  const double distance = norm(slid);
-  next.sliding = next.in_contact && distance > surface_->tolerance_m();
-  if (period_s > 0) slide_speed_ += friction_memory_share(period_s) * (distance / period_s - slide_speed_);
-  next.proxy = start + x;
-  state_ = next;
-  return state_;
-}
+void Proxy::reset(Vec3 position) noexcept { descent_->reset(position); }
+const ProxyState& Proxy::update(Vec3 probe, double period_s) noexcept { return descent_->update(probe, period_s); }
+const ProxyState& Proxy::state() const noexcept { return descent_->state(); }
+std::span<const Vec3> Proxy::waypoints() const noexcept { return descent_->waypoints(); }
 
 }  // namespace papilla

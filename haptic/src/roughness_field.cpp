@@ -20,7 +20,7 @@ struct Wave {
   double amplitude = 0, phase = 0;
 };
 
-/// A number in [0, 1) that is the same with every standard library.
+/// Uniform in [0, 1), the same with every standard library.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 std::vector<Wave> draw_waves(const RoughnessTag& roughness, std::uint64_t seed) {

@@ -77,14 +77,14 @@ SimDevice::SimDevice(const DeviceCaps& caps, const Trajectory& hand, double peri
 
 double SimDevice::time_s() const noexcept { return hand_->start_s() + static_cast<double>(tick_) * period_; }
 
-/// The force that was written for the moment `delay` before tick + offset.
+/// The force written `delay` before tick + offset.
 Vec3 SimDevice::delayed_force(std::uint64_t tick, double offset_s) const noexcept {
   const double late = caps_.dynamics.delay_s - offset_s;
   const auto back = late > 0 ? static_cast<std::uint64_t>(std::ceil(late / period_ * (1 - 1e-12))) : 0;
   return back > tick ? Vec3{} : force_[(tick - back) % k_history];
 }
 
-/// One period from tick_ on. Between steps force, spring and hand velocity are constant, so that
+/// Integrates one period from tick_ on. Between steps force, spring and hand velocity are constant, so that
 /// m·v' = G − C·v with C = b + B has a closed form; friction then shortens the new velocity by f_c·φ.
 void SimDevice::advance() noexcept {
   const DeviceDynamics& d = caps_.dynamics;

@@ -8,8 +8,8 @@
 namespace papilla {
 namespace {
 
-constexpr double k_reference_s = 1e-3;
-constexpr double k_least_pixels = 0.01;  // Shorter ways have no direction worth a quotient.
+constexpr double k_reference_s = 1e-3;   // Time of the displacement w.
+constexpr double k_least_pixels = 0.01;  // Shorter displacements have no defined direction.
 constexpr double k_default_pixel_m = 1e-4;
 constexpr int k_descent_steps = 12;
 
@@ -27,7 +27,7 @@ constexpr Named k_names[] = {
     {ForceModel::textured_normal, "textured-normal"},
 };
 
-/// A walk of independent steps, each −1 or 1, spread over the 256 grey levels.
+/// A random walk of steps ±1, scaled to the 256 grey levels.
 std::array<double, Stimulus::k_graph> brownian_graph() noexcept {
   std::array<double, Stimulus::k_graph> graph{};
   std::uint64_t random = 0x9E3779B97F4A7C15U;
@@ -59,7 +59,7 @@ std::optional<ForceModel> force_model(std::string_view name) noexcept {
 
 Stimulus::Stimulus(const ContactSurface& surface) noexcept : surface_(&surface), graph_(brownian_graph()) {}
 
-/// There and back again, straight between samples.
+/// The graph, mirrored at its ends and linear between samples.
 double Stimulus::graph_at(double distance_m, double pixel_m) const noexcept {
   constexpr double last = k_graph - 1;
   double at = std::fmod(std::abs(distance_m) / pixel_m, 2 * last);
@@ -69,7 +69,7 @@ double Stimulus::graph_at(double distance_m, double pixel_m) const noexcept {
   return (1 - f) * graph_[i] + f * graph_[i + 1];
 }
 
-/// Newton-like descent of the distance over the surface, from the foot of the probe.
+/// Gauss-Newton descent of the distance over the surface, from the foot of the probe.
 Vec3 Stimulus::textured_normal(const StimulusSample& here, Vec3 probe) const noexcept {
   const ContactMaterial& material = surface_->material(here.material);
   const double greys_per_m = here.height_m != 0 ? here.grey / here.height_m : 0;

@@ -11,9 +11,10 @@ namespace papilla {
 namespace {
 
 constexpr double k_step_m = 1e-3;
-constexpr double k_random_turn = 0.3;  // Radians a step, either way.
-constexpr double k_sideways = 2;
-constexpr double k_least_progress = 0.25;  // Of a step; less means that the material ends.
+constexpr double k_random_turn = 0.3;      // Radians a step, in both directions.
+constexpr double k_sideways = 2;           // Radians.
+constexpr int k_most_turns = 8;            // At one place, before the motion ends.
+constexpr double k_least_progress = 0.25;  // Of a step; with less the material has ended.
 
 Vec3 any_tangent(Vec3 n) {
   const Vec3 axis = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? Vec3{1, 0, 0}
@@ -29,8 +30,8 @@ Vec3 turned(Vec3 direction, Vec3 n, double angle) {
   return tangential(std::cos(angle) * direction + std::sin(angle) * cross(n, direction), n);
 }
 
-/// In [0, 1); the same on every platform, which std::uniform_real_distribution is not.
-double unit_random(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+/// Uniform in [0, 1), the same with every standard library.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 }  // namespace
 
@@ -58,11 +59,11 @@ Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t materia
   }
   std::mt19937_64 random(options.seed);
   int turns = 0;
-  while (samples.back().t < options.seconds && turns < 8) {
+  while (samples.back().t < options.seconds && turns < k_most_turns) {
     const auto next = surface.closest_point(here.point + step * direction, step, material);
     const Vec3 way = next ? next->point - here.point : Vec3{};
     if (dot(way, direction) < k_least_progress * step) {
-      // Back; a second time in the same place to the side.
+      // Reversed; to the side at the second attempt at the same place.
       direction = turns % 2 == 0 ? -direction : turned(direction, here.face_normal, k_sideways);
       ++turns;
       continue;
@@ -72,7 +73,7 @@ Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t materia
     direction = tangential(direction, here.face_normal);
     if (options.motion == Motion::circle) direction = turned(direction, here.face_normal, step / options.circle_m);
     if (options.motion == Motion::slide)
-      direction = turned(direction, here.face_normal, k_random_turn * (2 * unit_random(random) - 1));
+      direction = turned(direction, here.face_normal, k_random_turn * (2 * uniform(random) - 1));
     const double time = norm(pressed(here) - samples.back().position) / options.speed_m_per_s;
     samples.push_back({samples.back().t + std::max(time, 1e-6), pressed(here)});
   }

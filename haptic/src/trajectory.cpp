@@ -23,7 +23,7 @@ bool to_number(std::string_view text, double& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Takes the text up to the next separator off the front.
+/// Removes the text up to the next separator from `rest` and returns it.
 std::string_view next_field(std::string_view& rest, char separator) {
   const auto at = rest.find(separator);
   const std::string_view field = rest.substr(0, at);
@@ -38,7 +38,7 @@ Trajectory::Trajectory(std::vector<Sample> samples) : samples_(std::move(samples
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (!std::isfinite(samples_[i].t) || !is_finite(samples_[i].position))
       throw InvalidInput("Trajectory: sample " + std::to_string(i) + " is not finite");
-    if (!ContactSurface::is_place(samples_[i].position))
+    if (!ContactSurface::is_valid_position(samples_[i].position))
       throw InvalidInput("Trajectory: sample " + std::to_string(i) + " is farther than 1000 km");
     if (i > 0 && !(samples_[i].t > samples_[i - 1].t))
       throw InvalidInput("Trajectory: the time of sample " + std::to_string(i) + " does not increase");
@@ -72,7 +72,8 @@ Trajectory parse_trajectory(std::string_view csv, const std::string& name) {
     if (read < 4) throw InvalidInput(place + "column " + std::to_string(read + 1) + " of t,x,y,z is no number");
     const Trajectory::Sample sample{values[0], {values[1], values[2], values[3]}};
     if (!std::isfinite(sample.t) || !is_finite(sample.position)) throw InvalidInput(place + "a number is not finite");
-    if (!ContactSurface::is_place(sample.position)) throw InvalidInput(place + "a position is farther than 1000 km");
+    if (!ContactSurface::is_valid_position(sample.position))
+      throw InvalidInput(place + "a position is farther than 1000 km");
     if (!samples.empty() && !(sample.t > samples.back().t)) throw InvalidInput(place + "the time does not increase");
     samples.push_back(sample);
   }

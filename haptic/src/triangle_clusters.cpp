@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/triangle_clusters.hpp"
+#include "triangle_clusters.hpp"
 
 #include <cmath>
 #include <limits>
@@ -31,7 +31,7 @@ std::size_t widest_axis(std::span<const Box3f> boxes, std::span<const std::uint3
   return axis;
 }
 
-/// Halves the widest extent until only a group is left; all groups but the last are full.
+/// Halves the items along their widest axis down to groups; all groups but the last are full.
 void sort_into_groups(std::span<const Box3f> boxes, std::span<std::uint32_t> items) {
   if (items.size() <= k_group) return;
   const std::size_t axis = widest_axis(boxes, items);
@@ -45,7 +45,7 @@ void sort_into_groups(std::span<const Box3f> boxes, std::span<std::uint32_t> ite
   sort_into_groups(boxes, items.subspan(half));
 }
 
-/// The finest cells of a power of two of which 255 span the extent.
+/// Exponent of the finest power-of-two cells of which 255 span the extent.
 int exponent_of(float extent) noexcept {
   if (!(extent > 0)) return k_largest_exponent;
   int exponent = 0;
@@ -56,7 +56,7 @@ int exponent_of(float extent) noexcept {
 
 }  // namespace
 
-/// Gives corners of a cluster that are the same in place and relief one vertex, by a hash table of open addressing.
+/// Welds corners of a cluster with equal position and relief, by a hash table with open addressing.
 struct TriangleClusters::Weld {
   static constexpr std::size_t k_slots = 512;
   static constexpr std::uint8_t k_none = 0xff;
@@ -77,7 +77,7 @@ struct TriangleClusters::Weld {
                                 vertex.relief.u,  vertex.relief.v,  vertex.relief.shift};
     std::uint64_t hash = 0;
     for (float& value : key) {
-      value += 0.0F;  // One zero.
+      value += 0.0F;  // −0 becomes +0.
       hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15U;
       hash ^= hash >> 29;
     }
@@ -96,7 +96,7 @@ struct TriangleClusters::Weld {
 
 TriangleClusters::TriangleClusters(std::span<const Box3f> boxes,
                                    const std::function<Vertex(std::uint32_t, std::size_t)>& vertex, bool with_relief) {
-  divide(boxes);
+  build_clusters(boxes);
   corners_.reserve(boxes.size());
   Weld weld{*this, with_relief};
   for (Cluster& cluster : clusters_) {
@@ -112,7 +112,7 @@ TriangleClusters::TriangleClusters(std::span<const Box3f> boxes,
   reliefs_.shrink_to_fit();
 }
 
-void TriangleClusters::divide(std::span<const Box3f> boxes) {
+void TriangleClusters::build_clusters(std::span<const Box3f> boxes) {
   tree_ = Bvh(boxes, k_most);
   const std::vector<std::uint32_t> begins = tree_.number_leaves();
   order_ = tree_.take_leaf_order();
@@ -141,7 +141,7 @@ void TriangleClusters::divide(std::span<const Box3f> boxes) {
   }
 }
 
-/// A cell more than its numbers say, and what single precision rounds.
+/// Grown by one cell and the rounding of single precision.
 Box3f TriangleClusters::box_of(std::uint32_t block) const noexcept {
   const Cluster& c = clusters_[block / k_blocks];
   const std::size_t begin = block % k_blocks * (k_block / k_group);

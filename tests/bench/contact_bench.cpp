@@ -138,14 +138,14 @@ void run_proxy(const ContactSurface& surface, const Probe& probe, int ticks, Rec
       [&] {
         Touching touching{std::make_unique<Proxy>(surface), ContactAudit(surface)};
         touching.proxy->reset(outside);
-        touching.audit.lost(outside, touching.proxy->state(), {});
+        touching.audit.update(outside, touching.proxy->state(), {});
         lost = contact = 0;
         return touching;
       },
       [](Touching& touching, Vec3 at) { touching.proxy->update(at, k_period); },
       [&](Touching& touching, Vec3 at) {
         contact += touching.proxy->state().in_contact;
-        lost += touching.audit.lost(at, touching.proxy->state(), touching.proxy->turns());
+        lost += touching.audit.update(at, touching.proxy->state(), touching.proxy->waypoints());
       });
   times.record(recorder);
   recorder.record("contact_ticks", contact);

@@ -17,9 +17,9 @@
 
 #include "call_counter.hpp"
 #include "haptic/contact_shapes.hpp"
-#include "haptic/felt_texture.hpp"
 #include "haptic/passive_contact.hpp"
 #include "haptic/reference_descent.hpp"
+#include "haptic/textured_force.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/contact_audit.hpp"
 #include "papilla/haptic/haptic_loop.hpp"
@@ -41,13 +41,13 @@ void run(const ContactSurface& surface, long ticks, Vec3 start, Probe&& probe, R
   auto proxy = std::make_unique<Proxy>(surface);
   ContactAudit audit(surface);
   proxy->reset(start);
-  audit.lost(start, proxy->state(), {});
+  audit.update(start, proxy->state(), {});
   Vec3 last_probe = start;
   for (long i = 0; i < ticks; ++i) {
     const Vec3 at = probe(i), before = proxy->state().proxy;
     const long allocated = allocations(), locked = locks();
     proxy->update(at, k_period);
-    const bool lost = audit.lost(at, proxy->state(), proxy->turns());
+    const bool lost = audit.update(at, proxy->state(), proxy->waypoints());
     sum.allocations += allocations() - allocated;
     sum.locks += locks() - locked;
     sum.lost += lost;
@@ -76,7 +76,7 @@ double descent_gap(testing::ReferenceDescent& reference, const ContactSurface& s
                    Vec3 proxy, LongRun& sum) {
   const double gap = reference.gap(before, probe, proxy);
   if (gap <= k_near_m + k_travel) return gap;
-  const double aside = reference.gap_aside(before, probe, proxy, surface.tolerance_m());
+  const double aside = reference.gap_shifted(before, probe, proxy, surface.tolerance_m());
   sum.asides += aside <= k_near_m + k_travel;
   return aside;
 }
@@ -313,7 +313,7 @@ void add_long_runs(BenchReport& report) {
 void add_felt(BenchReport& report) {
   const int ticks = report.options().quick ? 50 : 2000;
   const auto row = [&](const char* what, const testing::AnalyticRelief& relief) {
-    const double share = testing::felt_error(relief, 1024, k_speed, ticks).rms_share;
+    const double share = testing::force_error(relief, 1024, k_speed, ticks).rms_share;
     report.target({fmt::format("textured force within 1 % rms of the analytic relief at 0.2 m/s, {}", what),
                    fmt::format("{:.2f} %", 100 * share), share <= 0.01});
   };

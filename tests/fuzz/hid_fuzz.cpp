@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fuzz_input.hpp"
+#include "hid_descriptor.hpp"
 #include "papilla/haptic/force_protocol.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

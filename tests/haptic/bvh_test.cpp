@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/bvh.hpp"
+#include "bvh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -51,7 +51,7 @@ ContactMesh fold(double left, double right) {
                               [=](double x, double) { return x < 0.05 ? left * (0.05 - x) : right * (x - 0.05); });
 }
 
-TEST(ContactSurface, InACreaseBothFacesAreMet) {
+TEST(ContactSurface, SweepIntoACreaseFindsBothFaces) {
   const double left = 0.3, right = 0.1;
   const ContactSurface surface(fold(left, right), {ContactMaterial{}}, {}, 0);
   // The point at the contact radius from both planes.
@@ -61,21 +61,21 @@ TEST(ContactSurface, InACreaseBothFacesAreMet) {
   const auto hit = surface.sweep({0.05 + x, 0.043, 0.01}, {0.05 + x, 0.043, -0.01});
   ASSERT_TRUE(hit);
   EXPECT_NEAR(0.01 - 0.02 * hit->t, z, 1e-8);
-  ASSERT_TRUE(hit->beside);
+  ASSERT_TRUE(hit->crease);
   const Vec3 normals[] = {{left / a, 0, 1 / a}, {-right / b, 0, 1 / b}};
   const bool left_first = hit->normal.x > 0;
   EXPECT_LT(norm(hit->normal - normals[left_first ? 0 : 1]), 1e-6);
-  EXPECT_LT(norm(hit->beside->normal - normals[left_first ? 1 : 0]), 1e-6);
+  EXPECT_LT(norm(hit->crease->normal - normals[left_first ? 1 : 0]), 1e-6);
 }
 
-TEST(ContactSurface, OnFlatGroundRidgesAndSlopesNothingStandsBeside) {
+TEST(ContactSurface, FlatGroundRidgesAndSlopesAreNoCrease) {
   for (const auto& [left, right] : {std::pair{0.0, 0.0}, {-0.3, -0.1}, {-0.2, 0.2}}) {
     const ContactSurface surface(fold(left, right), {ContactMaterial{}}, {}, 0);
     for (const double x : {0.05, 0.05 + 1e-7, 0.05 - 1e-6, 0.05 + 1e-5, 0.0625, 0.0625 + 1e-7, 0.07})
       for (const double y : {0.043, 0.05, 0.05 + 1e-7, 0.0625 - 1e-6}) {
         const auto hit = surface.sweep({x, y, 0.01}, {x, y, -0.02});
         ASSERT_TRUE(hit);
-        EXPECT_FALSE(hit->beside) << left << " " << right << " " << x << " " << y;
+        EXPECT_FALSE(hit->crease) << left << " " << right << " " << x << " " << y;
       }
   }
 }
@@ -115,9 +115,9 @@ TEST(ContactSurface, ReliefReachesBelowThePlate) {
   EXPECT_NEAR(0.01 - 0.02 * hit->t, s + 1e-4, surface.tolerance_m());
 }
 
-/// Ways over a relief end where it is met: nowhere before does a sweep sink in by more than the tolerance, and there it
-/// touches. Steps of 1/16 texel look for what it may have passed.
-TEST(ContactSurface, SweepsOverReliefPassNothing) {
+/// Sweeps over a relief end in contact and never penetrate by more than the tolerance before, sampled in steps of 1/16
+/// texel.
+TEST(ContactSurface, SweepsOverReliefDoNotPassThroughIt) {
   constexpr int k_texels = 64, k_looks = 16;
   constexpr double k_size = 6.4e-3;
   std::mt19937 random(1);
@@ -130,7 +130,7 @@ TEST(ContactSurface, SweepsOverReliefPassNothing) {
     }
   HeightFieldOptions options;
   options.scale_m = 2e-4;
-  options.offset_m = -5e-5;  // So that the base lies below the plate.
+  options.offset_m = -5e-5;  // The base is below the plate.
   ContactMaterial material;
   material.height = 0;
   std::uniform_real_distribution<double> place(0.2 * k_size, 0.8 * k_size), over(1.6e-4, 1e-3), down(-3e-4, 4e-4);
@@ -164,7 +164,7 @@ TEST(ContactSurface, CrossingsCountWallsOnceAtEdgesAndDuplicates) {
   const auto once = mesh.triangles;
   mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
   const ContactSurface surface(mesh, {ContactMaterial{}}, {}, 0);
-  EXPECT_EQ(surface.crossings({0.05, 0.05, 0.2}, {0.05, 0.05, 0.05}), 1);  // Through the diagonal of the lid.
+  EXPECT_EQ(surface.crossings({0.05, 0.05, 0.2}, {0.05, 0.05, 0.05}), 1);  // On the diagonal of the lid.
   EXPECT_EQ(surface.crossings({0.05, 0.05, 0.2}, {0.05, 0.05, -0.2}), 2);
   EXPECT_EQ(surface.crossings({0.2, 0.2, 0.2}, {0.3, 0.2, 0.2}), 0);
 }

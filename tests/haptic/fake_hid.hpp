@@ -11,16 +11,16 @@
 
 namespace papilla::testing {
 
-/// What a fake device has seen and will say; outlives the transport.
+/// Input and output of a fake device; outlives the transport.
 struct FakeWire {
   std::mutex mutex;
   std::condition_variable changed;
-  std::deque<std::vector<std::byte>> input;              ///< Reports that read() will yield.
+  std::deque<std::vector<std::byte>> input;              ///< Reports that read() returns.
   std::vector<std::vector<std::byte>> output, features;  ///< Written to the device, in order.
-  std::vector<std::vector<std::byte>> answers;           ///< To get_feature(), by number, in turn.
+  std::vector<std::vector<std::byte>> answers;           ///< Of get_feature(), by number, in order.
   std::size_t fail_from = 1000000;                       ///< Writes from this one on fail.
   bool unplugged = false;
-  std::function<std::vector<std::byte>()> hand;  ///< Makes the next report when one is waited for; empty: none.
+  std::function<std::vector<std::byte>()> hand;  ///< Creates a report when read() waits; empty: none.
 
   void send(std::vector<std::byte> report) {
     const std::lock_guard lock(mutex);

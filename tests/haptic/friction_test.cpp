@@ -31,7 +31,7 @@ TEST(FrictionModels, HaveNames) {
   EXPECT_EQ(friction_model("glue"), std::nullopt);
 }
 
-TEST(BristleFriction, BendsAsDahlSays) {
+TEST(BristleFriction, FollowsDahlsEquation) {
   // F(x) = −μN(1 − exp(−σx/μN)), whatever the length of a tick.
   const ContactMaterial material = bristles(0.4, 0.4, 2000);
   for (const double step : {1e-6, 1e-5, 1.5e-4}) {
@@ -46,13 +46,13 @@ TEST(BristleFriction, BendsAsDahlSays) {
   }
 }
 
-TEST(BristleFriction, StartsAsASpring) {
+TEST(BristleFriction, IsASpringFromRest) {
   BristleFriction friction;
   const double x = 1e-8;
   EXPECT_NEAR(friction.force(bristles(0.5, 0.3, 2000), k_up, 3, {0, x, 0}, 1e-3).y / x, -2000, 0.1);
 }
 
-TEST(BristleFriction, BreaksAwayAtStaticFrictionAndSlidesAtStribecks) {
+TEST(BristleFriction, BreaksAwayAtStaticAndSlidesAtStribeckFriction) {
   const ContactMaterial material = bristles(0.6, 0.2, 5000);
   const double load = 2;
   for (const double speed : {1e-4, 0.01, 0.02, 0.2}) {
@@ -85,7 +85,7 @@ TEST(BristleFriction, IsTheSameAtEveryRate) {
   EXPECT_NEAR(after(50), finest, 0.03 * std::abs(finest));
 }
 
-TEST(BristleFriction, LetsGoWithTheLoadAndIsNeverStifferThanTheMaterial) {
+TEST(BristleFriction, IsReleasedWithTheLoadAndAtMostAsStiffAsTheMaterial) {
   const ContactMaterial material = bristles(0.5, 0.5, 1e9);
   BristleFriction friction;
   EXPECT_NEAR(friction.force(material, k_up, 2, {1e-9, 0, 0}, 1e-3).x, -1e4 * 1e-9, 1e-9);
@@ -95,7 +95,7 @@ TEST(BristleFriction, LetsGoWithTheLoadAndIsNeverStifferThanTheMaterial) {
   EXPECT_EQ(norm(friction.force(material, k_up, 1, {}, 1e-3)), 0);
 }
 
-TEST(BristleFriction, StrokeOfAPlateFeelsIt) {
+TEST(BristleFriction, ActsInAStrokeOverAPlate) {
   // The tick: 1 mm deep at 500 N/m, 0.5 N of load; pulled by 20 µm, then far.
   ContactMaterial material = bristles(0.4, 0.4, 500);
   material.stiffness = 500;
@@ -149,7 +149,7 @@ TEST(Friction, OfABallOnARoughMeshConvergesInProportionToTheTick) {
     return std::sqrt(off / all);
   };
   const double coarse = error(1), finer = error(4);
-  EXPECT_GT(coarse, 5e-3);  // There is something to converge.
+  EXPECT_GT(coarse, 5e-3);  // The error is measurable.
   EXPECT_LT(coarse, 0.05);
   EXPECT_LT(finer, 0.5 * coarse);
 }

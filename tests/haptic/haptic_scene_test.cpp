@@ -66,7 +66,7 @@ TEST(HapticScene, HalvesMapsThatTheRateCantCarry) {
 }
 
 TEST(HapticScene, FollowsTheTextureTransformOfPackers) {
-  // As gltfpack does: coordinates are scaled down, the texture's transform scales them up again, the tag stays.
+  // As gltfpack: coordinates are scaled down, the transform of the texture scales them up, the tag is unchanged.
   std::string glb = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
   const Scene before = [&] {
     const File file(glb);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/hid_descriptor.hpp"
+#include "hid_descriptor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -25,7 +25,7 @@ HidReport report(std::initializer_list<int> bytes) {
 HidInfo pid_info(const PidShape& shape = {}) { return {"fake", 1, 2, "", "fake", testing::pid_descriptor(shape)}; }
 HidInfo force_info() { return {"fake", 1, 2, "", "fake", testing::force_report_descriptor()}; }
 
-/// Block Load of a device whose numbers begin at `first`: effects 7, 8, 9.
+/// Block Load of a device whose report numbers begin at `first`: effects 7, 8, 9.
 void answer_loads(FakeWire& wire, int first, int status = 1) {
   for (int i = 0; i < 3; ++i) wire.answers.push_back(report({first + 7, 7 + i, status}));
 }
@@ -252,7 +252,7 @@ TEST(HidDevice, AFailingStartLeavesNoForce) {
   EXPECT_THROW(HidDevice(std::move(transport), std::move(protocol), {}), DeviceError);
 }
 
-/// Plays a hand that goes down on a plate through the whole loop and reports nothing new from a frame on.
+/// Runs the whole loop with a hand that presses on a plate and becomes silent after some frames.
 LoopResult play(FakeWire& wire, HidDevice& device, int silent_from, std::uint64_t ticks) {
   int frame = 0;
   wire.hand = [&]() -> HidReport {

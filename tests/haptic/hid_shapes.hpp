@@ -8,7 +8,7 @@
 
 namespace papilla::testing {
 
-/// Report descriptors put together from items, so that tests can vary them.
+/// Builds report descriptors from items.
 class DescriptorBuilder {
  public:
   /// A short item: the prefix without its size, and a value of 0, 1, 2 or 4 bytes.
@@ -35,8 +35,8 @@ class DescriptorBuilder {
 
 struct PidShape {
   int axes = 3;
-  bool control_as_bits = false;  ///< Bits instead of a number, as some firmware has it.
-  bool disable_first = false;    ///< "Disable" before "enable", as other firmware has it.
+  bool control_as_bits = false;  ///< Bits instead of an array, as in some firmware.
+  bool disable_first = false;    ///< "Disable" before "enable", as in other firmware.
   int first_id = 5;              ///< Report numbers begin here.
   bool newtons = false;          ///< The magnitude has physical units.
 };

@@ -51,12 +51,12 @@ TEST(HapticLoop, StrokeIsFeltAndNeverLost) {
   EXPECT_GT(run.result.contact_ticks, 1700U);
   EXPECT_EQ(run.result.lost_contact_ticks, 0U);
   EXPECT_EQ(run.result.tick_us.count(), 2000U);
-  // At rest the hand's spring (1000 N/m) and the wall (400 N/m) share the millimetre; friction holds the rest.
+  // At rest the spring of the hand (1000 N/m) and the wall (400 N/m) share 1 mm, up to the friction.
   EXPECT_NEAR(run.result.max_force_n, 1e-3 * 400 * 1000 / 1400, 0.15);
   EXPECT_FALSE(run.result.device_lost);
 }
 
-/// The loop is awake before a tick is due, and waits.
+/// The loop wakes before a tick is due and spins.
 TEST(HapticLoop, TicksBeginWhenTheyAreDue) {
   const ContactSurface surface = stable_plate();
   const Trajectory hand = press_and_stroke(surface, 0, {0.05, 0.05, 0}, {});
@@ -163,42 +163,42 @@ ProxyState held_at(Vec3 proxy) {
   return state;
 }
 
-TEST(ContactAudit, SeesAProxyThatLetsGo) {
+TEST(ContactAudit, DetectsAProxyThatReleases) {
   const ContactSurface surface(testing::box({0, 0, 0}, {0.1, 0.1, 0.1}), {ContactMaterial{}}, {}, 0);
   ContactAudit audit(surface);
-  const auto lost = [&](Vec3 probe, const ProxyState& state) { return audit.lost(probe, state, {}); };
+  const auto lost = [&](Vec3 probe, const ProxyState& state) { return audit.update(probe, state, {}); };
   const auto free = [&](Vec3 probe) { return lost(probe, free_at(probe)); };
   EXPECT_FALSE(free({0.03, 0.04, 0.12}));
   EXPECT_FALSE(lost({0.03, 0.04, 0.099}, held_at({0.03, 0.04, 0.10002})));
   EXPECT_TRUE(free({0.03, 0.04, 0.098}));
   EXPECT_TRUE(free({0.04, 0.04, 0.050}));
-  EXPECT_TRUE(free({0.04, 0.04, 0.12}));  // Not held from within either.
+  EXPECT_TRUE(free({0.04, 0.04, 0.12}));  // Not from inside either.
   EXPECT_FALSE(free({0.04, 0.04, 0.13}));
   EXPECT_TRUE(free({0.04, 0.04, -0.13}));  // Through both sides at once.
   EXPECT_FALSE(free({0.04, 0.05, -0.13}));
 }
 
-TEST(ContactAudit, SeesAProxyThatIsHeldBehindAWall) {
+TEST(ContactAudit, DetectsAProxyBehindAWall) {
   const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
   ContactAudit audit(surface);
-  EXPECT_FALSE(audit.lost({0.03, 0.04, -0.001}, held_at({0.03, 0.04, 2e-5}), {}));
-  EXPECT_TRUE(audit.lost({0.03, 0.04, -0.001}, held_at({0.03, 0.04, -2e-5}), {}));
+  EXPECT_FALSE(audit.update({0.03, 0.04, -0.001}, held_at({0.03, 0.04, 2e-5}), {}));
+  EXPECT_TRUE(audit.update({0.03, 0.04, -0.001}, held_at({0.03, 0.04, -2e-5}), {}));
 }
 
-TEST(ContactAudit, SeesAFreeProxyThatDoesNotFollow) {
+TEST(ContactAudit, DetectsAFreeProxyThatDoesNotFollow) {
   const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
   ContactAudit audit(surface);
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 0.02}, free_at({0.03, 0.04, 0.02}), {}));
-  EXPECT_TRUE(audit.lost({0.03, 0.04, -0.02}, free_at({0.03, 0.04, 0.01}), {}));
+  EXPECT_FALSE(audit.update({0.03, 0.04, 0.02}, free_at({0.03, 0.04, 0.02}), {}));
+  EXPECT_TRUE(audit.update({0.03, 0.04, -0.02}, free_at({0.03, 0.04, 0.01}), {}));
 }
 
-/// Around a rim there is a free way, whatever the proxy says; a way through the sheet is none, whatever it says.
-TEST(ContactAudit, KnowsTheWayAroundARim) {
+/// A path around a rim is accepted whatever the waypoints are; a path through the sheet is lost whatever they are.
+TEST(ContactAudit, AcceptsThePathAroundARim) {
   const ContactSurface sheet(testing::plate(10, 10, 0.1, 0.1), {ContactMaterial{}}, {}, 0);
   const auto lost_after = [&](Vec3 held, Vec3 probe, std::vector<Vec3> turns) {
     ContactAudit audit(sheet);
-    EXPECT_FALSE(audit.lost({held.x, held.y, -0.002}, held_at(held), {}));
-    return audit.lost(probe, free_at(probe), turns);
+    EXPECT_FALSE(audit.update({held.x, held.y, -0.002}, held_at(held), {}));
+    return audit.update(probe, free_at(probe), turns);
   };
   const Vec3 above{0.0995, 0.05, 2e-5}, under{0.0992, 0.05, -0.002}, beyond{0.1001, 0.05, 0};
   EXPECT_FALSE(lost_after(above, {0.1005, 0.05, -0.002}, {{0.1001, 0.05, 2e-5}}));
@@ -208,15 +208,15 @@ TEST(ContactAudit, KnowsTheWayAroundARim) {
   EXPECT_TRUE(lost_after({0.05, 0.05, 2e-5}, {0.05, 0.05, -0.002}, {}));
 }
 
-TEST(ContactAudit, SeesAProxyInTheRelief) {
+TEST(ContactAudit, DetectsAProxyInsideTheRelief) {
   ContactMaterial material;
   material.height = 0;
   HeightFieldOptions options;
   options.scale_m = 1e-3;
   const ContactSurface surface(testing::plate(4, 4, 0.1, 0.1), {material}, {HeightField(1, 1, {65535}, options)}, 0);
   ContactAudit audit(surface);
-  EXPECT_FALSE(audit.lost({0.03, 0.04, 2e-3}, free_at({0.03, 0.04, 2e-3}), {}));
-  EXPECT_TRUE(audit.lost({0.03, 0.04, 5e-4}, free_at({0.03, 0.04, 5e-4}), {}));
+  EXPECT_FALSE(audit.update({0.03, 0.04, 2e-3}, free_at({0.03, 0.04, 2e-3}), {}));
+  EXPECT_TRUE(audit.update({0.03, 0.04, 5e-4}, free_at({0.03, 0.04, 5e-4}), {}));
 }
 
 TEST(Stroke, StaysAtItsDepthAndSpeedOnASphere) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "papilla/core/error.hpp"
+#include "papilla/texture/height_map.hpp"
 
 namespace papilla {
 namespace {
@@ -42,6 +43,25 @@ MaterialTag full_tag() {
   tag.symmetry = SymmetryTag{"pmm", {Vec2{0.012, 0}, Vec2{0, 0.012}}};
   tag.provenance = ProvenanceTag{"papilla 0.1.0", "shape-from-shading", "variational"};
   return tag;
+}
+
+TEST(HeightTag, IsTheMapInMetres) {
+  const HeightMap relief{20, 10, std::vector<float>(200), 0.5, 0.25, true};
+  const std::byte png[] = {std::byte{'a'}, std::byte{'b'}, std::byte{'c'}};
+  EncodedRelief encoded{.png = png, .scale_mm = 0.5, .offset_mm = -0.25, .rms_mm = 0.125};
+  const HeightTag tag = make_height_tag(relief, encoded);
+  EXPECT_EQ(tag.uri, "data:image/png;base64,YWJj");
+  // FIPS 180-4, the example "abc".
+  EXPECT_EQ(tag.sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(tag.size, (std::array<int, 2>{20, 10}));
+  EXPECT_DOUBLE_EQ(tag.scale_m, 5e-4);
+  EXPECT_DOUBLE_EQ(tag.offset_m, -2.5e-4);
+  EXPECT_DOUBLE_EQ(tag.rms_m, 1.25e-4);
+  EXPECT_DOUBLE_EQ(tag.metres_per_uv.x, 0.01);
+  EXPECT_DOUBLE_EQ(tag.metres_per_uv.y, 0.0025);
+  EXPECT_EQ(tag.uv_transform, UvTransform{});
+  encoded.uri = "grain.png";
+  EXPECT_EQ(make_height_tag(relief, encoded).uri, "grain.png");
 }
 
 TEST(MaterialTag, RoundTripKeepsEveryBit) {

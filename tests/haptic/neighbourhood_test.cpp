@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/haptic/neighbourhood.hpp"
+#include "neighbourhood.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "contact_triangles.hpp"
 #include "haptic/contact_shapes.hpp"
-#include "papilla/haptic/contact_surface.hpp"
 
 namespace papilla {
 namespace {
@@ -27,9 +27,9 @@ ContactMesh random_soup(std::uint64_t seed, std::uint32_t triangles) {
 }
 
 struct Near : ::testing::TestWithParam<double> {
-  /// Sweeps of up to `longest_m` around places where all within `gathered_m` is known, against those of the tree.
+  /// Compares sweeps of up to `longest_m` in a gathered ball of `gathered_m` with those of the tree.
   static void compare(std::uint32_t triangles, double gathered_m, double longest_m) {
-    const ContactSurface surface(random_soup(7, triangles), {ContactMaterial{}}, {}, GetParam());
+    const ContactTriangles surface(random_soup(7, triangles), {ContactMaterial{}}, {}, GetParam());
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
     const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
@@ -48,10 +48,10 @@ struct Near : ::testing::TestWithParam<double> {
       EXPECT_EQ(expected->penetration_m, found->penetration_m) << i;
       EXPECT_EQ(expected->triangle, found->triangle) << i;
       EXPECT_EQ(expected->normal, found->normal) << i;
-      ASSERT_EQ(expected->beside.has_value(), found->beside.has_value()) << i;
-      if (!expected->beside) continue;
-      EXPECT_EQ(expected->beside->t, found->beside->t) << i;
-      EXPECT_EQ(expected->beside->triangle, found->beside->triangle) << i;
+      ASSERT_EQ(expected->crease.has_value(), found->crease.has_value()) << i;
+      if (!expected->crease) continue;
+      EXPECT_EQ(expected->crease->t, found->crease->t) << i;
+      EXPECT_EQ(expected->crease->triangle, found->crease->triangle) << i;
     }
     EXPECT_GT(hits, 200);
   }
@@ -59,10 +59,10 @@ struct Near : ::testing::TestWithParam<double> {
 
 TEST_P(Near, SweepsAsTheTreeDoes) { compare(300, 3e-3, 1e-2); }
 
-TEST_P(Near, SweepsAsTheTreeDoesWhenPrismsMakeRoomForOthers) { compare(4000, 0.1, 2e-2); }
+TEST_P(Near, SweepsAsTheTreeDoesWhenPrismsAreReplaced) { compare(4000, 0.1, 2e-2); }
 
 TEST_P(Near, SweepsInPiecesAsTheTreeDoesAtOnce) {
-  const ContactSurface surface(random_soup(5, 300), {ContactMaterial{}}, {}, GetParam());
+  const ContactTriangles surface(random_soup(5, 300), {ContactMaterial{}}, {}, GetParam());
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(-0.02, 0.02);
   const auto place = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
@@ -95,8 +95,8 @@ TEST_P(Near, SweepsInPiecesAsTheTreeDoesAtOnce) {
 
 INSTANTIATE_TEST_SUITE_P(Radius, Near, ::testing::Values(0.0, 1e-4, 1e-3));
 
-TEST(Neighbourhood, SaysWhenItIsFull) {
-  const ContactSurface surface(testing::plate(120, 120, 0.06, 0.06), {ContactMaterial{}}, {}, 0);
+TEST(Neighbourhood, ReportsWhenItIsFull) {
+  const ContactTriangles surface(testing::plate(120, 120, 0.06, 0.06), {ContactMaterial{}}, {}, 0);
   auto near = std::make_unique<Neighbourhood>();
   EXPECT_FALSE(surface.gather({0.03, 0.03, 0}, 0.05, *near));
   EXPECT_EQ(near->blocks(), 0U);

@@ -69,7 +69,7 @@ class Player : public ::testing::Test {
   Outcome play_glb(const Json& extras, const std::string& image, const std::string& more = "") const {
     return play("'" + write("a b.glb", testing::plate_glb(extras, image)) + "' --seconds 0.6 --json - " + more);
   }
-  /// Plays for long, does something to it after a moment. @returns the exit code.
+  /// Starts a long run and calls `act` with its process after half a second. @returns the exit code.
   int play_while(const std::string& glb, const std::function<void(pid_t)>& act) const {
     const std::string json = (folder_ / "r.json").string(), error = (folder_ / "error").string();
     const pid_t child = ::fork();
@@ -219,7 +219,7 @@ TEST_F(Player, WritesOverNothingThatItReads) {
   const std::string content = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());
   const std::string glb = write("p.glb", content), quoted = "'" + glb + "'";
   const std::string hand = write("t.csv", "t,x,y,z\n0,0,0,0.01\n0.1,0,0,-0.001\n");
-  const std::string fresh = folder_.filename().string() + ".csv";  // Nothing has this name here.
+  const std::string fresh = folder_.filename().string() + ".csv";  // No such file exists.
   const std::string around = "'" + (folder_ / "." / "p.glb").string() + "'";
   for (const std::string& arguments :
        {quoted + " --record " + quoted, quoted + " --json " + quoted, quoted + " --json " + around,
@@ -264,7 +264,7 @@ TEST_F(Player, NoSuchDeviceIsExitCode5) {
   expect_refusal(play("'" + glb + "' --device hid:nonsense"), 2);
 }
 
-/// A process with a sentinel that writes a file when it has to act.
+/// A process with a sentinel that writes a file when it switches the device off.
 void with_sentinel(const fs::path& trace, int ready, bool wait) {
   const player::Sentinel sentinel([&] { std::ofstream(trace) << "off"; });
   const char byte = sentinel.watched() ? 1 : 0;
@@ -287,7 +287,7 @@ TEST_F(Player, KilledPlayerIsSwitchedOffByItsSentinel) {
     EXPECT_EQ(byte, 1);
     if (killed) ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
-    // The sentinel holds the other end of the pipe until it is done.
+    // The sentinel keeps its end of the pipe open until it exits.
     EXPECT_EQ(::read(ends[0], &byte, 1), 0);
     ::close(ends[0]);
     EXPECT_EQ(fs::exists(trace), killed);

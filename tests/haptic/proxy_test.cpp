@@ -49,10 +49,9 @@ TEST(Proxy, ForceOnAPlateIsStiffnessTimesDepth) {
   }
 }
 
-/// The nearest place to a probe below a crease is the line where the skins of both faces meet, wherever the edges of
-/// triangles cross it: one way along it and one down lead there. The place right above a flat crease is within the
-/// tolerance of both skins, and one plane holds the proxy there; in a deeper one, both faces are met, at times with one
-/// sweep more.
+/// Below a crease the proxy rests where the skins of both faces meet, wherever edges cross that line: one sweep along
+/// it and one down lead there. Above a flat crease that place is within the tolerance of both skins, and one plane
+/// holds the proxy; in a deeper one both faces do, at times with one sweep more.
 TEST(Proxy, ACreaseIsFollowedInTwoOrThreeSweepsATick) {
   for (const auto& [slope, most] : {std::pair{0.2, 220}, {0.5, 300}}) {
     const ContactSurface surface(
@@ -75,9 +74,9 @@ TEST(Proxy, ACreaseIsFollowedInTwoOrThreeSweepsATick) {
   }
 }
 
-/// Nothing holds a proxy on the rim of an open sheet, however straight it is drawn against it; until then the sheet
-/// does. Slow probes feel their way there, fast ones hop.
-TEST(Proxy, SlipsAroundTheRimOfASheet) {
+/// A sheet holds the proxy up to its rim, and the rim does not, for slow probes, which descend, and fast ones, which
+/// hop.
+TEST(Proxy, GoesAroundTheRimOfASheet) {
   const ContactSurface surface(plate(10, 10, 0.1, 0.1), {spring(500)}, {}, 0);
   for (const Vec3 way : {Vec3{1, 0, 0}, Vec3{0.8, 0.6, 0}, Vec3{0.6, 0.8, 0}})
     for (const double depth : {3e-4, 1e-3, 5e-3})
@@ -98,8 +97,8 @@ TEST(Proxy, SlipsAroundTheRimOfASheet) {
       }
 }
 
-/// The skin rounds a step of a sheet to a slope that a deep probe would not be drawn up until it is far beyond. One
-/// lower than a quarter of the skin, as between sheets that should be one, is passed as soon as the nearest place is.
+/// The skin rounds a step of a sheet to a slope that holds a deep probe until it is far beyond. A step below a quarter
+/// of the skin, as between sheets that should be one, is passed as soon as the nearest place is beyond it.
 TEST(Proxy, LowStepsHoldNothing) {
   constexpr double edge = 0.05, width = 0.1;
   for (const double height : {1e-6, 3e-6, 4.8e-6}) {
@@ -123,7 +122,7 @@ TEST(Proxy, LowStepsHoldNothing) {
   }
 }
 
-/// Loose triangles that cross each other have rims, wedges and narrow ends, and no inside.
+/// Loose triangles that cross each other: rims, wedges and narrow gaps without an inside.
 TEST(Proxy, NeverPassesATriangleOfASoup) {
   for (const unsigned seed : {1U, 2U, 3U})
     for (const double radius : {0.0, 1e-3})
@@ -144,13 +143,13 @@ TEST(Proxy, NeverPassesATriangleOfASoup) {
         ContactAudit audit(surface);
         Vec3 probe{-0.01, 0.05, 0.05}, way{step, 0, 0};
         proxy.reset(probe);
-        int held = 0, lost = audit.lost(probe, proxy.state(), proxy.turns());
+        int held = 0, lost = audit.update(probe, proxy.state(), proxy.waypoints());
         for (int i = 0; i < 5000; ++i) {
           way = way + 0.3 * step * (place(2) - Vec3{1, 1, 1}) + 2 * step * (Vec3{0.075, 0.075, 0.075} - probe);
           way = (step / norm(way)) * way;
           probe = probe + way;
           held += proxy.update(probe, k_tick).in_contact;
-          lost += audit.lost(probe, proxy.state(), proxy.turns());
+          lost += audit.update(probe, proxy.state(), proxy.waypoints());
         }
         EXPECT_GT(held, 500) << seed << ' ' << radius << ' ' << step;
         EXPECT_EQ(lost, 0) << seed << ' ' << radius << ' ' << step;
@@ -317,7 +316,7 @@ TEST(Proxy, NeverLosesAPlateOfSlivers) {
     worst = std::max(worst, norm(Vec3{state.proxy.x - probe.x, state.proxy.y - probe.y, 0}));
   }
   EXPECT_EQ(lost, 0);
-  EXPECT_LT(worst, 1e-5);  // Without friction it stands above the probe.
+  EXPECT_LT(worst, 1e-5);  // Without friction it is above the probe.
 }
 
 TEST(Proxy, SoupWithGapsDuplicatesAndTJunctionsHolds) {
@@ -391,8 +390,8 @@ TEST(Proxy, IsNeverStuckOnARoughRelief) {
   EXPECT_EQ(stuck, 0);
 }
 
-/// A crease between the balls around edges and corners bends about a deep probe, so that each step along it is a small
-/// part of the way that is left.
+/// The crease between the skins of edges and corners bends around a deep probe, so each step along it is a small part
+/// of the rest.
 TEST(Proxy, ABallDoesNotCreepAlongBentCreases) {
   const ContactSurface surface(testing::height_grid(316, 316, 0.2, 0.2, testing::rough_relief), {ContactMaterial{}}, {},
                                1e-3);
@@ -421,8 +420,8 @@ HeightField sine_field(double amplitude, int waves) {
   return HeightField(n, 2, samples, options);
 }
 
-/// A place of a rough relief where the way of a proxy that slips down forks: 0.3 mm apart lie the hollow that is
-/// nearest to the probe and one that is 5 µm farther.
+/// A place of a rough relief where the descent can reach two hollows, 0.3 mm apart: the nearest one, and one that is 5
+/// µm farther.
 TEST(Proxy, TakesTheNearerOfTwoHollows) {
   const auto height = [](double x, double y) { return 5 * testing::rough_relief(x / 5, y / 5); };
   const Vec3 corner{0.68, 0.755, 0};
@@ -513,7 +512,7 @@ TEST(Proxy, PositionThatIsNoNumberChangesNothing) {
   EXPECT_EQ(proxy.state().proxy, before);
 }
 
-/// A step over the relief was once too small a number to be taken, and a tick never ended.
+/// Regression: a step over the relief below the resolution of its parameter made a tick endless.
 TEST(Proxy, ATickEndsHoweverFarTheProbeJumps) {
   ContactMaterial material = spring(1000);
   material.height = 0;

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <vector>
 
-#include "papilla/haptic/bvh.hpp"
+#include "bvh.hpp"
 #include "papilla/haptic/contact_mesh.hpp"
 
 namespace papilla::testing {
 
-/// A proxy of its own, slow and simple, in double precision: creeps down |x − goal|² by steps of an eighth of the
-/// clearance, never nearer to any triangle than that. The tree only collects what is near.
+/// A slow and simple reference of the proxy in double precision: descends |x − goal|² in steps of at most an eighth of
+/// the clearance and keeps that clearance to every triangle. The tree only collects near triangles.
 class ReferenceDescent {
  public:
   ReferenceDescent(const ContactMesh& mesh, double clearance_m) : mesh_(&mesh), clearance_(clearance_m) {
@@ -26,26 +26,25 @@ class ReferenceDescent {
     tree_ = Bvh(boxes);
   }
 
-  /// How far `proxy` is from where a point comes to rest that starts at `from` and is drawn to `goal`. Where the
-  /// surface has several such places within a push of 0.25 of the clearance, the nearest of those that the descent
-  /// halts at without pushes, with pushes of up to 0.05 and of up to 0.25. (Pushes are needed at all as steps in a
-  /// crease go from wall to wall and halt too early.) 0 for a proxy that has come nearer to the goal than the descent:
-  /// it isn't behind.
+  /// Distance of `proxy` from the local minimum that a point reaches from `from` towards `goal`. The descent is
+  /// repeated with perturbations of up to 0.05 and up to 0.25 of the clearance, because its steps zigzag in creases and
+  /// stop early; the nearest of the three minima counts. 0 for a proxy that is nearer to the goal than the descent.
   double gap(Vec3 from, Vec3 goal, Vec3 proxy) {
-    Vec3 x = halt(from, goal);
+    Vec3 x = descend(from, goal);
     double least = norm(proxy - x);
     for (const double push : {0.05, 0.25}) {
-      x = pushed_on(x, goal, push);
+      x = perturbed(x, goal, push);
       least = std::min(least, norm(proxy - x));
     }
     return norm(goal - proxy) <= norm(goal - x) ? 0 : least;
   }
 
-  /// The least gap() for goals that are `aside_m` off along an axis. Right under the rim of an open sheet, or where a
-  /// fall line forks, goals that differ by nothing to speak of have answers far apart, and either is right.
-  double gap_aside(Vec3 from, Vec3 goal, Vec3 proxy, double aside_m) {
+  /// The least gap() for goals shifted by `aside_m` along an axis. Below the rim of an open sheet, and where a fall
+  /// line forks, the minimum is discontinuous in the goal, and both sides are right.
+  double gap_shifted(Vec3 from, Vec3 goal, Vec3 proxy, double aside_m) {
     double least = gap(from, goal, proxy);
-    for (std::size_t k = 0; k < k_axes; ++k) least = std::min(least, gap(from, goal + aside_m * k_pushes[k], proxy));
+    for (std::size_t k = 0; k < k_axes; ++k)
+      least = std::min(least, gap(from, goal + aside_m * k_directions[k], proxy));
     return least;
   }
 
@@ -65,28 +64,28 @@ class ReferenceDescent {
  private:
   static constexpr double k_around_m = 3e-4;
   static constexpr std::size_t k_axes = 6;  // The first of the pushes.
-  static constexpr std::array<Vec3, 14> k_pushes{{{1, 0, 0},
-                                                  {-1, 0, 0},
-                                                  {0, 1, 0},
-                                                  {0, -1, 0},
-                                                  {0, 0, 1},
-                                                  {0, 0, -1},
-                                                  {1, 1, 1},
-                                                  {1, 1, -1},
-                                                  {1, -1, 1},
-                                                  {1, -1, -1},
-                                                  {-1, 1, 1},
-                                                  {-1, 1, -1},
-                                                  {-1, -1, 1},
-                                                  {-1, -1, -1}}};
+  static constexpr std::array<Vec3, 14> k_directions{{{1, 0, 0},
+                                                      {-1, 0, 0},
+                                                      {0, 1, 0},
+                                                      {0, -1, 0},
+                                                      {0, 0, 1},
+                                                      {0, 0, -1},
+                                                      {1, 1, 1},
+                                                      {1, 1, -1},
+                                                      {1, -1, 1},
+                                                      {1, -1, -1},
+                                                      {-1, 1, 1},
+                                                      {-1, 1, -1},
+                                                      {-1, -1, 1},
+                                                      {-1, -1, -1}}};
 
-  /// Where no push sets it going again.
-  Vec3 pushed_on(Vec3 x, Vec3 goal, double most) {
+  /// The descent from x, repeated until no perturbation of up to `most` leads nearer to the goal.
+  Vec3 perturbed(Vec3 x, Vec3 goal, double most) {
     for (bool moved = true; moved;) {
       moved = false;
       for (const double push : {0.1 * most, most})
-        for (std::size_t k = 0; k < k_pushes.size() && !moved; ++k) {
-          const Vec3 next = halt(x + push * clearance_ * k_pushes[k], goal);
+        for (std::size_t k = 0; k < k_directions.size() && !moved; ++k) {
+          const Vec3 next = descend(x + push * clearance_ * k_directions[k], goal);
           moved = norm(next - goal) < norm(x - goal) - 1e-7;
           if (moved) x = next;
         }
@@ -94,14 +93,14 @@ class ReferenceDescent {
     return x;
   }
 
-  Vec3 halt(Vec3 from, Vec3 goal) {
-    Vec3 x = pushed_out(from);
+  Vec3 descend(Vec3 from, Vec3 goal) {
+    Vec3 x = with_clearance(from);
     double now = norm(goal - x);
     for (double longest = clearance_ / 8; longest > 1e-9;) {
       const Vec3 way = allowed(x, goal - x);
       const double length = norm(way);
       if (length < 1e-10) break;
-      const Vec3 next = pushed_out(x + std::min(1.0, longest / length) * way);
+      const Vec3 next = with_clearance(x + std::min(1.0, longest / length) * way);
       const double then = norm(goal - next);
       if (then < now - 1e-12) {
         x = next;
@@ -113,11 +112,11 @@ class ReferenceDescent {
     return x;
   }
 
-  /// By the plane where that is inside, else the nearest of the edges.
+  /// Closest point of a triangle: on the plane where that is inside, else on the edges.
   Vec3 closest(std::uint32_t t, Vec3 p) const {
     const auto& corner = mesh_->triangles[t];
     const Vec3 a = mesh_->positions[corner[0]], b = mesh_->positions[corner[1]], c = mesh_->positions[corner[2]];
-    // Slivers with no inside to speak of are their edges.
+    // Slivers are treated as their edges.
     const Vec3 n = cross(b - a, c - a);
     const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
     if (norm(n) > 1e-9 * longest2 && dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 &&
@@ -133,7 +132,7 @@ class ReferenceDescent {
     return best;
   }
 
-  void look_around(Vec3 x) {
+  void collect_near(Vec3 x) {
     if (!near_.empty() && norm(x - centre_) < 0.5 * k_around_m) return;
     near_.clear();
     centre_ = x;
@@ -143,9 +142,9 @@ class ReferenceDescent {
     });
   }
 
-  Vec3 pushed_out(Vec3 x) {
+  Vec3 with_clearance(Vec3 x) {
     for (int round = 0; round < 50; ++round) {
-      look_around(x);
+      collect_near(x);
       double least = clearance_ - 1e-10;
       Vec3 at;
       for (const std::uint32_t t : near_) {
@@ -158,9 +157,9 @@ class ReferenceDescent {
     return x;
   }
 
-  /// `way` without what would go into a touched triangle (Hildreth's projection on a cone).
+  /// `way` projected on the cone of directions that enter no touched triangle (Hildreth).
   Vec3 allowed(Vec3 x, Vec3 way) {
-    look_around(x);
+    collect_near(x);
     normals_.clear();
     for (const std::uint32_t t : near_) {
       const Vec3 d = x - closest(t, x);

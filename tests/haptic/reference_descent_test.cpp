@@ -26,8 +26,8 @@ TEST(ReferenceDescent, UnderARimEitherSideIsRight) {
   const Vec3 from{0.0998, 0.05, skin}, on_rim{0.1, 0.05, skin};
   const Vec3 outside{0.1 + 1e-6, 0.05, -1e-3}, inside{0.0995, 0.05, -1e-3};
   EXPECT_GT(reference.gap(from, outside, on_rim), 9e-4);
-  EXPECT_LT(reference.gap_aside(from, outside, on_rim, 1.25e-6), 1e-5);
-  EXPECT_GT(reference.gap_aside(from, inside, {0.0993, 0.05, skin}, 1.25e-6), 1.9e-4);
+  EXPECT_LT(reference.gap_shifted(from, outside, on_rim, 1.25e-6), 1e-5);
+  EXPECT_GT(reference.gap_shifted(from, inside, {0.0993, 0.05, skin}, 1.25e-6), 1.9e-4);
 }
 
 TEST(Proxy, IsWhereTheReferenceDescentEnds) {

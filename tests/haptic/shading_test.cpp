@@ -66,12 +66,12 @@ Stroke stroke_around(const ContactSurface& surface) {
   return stroke;
 }
 
-TEST(ForceShading, TakesTheJumpsOffFacetEdges) {
+TEST(ForceShading, RemovesTheJumpsAtFacetEdges) {
   const double facet = 2 * std::numbers::pi / 24;
   for (const double radius : {0.0, 1e-3}) {
     const Stroke plain = stroke_around(surface_of(false, radius)), shaded = stroke_around(surface_of(true, radius));
-    // A point slips off an edge at once: the force turns by the facet's angle, which shading takes away, and falls with
-    // its cosine, which stays. A ball rolls over.
+    // A point slips off an edge at once: the force turns by the angle of the facets, which shading removes, and falls
+    // by its cosine, which remains. A ball rolls over the edge.
     const double slip = radius > 0 ? 0 : 1 - std::cos(facet);
     EXPECT_GT(plain.largest_jump, radius > 0 ? 0.1 : 0.9 * facet) << radius;
     EXPECT_LT(shaded.largest_jump, slip + 2e-3) << radius;

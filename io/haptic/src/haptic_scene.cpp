@@ -23,7 +23,7 @@ class Builder {
   Builder(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options)
       : scene_(scene), folder_(path.parent_path()), options_(options) {}
 
-  /// Materials that a triangle of a part names.
+  /// Which materials have triangles.
   std::vector<bool> used_materials() const {
     std::vector<bool> used(scene_.materials.size(), false);
     for (const Part& part : scene_.parts)
@@ -34,15 +34,15 @@ class Builder {
     return used;
   }
 
-  void read_materials() {
+  void add_materials() {
     const std::vector<bool> used = used_materials();
-    felt_.resize(scene_.materials.size());
+    tagged_.resize(scene_.materials.size());
     tex_coord_.resize(scene_.materials.size(), 0);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
       std::vector<HapticWarning> warnings;
       if (auto tag = material_tag_of_extras(scene_.materials[i].extras_json, warnings); tag && used[i]) {
-        follow_transform(scene_.materials[i], *tag, warnings);
-        felt_[i] = static_cast<std::uint32_t>(result.materials.size());
+        adopt_texture_transform(scene_.materials[i], *tag, warnings);
+        tagged_[i] = static_cast<std::uint32_t>(result.materials.size());
         tex_coord_[i] = tag->height ? tag->height->tex_coord : 0;
         result.names.push_back(scene_.materials[i].name.empty() ? "material " + std::to_string(i)
                                                                 : scene_.materials[i].name);
@@ -53,14 +53,14 @@ class Builder {
     }
   }
 
-  void add(const Instance& instance) {
+  void add_instance(const Instance& instance) {
     const Part& part = scene_.parts[instance.part];
     const TriangleMesh& mesh = part.mesh;
     const auto base = static_cast<std::uint32_t>(result.mesh.positions.size());
     bool used = false;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const std::uint32_t slot = mesh.material.empty() ? 0 : mesh.material[t];
-      if (slot >= part.materials.size() || !felt_[part.materials[slot]]) continue;
+      if (slot >= part.materials.size() || !tagged_[part.materials[slot]]) continue;
       const auto place = [&](std::size_t k) {
         return k_metres_per_mm * transform_point(instance.world, mesh.positions[mesh.triangles[t][k]]);
       };
@@ -72,35 +72,35 @@ class Builder {
       const std::uint32_t source = part.materials[slot];
       const Triangle& corner = mesh.triangles[t];
       result.mesh.triangles.push_back({base + corner[0], base + corner[1], base + corner[2]});
-      result.mesh.material.push_back(*felt_[source]);
+      result.mesh.material.push_back(*tagged_[source]);
       const auto& uv = tex_coord_[source] == 1 ? mesh.uv1 : mesh.uv;
       const bool has_uv = uv.has_value(t);
       for (std::size_t k = 0; k < 3; ++k)
         result.mesh.corner_uv.push_back(has_uv ? gltf_uv(uv.values[uv.indices[t][k]]) : Vec2{});
-      if (any_shading_) add_normals(instance.world, mesh, t, result.materials[*felt_[source]].shading);
-      if (result.materials[*felt_[source]].height || result.materials[*felt_[source]].stimulus)
-        check_uv(source, !has_uv);
+      if (any_shading_) add_normals(instance.world, mesh, t, result.materials[*tagged_[source]].shading);
+      if (!has_uv && (result.materials[*tagged_[source]].height || result.materials[*tagged_[source]].stimulus))
+        ++without_uv_[source];
     }
     if (!used) return;
     for (const Vec3& p : mesh.positions)
       result.mesh.positions.push_back(k_metres_per_mm * transform_point(instance.world, p));
     if (mirrors(instance.world))
-      for (std::size_t t = felt_triangles_; t < result.mesh.triangles.size(); ++t) {
+      for (std::size_t t = added_triangles_; t < result.mesh.triangles.size(); ++t) {
         std::swap(result.mesh.triangles[t][1], result.mesh.triangles[t][2]);
         std::swap(result.mesh.corner_uv[3 * t + 1], result.mesh.corner_uv[3 * t + 2]);
         if (any_shading_) std::swap(result.mesh.corner_normals[3 * t + 1], result.mesh.corner_normals[3 * t + 2]);
       }
-    felt_triangles_ = result.mesh.triangles.size();
+    added_triangles_ = result.mesh.triangles.size();
   }
 
-  /// Of a triangle's corners in the frame of the scene; zero, which stands for the face's, where there are none.
+  /// Corner normals of a triangle in the frame of the scene; zero, which means the face normal, where there are none.
   void add_normals(const Transform& world, const TriangleMesh& mesh, std::size_t t, bool shaded) {
     const Vec3 x{world[0], world[4], world[8]}, y{world[1], world[5], world[9]}, z{world[2], world[6], world[10]};
     const double side = mirrors(world) ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3 n;
       if (shaded && mesh.normals.has_value(t)) n = mesh.normals.values[mesh.normals.indices[t][k]];
-      // Normals turn by the cofactors of the matrix.
+      // Normals transform by the cofactors of the matrix.
       result.mesh.corner_normals.push_back(side *
                                            normalized(n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y)));
     }
@@ -138,7 +138,7 @@ class Builder {
       made.bristle_stiffness = tag.friction_model->stiffness;
     }
     made.shading = tag.force_shading;
-    made.height = relief_of(tag, material, warnings);
+    made.height = add_relief(tag, material, warnings);
     if (!tag.force_model) return made;
     made.model = force_model(tag.force_model->name).value_or(ForceModel::heightfield);
     made.amplitude = tag.force_model->amplitude;
@@ -147,8 +147,8 @@ class Builder {
     return made;
   }
 
-  std::optional<std::uint32_t> relief_of(const MaterialTag& tag, std::size_t material,
-                                         std::vector<HapticWarning>& warnings) {
+  std::optional<std::uint32_t> add_relief(const MaterialTag& tag, std::size_t material,
+                                          std::vector<HapticWarning>& warnings) {
     if (!tag.height) return std::nullopt;
     std::optional<HeightField> field = find_height_map(*tag.height, scene_, folder_, warnings);
     ++(field ? result.maps_loaded : result.maps_missing);
@@ -159,7 +159,7 @@ class Builder {
       warnings.push_back({"height_lost", "the height map is lost and there is no roughness, the surface is smooth"});
       return std::nullopt;
     }
-    *field = without_short_waves(std::move(*field), tag.height->metres_per_uv);
+    *field = coarsened(std::move(*field), tag.height->metres_per_uv);
     if (options_.probe_radius_m > 0) try {
         field = field->dilated(options_.probe_radius_m, tag.height->metres_per_uv);
       } catch (const InvalidInput& error) {
@@ -169,26 +169,27 @@ class Builder {
     return static_cast<std::uint32_t>(result.heights.size() - 1);
   }
 
-  /// Tools that change coordinates say so where the pictures are used, not in the tag.
-  static void follow_transform(const Material& material, MaterialTag& tag, std::vector<HapticWarning>& warnings) {
+  /// Tools that change texture coordinates update the transform of the textures, not the tag.
+  static void adopt_texture_transform(const Material& material, MaterialTag& tag,
+                                      std::vector<HapticWarning>& warnings) {
     const auto& reference = material.normal_texture ? material.normal_texture : material.base_color_texture;
     if (!tag.height || !reference || !reference->transform || reference->tex_coord != tag.height->tex_coord) return;
     const UvTransform found{reference->transform->offset, reference->transform->rotation, reference->transform->scale};
     UvTransform& known = tag.height->uv_transform;
     if (found == known || found.scale.x == 0 || found.scale.y == 0 || known.scale.x == 0 || known.scale.y == 0) return;
-    // A metre stays a metre: one unit of the new coordinates is another length.
+    // The length of a unit of uv changes with the scale.
     Vec2& metres = tag.height->metres_per_uv;
     metres = {metres.x * std::abs(found.scale.x / known.scale.x), metres.y * std::abs(found.scale.y / known.scale.y)};
     known = found;
     warnings.push_back({"uv_transform", "the height map follows the texture's KHR_texture_transform, not the tag's"});
   }
 
-  HeightField without_short_waves(HeightField field, Vec2 metres_per_uv) {
+  HeightField coarsened(HeightField field, Vec2 metres_per_uv) {
     const auto pitch = [&] {
       const auto texels = field.texels_per_uv();
       return std::min(metres_per_uv.x / norm(texels[0]), metres_per_uv.y / norm(texels[1]));
     };
-    // Twice the new pitch must still carry the shortest wave.
+    // Two new texels must fit into the shortest wavelength.
     bool coarser = false;
     while (4 * pitch() <= options_.shortest_wave_m && field.width() >= 4 && field.height() >= 4 &&
            field.width() % 2 == 0 && field.height() % 2 == 0) {
@@ -201,18 +202,14 @@ class Builder {
 
   bool in_reach(Vec3 a, Vec3 b, Vec3 c) const {
     if (options_.reach_around.empty()) return true;
-    // The ball around the triangle against the ball around each point.
+    // Bounding ball of the triangle against the ball around each point.
     const Vec3 middle = (1.0 / 3) * (a + b + c);
     const double radius = std::max({norm(a - middle), norm(b - middle), norm(c - middle)});
     return std::any_of(options_.reach_around.begin(), options_.reach_around.end(),
                        [&](Vec3 p) { return norm(p - middle) <= options_.reach_m + radius; });
   }
 
-  void check_uv(std::uint32_t source, bool missing) {
-    if (missing) ++without_uv_[source];
-  }
-
-  /// A scene's uv has v upwards, a height field samples as glTF does.
+  /// From uv with v upwards to that of glTF.
   static Vec2 gltf_uv(Vec2 uv) { return {uv.x, 1 - uv.y}; }
 
   static bool mirrors(const Transform& t) {
@@ -222,10 +219,10 @@ class Builder {
   const Scene& scene_;
   std::filesystem::path folder_;
   HapticSceneOptions options_;
-  std::vector<std::optional<std::uint32_t>> felt_;  // Scene material -> material of the result.
+  std::vector<std::optional<std::uint32_t>> tagged_;  // Index in result.materials of a scene material with a tag.
   std::vector<int> tex_coord_;
   std::map<std::uint32_t, std::size_t> without_uv_;
-  std::size_t felt_triangles_ = 0;
+  std::size_t added_triangles_ = 0;
   bool any_shading_ = false;
 };
 
@@ -233,13 +230,13 @@ class Builder {
 
 HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options) {
   Builder builder(scene, path, options);
-  builder.read_materials();
+  builder.add_materials();
   if (builder.result.materials.empty()) {
     std::string reason = path.string() + ": no material has a usable haptic tag";
     if (!builder.result.warnings.empty()) reason += " (" + builder.result.warnings.front().warning.message + ")";
     throw InvalidInput(reason);
   }
-  for (const Instance& instance : instances(scene)) builder.add(instance);
+  for (const Instance& instance : instances(scene)) builder.add_instance(instance);
   builder.finish();
   if (builder.result.mesh.triangles.empty()) throw InvalidInput(path.string() + ": no triangle has a tagged material");
   return std::move(builder.result);

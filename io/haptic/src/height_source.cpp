@@ -21,7 +21,7 @@ int hex_value(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/// %20 and the like, as in every URI of glTF.
+/// Decodes the percent encoding of a URI.
 std::string decode_percent(std::string_view uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {

@@ -40,23 +40,23 @@ struct papilla_haptic {
 
 namespace {
 
-papilla::Vec3 vec(const double* p) noexcept { return {p[0], p[1], p[2]}; }
+papilla::Vec3 to_vec(const double* p) noexcept { return {p[0], p[1], p[2]}; }
 
-void put(papilla::Vec3 v, double* to) noexcept {
+void store(papilla::Vec3 v, double* to) noexcept {
   if (to == nullptr) return;
   to[0] = v.x;
   to[1] = v.y;
   to[2] = v.z;
 }
 
-void say(const char* what, char* message, size_t size) noexcept {
+void copy_message(const char* what, char* message, size_t size) noexcept {
   if (message == nullptr || size == 0) return;
   const size_t length = std::min(std::strlen(what), size - 1);
   std::memcpy(message, what, length);
   message[length] = '\0';
 }
 
-const char* at(const std::vector<std::string>& texts, size_t index) noexcept {
+const char* text_or_null(const std::vector<std::string>& texts, size_t index) noexcept {
   return index < texts.size() ? texts[index].c_str() : nullptr;
 }
 
@@ -82,9 +82,9 @@ papilla_haptic* papilla_haptic_open(const char* path, const papilla_haptic_optio
     scene.probe_radius_m = all.probe_radius_m;
     return new papilla_haptic(papilla::load_haptic_scene(path, scene), all);
   } catch (const std::exception& error) {
-    say(error.what(), message, message_size);
+    copy_message(error.what(), message, message_size);
   } catch (...) {
-    say("papilla_haptic_open: unknown failure", message, message_size);
+    copy_message("papilla_haptic_open: unknown failure", message, message_size);
   }
   return nullptr;
 }
@@ -92,26 +92,26 @@ papilla_haptic* papilla_haptic_open(const char* path, const papilla_haptic_optio
 void papilla_haptic_close(papilla_haptic* haptic) { delete haptic; }
 
 void papilla_haptic_reset(papilla_haptic* haptic, const double position[3]) {
-  if (haptic != nullptr && position != nullptr) haptic->tick.reset(vec(position));
+  if (haptic != nullptr && position != nullptr) haptic->tick.reset(to_vec(position));
 }
 
 int papilla_haptic_tick(papilla_haptic* haptic, const double position[3], double age_s, double force[3]) {
   if (haptic == nullptr || position == nullptr) {
-    put({}, force);
+    store({}, force);
     return PAPILLA_HAPTIC_FAULT;
   }
   papilla::DeviceState state;
-  state.position = vec(position);
+  state.position = to_vec(position);
   state.age_s = age_s;
-  put(haptic->tick(state), force);
+  store(haptic->tick(state), force);
   const bool fault = haptic->tick.guard().fault() != papilla::ForceGuard::Fault::none;
   return (haptic->tick.proxy().in_contact ? PAPILLA_HAPTIC_CONTACT : 0) |
          (haptic->tick.proxy().sliding ? PAPILLA_HAPTIC_SLIDING : 0) | (fault ? PAPILLA_HAPTIC_FAULT : 0);
 }
 
 void papilla_haptic_proxy(const papilla_haptic* haptic, double position[3], double normal[3]) {
-  put(haptic != nullptr ? haptic->tick.proxy().proxy : papilla::Vec3{}, position);
-  put(haptic != nullptr ? haptic->tick.proxy().normal : papilla::Vec3{}, normal);
+  store(haptic != nullptr ? haptic->tick.proxy().proxy : papilla::Vec3{}, position);
+  store(haptic != nullptr ? haptic->tick.proxy().normal : papilla::Vec3{}, normal);
 }
 
 size_t papilla_haptic_triangles(const papilla_haptic* haptic) {
@@ -119,9 +119,9 @@ size_t papilla_haptic_triangles(const papilla_haptic* haptic) {
 }
 
 const char* papilla_haptic_material(const papilla_haptic* haptic, size_t index) {
-  return haptic != nullptr ? at(haptic->scene.names, index) : nullptr;
+  return haptic != nullptr ? text_or_null(haptic->scene.names, index) : nullptr;
 }
 
 const char* papilla_haptic_warning(const papilla_haptic* haptic, size_t index) {
-  return haptic != nullptr ? at(haptic->warnings, index) : nullptr;
+  return haptic != nullptr ? text_or_null(haptic->warnings, index) : nullptr;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The first process of a virtual machine: makes fake force devices with /dev/uhid, lets /player feel /plate.glb with
-// them through hidapi and the kernel's HID layer, and says what they were told. The last line is "guest: all passed" or
-// not.
+// The first process of a virtual machine: creates fake force devices with /dev/uhid, runs /player on /plate.glb with
+// them through hidapi and the kernel's HID layer, and checks what they received. The last line is "guest: all passed"
+// on success.
 #include <fcntl.h>
 #include <linux/reboot.h>
 #include <linux/uhid.h>
@@ -40,7 +40,7 @@ void expect(bool holds, const std::string& what) {
   failures += !holds;
 }
 
-/// A device behind /dev/uhid: sends positions at 1 kHz and keeps what it is told.
+/// A device of /dev/uhid: sends positions at 1 kHz and records the reports it receives.
 class Device {
  public:
   enum class Kind { pid, force_report };
@@ -88,14 +88,14 @@ class Device {
     }
     return false;
   }
-  /// Of all forces so far, in counts.
+  /// Largest force so far, in counts.
   int largest_magnitude() {
     int largest = 0;
     for (const Bytes& r : told())
       for (std::size_t at : force_places(r)) largest = std::max(largest, std::abs(number(r, at)));
     return largest;
   }
-  /// The last words: no force on any axis and actuators off.
+  /// Whether the last reports are zero force on every axis and actuators off.
   bool is_off() {
     const std::vector<Bytes> all = told();
     if (all.empty()) return false;
@@ -153,7 +153,7 @@ class Device {
     }
   }
 
-  /// Down along y by 13 mm in two seconds, then still but for a tremor.
+  /// Down along y by 13 mm in two seconds, then at rest with a tremor.
   void move() {
     for (int frame = 0; !ending_ && !unplugged_; ++frame) {
       std::this_thread::sleep_for(milliseconds(1));

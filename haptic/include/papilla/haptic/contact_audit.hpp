@@ -9,32 +9,31 @@
 
 namespace papilla {
 
-/// Watches a proxy and tells the ticks on which it has lost its contact. Shares no contact code with the proxy: it asks
-/// for the closest base point and for crossings of straight ways with the triangles.
+/// Detects ticks on which a proxy lost its contact, independently of the proxy's code: it uses only the closest base
+/// point and the crossings of segments with the triangles.
 ///
 /// A tick is lost when
-///   - the proxy has gone through a triangle: neither the straight way from where it was to where it is nor the one
-///     along its turns is free of them. Whatever the turns are said to be, a free way is one; around the rim of an open
-///     sheet there is such a way, however far that is;
-///   - it is free although it has gone through triangles an odd number of times since the audit began;
+///   - the proxy passed a triangle: neither the segment from its last position to the new one nor the path along its
+///     waypoints is free of crossings. Any free path is accepted, so going around the rim of an open sheet is no loss;
+///   - it is free although it passed triangles an odd number of times since the start;
 ///   - it is free and not at the probe;
-///   - it is free although the probe stands in front of its closest triangle, but lower than the relief and probe
-///     radius above it.
-/// noexcept, no allocation. Costs one segment query, one for each turn where that meets a triangle, and one closest
-/// point when free near the surface.
+///   - it is free although the probe is in front of its closest triangle and lower than relief and probe radius above
+///   it.
+/// noexcept, no allocation. Cost: one segment query; one per waypoint when that crosses a triangle; one closest point
+/// when the proxy is free near the surface.
 class ContactAudit {
  public:
   explicit ContactAudit(const ContactSurface& surface) noexcept : surface_(&surface) {}
 
-  /// True when this tick is lost. Call it every tick with what the proxy says: state() and turns().
-  bool lost(Vec3 probe, const ProxyState& state, std::span<const Vec3> turns) noexcept;
+  /// Call it every tick with Proxy::state() and Proxy::waypoints(). @returns true when the tick is lost.
+  bool update(Vec3 probe, const ProxyState& state, std::span<const Vec3> waypoints) noexcept;
 
  private:
   const ContactSurface* surface_;
-  Vec3 proxy_;  // Of the tick before.
-  bool started_ = false, behind_ = false;
+  Vec3 proxy_;                             // Of the tick before.
+  bool started_ = false, inside_ = false;  // inside_: after an odd number of crossings.
 
-  int crossings(Vec3 to, std::span<const Vec3> turns) const noexcept;
+  int crossings(Vec3 to, std::span<const Vec3> waypoints) const noexcept;
 };
 
 }  // namespace papilla

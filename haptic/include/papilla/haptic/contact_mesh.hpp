@@ -22,10 +22,10 @@ enum class ForceModel {
   textured_normal,
 };
 
-/// How a surface holds what slides on it; see friction.hpp.
+/// Friction between surface and probe; see friction.hpp.
 enum class FrictionModel { coulomb, bristle };
 
-/// What a surface does to a probe; the numbers of the material tag that the tick needs.
+/// The constants of the material tag that the tick uses.
 struct ContactMaterial {
   double stiffness = 500;           ///< N/m.
   double damping = 0;               ///< N·s/m, of the wall; acts along the contact normal.
@@ -33,17 +33,17 @@ struct ContactMaterial {
   double dynamic_friction = 0;      ///< Coulomb, dimensionless, at most static_friction.
   double stribeck_velocity = 0.01;  ///< m/s, the speed over which static friction fades into dynamic.
   FrictionModel friction = FrictionModel::coulomb;
-  double bristle_stiffness = 0;         ///< N/m, of bristle friction; 0, and at most: as `stiffness`.
-  bool shading = false;                 ///< Forces follow the corner normals; see ContactSurface::shaded_normal().
+  double bristle_stiffness = 0;         ///< N/m, of bristle friction, at most `stiffness`; 0: `stiffness`.
+  bool shading = false;                 ///< Force shading; see ContactSurface::shaded_normal().
   std::optional<std::uint32_t> height;  ///< Index of the relief in the surface's height fields.
   ForceModel model = ForceModel::heightfield;
-  std::optional<std::uint32_t> stimulus;  ///< Index of the relief that a stimulus reads; it displaces nothing.
+  std::optional<std::uint32_t> stimulus;  ///< Index of the relief of a stimulus, which displaces nothing.
   double amplitude = 0.01;                ///< A of a stimulus: N per grey level, or per grey level and pixel.
-  bool literal_sign = false;              ///< Lateral stimuli push uphill, as the source prints them.
+  bool literal_sign = false;              ///< Lateral stimuli push uphill, as in the source.
 };
 
-/// Triangles to be felt: metres, in the frame of the scene, counter-clockwise seen from outside.
-/// A soup is welcome: duplicated vertices, gaps, slivers, T-junctions, several parts.
+/// Triangles of a haptic scene: metres, in the frame of the scene, counter-clockwise seen from outside.
+/// A soup is valid input: duplicated vertices, gaps, slivers, T-junctions, several parts.
 struct ContactMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -8,13 +8,13 @@
 
 namespace papilla {
 
-/// What the stability of a contact depends on, of one force device.
+/// The properties of a force device that decide whether a contact is stable.
 struct DeviceDynamics {
   double mass_kg = 0;         ///< Apparent mass at the handle.
-  double damping = 0;         ///< b, N·s/m: the device's own, not what it can be commanded.
+  double damping = 0;         ///< b, N·s/m: physical damping of the device, without control.
   double friction_n = 0;      ///< f_c, Coulomb friction at the handle.
   double encoder_step_m = 0;  ///< Δ, smallest step of the position.
-  double delay_s = 0;         ///< t_d, from a force written to a force felt, beside the hold of the loop.
+  double delay_s = 0;         ///< t_d, from writing a force to its effect, without the hold of the loop.
 };
 
 struct DeviceCaps {
@@ -26,7 +26,7 @@ struct DeviceCaps {
 
 struct DeviceState {
   Vec3 position;     ///< m, in the frame of the scene.
-  double age_s = 0;  ///< How long ago the device reported it.
+  double age_s = 0;  ///< Time since the device reported it.
   std::uint32_t buttons = 0;
 };
 
@@ -42,13 +42,13 @@ class HapticDevice {
   virtual const DeviceCaps& caps() const noexcept = 0;
   /// Whether the device's own frames set the pace: then the loop calls wait() before each read() instead of sleeping.
   virtual bool is_clock() const noexcept { return false; }
-  /// Waits for the next fresh position, at most `longest_s`. @returns how late the caller is for it, in seconds.
+  /// Waits for the next fresh position, at most `longest_s`. @returns the age of that position in seconds.
   virtual double wait(double longest_s) noexcept { return 0 * longest_s; }
   /// The newest position. @returns false when the device is lost.
   virtual bool read(DeviceState& state) noexcept = 0;
   /// Sets the force on the hand in newtons. @returns false when the device is lost.
   virtual bool write(Vec3 force_n) noexcept = 0;
-  /// Zero force and actuators off. May be called at any time, also twice.
+  /// Zero force and actuators off. May be called at any time and repeatedly.
   virtual void stop() noexcept = 0;
 };
 

@@ -20,37 +20,37 @@ namespace papilla {
 class HapticTick {
  public:
   /// @param surface must outlive the object; its materials should be stable for the device (see clamp_to_stable()).
-  HapticTick(const ContactSurface& surface, const SafetyLimits& limits, double period_s) noexcept
+  HapticTick(const ContactSurface& surface, const SafetyLimits& limits, double period_s)
       : surface_(&surface), period_(period_s), proxy_(surface), audit_(surface), stimulus_(surface), guard_(limits) {}
 
-  /// From now on energy that the contact gives is watched, and softens it. The clamp of the materials is the first
-  /// means; this helps where the device's numbers are too good.
+  /// Enables the PassivityController, for devices whose DeviceDynamics are stated too well. clamp_to_stable() comes
+  /// first.
   void control_passivity(const DeviceDynamics& device) { passivity_.emplace(device); }
   std::uint64_t passivity_interventions() const noexcept { return passivity_ ? passivity_->interventions() : 0; }
 
   /// @returns the force on the hand in newtons.
   Vec3 operator()(const DeviceState& device) noexcept {
     const Vec3 probe = device.position;
-    // A probe that is nowhere gives no force, not the one of the tick before: the guard traps what is no number.
-    if (!ContactSurface::is_place(probe)) {
+    // An invalid position gives no force: the guard stops on NaN.
+    if (!ContactSurface::is_valid_position(probe)) {
       lost_ = false;
       return guard_.apply(k_no_force, period_, device.age_s);
     }
-    // Wall damping acts on a velocity that is smoothed over k_smoothing_s: differences of encoder steps are noise.
+    // Wall damping acts on a velocity smoothed over k_smoothing_s: differences of encoder steps are noise.
     const Vec3 moved = started_ ? probe - last_ : Vec3{};
     const double share = period_ / (period_ + k_smoothing_s);
     if (started_) velocity_ = velocity_ + share * ((1 / period_) * (probe - last_) - velocity_);
     last_ = probe;
     started_ = true;
     const ProxyState& state = proxy_.update(probe, period_);
-    lost_ = audit_.lost(probe, state, proxy_.turns());
-    Vec3 force = heightfield_force(*surface_, state, probe, velocity_) + bristles(state, moved);
+    lost_ = audit_.update(probe, state, proxy_.waypoints());
+    Vec3 force = heightfield_force(*surface_, state, probe, velocity_) + bristle_force(state, moved);
     if (stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
     if (passivity_) force = passivity_->apply(force, moved, period_);
     return guard_.apply(force, period_, device.age_s);
   }
 
-  /// Puts the probe somewhere without touching what lies between; clears a fault, and forces fade in again.
+  /// Puts the probe to `position` without contact on the way; clears a fault, and forces fade in again.
   void reset(Vec3 position) noexcept {
     proxy_.reset(position);
     audit_ = ContactAudit(*surface_);
@@ -63,12 +63,12 @@ class HapticTick {
   }
 
   const ProxyState& proxy() const noexcept { return proxy_.state(); }
-  bool lost() const noexcept { return lost_; }  ///< The last tick lost its contact.
+  bool lost() const noexcept { return lost_; }  ///< ContactAudit: the last tick lost its contact.
   ForceGuard& guard() noexcept { return guard_; }
 
  private:
-  /// Bristle friction where the material has it; the proxy brings Coulomb's with it.
-  Vec3 bristles(const ProxyState& state, Vec3 moved) noexcept {
+  /// Bristle friction where the material has it; Coulomb's is in the proxy.
+  Vec3 bristle_force(const ProxyState& state, Vec3 moved) noexcept {
     if (!state.in_contact || surface_->material(state.material).friction != FrictionModel::bristle) {
       bristles_.release();
       return {};
@@ -77,7 +77,7 @@ class HapticTick {
     return bristles_.force(material, state.normal, material.stiffness * state.load_m, moved, period_);
   }
 
-  static constexpr double k_smoothing_s = 1e-3;
+  static constexpr double k_smoothing_s = 1e-3;  // Of the velocity.
   static constexpr double k_no_number = std::numeric_limits<double>::quiet_NaN();
   static constexpr Vec3 k_no_force{k_no_number, k_no_number, k_no_number};
   const ContactSurface* surface_;

@@ -10,11 +10,11 @@
 
 namespace papilla {
 
-/// What a texture coordinate outside [0, 1) means, per axis (glTF's three sampler modes).
+/// Texture coordinates outside [0, 1), per axis (the sampler modes of glTF).
 enum class Wrap { repeat, clamp, mirror };
 
-/// How heights between samples are found. Bilinear is continuous; bicubic (Catmull–Rom) has a continuous gradient
-/// as well and still passes through the samples.
+/// Interpolation between samples. Bilinear is continuous; bicubic (Catmull–Rom) has a continuous gradient as well and
+/// still passes through the samples.
 enum class Interpolation { bilinear, bicubic };
 
 /// KHR_texture_transform: uv' = offset + R(rotation) · diag(scale) · uv.
@@ -25,27 +25,27 @@ struct UvTransform {
   friend bool operator==(const UvTransform&, const UvTransform&) = default;
 };
 
-/// Numbers that turn a 16-bit picture into heights in metres: h = offset + scale · v / 65535.
+/// From 16-bit samples to heights in metres: h = offset + scale · v / 65535.
 struct HeightFieldOptions {
   double scale_m = 0;
   double offset_m = 0;
-  bool white_is_outward = true;  ///< False: v counts from white.
+  bool white_is_outward = true;  ///< False: 65535 − v takes the place of v.
   UvTransform uv_transform;
   std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};
   Interpolation interpolation = Interpolation::bicubic;
 };
 
-/// Height and its derivatives by the texture coordinates before the transform.
+/// Height and its gradient by the texture coordinates before the transform.
 struct HeightSample {
   double height_m = 0;
   Vec2 gradient_m{};  ///< (∂h/∂u, ∂h/∂v) in metres per unit of uv.
 };
 
-/// A relief that is a function of texture coordinates, held in 16 bits a sample.
+/// A relief over texture coordinates, stored in 16 bits a sample.
 ///
 /// Texel (x, y) of a w × h picture has its centre at uv = ((x+½)/w, (y+½)/h), row 0 on top, as glTF samples
-/// pictures. Bicubic values are cut to the range of the samples and of the values halfway
-/// between them, so that min_m() and max_m() hold everywhere.
+/// pictures. Bicubic values are clamped to the range of the samples and of the values halfway between them, so that
+/// min_m() and max_m() are bounds everywhere.
 /// sample() is noexcept, allocates nothing, and costs 4 (bilinear) or 16 (bicubic) reads. A uv that is not finite
 /// is read as 0.
 class HeightField {
@@ -56,16 +56,15 @@ class HeightField {
 
   HeightSample sample(Vec2 uv) const noexcept;
 
-  /// The surface that the centre of a ball of radius r follows, less r: H(a) = max over |b−a| ≤ r of
-  /// h(b) + √(r² − |b−a|²) − r (grey dilation; the same operation by which the tip of a force microscope widens a
-  /// relief). Exact on the samples; quantised to 16 bits of the old range.
-  /// Cost: samples × π(ρ/texel)², ρ² = 2·range·r − range² (at most r²); the work is cut off by coarser offsets, never
-  /// silently: a texel below ρ/64 is an InvalidInput.
+  /// Grey dilation by a ball of radius r: H(a) = max over |b−a| ≤ r of h(b) + √(r² − |b−a|²) − r, the height of the
+  /// ball's centre less r (as the tip of a force microscope dilates a relief). Exact on the samples; quantised to 16
+  /// bits of the old range. Cost: samples × π(ρ/texel)², ρ² = 2·range·r − range² (at most r²).
   /// @param metres_per_uv length of one unit of the untransformed u and v on the surface, > 0.
+  /// @throws InvalidInput when a texel is below ρ/64.
   HeightField dilated(double radius_m, Vec2 metres_per_uv) const;
 
-  /// The same relief with half the samples in each direction, each the mean of four. Waves shorter than four of the old
-  /// texels are lost.
+  /// The relief with half the samples in each direction, each the mean of four. Wavelengths below four old texels are
+  /// lost.
   /// @throws InvalidInput when a size is odd.
   HeightField halved() const;
 
@@ -75,13 +74,13 @@ class HeightField {
   int height() const noexcept { return height_; }
   /// Grey levels, of which there are 256, per metre of height.
   double greys_per_m() const noexcept { return options_.scale_m != 0 ? 256 / std::abs(options_.scale_m) : 0; }
-  /// Samples met per unit of untransformed u and v: the columns of the map from uv to texels.
+  /// Texels per unit of untransformed u and v: the columns of the linear map from uv to texels.
   std::array<Vec2, 2> texels_per_uv() const noexcept;
-  /// The most that the height changes from texel to texel along x and along y, in metres: nowhere is it steeper.
+  /// Upper bounds of the slope along x and y, in metres per texel.
   Vec2 steepest_m() const noexcept { return steepest_m_; }
 
  private:
-  /// Of the samples along an axis, for the value and its derivative.
+  /// Interpolation weights along an axis, of the value and its derivative.
   struct Weights {
     double value[4], slope[4];
   };
@@ -89,7 +88,7 @@ class HeightField {
     double value = 0, by_x = 0, by_y = 0;
   };
 
-  /// Of the samples' values, per texel.
+  /// Bounds of the interpolated samples; slopes per texel.
   struct Extremes {
     double least, most;
     Vec2 steepest;

@@ -14,18 +14,17 @@
 namespace papilla {
 
 /// A force device over HID. Its frames are the clock of the loop: wait() blocks in the transport's read() until a
-/// position comes and drains what is older. write() puts the force into a slot, lock-free, the newest wins; a thread of
-/// the device sends it, because writing to USB blocks up to a frame.
+/// position arrives and drains older ones. write() stores the force in a lock-free slot; a thread of the device sends
+/// the newest, because a write to USB blocks up to a frame.
 ///
-/// stop() and the destructor end that thread with the protocol's stop reports: zero force, actuators off. A device that
-/// disappears, repeats a position that it counts, or stays silent is seen by read(): false when it is gone, an age_s
-/// that grows when it is silent.
+/// stop() and the destructor end that thread with the protocol's stop reports: zero force, actuators off. read()
+/// returns false when the device is gone, and a growing age_s when it is silent or repeats a numbered position.
 class HidDevice final : public HapticDevice {
  public:
-  /// Starts the protocol, calls `started` (before there is a thread; the reports that switch the device off are given
-  /// to it, for whoever outlives this process), then starts the writer.
-  /// @param origin where the middle of the workspace lies in the scene.
-  /// @throws DeviceError as ForceProtocol::start() does; forces are off then.
+  /// Starts the protocol, calls `started` with the stop reports (before there is a thread, so that it may fork a
+  /// process that outlives this one), then starts the writer.
+  /// @param origin centre of the workspace in the scene.
+  /// @throws DeviceError as ForceProtocol::start(); forces are off then.
   HidDevice(std::unique_ptr<HidTransport> transport, std::unique_ptr<ForceProtocol> protocol, Vec3 origin,
             const std::function<void(const std::vector<HidReport>&)>& started = {});
   ~HidDevice() override;
@@ -37,10 +36,10 @@ class HidDevice final : public HapticDevice {
   bool write(Vec3 force_n) noexcept override;
   void stop() noexcept override;
 
-  std::uint64_t stale_reports() const noexcept { return stale_; }  ///< Drained because a newer one was there.
+  std::uint64_t stale_reports() const noexcept { return stale_; }  ///< Positions drained because a newer one was there.
 
  private:
-  bool take(std::ptrdiff_t bytes) noexcept;
+  bool accept_report(std::ptrdiff_t bytes) noexcept;
   Vec3 newest_force() const noexcept;
   void write_forces() noexcept;
 
@@ -52,11 +51,11 @@ class HidDevice final : public HapticDevice {
   std::array<std::byte, 4096> input_{};
   DeviceSample sample_;
   double arrived_s_ = 0;
-  bool heard_ = false;
+  bool has_sample_ = false;
   std::uint64_t stale_ = 0;
   std::atomic<bool> lost_{false}, ending_{false};
   std::array<std::atomic<double>, 3> force_{};
-  std::atomic<std::uint32_t> turn_{0};  // Odd while a force is put in.
+  std::atomic<std::uint32_t> version_{0};  // Of force_; odd while it is written.
   std::thread writer_;
 };
 

@@ -14,14 +14,14 @@ namespace papilla {
 
 /// A HID device as the system lists it.
 struct HidInfo {
-  std::string path;  ///< What the system opens.
+  std::string path;  ///< Device file.
   std::uint16_t vendor = 0, product = 0;
   std::string serial, name;           ///< UTF-8, may be empty.
   std::vector<std::byte> descriptor;  ///< Report descriptor; empty when it can't be read.
 };
 
-/// Moves reports to and from one HID device. Reports begin with the byte of their number, which is 0 for devices
-/// without numbers (and left out of what read() yields).
+/// Sends and receives the reports of one HID device. Reports begin with the byte of their number; for devices without
+/// numbers it is 0 when sent, and left out by read().
 class HidTransport {
  public:
   HidTransport() = default;
@@ -31,16 +31,16 @@ class HidTransport {
 
   virtual const HidInfo& info() const noexcept = 0;
   /// The next input report. @returns its bytes, 0 when none came within the time, -1 when the device is lost.
-  /// @param timeout_ms 0 doesn't wait.
+  /// @param timeout_ms 0: no waiting.
   virtual std::ptrdiff_t read(std::span<std::byte> report, int timeout_ms) noexcept = 0;
-  /// One output report; may block for a frame of the bus. Another thread may be in read() meanwhile.
+  /// Sends an output report; may block for a frame of the bus. Another thread may be in read().
   virtual bool write(std::span<const std::byte> report) noexcept = 0;
   virtual bool set_feature(std::span<const std::byte> report) noexcept = 0;
-  /// @param report its first byte says which one.
+  /// @param report its first byte is the number of the report.
   virtual bool get_feature(std::span<std::byte> report) noexcept = 0;
 };
 
-/// Which device: vendor, product and serial number, each only when given.
+/// Selects devices by vendor, product and serial number, each only when given.
 struct HidFilter {
   std::optional<std::uint16_t> vendor, product;
   std::string serial;

@@ -6,13 +6,13 @@
 
 namespace papilla {
 
-/// Durations in microseconds, counted in 64 steps per doubling from 1/64 µs to 1 s: quantiles are right to 1.1 %,
-/// the largest value exactly. Fixed size, noexcept.
+/// Histogram of durations in microseconds with 64 bins per octave from 1/64 µs to 1 s: quantiles are accurate to 1.1 %,
+/// the maximum is exact. Fixed size, noexcept.
 class Histogram {
  public:
   void add(double microseconds) noexcept;
   void add(const Histogram& other) noexcept;
-  /// The value that a share q ∈ [0, 1] of the durations don't exceed; 0 when empty.
+  /// The q-quantile, q ∈ [0, 1]; 0 when empty.
   double quantile(double q) const noexcept;
   double max() const noexcept { return max_; }
   std::uint64_t count() const noexcept { return count_; }

@@ -9,11 +9,10 @@
 
 namespace papilla {
 
-/// One value that a thread overwrites and others look at: the newest wins, the ones between may never be seen.
+/// The newest value of one writer thread for any number of readers; older values may be skipped.
 ///
-/// store() is wait-free, allocates nothing and makes no system call, so that it fits into a tick. load() gives a value
-/// that was stored as a whole, never parts of two. One thread stores; any number load.
-/// Source: a sequence lock over atomic words, as in H.-J. Boehm, "Can seqlocks get along with programming language
+/// store() is wait-free, allocates nothing and makes no system call. load() never mixes two values.
+/// Source: a sequence lock over atomic words, H.-J. Boehm, "Can seqlocks get along with programming language
 /// memory models?", MSPC 2012.
 template <class T>
 class LatestSlot {
@@ -24,26 +23,26 @@ class LatestSlot {
   void store(const T& value) noexcept {
     Words words{};
     std::memcpy(words.data(), static_cast<const void*>(&value), sizeof value);
-    const std::uint64_t turn = turn_.load(std::memory_order_relaxed);
-    turn_.store(turn + 1, std::memory_order_relaxed);
+    const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
+    sequence_.store(sequence + 1, std::memory_order_relaxed);
     std::atomic_thread_fence(std::memory_order_release);
     for (std::size_t i = 0; i < k_words; ++i) words_[i].store(words[i], std::memory_order_relaxed);
-    turn_.store(turn + 2, std::memory_order_release);
+    sequence_.store(sequence + 2, std::memory_order_release);
   }
 
-  /// @param value gets the newest; stays as it is when nothing was stored yet.
-  /// @returns how many values have been stored up to this one.
+  /// @param value becomes the newest value; unchanged when nothing was stored yet.
+  /// @returns the number of stores up to that value.
   std::uint64_t load(T& value) const noexcept {
     Words words{};
     for (;;) {
-      const std::uint64_t turn = turn_.load(std::memory_order_acquire);
-      if (turn == 0) return 0;
-      if (turn % 2 != 0) continue;
+      const std::uint64_t sequence = sequence_.load(std::memory_order_acquire);
+      if (sequence == 0) return 0;
+      if (sequence % 2 != 0) continue;
       for (std::size_t i = 0; i < k_words; ++i) words[i] = words_[i].load(std::memory_order_relaxed);
       std::atomic_thread_fence(std::memory_order_acquire);
-      if (turn_.load(std::memory_order_relaxed) != turn) continue;
+      if (sequence_.load(std::memory_order_relaxed) != sequence) continue;
       std::memcpy(static_cast<void*>(&value), words.data(), sizeof value);
-      return turn / 2;
+      return sequence / 2;
     }
   }
 
@@ -51,7 +50,7 @@ class LatestSlot {
   static constexpr std::size_t k_words = (sizeof(T) + 7) / 8;
   using Words = std::array<std::uint64_t, k_words>;
 
-  std::atomic<std::uint64_t> turn_{0};  ///< Odd while a value is being stored.
+  std::atomic<std::uint64_t> sequence_{0};  ///< Odd while a value is being stored.
   std::array<std::atomic<std::uint64_t>, k_words> words_{};
 };
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,18 +14,20 @@
 
 namespace papilla {
 
-/// Something odd in a tag or its height map, and what was done instead.
+struct HeightMap;
+
+/// A defect of a tag or its height map, and the fallback.
 struct HapticWarning {
   std::string code;     ///< Stable, for scripts: "tag_version", "height_sha256", ...
   std::string message;  ///< One line: place, value, fallback.
 };
 
-/// Where the height map of a material is and what its numbers mean: height = offset + scale · v / 65535 metres along
-/// the outward normal, v the 16-bit sample, linear.
+/// Location and units of a material's height map: height = offset + scale · v / 65535 metres along the outward normal,
+/// v the 16-bit sample, linear.
 struct HeightTag {
   std::string uri;     ///< Sidecar file next to the glTF, or a data: URI; may be empty.
   std::string image;   ///< Name of an image in the glTF; may be empty.
-  std::string sha256;  ///< 64 hexadecimal digits of the PNG's bytes. A map without the right sum is not used.
+  std::string sha256;  ///< Of the PNG's bytes, 64 hexadecimal digits. Maps with another sum are not used.
   int bits = 16;
   std::string channel = "r";
   std::array<int, 2> size{0, 0};  ///< Width, height in samples; 0: not given.
@@ -38,7 +42,7 @@ struct HeightTag {
   friend bool operator==(const HeightTag&, const HeightTag&) = default;
 };
 
-/// Statistics of the relief: what the player makes up a relief from when the map is lost.
+/// Statistics of the relief, from which the player synthesises one when the map is lost.
 struct RoughnessTag {
   double fractal_dimension = 2.5;  ///< In [2, 3].
   double rms_height_m = 0;
@@ -46,7 +50,7 @@ struct RoughnessTag {
   friend bool operator==(const RoughnessTag&, const RoughnessTag&) = default;
 };
 
-/// How the relief becomes a force, when it is not felt as what it is.
+/// The force model, when it is not the displaced surface.
 struct ForceModelTag {
   std::string name = "heightfield";  ///< A name of force_model().
   double amplitude = 0.01;           ///< A: N per grey level, or per grey level and pixel.
@@ -54,7 +58,7 @@ struct ForceModelTag {
   friend bool operator==(const ForceModelTag&, const ForceModelTag&) = default;
 };
 
-/// How the surface holds what slides on it, when not as Coulomb has it.
+/// The friction model, when it is not Coulomb's.
 struct FrictionTag {
   std::string name = "coulomb";  ///< A name of friction_model().
   double stiffness = 0;          ///< N/m, of bristles, ≥ 0; 0: that of the material.
@@ -82,7 +86,7 @@ struct MaterialTag {
   double dynamic_friction = 0;      ///< In [0, static_friction]. Defaults to static_friction when only that is given.
   double stribeck_velocity = 0.01;  ///< m/s, > 0.
   std::optional<FrictionTag> friction_model;
-  bool force_shading = false;  ///< Forces follow the mesh's normals where there is no relief.
+  bool force_shading = false;  ///< Where there is no relief; see ContactSurface::shaded_normal().
   std::optional<HeightTag> height;
   std::optional<RoughnessTag> roughness;
   std::optional<ForceModelTag> force_model;
@@ -91,22 +95,34 @@ struct MaterialTag {
   friend bool operator==(const MaterialTag&, const MaterialTag&) = default;
 };
 
-/// Reads one tag. Unknown members are ignored. A value of the wrong type or range is replaced by its default and
-/// reported: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (the relief is dropped when its
-/// scale or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness,
+/// A relief as it is stored: 16-bit grey samples v with h = offset_mm + scale_mm · v / 65535.
+struct EncodedRelief {
+  std::span<const std::byte> png;
+  double scale_mm = 0, offset_mm = 0;
+  double rms_mm = 0;     ///< Root mean square of the height around its mean.
+  std::string uri = {};  ///< Of the PNG next to the glTF; empty: the tag holds it as a data: URI.
+};
+
+/// The height member of a tag, in SI units: size and pitch of `relief`, numbers and SHA-256 of the picture. uv is 1 per
+/// repeat of the map, without a transform. A data: URI in extras survives tools that drop images no texture uses.
+HeightTag make_height_tag(const HeightMap& relief, const EncodedRelief& encoded);
+
+/// Reads one tag. Unknown members are ignored. A value of the wrong type or range is reported and replaced by its
+/// default: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (no relief when its scale or
+/// offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness,
 /// tag_force_model, tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance.
 /// @param json the object itself, not the extras around it.
 /// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);
 
-/// The tag in a material's extras, or nothing when there is none. A tag that parse_material_tag() refuses is reported
-/// as tag_refused and counts as none; so do extras that are no JSON.
+/// The tag in a material's extras, if any. A tag that parse_material_tag() refuses, and extras that are no JSON, are
+/// reported as tag_refused and give none.
 std::optional<MaterialTag> material_tag_of_extras(std::string_view extras_json, std::vector<HapticWarning>& warnings);
 
 /// The tag as compact JSON; parse_material_tag() gives the same value back, bit for bit.
 std::string to_json(const MaterialTag& tag);
 
-/// The extras with their "haptic" member set to the tag; everything else stays. Empty extras become an object.
+/// The extras with "haptic" set to the tag; other members are kept. Empty extras become an object.
 /// @throws InvalidInput when the extras are no JSON object.
 std::string with_material_tag(std::string_view extras_json, const MaterialTag& tag);
 

@@ -7,24 +7,24 @@ namespace papilla {
 
 struct SafetyLimits {
   double max_force_n = 3.3;
-  double slew_n_per_s = 1650;  ///< How fast the force may change.
-  double soft_start_s = 0.05;  ///< Over how long the first force fades in.
-  double watchdog_s = 0.01;    ///< Age of the newest position from which on there is no force.
+  double slew_n_per_s = 1650;  ///< Largest rate of change of the force.
+  double soft_start_s = 0.05;  ///< Duration of the fade-in of the first force.
+  double watchdog_s = 0.01;    ///< Largest age of a position; older ones stop all force.
 };
 
-/// Limits of a device: its largest force, reached from zero in 2 ms at the fastest.
+/// Limits for a device: its largest force, reached from zero in 2 ms at the fastest.
 SafetyLimits safety_limits(double max_force_n) noexcept;
 
-/// The last stage before a device. Whatever comes in, what goes out is finite, at most max_force_n long, changes by at
-/// most slew_n_per_s, and is exactly zero after a fault.
+/// The last stage before a device. For every input the output is finite, at most max_force_n long, changes by at most
+/// slew_n_per_s, and is exactly zero after a fault.
 class ForceGuard {
  public:
   enum class Fault { none, not_finite, stale_input };
 
   explicit ForceGuard(const SafetyLimits& limits) noexcept : limits_(limits) {}
 
-  /// @param age_s how old the position is that the force was computed from.
-  /// @returns the force to write. A fault is kept until resume(); while it lasts the answer is zero at once.
+  /// @param age_s age of the position from which the force was computed.
+  /// @returns the force to write; zero, without a ramp, from a fault until resume().
   Vec3 apply(Vec3 force_n, double period_s, double age_s) noexcept;
 
   Fault fault() const noexcept { return fault_; }

@@ -10,7 +10,7 @@
 
 namespace papilla {
 
-/// A number of a device preset and where it comes from; "assumed" when no measurement is known to us.
+/// A number of a device preset and its source; "assumed" when no measurement is known.
 struct Sourced {
   double value = 0;
   std::string_view source;
@@ -29,18 +29,18 @@ std::span<const DevicePreset> device_presets() noexcept;
 /// @throws DeviceError listing the names when there is none of this name.
 const DevicePreset& device_preset(std::string_view name);
 
-/// How a hand holds the handle: a spring and a damper between the trajectory and the handle.
+/// The grip of the hand: a spring and a damper between the trajectory and the handle.
 struct HandCoupling {
   double stiffness = 1000;  ///< N/m; assumed: a firm pen grip.
   double damping = 5;       ///< N·s/m; assumed.
 };
 
-/// A device that exists only as equations:
+/// A simulated device:
 ///     m·a = F(t − t_d) + K(x_h − x) + B(v_h − v) − b·v − f_c·v/|v|
-/// with the force held between ticks, sticking while the sum of the others stays below f_c, and positions read in steps
-/// of Δ. Integrated in steps of at most 50 µs: the linear damping exactly (exponential), Coulomb friction implicitly,
-/// so that it never reverses the motion. Each read() after the first advances by one period. Deterministic: the same
-/// calls give the same bits. noexcept, no allocation.
+/// with the force held between ticks, sticking while the sum of the other forces is below f_c, and positions quantised
+/// to Δ. Integrated in steps of at most 50 µs: linear damping exactly (exponential), Coulomb friction implicitly, so
+/// that it never reverses the motion. Each read() after the first advances by one period. Deterministic: the same calls
+/// give the same bits. noexcept, no allocation.
 class SimDevice final : public HapticDevice {
  public:
   /// @param hand must outlive the device; it starts at hand.start_s() and the handle at rest at its first position.
@@ -54,12 +54,11 @@ class SimDevice final : public HapticDevice {
   void stop() noexcept override;
 
   double time_s() const noexcept;                                   ///< Of the newest position.
-  Vec3 hand() const noexcept { return hand_->position(time_s()); }  ///< Where the trajectory is.
+  Vec3 hand() const noexcept { return hand_->position(time_s()); }  ///< Position of the trajectory.
   Vec3 true_position() const noexcept { return position_; }
   Vec3 velocity() const noexcept { return velocity_; }
-  /// Work that the hand has done on the handle, in joules: with the energy that handle and wall hold, the observer of
-  /// passivity at the port between hand and device. A device and wall that are passive never give more than they got,
-  /// so it never falls below zero from rest; an unstable contact feeds the hand.
+  /// Work of the hand on the handle in joules: the passivity observer of the port between hand and device. From rest it
+  /// never becomes negative when device and wall are passive; an unstable contact does work on the hand.
   double hand_work_j() const noexcept { return hand_work_; }
 
  private:

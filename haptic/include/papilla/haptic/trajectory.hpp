@@ -10,7 +10,7 @@
 
 namespace papilla {
 
-/// Where the hand wants to be: positions over time, straight in between, at rest before and after.
+/// Position of the hand over time: linear between samples, constant before and after.
 class Trajectory {
  public:
   struct Sample {
@@ -21,7 +21,7 @@ class Trajectory {
   /// @throws InvalidInput naming the sample when there is none, a number is not finite, or times don't increase.
   explicit Trajectory(std::vector<Sample> samples);
 
-  /// The position at time t; a sample's own time gives the sample's position exactly. O(log n), noexcept.
+  /// The position at time t, exact at the times of samples. O(log n), noexcept.
   Vec3 position(double t) const noexcept;
 
   double start_s() const noexcept { return samples_.front().t; }
@@ -32,10 +32,10 @@ class Trajectory {
   std::vector<Sample> samples_;
 };
 
-/// Reads CSV whose first four columns are t, x, y, z in seconds and metres; further columns are ignored, so that a
-/// recording is a trajectory as well. A first line that starts with no number is a heading; empty lines and lines
-/// that start with # are skipped. Numbers have a decimal point in every locale.
-/// @param name what messages call the text.
+/// Reads CSV whose first four columns are t, x, y, z in seconds and metres; further columns are ignored, so a recording
+/// is a trajectory, too. A first line that does not start with a number is a heading; empty lines and lines that start
+/// with # are skipped. The decimal separator is a point in every locale.
+/// @param name of the text in messages.
 /// @throws InvalidInput naming name:line and the reason.
 Trajectory parse_trajectory(std::string_view csv, const std::string& name);
 

@@ -12,22 +12,22 @@
 
 namespace papilla {
 
-/// A warning and the material it is about; empty for the file.
+/// A warning and its material; empty for the file.
 struct MaterialWarning {
   std::string material;
   HapticWarning warning;
 };
 
-/// What a device can do with a scene; the rest is left out.
+/// Limits of the device; what it cannot reach or carry is left out.
 struct HapticSceneOptions {
   double probe_radius_m = 0;
-  double shortest_wave_m = 0;  ///< Waves of the relief that are shorter can't be carried: 2·speed/rate. 0 keeps all.
-  /// Triangles farther than reach_m from the ways between these points are left out. Empty: nothing is.
+  double shortest_wave_m = 0;  ///< Shortest wavelength of a relief, 2·speed/rate; 0 keeps all.
+  /// Triangles farther than reach_m from every one of these points are left out. Empty: none.
   std::vector<Vec3> reach_around = {};
   double reach_m = 0;
 };
 
-/// What can be felt of a scene: the triangles of tagged materials, in metres, in the file's frame.
+/// The haptic part of a scene: the triangles of tagged materials, in metres, in the frame of the file.
 struct HapticScene {
   ContactMesh mesh;
   std::vector<ContactMaterial> materials;
@@ -38,20 +38,20 @@ struct HapticScene {
   std::vector<MaterialWarning> warnings;
 };
 
-/// Reads the tags, finds the height maps, makes up reliefs from `roughness` where a map is missing (warning
-/// height_from_roughness; height_lost when there is none), widens them by the probe, and gathers the triangles.
-/// Maps of materials that no triangle uses are not read; maps finer than the shortest wave are halved until they
-/// aren't. Where a tool has given the normal texture (without one: the base colour) a KHR_texture_transform that
-/// differs from the tag's, as packers do that quantise coordinates, that one is followed (warning uv_transform). Other
+/// Reads the tags and height maps, synthesises reliefs from `roughness` where a map is missing (warning
+/// height_from_roughness; height_lost when there is no roughness), dilates them by the probe, and collects the
+/// triangles. Maps of materials that no triangle uses are not read; maps are halved while they stay fine enough for the
+/// shortest wavelength. A KHR_texture_transform of the normal texture (without one: of the base colour) that differs
+/// from the tag's, as packers that quantise coordinates write it, replaces the tag's (warning uv_transform). Other
 /// codes: those of the tag, uv_missing, uv_degenerate, probe_dilation.
-/// @param path names the file in messages; sidecars are looked for beside it.
+/// @param path of the file, for messages and for sidecar files next to it.
 /// @throws InvalidInput naming `path` when no tagged material has triangles, or none is within reach.
 HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options = {});
 
-/// Reads a glTF file for that. @throws IoError, InvalidInput as read_gltf() does.
+/// The same of a glTF file. @throws IoError, InvalidInput as read_gltf() does.
 HapticScene load_haptic_scene(const std::filesystem::path& path, const HapticSceneOptions& options = {});
 
-/// The material with the largest area, and the centre of that area.
+/// The material with the largest area, and the centroid of that area.
 struct LargestMaterial {
   std::uint32_t material = 0;
   Vec3 centre;

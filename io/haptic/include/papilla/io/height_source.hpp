@@ -12,13 +12,13 @@
 
 namespace papilla {
 
-/// The bytes of the height map that a tag names: its data: URI or sidecar file next to the glTF, then the image of its
-/// name. Only bytes with the tag's SHA-256 are taken. What goes wrong becomes a warning (height_data_uri, height_file,
-/// height_sha256, height_image) and nothing is returned.
+/// The bytes of a tag's height map: of its data: URI or of the file next to the glTF, else of the image of that name.
+/// Only bytes with the tag's SHA-256 are accepted. Failures become warnings (height_data_uri, height_file,
+/// height_sha256, height_image).
 std::optional<std::string> find_height_bytes(const HeightTag& tag, const Scene& scene,
                                              const std::filesystem::path& folder, std::vector<HapticWarning>& warnings);
 
-/// The same, decoded; further warnings: height_bits, height_size, and height_image when the bytes are no picture.
+/// The decoded map; further warnings: height_bits, height_size, and height_image when the bytes are no picture.
 std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene,
                                            const std::filesystem::path& folder, std::vector<HapticWarning>& warnings);
 

@@ -17,37 +17,37 @@ extern "C" {
 typedef struct papilla_haptic papilla_haptic;
 
 typedef struct papilla_haptic_options {
-  double rate_hz;        /* How often tick() is called; 0: 1000. */
-  double max_force_n;    /* No force is larger; 0: 3.3. */
+  double rate_hz;        /* Calls of papilla_haptic_tick() per second; 0: 1000. */
+  double max_force_n;    /* Limit of the force; 0: 3.3. */
   double probe_radius_m; /* 0: a point. */
-  /* Of the device, so that materials stay stable with it: a preset's name ("touch"), or null for no limit. */
+  /* Name of a device preset ("touch"), to which stiffness and damping are limited; null: no limit. */
   const char* device;
 } papilla_haptic_options;
 
-/* What a tick found; a sum of these. */
+/* Result of a tick: a sum of these. */
 enum {
   PAPILLA_HAPTIC_CONTACT = 1,
   PAPILLA_HAPTIC_SLIDING = 2,
-  PAPILLA_HAPTIC_FAULT = 4 /* No number, or a position that is too old: no force until reset(). */
+  PAPILLA_HAPTIC_FAULT = 4 /* NaN, or a position that is too old: no force until reset(). */
 };
 
-/* Loads a file. Returns null when it can't, with one line of at most message_size - 1 bytes in `message` (which may be
+/* Loads a file. Returns null on failure, with one line of at most message_size - 1 bytes in `message` (which may be
  * null). `options` may be null. */
 papilla_haptic* papilla_haptic_open(const char* path, const papilla_haptic_options* options, char* message,
                                     size_t message_size);
 void papilla_haptic_close(papilla_haptic* haptic);
 
-/* Puts the probe somewhere without touching what lies between, and clears a fault. */
+/* Puts the probe to `position` without contact on the way, and clears a fault. */
 void papilla_haptic_reset(papilla_haptic* haptic, const double position[3]);
 
-/* One tick: from the newest position, age_s old, to the force on the hand. Returns what it found. */
+/* One tick: computes the force on the hand from the newest position, which is age_s old. */
 int papilla_haptic_tick(papilla_haptic* haptic, const double position[3], double age_s, double force[3]);
 
-/* Where the surface holds the probe, for drawing; `normal` is zero without contact. Either may be null. */
+/* Proxy position and contact normal, for drawing; the normal is zero without contact. Either may be null. */
 void papilla_haptic_proxy(const papilla_haptic* haptic, double position[3], double normal[3]);
 
 size_t papilla_haptic_triangles(const papilla_haptic* haptic);
-/* Materials that can be felt, and what was odd; null beyond the last. */
+/* Names of the tagged materials, and warnings; null beyond the last. */
 const char* papilla_haptic_material(const papilla_haptic* haptic, size_t index);
 const char* papilla_haptic_warning(const papilla_haptic* haptic, size_t index);
 

@@ -25,27 +25,27 @@ inline AnalyticRelief sine_relief() {
           [=](double x, double) { return amplitude * (1 + std::sin(2 * std::numbers::pi * x / wave)); }};
 }
 
-/// Spheres of radius 1.5 mm, 2 mm apart, that stand out by 0.2 mm, with a foot whose radius of curvature (0.4 mm) is
-/// well above the depth of the probe.
+/// Spheres of radius 1.5 mm, 2 mm apart and 0.2 mm high, with a foot whose radius of curvature (0.4 mm) is well above
+/// the depth of the probe.
 inline AnalyticRelief sphere_relief() {
   constexpr double size = 0.02, pitch = 2e-3, radius = 1.5e-3, top = 2e-4;
   return {size, top, [=](double x, double y) {
             const double u = x - pitch * std::round(x / pitch), v = y - pitch * std::round(y / pitch);
             const double h = std::sqrt(std::max(0.0, radius * radius - u * u - v * v)) - radius + top;
-            // A smooth foot, so that the gradient is continuous: h²/(4w) around zero.
+            // A smooth foot with a continuous gradient: h²/(4w) around zero.
             constexpr double w = 6e-5;
             return h > w ? h : h < -w ? 0.0 : (h + w) * (h + w) / (4 * w);
           }};
 }
 
-struct FeltError {
+struct ForceError {
   double rms_share = 0;  ///< Root mean square of the force's error over that of the force.
   double speed = 0;
 };
 
-/// Presses a point into the relief and moves it at `speed`; the reference is the point of the analytic surface nearest
-/// to the probe, found by descent in double precision from the one before.
-inline FeltError felt_error(const AnalyticRelief& relief, int pixels, double speed, int ticks) {
+/// Presses a point into the relief and moves it at `speed`. The reference is the closest point of the analytic surface,
+/// found by descent in double precision from the last one.
+inline ForceError force_error(const AnalyticRelief& relief, int pixels, double speed, int ticks) {
   std::vector<std::uint16_t> samples;
   for (int j = 0; j < pixels; ++j)
     for (int i = 0; i < pixels; ++i) {

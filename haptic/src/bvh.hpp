@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "large_array.hpp"
 #include "papilla/core/vec.hpp"
-#include "papilla/haptic/large_array.hpp"
 
 namespace papilla {
 
@@ -32,28 +32,28 @@ struct Box3f {
 
 /// Bounding volume hierarchy over boxes, as one flat array of 32-byte nodes.
 ///
-/// Built top down with the surface area heuristic over 16 bins a axis [Wald 2007, "On fast construction of SAH-based
-/// bounding volume hierarchies"]; below depth 48, and where all centres coincide, by halves, so that the depth stays
-/// below k_stack. Build: O(n log n), about 0.5 µs per box and level. Deterministic.
-/// Queries are noexcept, use a fixed stack and allocate nothing. They answer with ranges of leaf_order(): the owner
-/// keeps its items in that order.
+/// Built top down with the surface area heuristic over 16 bins per axis [Wald 2007, "On fast construction of SAH-based
+/// bounding volume hierarchies"]; below depth 48, and where all centres coincide, by halving, which bounds the depth by
+/// k_stack. Build: O(n log n), about 0.5 µs per box and level. Deterministic.
+/// Queries are noexcept, use a fixed stack and allocate nothing. They report ranges of leaf_order(); the owner keeps
+/// its items in that order.
 class Bvh {
  public:
   Bvh() = default;
   /// @param boxes finite, at most 2³¹. @param leaf_size most boxes in a leaf, ≥ 1.
   explicit Bvh(std::span<const Box3f> boxes, std::uint32_t leaf_size = 4);
 
-  /// leaf_order()[i]: the number of the input box that stands at place i.
+  /// leaf_order()[i]: index of the input box at place i.
   const std::vector<std::uint32_t>& leaf_order() const noexcept { return order_; }
-  /// Hands the order over, for owners that need it only while they sort their items.
+  /// Moves the order out, for owners that need it only to sort their items.
   std::vector<std::uint32_t> take_leaf_order() noexcept { return std::exchange(order_, {}); }
-  /// Numbers the leaves in this order: from now on queries call visit(number, number + 1).
-  /// @returns where each leaf begins in leaf_order(), and the end of the last.
+  /// Numbers the leaves in this order; queries then call visit(number, number + 1).
+  /// @returns the first place of each leaf in leaf_order(), and the end of the last.
   std::vector<std::uint32_t> number_leaves();
   bool empty() const noexcept { return nodes_.empty(); }
   std::size_t bytes() const noexcept { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
 
-  /// Calls visit(begin, end) for each leaf with a point nearer than `radius` to `centre`, near ones first.
+  /// Calls visit(begin, end) for each leaf with a point nearer than `radius` to `centre`, in order of distance.
   /// `visit` may shrink `radius`.
   template <class Visit>
   void within(Vec3 centre, double& radius, Visit&& visit) const noexcept {
@@ -62,8 +62,8 @@ class Bvh {
   }
 
   /// Calls visit(begin, end) for each leaf that comes nearer than `radius` to the points from + t·along,
-  /// t ∈ [0, t_max], those met first first. `visit` may shrink `t_max`. (Boxes are grown by `radius`, so some leaves
-  /// are visited in vain at their corners.)
+  /// t ∈ [0, t_max], in order of entry. `visit` may shrink `t_max`. (Boxes are grown by `radius`, so some leaves are
+  /// visited in vain at their corners.)
   template <class Visit>
   void along(Vec3 from, Vec3 along, double radius, double& t_max, Visit&& visit) const noexcept {
     const Slabs slabs(from, along, radius);
@@ -78,16 +78,16 @@ class Bvh {
     std::uint32_t count = 0;  ///< Leaf: number of boxes; else 0.
   };
   static constexpr int k_stack = 96;
-  static constexpr std::uint32_t k_root = 1;  // So that two children lie side by side in a line of the cache.
+  static constexpr std::uint32_t k_root = 1;  // So that siblings share a cache line.
 
   struct Slabs {
     double origin[3], inverse[3], radius;
     Slabs(Vec3 from, Vec3 direction, double r) noexcept : origin{from.x, from.y, from.z}, radius(r) {
       const double d[3] = {direction.x, direction.y, direction.z};
-      // A finite stand-in for 1/0: 0 · ∞ would be NaN.
+      // A finite replacement of 1/0: 0 · ∞ would be NaN.
       for (int i = 0; i < 3; ++i) inverse[i] = std::abs(d[i]) > 1e-290 ? 1 / d[i] : std::copysign(1e290, d[i]);
     }
-    /// Where the ray enters the grown box; infinity when it misses it before t_max.
+    /// Parameter at which the ray enters the grown box; infinity when that is not before t_max.
     double entry(const Box3f& box, double t_max) const noexcept {
       double in = 0, out = t_max;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -110,7 +110,7 @@ class Bvh {
     return sum;
   }
 
-  /// Depth first, the child with the smaller key first; `wanted` is asked again when an entry is taken up.
+  /// Depth first, the child with the smaller key first; `wanted` is evaluated again when an entry is popped.
   template <class Key, class Wanted, class Visit>
   void walk(Key&& key, Wanted&& wanted, Visit&& visit) const noexcept {
     if (nodes_.empty()) return;

@@ -1,18 +1,128 @@
 // SPDX-License-Identifier: MIT
+#include "papilla/haptic/force_protocol.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "force_report.hpp"
+#include "hid_descriptor.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla {
 namespace {
 
+// Usages of the vendor page on which the force report is found; docs/force-report.md has the layout.
+constexpr std::uint32_t k_force_application = hid_usage(0xFF00, 0x50), k_force_out = hid_usage(0xFF00, 0x51),
+                        k_force_in = hid_usage(0xFF00, 0x52), k_force_caps = hid_usage(0xFF00, 0x53);
+constexpr std::size_t k_out_bytes = 10, k_in_bytes = 20, k_caps_bytes = 24;
+constexpr std::uint8_t k_version = 1, k_actuators_on = 1, k_watchdog_ms = 20;
+
+std::uint64_t read_le(std::span<const std::byte> bytes, std::size_t at, std::size_t count) noexcept {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value |= std::to_integer<std::uint64_t>(bytes[at + i]) << (8 * i);
+  return value;
+}
+
+void write_le(std::span<std::byte> bytes, std::size_t at, std::size_t count, std::uint64_t value) noexcept {
+  for (std::size_t i = 0; i < count; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i) & 0xffU);
+}
+
+/// The force report of docs/force-report.md.
+class ForceReport final : public ForceProtocol {
+ public:
+  ForceReport(const HidInfo& info, const HidDescriptor& descriptor) : path_(info.path) {
+    out_ = find_report(descriptor, HidReportKind::output, k_force_out, k_out_bytes, "output (usage FF00:51)");
+    in_ = find_report(descriptor, HidReportKind::input, k_force_in, k_in_bytes, "input (usage FF00:52)");
+    features_ = find_report(descriptor, HidReportKind::feature, k_force_caps, k_caps_bytes, "feature (usage FF00:53)");
+    numbered_ = descriptor.numbered;
+    caps_.name = "hid:" + (info.name.empty() ? info.path : info.name);
+  }
+
+  std::string name() const override { return "force report"; }
+  DeviceCaps caps() const override { return caps_; }
+
+  void start(HidTransport& transport) override {
+    std::array<std::byte, 1 + k_caps_bytes> bytes{};
+    bytes[0] = static_cast<std::byte>(features_);
+    if (!transport.get_feature(bytes)) throw DeviceError(path_ + ": does not answer for its feature report");
+    const std::span<const std::byte> c = std::span(bytes).subspan(1);
+    const auto number = [&](std::size_t at, std::size_t count) { return static_cast<double>(read_le(c, at, count)); };
+    if (read_le(c, 0, 1) != k_version)
+      throw DeviceError(path_ + ": speaks version " + std::to_string(read_le(c, 0, 1)) + " of the force report, not 1");
+    newtons_per_count_ = 1e-3 * number(4, 2) / 32767;
+    metres_per_count_ = 1e-9 * number(6, 4);
+    caps_.max_force_n = 1e-3 * number(4, 2);
+    caps_.workspace_radius_m = 1e-3 * number(10, 2);
+    caps_.dynamics = {1e-3 * number(12, 2), 1e-3 * number(14, 2), 1e-3 * number(16, 2), 1e-9 * number(18, 4),
+                      1e-6 * number(22, 2)};
+    if (!(newtons_per_count_ > 0) || !(metres_per_count_ > 0) || !(caps_.dynamics.mass_kg > 0))
+      throw DeviceError(path_ + ": its feature report has no force, step or mass");
+  }
+
+  bool decode(std::span<const std::byte> bytes, DeviceSample& sample) const noexcept override {
+    if (numbered_) {
+      if (bytes.empty() || std::to_integer<unsigned>(bytes[0]) != in_) return false;
+      bytes = bytes.subspan(1);
+    }
+    if (bytes.size() < k_in_bytes) return false;
+    const auto axis = [&](std::size_t at) {
+      return metres_per_count_ * static_cast<double>(static_cast<std::int32_t>(read_le(bytes, at, 4)));
+    };
+    sample.sequence = static_cast<std::uint32_t>(read_le(bytes, 0, 2));
+    sample.counted = true;
+    sample.position = {axis(6), axis(10), axis(14)};
+    sample.buttons = static_cast<std::uint32_t>(read_le(bytes, 18, 2));
+    return true;
+  }
+
+  int packets() const noexcept override { return 1; }
+
+  std::size_t encode(int, Vec3 force, std::uint16_t sequence, std::span<std::byte> bytes) const noexcept override {
+    fill(bytes, force, sequence, k_actuators_on);
+    return 1 + k_out_bytes;
+  }
+
+  std::vector<HidReport> stop_reports() const override {
+    HidReport off(1 + k_out_bytes);
+    fill(off, {}, 0, 0);
+    return {off};
+  }
+
+ private:
+  std::uint8_t find_report(const HidDescriptor& d, HidReportKind kind, std::uint32_t usage, std::size_t bytes,
+                           const std::string& what) const {
+    for (const HidField& f : d.fields) {
+      if (f.kind != kind || !(f.in(usage) || f.index_of(usage))) continue;
+      if (d.report_bytes(kind, f.report_id) == bytes + (d.numbered ? 1 : 0)) return f.report_id;
+      throw DeviceError(path_ + ": its " + what + " report has not " + std::to_string(bytes) + " bytes");
+    }
+    throw DeviceError(path_ + ": has no " + what + " report");
+  }
+
+  void fill(std::span<std::byte> bytes, Vec3 force, std::uint16_t sequence, std::uint8_t flags) const noexcept {
+    bytes[0] = static_cast<std::byte>(out_);
+    write_le(bytes, 1, 2, sequence);
+    std::size_t at = 3;
+    for (const double f : {force.x, force.y, force.z}) {
+      const double counts = newtons_per_count_ > 0 && std::isfinite(f) ? f / newtons_per_count_ : 0;
+      write_le(bytes, at, 2, static_cast<std::uint16_t>(std::lround(std::clamp(counts, -32767.0, 32767.0))));
+      at += 2;
+    }
+    bytes[9] = static_cast<std::byte>(flags);
+    bytes[10] = static_cast<std::byte>(k_watchdog_ms);
+  }
+
+  std::string path_;
+  std::uint8_t out_ = 0, in_ = 0, features_ = 0;
+  bool numbered_ = false;
+  double newtons_per_count_ = 0, metres_per_count_ = 0;
+  DeviceCaps caps_;
+};
+
 constexpr std::uint32_t desktop(std::uint32_t id) { return hid_usage(0x01, id); }
 constexpr std::uint32_t pid(std::uint32_t id) { return hid_usage(0x0F, id); }
 
-// Usages of the page Physical Interface Device, by their names there.
+// Usages of the page Physical Interface Device, by their names in the standard.
 constexpr std::uint32_t k_set_effect = pid(0x21), k_block_index = pid(0x22), k_effect_type = pid(0x25),
                         k_constant_force = pid(0x26), k_duration = pid(0x50), k_sample_period = pid(0x51),
                         k_gain = pid(0x52), k_trigger_button = pid(0x53), k_axes_enable = pid(0x55),
@@ -25,7 +135,7 @@ constexpr std::uint32_t k_set_effect = pid(0x21), k_block_index = pid(0x22), k_e
 constexpr std::uint32_t k_buttons_page = 0x09;
 constexpr std::uint32_t k_axis[3] = {desktop(0x30), desktop(0x31), desktop(0x32)};
 constexpr std::uint32_t k_newton_unit = 0xE111, k_length_unit = 0x11;  // SI linear: g·cm/s², cm.
-constexpr double k_frame_s = 1e-3;                                     // Of full-speed USB.
+constexpr double k_frame_s = 1e-3;                                     // Frame of full-speed USB.
 
 std::string hex(std::uint32_t usage) {
   char text[16];
@@ -33,7 +143,7 @@ std::string hex(std::uint32_t usage) {
   return text;
 }
 
-/// One report of the descriptor, found by the collection around its fields.
+/// One report of the descriptor, found by the collection of its fields.
 class Report {
  public:
   Report(const HidDescriptor& descriptor, HidReportKind kind, std::uint32_t collection, const std::string& path)
@@ -69,21 +179,21 @@ class Report {
     set_hid_value(f, *f.index_of(usage), std::clamp(value, f.logical_min, f.logical_max), report);
   }
 
-  void set_if_there(HidReport& report, std::uint32_t usage, std::int64_t value) const {
+  void set_if_present(HidReport& report, std::uint32_t usage, std::int64_t value) const {
     if (find(usage) != nullptr) set(report, usage, value);
   }
 
-  /// "Off" or "for ever": outside of the range where the device has that, else the largest value.
-  void set_none(HidReport& report, std::uint32_t usage) const {
+  /// The null state (off, or infinite): a value outside the logical range where the field has one, else the maximum.
+  void set_null(HidReport& report, std::uint32_t usage) const {
     const HidField* f = find(usage);
     if (f == nullptr) return;
     const std::int64_t all = f->bits < 63 ? (std::int64_t{1} << f->bits) - 1 : -1;
     set_hid_value(*f, *f->index_of(usage), f->null_state ? all : f->logical_max, report);
   }
 
-  /// Chooses a usage: its number in an array, or its bit.
-  void choose(HidReport& report, std::uint32_t usage) const { choose(report, usage, field(usage)); }
-  void choose(HidReport& report, std::uint32_t usage, const HidField& f) const {
+  /// Selects a usage: its index in an array field, or its bit.
+  void select(HidReport& report, std::uint32_t usage) const { select(report, usage, field(usage)); }
+  void select(HidReport& report, std::uint32_t usage, const HidField& f) const {
     const std::uint32_t index = *f.index_of(usage);
     if (f.variable)
       set_hid_value(f, index, 1, report);
@@ -100,6 +210,7 @@ class Report {
   std::vector<const HidField*> fields_;
 };
 
+/// USB HID PID with one constant-force effect per axis.
 class Pid final : public ForceProtocol {
  public:
   Pid(const HidInfo& info, HidDescriptor descriptor, const HidDeviceOptions& options)
@@ -114,7 +225,7 @@ class Pid final : public ForceProtocol {
         control_(descriptor_, HidReportKind::output, k_control_report, path_) {
     if (!descriptor_.numbered) throw DeviceError(path_ + ": its reports have no numbers");
     find_positions(options);
-    // Whatever start() and the tick will need is looked for now.
+    // Every field that start() and the tick use must exist.
     for (const std::uint32_t usage : {k_block_index, k_magnitude}) constant_.field(usage);
     for (const std::uint32_t usage : {k_block_index, k_start, k_stop}) operation_.field(usage);
     for (const std::uint32_t usage : {k_enable, k_disable}) control_.field(usage);
@@ -137,29 +248,30 @@ class Pid final : public ForceProtocol {
   DeviceCaps caps() const override { return caps_; }
 
   void start(HidTransport& transport) override {
-    const auto need = [&](bool done, const char* what) {
+    const auto require = [&](bool done, const char* what) {
       if (!done) throw DeviceError(path_ + ": refuses " + what);
     };
-    if (control_.find(k_reset) != nullptr) need(transport.write(controlled(k_reset)), "PID Device Control, reset");
+    if (control_.find(k_reset) != nullptr)
+      require(transport.write(control_report(k_reset)), "PID Device Control, reset");
     for (Axis& axis : axes_) {
       HidReport create = create_.blank();
-      create_.choose(create, k_constant_force);
-      need(transport.set_feature(create), "Create New Effect");
+      create_.select(create, k_constant_force);
+      require(transport.set_feature(create), "Create New Effect");
       HidReport load = load_.blank();
-      need(transport.get_feature(load), "PID Block Load");
+      require(transport.get_feature(load), "PID Block Load");
       const HidField& index = load_.field(k_block_index);
       axis.block = hid_value(index, *index.index_of(k_block_index), load);
-      if (!loaded(load) || axis.block <= 0)
+      if (!load_succeeded(load) || axis.block <= 0)
         throw DeviceError(path_ + ": has no room for an effect on axis " + std::to_string(&axis - axes_.data()));
-      need(transport.write(effect_of(axis)), "Set Effect");
+      require(transport.write(effect_report(axis)), "Set Effect");
     }
-    need(transport.write(controlled(k_enable)), "PID Device Control, enable actuators");
+    require(transport.write(control_report(k_enable)), "PID Device Control, enable actuators");
     HidReport gain = gain_.blank();
     gain_.set(gain, k_device_gain, gain_.field(k_device_gain).logical_max);
-    need(transport.write(gain), "Device Gain");
+    require(transport.write(gain), "Device Gain");
     for (const Axis& axis : axes_) {
-      need(transport.write(constant(axis, 0)), "Set Constant Force");
-      need(transport.write(operated(axis, k_start)), "Effect Operation, start");
+      require(transport.write(force_report(axis, 0)), "Set Constant Force");
+      require(transport.write(operation_report(axis, k_start)), "Effect Operation, start");
     }
   }
 
@@ -188,16 +300,16 @@ class Pid final : public ForceProtocol {
     const Axis& axis = axes_[static_cast<std::size_t>(packet)];
     std::fill(bytes.begin(), bytes.end(), std::byte{0});
     if (bytes.size() < constant_.bytes) return 0;
-    fill_constant(axis, component(force, axis.number), bytes);
+    fill_force(axis, component(force, axis.number), bytes);
     return constant_.bytes;
   }
 
   std::vector<HidReport> stop_reports() const override {
     std::vector<HidReport> reports;
-    for (const Axis& axis : axes_) reports.push_back(constant(axis, 0));
-    for (const Axis& axis : axes_) reports.push_back(operated(axis, k_stop));
-    if (control_.find(k_stop_all) != nullptr) reports.push_back(controlled(k_stop_all));
-    reports.push_back(controlled(k_disable));
+    for (const Axis& axis : axes_) reports.push_back(force_report(axis, 0));
+    for (const Axis& axis : axes_) reports.push_back(operation_report(axis, k_stop));
+    if (control_.find(k_stop_all) != nullptr) reports.push_back(control_report(k_stop_all));
+    reports.push_back(control_report(k_disable));
     return reports;
   }
 
@@ -238,8 +350,8 @@ class Pid final : public ForceProtocol {
         buttons_ = &f;
   }
 
-  /// Block Load's status; a device that has none answers by the block's number.
-  bool loaded(const HidReport& load) const {
+  /// Whether Block Load succeeded; devices without a status return an index > 0.
+  bool load_succeeded(const HidReport& load) const {
     const HidField* f = load_.find(k_load_success, k_load_status);
     if (f == nullptr) f = load_.find(k_load_success);
     if (f == nullptr) return true;
@@ -248,27 +360,27 @@ class Pid final : public ForceProtocol {
                        : hid_value(*f, 0, load) == f->logical_min + std::int64_t{success};
   }
 
-  HidReport controlled(std::uint32_t usage) const {
+  HidReport control_report(std::uint32_t usage) const {
     HidReport report = control_.blank();
-    control_.choose(report, usage);
+    control_.select(report, usage);
     return report;
   }
 
-  HidReport operated(const Axis& axis, std::uint32_t usage) const {
+  HidReport operation_report(const Axis& axis, std::uint32_t usage) const {
     HidReport report = operation_.blank();
     operation_.set(report, k_block_index, axis.block);
-    operation_.choose(report, usage);
-    operation_.set_if_there(report, k_loop_count, 1);
+    operation_.select(report, usage);
+    operation_.set_if_present(report, k_loop_count, 1);
     return report;
   }
 
-  HidReport constant(const Axis& axis, double force_n) const {
+  HidReport force_report(const Axis& axis, double force_n) const {
     HidReport report = constant_.blank();
-    fill_constant(axis, force_n, report);
+    fill_force(axis, force_n, report);
     return report;
   }
 
-  void fill_constant(const Axis& axis, double force_n, std::span<std::byte> report) const noexcept {
+  void fill_force(const Axis& axis, double force_n, std::span<std::byte> report) const noexcept {
     report[0] = static_cast<std::byte>(constant_.id);
     const HidField& block = *constant_.find(k_block_index);
     set_hid_value(block, *block.index_of(k_block_index), axis.block, report);
@@ -281,30 +393,30 @@ class Pid final : public ForceProtocol {
     return std::llround(std::clamp(force_n / caps_.max_force_n, -1.0, 1.0) * most);
   }
 
-  /// A constant force without end on one axis: by the axis' bit, or where there is none by its direction.
-  HidReport effect_of(const Axis& axis) const {
+  /// Set Effect: a constant force of infinite duration on one axis, named by its bit, else by its direction.
+  HidReport effect_report(const Axis& axis) const {
     HidReport report = set_effect_.blank();
     set_effect_.set(report, k_block_index, axis.block);
     if (const HidField* type = set_effect_.find(k_constant_force, k_effect_type))
-      set_effect_.choose(report, k_constant_force, *type);
+      set_effect_.select(report, k_constant_force, *type);
     else
-      set_effect_.choose(report, k_constant_force);
-    set_effect_.set_none(report, k_duration);
-    set_effect_.set_if_there(report, k_sample_period, 0);
+      set_effect_.select(report, k_constant_force);
+    set_effect_.set_null(report, k_duration);
+    set_effect_.set_if_present(report, k_sample_period, 0);
     if (const HidField* gain = set_effect_.find(k_gain)) set_effect_.set(report, k_gain, gain->logical_max);
-    set_effect_.set_none(report, k_trigger_button);
+    set_effect_.set_null(report, k_trigger_button);
     const std::uint32_t usage = k_axis[axis.number];
     if (const HidField* enable = set_effect_.find(usage, k_axes_enable)) {
-      set_effect_.choose(report, usage, *enable);
+      set_effect_.select(report, usage, *enable);
     } else {
-      set_effect_.set_if_there(report, k_direction_enable, 1);
-      point(report, axis.number);
+      set_effect_.set_if_present(report, k_direction_enable, 1);
+      set_direction(report, axis.number);
     }
     return report;
   }
 
-  /// Polar direction in the first of the ordinals: +x is a quarter turn, +y half a turn from north.
-  void point(HidReport& report, int axis) const {
+  /// Polar direction in the first ordinal: +x is a quarter turn from north, +y half a turn.
+  void set_direction(HidReport& report, int axis) const {
     const HidField* direction = set_effect_.find(hid_usage(0x0A, 1), k_direction);
     if (direction == nullptr || axis > 1) return;
     const auto range = static_cast<double>(direction->logical_max - direction->logical_min + 1);
@@ -323,8 +435,10 @@ class Pid final : public ForceProtocol {
 
 }  // namespace
 
-std::unique_ptr<ForceProtocol> make_pid(const HidInfo& info, HidDescriptor descriptor,
-                                        const HidDeviceOptions& options) {
+std::unique_ptr<ForceProtocol> make_force_protocol(const HidInfo& info, const HidDeviceOptions& options) {
+  if (info.descriptor.empty()) throw DeviceError(info.path + ": its report descriptor can't be read");
+  HidDescriptor descriptor = parse_hid_descriptor(info.descriptor);
+  if (descriptor.has_application(k_force_application)) return std::make_unique<ForceReport>(info, descriptor);
   return std::make_unique<Pid>(info, std::move(descriptor), options);
 }
 

@@ -6,12 +6,12 @@
 
 namespace papilla {
 
-/// Memory for large_allocate(): on huge pages where the system grants them, so that scattered reads cost fewer look-ups
-/// of pages. @throws std::bad_alloc.
+/// Memory on huge pages where the system grants them, so that scattered reads miss the TLB less often.
+/// @throws std::bad_alloc.
 void* large_allocate(std::size_t bytes);
 void large_free(void* memory) noexcept;
 
-/// For arrays that a tick reads here and there.
+/// For arrays with scattered reads.
 template <class T>
 struct LargeAllocator {
   using value_type = T;

@@ -11,19 +11,19 @@
 #include <utility>
 #include <vector>
 
-#include "papilla/haptic/bvh.hpp"
-#include "papilla/haptic/large_array.hpp"
+#include "bvh.hpp"
+#include "large_array.hpp"
 
 namespace papilla {
 
-/// Triangles in clusters of up to 64 that lie together, under a tree of the clusters.
+/// Clusters of up to 64 neighbouring triangles, under a tree of the clusters.
 ///
-/// A search that moves over a large mesh waits for memory, not for arithmetic: so a cluster is two lines of the cache
-/// that hold its place, and a box for every four triangles in 8 bits a number, compared all at once; its vertices stand
-/// side by side, named by 8 bits; and the tree above is a fiftieth of one over triangles, small enough to stay in the
-/// cache. Boxes are rounded outwards. Vertices that several clusters share are stored once in each.
+/// Searches in large meshes are bound by memory, not by arithmetic. A cluster is therefore two cache lines with its
+/// origin and a box for every four triangles, 8 bits a coordinate, tested all at once. Its vertices are contiguous and
+/// indexed by 8 bits. The tree is a fiftieth of one over triangles and stays in the cache. Boxes are rounded outwards.
+/// Vertices that several clusters share are stored once in each.
 ///
-/// A triangle is known by its place, 64 · cluster + number, and what the owner keeps of it stands at slot(place).
+/// A triangle is identified by its place, 64 · cluster + index; the owner's data of it is at slot(place).
 /// Build: O(n log n), deterministic. Memory: about 15 bytes a triangle (with relief 24). Queries are noexcept and
 /// allocate nothing.
 class TriangleClusters {
@@ -32,7 +32,7 @@ class TriangleClusters {
   using Corner = std::array<float, 3>;
   struct Relief {
     float u, v;
-    float shift;  ///< How far the base was moved, ≤ 0.
+    float shift;  ///< Offset of the base along the vertex normal, ≤ 0.
     friend bool operator==(const Relief&, const Relief&) = default;
   };
   struct Vertex {
@@ -42,12 +42,12 @@ class TriangleClusters {
   };
 
   TriangleClusters() = default;
-  /// @param boxes of the triangles with all that stands out of them, finite.
-  /// @param vertex (triangle, corner) → its vertex. @param with_relief false: what it says of relief is not kept.
+  /// @param boxes of the triangles with their relief, finite.
+  /// @param vertex (triangle, corner) → its vertex. @param with_relief false: Vertex::relief is not stored.
   TriangleClusters(std::span<const Box3f> boxes, const std::function<Vertex(std::uint32_t, std::size_t)>& vertex,
                    bool with_relief);
 
-  /// The triangle of the input that stands at each slot; the owner takes it once.
+  /// Index of the input triangle at each slot; moves it out.
   std::vector<std::uint32_t> take_order() noexcept { return std::exchange(order_, {}); }
   std::size_t triangles() const noexcept { return corners_.size(); }
   std::size_t bytes() const noexcept;
@@ -56,32 +56,32 @@ class TriangleClusters {
   const Corner& corner(std::uint32_t place, std::size_t k) const noexcept { return vertices_[vertex(place, k)]; }
   const Relief& relief(std::uint32_t place, std::size_t k) const noexcept { return reliefs_[vertex(place, k)]; }
 
-  /// Calls visit(cluster) for each with a point nearer than `radius` to `centre`, near ones first. `visit` may shrink
-  /// `radius`.
+  /// Calls visit(cluster) for each with a point nearer than `radius` to `centre`, in order of distance. `visit` may
+  /// shrink `radius`.
   template <class Visit>
   void within(Vec3 centre, double& radius, Visit&& visit) const noexcept {
     tree_.within(centre, radius, [&](std::uint32_t cluster, std::uint32_t) noexcept { visit(cluster); });
   }
 
-  /// Calls visit(cluster) for each that comes nearer than `radius` to the points from + t·way, t ∈ [0, t_max], those
-  /// met first first. `visit` may shrink `t_max`.
+  /// Calls visit(cluster) for each that comes nearer than `radius` to the points from + t·way, t ∈ [0, t_max], in
+  /// order of entry. `visit` may shrink `t_max`.
   template <class Visit>
   void along(Vec3 from, Vec3 way, double radius, double& t_max, Visit&& visit) const noexcept {
     tree_.along(from, way, radius, t_max, [&](std::uint32_t cluster, std::uint32_t) noexcept { visit(cluster); });
   }
 
-  /// Calls visit(place) for the triangles of a cluster, in fours, that may reach into `box`.
+  /// Calls visit(place) for the triangles of a cluster, in groups of four, whose group box overlaps `box`.
   template <class Visit>
   void in_box(std::uint32_t cluster, const Box3f& box, Visit&& visit) const noexcept {
     const Cluster& c = clusters_[cluster];
-    for (std::uint32_t groups = c.meet(box); groups != 0; groups &= groups - 1) {
+    for (std::uint32_t groups = c.overlaps(box); groups != 0; groups &= groups - 1) {
       const std::uint32_t begin = k_group * static_cast<std::uint32_t>(std::countr_zero(groups));
       for (std::uint32_t i = begin; i < std::min(begin + k_group, std::uint32_t{c.count}); ++i)
         visit(cluster * k_most + i);
     }
   }
 
-  /// Blocks of up to k_block triangles of a cluster that lie together: places k_block · number and on.
+  /// Blocks of up to k_block neighbouring triangles of a cluster: places from k_block · index on.
   static constexpr std::uint32_t k_block = 16;
   std::uint32_t first_block(std::uint32_t cluster) const noexcept { return cluster * k_blocks; }
   std::uint32_t blocks_of(std::uint32_t cluster) const noexcept {
@@ -90,12 +90,12 @@ class TriangleClusters {
   std::uint32_t triangles_in(std::uint32_t block) const noexcept {
     return std::min(k_block, clusters_[block / k_blocks].count - block % k_blocks * k_block);
   }
-  /// Box around what stands in a block.
+  /// Box of the triangles of a block with their relief.
   Box3f box_of(std::uint32_t block) const noexcept;
 
-  /// Asks the processor to fetch the numbers of a cluster ahead of their use,
+  /// Prefetches the boxes of a cluster.
   void prefetch(std::uint32_t cluster) const noexcept;
-  /// and the triangles of a block with the vertices of its cluster.
+  /// Prefetches the triangles of a block and the vertices of its cluster.
   void prefetch_block(std::uint32_t block) const noexcept;
 
  private:
@@ -110,13 +110,13 @@ class TriangleClusters {
     std::uint32_t vertex = 0;  // The first vertex.
     std::uint8_t vertices = 0;
 
-    /// Rounded down; monotone, so that what overlaps in metres overlaps in cells.
+    /// Rounded down; monotone, so that boxes which overlap in metres overlap in cells.
     std::uint8_t cell(float x, std::size_t axis) const noexcept {
       const float cells = std::bit_cast<float>(static_cast<std::uint32_t>(exponent[axis] + 127) << 23);
       return static_cast<std::uint8_t>(std::clamp((x - origin[axis]) * cells, 0.0F, 255.0F));
     }
-    /// A bit for each group that reaches into the box.
-    std::uint32_t meet(const Box3f& box) const noexcept {
+    /// A bit for each group whose box overlaps `box`.
+    std::uint32_t overlaps(const Box3f& box) const noexcept {
       std::array<std::uint8_t, 3> from{}, to{};
       for (std::size_t k = 0; k < 3; ++k) from[k] = cell(box.low[k], k), to[k] = cell(box.high[k], k);
       std::array<std::uint8_t, k_groups> met{};
@@ -135,7 +135,7 @@ class TriangleClusters {
     const Cluster& c = clusters_[place / k_most];
     return c.vertex + corners_[c.first + place % k_most][k];
   }
-  void divide(std::span<const Box3f> boxes);
+  void build_clusters(std::span<const Box3f> boxes);
 
   Bvh tree_;
   LargeArray<Cluster> clusters_;

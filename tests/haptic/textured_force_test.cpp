@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "haptic/felt_texture.hpp"
+#include "haptic/textured_force.hpp"
 
 namespace papilla {
 namespace {
 
-TEST(FeltTexture, SineIsWithinOnePercent) {
-  EXPECT_LT(testing::felt_error(testing::sine_relief(), 1024, 0.2, 1000).rms_share, 0.01);
+TEST(TexturedForce, SineIsWithinOnePercent) {
+  EXPECT_LT(testing::force_error(testing::sine_relief(), 1024, 0.2, 1000).rms_share, 0.01);
 }
 
-TEST(FeltTexture, SpheresAreWithinOnePercent) {
-  EXPECT_LT(testing::felt_error(testing::sphere_relief(), 1024, 0.2, 1000).rms_share, 0.01);
+TEST(TexturedForce, SpheresAreWithinOnePercent) {
+  EXPECT_LT(testing::force_error(testing::sphere_relief(), 1024, 0.2, 1000).rms_share, 0.01);
 }
 
-TEST(FeltTexture, CoarseMapIsWorse) {
-  EXPECT_GT(testing::felt_error(testing::sine_relief(), 64, 0.2, 500).rms_share,
-            3 * testing::felt_error(testing::sine_relief(), 1024, 0.2, 500).rms_share);
+TEST(TexturedForce, CoarseMapIsWorse) {
+  EXPECT_GT(testing::force_error(testing::sine_relief(), 64, 0.2, 500).rms_share,
+            3 * testing::force_error(testing::sine_relief(), 1024, 0.2, 500).rms_share);
 }
 
-TEST(FeltFriction, DynamicAndStaticForcesAreCoulombs) {
+TEST(CoulombFriction, ForcesAreStaticThenDynamic) {
   ContactMaterial material;
   material.stiffness = 500;
   material.static_friction = 0.5;
