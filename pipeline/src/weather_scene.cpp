@@ -304,6 +304,7 @@ WeatherCache::WeatherCache(WeatherCache&&) noexcept = default;
 WeatherCache& WeatherCache::operator=(WeatherCache&&) noexcept = default;
 
 const std::set<fs::path>& WeatherCache::files() const noexcept { return state_->files; }
+std::size_t WeatherCache::surfaces() const noexcept { return state_->surfaces.size(); }
 
 WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache,
                             const ProgressCallback& progress) {

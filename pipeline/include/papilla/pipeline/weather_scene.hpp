@@ -57,6 +57,9 @@ class WeatherCache {
   /// Libraries, what they include, pictures: all that was ever read.
   const std::set<std::filesystem::path>& files() const noexcept;
 
+  /// Surfaces that are laid out and kept: one a material and reading.
+  std::size_t surfaces() const noexcept;
+
   struct State;
   State& state() noexcept { return *state_; }
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Bake and unwrap give a part the same uv, bit for bit, on real files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/io/scene_file.hpp"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double k_tile_mm = 25;
+
+/// Grain of one tile on every part; the picture is a recipe, so that no file is needed.
+Materials grain_everywhere() {
+  MaterialRule rule;
+  rule.name = "grain", rule.recipe = "fbm|octaves=2", rule.texture = "/nonexistent/" + rule.recipe;
+  rule.size_mm[0] = rule.size_mm[1] = k_tile_mm, rule.height.depth_mm = 0.2;
+  Materials materials;
+  materials.materials = {{"grain", rule}};
+  AssignRule assign;
+  assign.part = "*", assign.material = "grain";
+  materials.assign = {assign};
+  return materials;
+}
+
+/// @return how many surfaces were compared.
+std::size_t expect_same_uv(const fs::path& file, double chord_mm) {
+  ReadOptions read;
+  read.chord_mm = chord_mm;
+  Scene scene = read_scene(file, read);
+  for (Part& part : scene.parts) part.mesh.uv = {};  // All of them are to be mapped anew.
+  const BakeResult baked = bake_scene(scene, grain_everywhere());
+  share_identical_parts(scene, grain_everywhere());
+  UnwrapOptions options;
+  options.layout = UvLayout::tile;
+  options.tile_mm = {k_tile_mm, k_tile_mm};
+  std::vector<UnwrapResult> unwrapped;  // Without and with repair.
+  for (const bool repair : {false, true}) {
+    options.repair = repair;
+    unwrapped.push_back(unwrap_scene(scene, options));
+  }
+  std::size_t compared = 0;
+  for (const PartSurface& surface : baked.plan.surfaces) {
+    if (surface.triangles.size() != scene.parts[surface.part].mesh.triangles.size()) continue;
+    const auto& report = *std::find_if(baked.surfaces.begin(), baked.surfaces.end(),
+                                       [&](const BakedSurface& s) { return s.label == surface.label && s.part == surface.part; });
+    const TriangleMesh& mesh = unwrapped[decision(surface.plan, Stage::repair).run].scene.parts[surface.part].mesh;
+    EXPECT_EQ(report.mesh.triangles, mesh.triangles) << file << ": " << surface.label;
+    EXPECT_EQ(report.mesh.uv.values, mesh.uv.values) << file << ": " << surface.label;
+    EXPECT_EQ(report.mesh.uv.indices, mesh.uv.indices) << file << ": " << surface.label;
+    ++compared;
+  }
+  return compared;
+}
+
+TEST(UnwrapPolicy, BakeMapsTheCockpitAsUnwrapDoes) {
+  EXPECT_GE(expect_same_uv(fs::path(PAPILLA_DATA) / "cockpit.step", 2), 30U);
+}
+
+TEST(UnwrapPolicy, BakeMapsRealMeshesAsUnwrapDoes) {
+  const char* folder = std::getenv("PAPILLA_SHARED_DATA");
+  if (!folder) GTEST_SKIP() << "PAPILLA_SHARED_DATA names no folder of real files";
+  std::size_t compared = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder) / "step"))
+    if (entry.is_regular_file() && entry.file_size() < 1 << 20 && entry.path().extension() == ".step")
+      compared += expect_same_uv(entry.path(), 0.5);
+  EXPECT_GT(compared, 0U);
+}
+
+}  // namespace
+}  // namespace papilla
