@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <mutex>
 #include <string_view>
 
 #include "papilla/core/error.hpp"
 
 namespace papilla {
 
-/// How far long work is.
+/// State of a long computation.
 struct Progress {
   std::string_view stage;  ///< Its name, for people; valid during the call only.
   double fraction = 0;     ///< Of this stage, in [0, 1].
 };
 
-/// Called by long work, from one thread at a time, at most a few hundred times a stage. May be empty.
-/// Returns false to cancel: the work then ends with Cancelled at its next report.
+/// Called by long computations, from one thread at a time, at most a few hundred times a stage. May be empty.
+/// Returns false to cancel: the computation then throws Cancelled.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
-/// Work was ended because its ProgressCallback returned false. Nothing was written.
+/// A computation was ended because its ProgressCallback returned false. It has written nothing.
 class Cancelled : public Error {
  public:
   using Error::Error;
@@ -29,5 +31,31 @@ class Cancelled : public Error {
 inline void report_progress(const ProgressCallback& callback, std::string_view stage, double fraction) {
   if (callback && !callback({stage, fraction})) throw Cancelled("cancelled during '" + std::string(stage) + "'");
 }
+
+/// Reports the progress of a stage that several threads share: one report at a time, about 200 in all.
+class SharedProgress {
+ public:
+  /// @param all  the work of the stage, in any unit.
+  SharedProgress(const ProgressCallback& callback, std::string_view stage, double all)
+      : callback_(callback), stage_(stage), all_(all) {}
+
+  /// Counts work that is done.
+  /// @throws Cancelled as report_progress().
+  void add(double work) {
+    if (!callback_ || !(work > 0)) return;
+    const std::scoped_lock lock(mutex_);
+    done_ += work;
+    if (done_ < next_ && done_ < all_) return;
+    next_ = done_ + all_ / k_reports;
+    report_progress(callback_, stage_, std::min(1.0, done_ / all_));
+  }
+
+ private:
+  static constexpr double k_reports = 200;
+  const ProgressCallback& callback_;
+  std::string_view stage_;
+  double all_, done_ = 0, next_ = 0;
+  std::mutex mutex_;
+};
 
 }  // namespace papilla
