@@ -63,12 +63,9 @@ HeightField::HeightField(int width, int height, std::vector<std::uint16_t> sampl
   max_m_ = std::max(one, other);
   steepest_m_ = std::abs(metres_per_step_) * found.steepest;
 
-  // glTF: u' = cos·su·u + sin·sv·v + ou, v' = −sin·su·u + cos·sv·v + ov.
-  const double c = std::cos(t.rotation), s = std::sin(t.rotation);
-  a_[0][0] = width * c * t.scale.x;
-  a_[0][1] = width * s * t.scale.y;
-  a_[1][0] = -height * s * t.scale.x;
-  a_[1][1] = height * c * t.scale.y;
+  const std::array<Vec2, 2> rows = t.rows(width, height);
+  a_[0][0] = rows[0].x, a_[0][1] = rows[0].y;
+  a_[1][0] = rows[1].x, a_[1][1] = rows[1].y;
   t_[0] = width * t.offset.x - 0.5;
   t_[1] = height * t.offset.y - 0.5;
 }

@@ -6,14 +6,16 @@
 #include <cmath>
 #include <vector>
 
+#include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 
 namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t k_held = 5;  ///< More of the last picture.
+constexpr std::size_t k_held = 5;  ///< How often the last picture is repeated.
 
 void check(const fs::path& path, std::span<const ColorImage> frames, double per_second) {
   if (path.extension() != ".gif") throw InvalidInput(path.string() + ": an animation is a .gif file");
@@ -37,21 +39,17 @@ void write_animation(const fs::path& path, std::span<const ColorImage> frames, d
   spec.attribute("FramesPerSecond", OIIO::TypeRational, rate);
   spec.attribute("gif:LoopCount", 0);
   const std::vector<OIIO::ImageSpec> specs(frames.size() + k_held, spec);
-  const fs::path part = path.string() + ".part.gif";
-  const auto out = OIIO::ImageOutput::create(part.string());
-  bool good = out && out->open(part.string(), static_cast<int>(specs.size()), specs.data());
-  for (std::size_t k = 0; good && k < specs.size(); ++k) {
-    if (k > 0) good = out->open(part.string(), specs[k], OIIO::ImageOutput::AppendSubimage);
-    good = good && out->write_image(OIIO::TypeDesc::UINT8, frames[std::min(k, frames.size() - 1)].pixels.data());
-  }
-  good = good && out->close();
-  std::error_code error;
-  if (good) fs::rename(part, path, error);
-  if (good && !error) return;
-  const std::string reason = error ? error.message() : out ? out->geterror() : OIIO::geterror();
-  fs::remove(part, error);
-  throw IoError(path.string() + ": cannot be written" +
-                (reason.empty() ? "" : ": " + reason.substr(0, reason.find('\n'))));
+  write_atomically(path, [&](const fs::path& temporary) {
+    const auto out = OIIO::ImageOutput::create(temporary.string());
+    bool good = out && out->open(temporary.string(), static_cast<int>(specs.size()), specs.data());
+    for (std::size_t k = 0; good && k < specs.size(); ++k) {
+      if (k > 0) good = out->open(temporary.string(), specs[k], OIIO::ImageOutput::AppendSubimage);
+      good = good && out->write_image(OIIO::TypeDesc::UINT8, frames[std::min(k, frames.size() - 1)].pixels.data());
+    }
+    if (good && out->close()) return;
+    const std::string reason = first_line(out ? out->geterror() : OIIO::geterror());
+    throw IoError(path.string() + ": cannot be written" + (reason.empty() ? "" : ": " + reason));
+  });
 }
 
 }  // namespace papilla

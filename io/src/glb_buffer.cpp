@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "glb_buffer.hpp"
+#include "glb_document.hpp"
 
 #include <ostream>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "glb_material.hpp"
+#include "glb_document.hpp"
 
 #include <fmt/core.h>
 
@@ -43,7 +43,7 @@ Json numbers(const std::array<double, N>& values, const std::string& where) {
   return array;
 }
 
-Json texture_transform(const TextureTransform& transform) {
+Json texture_transform(const UvTransform& transform) {
   Json json = Json::object();
   if (!(transform.offset == Vec2{0, 0})) json["offset"] = {transform.offset.x, transform.offset.y};
   if (transform.rotation != 0) json["rotation"] = transform.rotation;
@@ -119,8 +119,8 @@ Json MaterialWriter::material(std::size_t number) {
   const Material& source = scene_.materials[number];
   const std::string where = fmt::format("write_glb: material {} '{}'", number, source.name);
   MaterialNeeds needs;
-  const auto put = [&](Json& owner, const char* name, const std::optional<TextureReference>& texture,
-                       const char* factor_name) {
+  const auto add_texture = [&](Json& owner, const char* name, const std::optional<TextureReference>& texture,
+                               const char* factor_name) {
     if (texture && is_usable(*texture)) owner[name] = reference(*texture, factor_name, needs);
   };
   Json json = Json::object();
@@ -129,11 +129,11 @@ Json MaterialWriter::material(std::size_t number) {
   pbr["baseColorFactor"] = numbers(source.base_color, where);
   pbr["metallicFactor"] = in_unit_range(source.metallic, where);
   pbr["roughnessFactor"] = in_unit_range(source.roughness, where);
-  put(pbr, "baseColorTexture", source.base_color_texture, "");
-  put(pbr, "metallicRoughnessTexture", source.metallic_roughness_texture, "");
-  put(json, "normalTexture", source.normal_texture, "scale");
-  put(json, "occlusionTexture", source.occlusion_texture, "strength");
-  put(json, "emissiveTexture", source.emissive_texture, "");
+  add_texture(pbr, "baseColorTexture", source.base_color_texture, "");
+  add_texture(pbr, "metallicRoughnessTexture", source.metallic_roughness_texture, "");
+  add_texture(json, "normalTexture", source.normal_texture, "scale");
+  add_texture(json, "occlusionTexture", source.occlusion_texture, "strength");
+  add_texture(json, "emissiveTexture", source.emissive_texture, "");
   if (source.emissive != std::array<double, 3>{0, 0, 0}) json["emissiveFactor"] = numbers(source.emissive, where);
   if (source.alpha_mode != "OPAQUE") json["alphaMode"] = source.alpha_mode;
   if (source.alpha_mode == "MASK") json["alphaCutoff"] = std::max(source.alpha_cutoff, 0.0);

@@ -11,10 +11,7 @@
 #include <limits>
 #include <set>
 
-#include "glb_buffer.hpp"
-#include "glb_material.hpp"
-#include "glb_mesh.hpp"
-#include "haptic_mirror.hpp"
+#include "glb_document.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
@@ -38,7 +35,7 @@ Json asset_of(const Scene& scene) {
 }
 
 /// Adds translation, rotation and scale where they are not neutral.
-void put_transform(const Transform& local, const std::string& where, Json& node) {
+void add_transform(const Transform& local, const std::string& where, Json& node) {
   if (!std::all_of(local.begin(), local.end(), [](double x) { return std::isfinite(x); }))
     throw InvalidInput(where + ": the transform is not finite");
   const auto trs = decompose(local);
@@ -105,7 +102,7 @@ class NodeWriter {
     return name.empty() ? name : fmt::format("{}_LOD{}", name, level);
   }
 
-  /// The nodes of the coarser levels stand where the node that lists them stands.
+  /// The nodes of the coarser levels have the transform of the node that lists them.
   void add_level_nodes(std::size_t number) {
     const Node& source = scene_.nodes[number];
     if (!source.part || levels_of_part_[*source.part].empty()) return;
@@ -120,7 +117,7 @@ class NodeWriter {
       shown = gltf_["nodes"].size();
       gltf_["nodes"].push_back(std::move(leaf));
     } else {
-      put_transform(source.local, "write_glb", place);
+      add_transform(source.local, "write_glb", place);
     }
     Json ids = Json::array(), coverages = Json::array();
     for (std::size_t level = 0; level < meshes.size(); ++level) {
@@ -155,7 +152,7 @@ class NodeWriter {
     const std::string where = fmt::format("write_glb: node {} '{}'", number, source.name);
     Json json = Json::object();
     if (!source.name.empty()) json["name"] = source.name;
-    put_transform(source.local, where, json);
+    add_transform(source.local, where, json);
     if (source.part && mesh_of_part_[*source.part]) json["mesh"] = *mesh_of_part_[*source.part];
     for (const std::uint32_t child : source.children) json["children"].push_back(*node_number_[child]);
     if (!source.extras_json.empty()) json["extras"] = parse_scene_json(source.extras_json, where + ".extras");
@@ -167,7 +164,7 @@ class NodeWriter {
     for (const std::uint32_t root : scene_.roots) roots.push_back(*node_number_[root]);
     if (scene_.up != UpAxis::y && !roots.empty()) {
       Json turn = {{"name", "Z up to Y up"}};
-      put_transform(to_y_up(scene_.up), "write_glb", turn);
+      add_transform(to_y_up(scene_.up), "write_glb", turn);
       turn["children"] = std::move(roots);
       roots = Json::array({gltf_["nodes"].size()});
       gltf_["nodes"].push_back(std::move(turn));
@@ -188,7 +185,7 @@ class NodeWriter {
   std::vector<std::vector<std::size_t>> levels_of_part_;
 };
 
-/// The names below any "extensions" of the document; extras are nobody's business.
+/// The names below any "extensions" of the document. Extras are not searched: what they hold is not glTF.
 void collect_extensions(const Json& json, std::set<std::string>& names) {
   if (json.is_object()) {
     for (const auto& [key, value] : json.items()) {

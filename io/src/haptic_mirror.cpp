@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "haptic_mirror.hpp"
+#include "glb_document.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "papilla/core/base64.hpp"
@@ -44,20 +45,20 @@ std::string name_of(const Json& json) {
 
 Json named(const std::string& name) { return name.empty() ? Json::object() : Json{{"name", name}}; }
 
-struct WornMaterial {
-  std::optional<std::size_t> mirrored;  ///< That all primitives wear.
+struct MeshMaterial {
+  std::optional<std::size_t> mirrored;  ///< The mirrored material of all primitives.
   bool is_one_of_several = false;
 };
 
-WornMaterial worn_material(const Json& mesh, const Mirrored& mirrored) {
-  std::set<std::optional<std::size_t>> worn;
+MeshMaterial material_of_mesh(const Json& mesh, const Mirrored& mirrored) {
+  std::set<std::optional<std::size_t>> used;
   for (const Json& primitive : mesh["primitives"]) {
     const Json* material = member(primitive, "material");
     const auto found = material == nullptr ? mirrored.end() : mirrored.find(material->get<std::size_t>());
-    worn.insert(found == mirrored.end() ? std::nullopt : std::optional(found->second));
+    used.insert(found == mirrored.end() ? std::nullopt : std::optional(found->second));
   }
-  if (worn.size() == 1) return {*worn.begin(), false};
-  return {std::nullopt, worn.size() > 1};
+  if (used.size() == 1) return {*used.begin(), false};
+  return {std::nullopt, used.size() > 1};
 }
 
 /// Writes the pictures of height maps, each once.
@@ -69,13 +70,13 @@ class MapTextures {
   std::optional<std::size_t> texture_of(const Json& height, const std::string& name) {
     const Json* uri = member(height, "uri");
     if (uri == nullptr || !uri->is_string()) return std::nullopt;
-    const auto [known, is_new] = textures_.try_emplace(uri->get<std::string>());
+    const auto [known, is_new] = textures_.try_emplace(uri->get_ref<const std::string&>());
     if (is_new) known->second = write(known->first, name);
     return known->second;
   }
 
  private:
-  std::optional<std::size_t> write(const std::string& uri, const std::string& name) {
+  std::optional<std::size_t> write(std::string_view uri, const std::string& name) {
     const std::optional<std::string> bytes = decode_data_uri(uri);
     if (!bytes) return std::nullopt;
     Json image = named(name);
@@ -90,10 +91,10 @@ class MapTextures {
 
   Json& gltf_;
   GlbBuffer& buffer_;
-  std::map<std::string, std::optional<std::size_t>> textures_;
+  std::map<std::string_view, std::optional<std::size_t>> textures_;
 };
 
-/// As the normal texture is laid, which shows the same relief.
+/// With the texture channel and transform of the normal texture, which shows the same relief.
 Json texture_info(std::size_t texture, const Json& material) {
   Json info = {{"index", texture}};
   if (const Json* normal = member(material, "normalTexture"))
@@ -145,7 +146,8 @@ std::vector<std::string> mirror_mpeg_haptics(Json& gltf, GlbBuffer& buffer) {
   Mirrored mirrored;
   Json materials = Json::array();
   MapTextures maps(gltf, buffer);
-  const Json sources = gltf["materials"];  // A copy: images and textures that are added move what stands in gltf.
+  // Taken out while the loop adds images and textures, which moves the members of gltf.
+  Json sources = std::move(gltf["materials"]);
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const Json* tag = haptic_tag(sources[i]);
     const Json* height = tag == nullptr ? nullptr : member(*tag, "height");
@@ -158,11 +160,12 @@ std::vector<std::string> mirror_mpeg_haptics(Json& gltf, GlbBuffer& buffer) {
       not_mirrored.push_back(fmt::format("{}: the height map of '{}' is not within its tag", k_mpeg, name));
     }
   }
+  gltf["materials"] = std::move(sources);
   if (materials.empty()) return not_mirrored;
   for (Json& mesh : gltf["meshes"]) {
-    const WornMaterial worn = worn_material(mesh, mirrored);
-    if (worn.mirrored) mesh["extensions"][k_mpeg]["hapticMaterialIndex"] = *worn.mirrored;
-    if (worn.is_one_of_several) note_several(k_mpeg, name_of(mesh), not_mirrored);
+    const MeshMaterial used = material_of_mesh(mesh, mirrored);
+    if (used.mirrored) mesh["extensions"][k_mpeg]["hapticMaterialIndex"] = *used.mirrored;
+    if (used.is_one_of_several) note_several(k_mpeg, name_of(mesh), not_mirrored);
   }
   gltf["extensions"][k_mpeg]["materials"] = std::move(materials);
   return not_mirrored;
@@ -180,16 +183,16 @@ void mirror_khr_physics(Json& gltf, std::vector<std::string>& not_mirrored) {
     }
   if (materials.empty()) return;
   Json& nodes = gltf["nodes"];
-  std::vector<WornMaterial> worn;
+  std::vector<MeshMaterial> used;
   for (const Json& mesh : gltf["meshes"]) {
-    worn.push_back(worn_material(mesh, mirrored));
-    if (worn.back().is_one_of_several) note_several(k_khr, name_of(mesh), not_mirrored);
+    used.push_back(material_of_mesh(mesh, mirrored));
+    if (used.back().is_one_of_several) note_several(k_khr, name_of(mesh), not_mirrored);
   }
   const std::set<std::size_t> levels = levels_of_detail(nodes);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Json* mesh = member(nodes[i], "mesh");
     if (mesh == nullptr || levels.contains(i)) continue;
-    if (const auto material = worn[mesh->get<std::size_t>()].mirrored)
+    if (const auto material = used[mesh->get<std::size_t>()].mirrored)
       nodes[i]["extensions"][k_khr]["collider"] = {{"geometry", {{"node", i}, {"convexHull", false}}},
                                                    {"physicsMaterial", *material}};
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "picture_input.hpp"
 
 namespace papilla {
@@ -25,7 +26,7 @@ struct ImageBands::State {
   std::unique_ptr<OIIO::ImageInput> input;
   int width, height, channels, rows_at_once, stride;
   int decoded = 0;             ///< Rows.
-  std::vector<float> waiting;  ///< Grey rows decoded and not yet taken.
+  std::vector<float> waiting;  ///< Grey rows decoded and not yet returned by next().
   std::vector<float> stored;   ///< Scratch: rows as the file stores them.
   ColorImage sample;
 
@@ -52,7 +53,7 @@ struct ImageBands::State {
             ? input->read_tiles(0, 0, spec.x, spec.x + width, top, top + rows, spec.z, spec.z + 1, 0, channels,
                                 OIIO::TypeDesc::FLOAT, stored.data())
             : input->read_scanlines(0, 0, top, top + rows, spec.z, 0, channels, OIIO::TypeDesc::FLOAT, stored.data());
-    if (!read) throw InvalidInput(path.string() + ": is damaged: " + io_detail::first_line(input->geterror()));
+    if (!read) throw InvalidInput(path.string() + ": is damaged: " + first_line(input->geterror()));
     for (int y = 0; y < rows; ++y)
       if ((decoded + y) % stride == 0) take_sample(y);
     const std::size_t first = waiting.size(), count = io_detail::pixel_count(width, rows);

@@ -15,6 +15,7 @@
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/image_bands.hpp"
 #include "picture_input.hpp"
@@ -26,7 +27,6 @@ namespace fs = std::filesystem;
 using io_detail::check_png;
 using io_detail::check_size;
 using io_detail::color_channels;
-using io_detail::first_line;
 using io_detail::open_picture;
 using io_detail::pixel_count;
 using io_detail::stored_values;
@@ -56,7 +56,8 @@ ColorImage read_rgb(ImageInput& input, const fs::path& path) {
   return image;
 }
 
-/// libpng complains on stderr about a file that is opened and not written, so this is asked first.
+/// Whether the format can store the type. Checked first, because libpng prints to stderr about a file that is opened
+/// and not written.
 bool can_hold(const ImageOutput& output, TypeDesc type) {
   const std::string_view format = output.format_name();
   if (format == "png") return type != TypeDesc::FLOAT;
@@ -99,9 +100,8 @@ void check_pixels(int width, int height, std::size_t values, std::size_t channel
 }
 
 std::vector<std::byte> to_bytes(const std::vector<unsigned char>& data) {
-  std::vector<std::byte> bytes(data.size());
-  std::transform(data.begin(), data.end(), bytes.begin(), [](unsigned char c) { return std::byte{c}; });
-  return bytes;
+  const auto bytes = std::as_bytes(std::span(data));
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace

@@ -3,16 +3,18 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/core/unit_name.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 
 namespace papilla {
 
-Scene unitless_scene(std::string format, const ReadOptions& options, UpAxis habit) {
+Scene unitless_scene(std::string format, const ReadOptions& options, UpAxis convention) {
   const double unit = options.millimetres_per_unit.value_or(1);
   if (!(unit > 0 && unit <= 1e9))
     throw InvalidInput(fmt::format("ReadOptions: millimetres_per_unit = {} is not in (0, 1e9]", unit));
@@ -20,8 +22,13 @@ Scene unitless_scene(std::string format, const ReadOptions& options, UpAxis habi
   scene.format = std::move(format);
   scene.unit = unit_name(unit);
   scene.millimetres_per_unit = unit;
-  scene.up = options.up.value_or(habit);
+  scene.up = options.up.value_or(convention);
   return scene;
+}
+
+Color color_from_srgb(double r, double g, double b, double alpha) {
+  const auto linear = [](double x) { return static_cast<float>(linear_from_srgb(x)); };
+  return {linear(r), linear(g), linear(b), static_cast<float>(std::clamp(alpha, 0.0, 1.0))};
 }
 
 void warn_of_doubtful_unit(Scene& scene) {

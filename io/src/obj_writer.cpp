@@ -94,7 +94,7 @@ class MtlWriter {
   /// Texture channel 1 and rotated uv can't be expressed.
   void write_map(const char* keyword, const std::optional<TextureReference>& reference) {
     if (!reference || reference->tex_coord != 0 || reference->texture >= scene_.textures.size()) return;
-    const TextureTransform transform = reference->transform.value_or(TextureTransform{});
+    const UvTransform transform = reference->transform.value_or(UvTransform{});
     const Texture& texture = scene_.textures[reference->texture];
     if (transform.rotation != 0 || !texture.image) return;
     const auto file = picture(*texture.image);

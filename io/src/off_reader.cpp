@@ -17,7 +17,6 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/core/srgb.hpp"
 #include "papilla/io/read_file.hpp"
 #include "polygon_mesh.hpp"
 #include "text_scanner.hpp"
@@ -25,14 +24,14 @@
 namespace papilla {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary OFF is turned round");
+static_assert(std::endian::native == std::endian::little, "binary OFF has the other byte order");
 
-/// What the keyword says of the vertices.
+/// Attributes of the vertices and the encoding, by the keyword.
 struct OffKind {
   bool normals = false, colors = false, uv = false, binary = false;
 };
 
-/// The numbers of a file, one after the other. In text a line may end with a list of any length, a colour.
+/// The numbers of a file in order. In text a colour is the rest of the line, of any length.
 class OffSource {
  public:
   OffSource(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
@@ -178,7 +177,7 @@ class OffReader {
     if (kind_.binary)
       source_.count("edges");
     else
-      source_.end_line();  // The number of edges is often missing, and nobody's business.
+      source_.end_line();  // The number of edges is often missing and not needed.
     read_vertices(vertices);
     read_faces(faces);
     note_oddities();
@@ -209,8 +208,7 @@ class OffReader {
       ++bad_values_;
       return {};
     }
-    const auto linear = [](double x) { return static_cast<float>(linear_from_srgb(x)); };
-    return {linear(parts[0]), linear(parts[1]), linear(parts[2]), static_cast<float>(std::clamp(alpha, 0.0, 1.0))};
+    return color_from_srgb(parts[0], parts[1], parts[2], alpha);
   }
 
   void read_vertices(std::size_t count) {

@@ -82,8 +82,6 @@ bool check_png_file(const fs::path& path) {
 
 }  // namespace
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 std::size_t pixel_count(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }

@@ -11,7 +11,6 @@
 
 namespace papilla::io_detail {
 
-std::string first_line(const std::string& text);
 std::size_t pixel_count(int width, int height);
 
 /// Colours are read as three channels, everything else as its first one.
@@ -23,8 +22,8 @@ OIIO::ImageSpec stored_values();
 /// Millimetres per pixel from the file's resolution; 0 when it has none or its pixels are not square.
 double pitch_of(const OIIO::ImageSpec& spec);
 
-/// libpng tells stderr about damaged files, where our one message is to stand alone: finds the damage first. Other
-/// files pass. @throws InvalidInput naming `path`.
+/// Checks the chunks of a PNG before libpng reads it, because libpng prints messages of its own to stderr. Accepts all
+/// other formats. @throws InvalidInput naming `path` when a chunk is damaged.
 void check_png(std::string_view bytes, const std::filesystem::path& path);
 
 /// @throws InvalidInput when the picture is not flat, larger than `most_pixels`, or larger than a file of that many

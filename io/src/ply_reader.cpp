@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,16 +18,65 @@
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
-#include "papilla/core/srgb.hpp"
 #include "papilla/io/read_file.hpp"
-#include "ply_body.hpp"
-#include "ply_properties.hpp"
+#include "ply_file.hpp"
 #include "polygon_mesh.hpp"
 #include "scene_pictures.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {
 namespace {
+
+/// Finds the properties of an element by name, and lists those that were never looked up. Places are indices
+/// into PlyElement::properties.
+class PlyProperties {
+ public:
+  explicit PlyProperties(const PlyElement& element) : element_(element), used_(element.properties.size(), false) {}
+
+  /// The places of several scalars, under the first of several namings of which the element has all.
+  template <std::size_t N>
+  std::optional<std::array<std::size_t, N>> scalars(std::initializer_list<std::array<std::string_view, N>> namings) {
+    for (const auto& names : namings) {
+      std::array<std::size_t, N> places{};
+      bool has_all = true;
+      for (std::size_t i = 0; i < N; ++i) has_all = has_all && find(names[i], false, places[i]);
+      if (!has_all) continue;
+      for (const std::size_t place : places) used_[place] = true;
+      return places;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::size_t> scalar(std::string_view name) { return one(name, false); }
+  std::optional<std::size_t> list(std::string_view name) { return one(name, true); }
+
+  std::vector<std::string_view> unused() const {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < used_.size(); ++i)
+      if (!used_[i]) names.push_back(element_.properties[i].name);
+    return names;
+  }
+
+ private:
+  bool find(std::string_view name, bool is_list, std::size_t& place) const {
+    const auto& all = element_.properties;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const PlyProperty& property) {
+      return property.is_list == is_list && property.name == name;
+    });
+    place = static_cast<std::size_t>(found - all.begin());
+    return found != all.end();
+  }
+
+  std::optional<std::size_t> one(std::string_view name, bool is_list) {
+    std::size_t place = 0;
+    if (!find(name, is_list, place)) return std::nullopt;
+    used_[place] = true;
+    return place;
+  }
+
+  const PlyElement& element_;
+  std::vector<bool> used_;
+};
 
 template <std::size_t N>
 using Places = std::array<std::size_t, N>;
@@ -122,8 +172,7 @@ class PlyReader {
       ++bad_values_;
       return {};
     }
-    const auto linear = [](double x) { return static_cast<float>(linear_from_srgb(x)); };
-    return {linear(r), linear(g), linear(b), static_cast<float>(std::clamp(a, 0.0, 1.0))};
+    return color_from_srgb(r, g, b, a);
   }
 
   /// Reads one entry of an element: scalars into row_, lists through `take`(place).

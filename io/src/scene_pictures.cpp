@@ -2,7 +2,7 @@
 #include "scene_pictures.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <span>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
@@ -16,9 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::byte> to_bytes(const std::string& text) {
-  std::vector<std::byte> bytes(text.size());
-  if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
-  return bytes;
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace

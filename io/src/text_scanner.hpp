@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <charconv>
-#include <string>
 #include <string_view>
+
+#include "papilla/core/one_line.hpp"
 
 namespace papilla {
 
@@ -33,14 +33,6 @@ constexpr bool equals_ignoring_case(std::string_view text, std::string_view lowe
   for (std::size_t i = 0; i < text.size(); ++i)
     if ((text[i] >= 'A' && text[i] <= 'Z' ? text[i] + 32 : text[i]) != lower[i]) return false;
   return true;
-}
-
-/// The beginning of a word as messages quote it: printable ASCII, the rest as '?'.
-inline std::string printable(std::string_view word) {
-  std::string text(word.substr(0, 40));
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
 }
 
 /// Reads the whole word as a number, independent of the locale. "nan" and "inf" are numbers.

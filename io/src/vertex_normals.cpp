@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "papilla/core/union_find.hpp"
 #include "papilla/core/units.hpp"
 
 namespace papilla {
@@ -48,8 +49,7 @@ class Fan {
   void gather(std::span<const std::uint32_t> corners) {
     area_.clear();
     spokes_.clear();
-    parent_.resize(corners.size());
-    std::iota(parent_.begin(), parent_.end(), 0U);
+    groups_.reset(corners.size());
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
       const std::size_t t = corners[i] / 3, k = corners[i] % 3;
       const Triangle& triangle = mesh_.triangles[t];
@@ -66,40 +66,32 @@ class Fan {
       while (end < spokes_.size() && spokes_[end].other == spokes_[begin].other) ++end;
       const Spoke &a = spokes_[begin], &b = spokes_[end - 1];
       if (end - begin == 2 && a.outgoing != b.outgoing && is_smooth(area_[a.corner], area_[b.corner]))
-        unite(a.corner, b.corner);
+        groups_.unite(a.corner, b.corner);
     }
   }
 
   /// The sum of each group's area vectors, at the place of its smallest corner.
   const std::vector<Vec3>& sums() {
-    sums_.assign(parent_.size(), Vec3{});
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-      Vec3& sum = sums_[find(i)];
+    sums_.assign(area_.size(), Vec3{});
+    for (std::uint32_t i = 0; i < area_.size(); ++i) {
+      Vec3& sum = sums_[groups_.find(i)];
       sum = sum + area_[i];
     }
     return sums_;
   }
 
-  std::uint32_t find(std::uint32_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
+  /// The smallest corner of the group of a corner.
+  std::uint32_t group_of(std::uint32_t corner) { return groups_.find(corner); }
 
  private:
   /// False when a triangle has no area.
   bool is_smooth(Vec3 a, Vec3 b) const { return dot(normalized(a), normalized(b)) >= least_cosine_; }
 
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
   const TriangleMesh& mesh_;
   double least_cosine_;
   std::vector<Vec3> area_, sums_;
   std::vector<Spoke> spokes_;
-  std::vector<std::uint32_t> parent_;
+  UnionFind groups_;
 };
 
 }  // namespace
@@ -118,7 +110,7 @@ CornerAttribute<Vec3> vertex_normals(const TriangleMesh& mesh, double crease_deg
     const std::vector<Vec3>& sums = fan.sums();
     number.resize(at.size());
     for (std::uint32_t i = 0; i < at.size(); ++i) {
-      const std::uint32_t group = fan.find(i);
+      const std::uint32_t group = fan.group_of(i);
       if (group == i) {  // The smallest corner of a group stands for it and comes first.
         number[i] = static_cast<Index>(normals.values.size());
         const Vec3 normal = normalized(sums[i]);

@@ -1,18 +1,76 @@
 // SPDX-License-Identifier: MIT
-#include "arguments.hpp"
+#include "compiler.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "colour_list.hpp"
-#include "compiler.hpp"
+#include "colours.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::procedural_detail {
 
-Arguments::Arguments(Compiler& compiler, const TypeInfo& type, std::vector<Bound> bound, Heritage heritage)
-    : compiler_(compiler), type_(type), heritage_(heritage) {
+namespace {
+
+/// Lists of colours that name each other, at most.
+constexpr int k_deepest_colours = 16;
+
+std::vector<Rgb> parse_colours(Piece text, const Origin& origin, const RecipeLibrary& library, int depth = 0);
+
+/// The colour of that name, or the library's list; nothing when there is none.
+std::optional<std::vector<Rgb>> colours_named(std::string_view name, const RecipeLibrary& library, int depth = 0) {
+  if (const auto rgb = named_colour(name)) return std::vector<Rgb>{*rgb};
+  const std::string* list = library.find_colours(name);
+  if (!list || depth > k_deepest_colours) return std::nullopt;
+  return parse_colours({*list, 0}, {"colour '" + std::string(name) + "'", *list}, library, depth + 1);
+}
+
+/// Colours by name and as <r,g,b>, separated by commas or blanks; lists of the library by their names.
+/// @throws InvalidInput naming the position of what is no colour.
+std::vector<Rgb> parse_colours(Piece text, const Origin& origin, const RecipeLibrary& library, int depth) {
+  std::vector<Rgb> out;
+  std::size_t at = 0;
+  const std::string_view s = text.text;
+  while (at < s.size()) {
+    if (s[at] == ' ' || s[at] == ',' || s[at] == '\t' || s[at] == '\n' || s[at] == '\r') {
+      ++at;
+      continue;
+    }
+    const std::size_t start = at;
+    if (s[at] == '<') {
+      Rgb rgb{};
+      ++at;
+      for (std::size_t k = 0; k < 3; ++k) {
+        while (at < s.size() && s[at] == ' ') ++at;
+        const auto [stop, error] = std::from_chars(s.data() + at, s.data() + s.size(), rgb[k]);
+        if (error != std::errc() || !std::isfinite(rgb[k]))
+          fail_at(origin, text.position + at, "expected a number of a colour <r,g,b>");
+        at = static_cast<std::size_t>(stop - s.data());
+        while (at < s.size() && s[at] == ' ') ++at;
+        if (at >= s.size() || s[at] != (k < 2 ? ',' : '>'))
+          fail_at(origin, text.position + at, std::string("expected '") + (k < 2 ? ',' : '>') + "' in the colour");
+        ++at;
+        rgb[k] = std::clamp(rgb[k], 0.0, 1.0);
+      }
+      out.push_back(rgb);
+    } else {
+      while (at < s.size() && s[at] != ',' && s[at] != ' ' && s[at] != '<') ++at;
+      const auto list = colours_named(s.substr(start, at - start), library, depth);
+      if (!list)
+        fail_at(origin, text.position + start,
+                "unknown colour " + in_quotes(s.substr(start, at - start)) + "; expected a name or <r,g,b>");
+      out.insert(out.end(), list->begin(), list->end());
+    }
+    if (out.size() > 4096) fail_at(origin, text.position, "more than 4096 colours");
+  }
+  if (out.empty()) fail_at(origin, text.position, "expected colours");
+  return out;
+}
+
+}  // namespace
+
+Arguments::Arguments(Compiler& compiler, const TypeInfo& type, std::vector<Bound> bound, InheritedSettings inherited)
+    : compiler_(compiler), type_(type), inherited_(inherited) {
   for (const Bound& b : bound) {
     const ParameterInfo* p = find_parameter(type, b.name.text);
     if (!p) {
@@ -33,12 +91,12 @@ Arguments::Arguments(Compiler& compiler, const TypeInfo& type, std::vector<Bound
     return list ? std::optional(list->front()) : std::nullopt;
   };
   scope_.known_names = [this] { return compiler_.known_names(); };
-  scope_.texture = [this](Piece recipe) { return compiler_.texture(recipe, *scope_.origin, handed_down()); };
-  time_ = heritage.time;
+  scope_.texture = [this](Piece recipe) { return compiler_.texture(recipe, *scope_.origin, settings_for_inner()); };
+  time_ = inherited.time;
   if (number("fixtime") != 0) time_ = number("time");
   scope_.time = time_;
   read_time_modifiers();
-  seed_ = heritage.seed + number("seed");
+  seed_ = inherited.seed + number("seed");
   scope_.seed = seed_;
   scope_.du = number("du"), scope_.dv = number("dv");
   scope_.privatescalex = number("privatescalex"), scope_.privatescaley = number("privatescaley");
@@ -160,7 +218,7 @@ std::vector<int> Arguments::textures(std::string_view name) {
     if (!piece.text.empty() && piece.text.front() == '[' && piece.text.back() == ']')
       piece = trimmed({piece.text.substr(1, piece.text.size() - 2), piece.position + 1});
     if (piece.text.empty()) fail_at(*b.origin, piece.position, "expected a texture");
-    const std::optional<int> node = compiler_.texture(piece, *b.origin, handed_down());
+    const std::optional<int> node = compiler_.texture(piece, *b.origin, settings_for_inner());
     if (!node)
       fail_at(*b.origin, piece.position,
               "unknown texture " + in_quotes(piece.text) + did_you_mean(piece.text, compiler_.known_names()));
@@ -182,7 +240,7 @@ std::vector<int> Arguments::matching_textures(std::size_t most) {
     if (by_time && recipe.find("time") == std::string::npos) continue;
     if (by_normal && recipe.find("normaldot") == std::string::npos) continue;
     const Origin& origin = compiler_.keep({"recipe '" + name + "'", name});
-    nodes.push_back(*compiler_.texture({origin.whole, 0}, origin, handed_down()));
+    nodes.push_back(*compiler_.texture({origin.whole, 0}, origin, settings_for_inner()));
     use(nodes.back());
   }
   if (nodes.empty()) refuse("types", "no named recipe passes the filters");

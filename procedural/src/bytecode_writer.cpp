@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bytecode_writer.hpp"
+#include "formula_compiler.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,13 +89,13 @@ Scalar BytecodeWriter::apply(std::string_view name, const std::vector<Scalar>& i
   return {false, 0, {Operand::Where::reg, out}, deepest(in)};
 }
 
-Scalar BytecodeWriter::act(Action action, const std::vector<Scalar>& in, int index) {
+Scalar BytecodeWriter::emit(Action action, const std::vector<Scalar>& in, int index) {
   Instruction& code = add(action, in, 1);
   code.index = index;
   return {false, 0, {Operand::Where::reg, code.out}, deepest(in)};
 }
 
-Value BytecodeWriter::act_for_colour(Action action, const std::vector<Scalar>& in, int index) {
+Value BytecodeWriter::emit_colour(Action action, const std::vector<Scalar>& in, int index) {
   Instruction& code = add(action, in, 3);
   code.index = index;
   Value v;

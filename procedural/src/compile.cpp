@@ -24,7 +24,7 @@ void place_and_limits(Node& node, const Arguments& arguments) {
   const double turn = arguments.number("rot");
   node.cos_rot = std::cos(turn), node.sin_rot = turn == 0 ? 0 : std::sin(turn);
   node.stretch = arguments.flag("stretch") || arguments.flag("strech");
-  node.seamless = arguments.handed_down().seamless;
+  node.seamless = arguments.settings_for_inner().seamless;
   node.absolute = arguments.flag("abs"), node.invert = arguments.flag("invert");
   node.limit_low = arguments.number("limitlo"), node.limit_high = arguments.number("limithi");
   if (node.limit_low > node.limit_high) arguments.refuse("limitlo", "limitlo exceeds limithi");
@@ -81,8 +81,8 @@ bool formulas(Node& node, Arguments& arguments) {
 
 std::shared_ptr<const Graph> Compiler::compile(std::string_view recipe) {
   const Origin& origin = keep({options_.source, recipe});
-  const Heritage heritage{static_cast<double>(options_.seed & 0xFFFFFFFFU), options_.time, options_.seamless};
-  const auto root = texture(trimmed({recipe, 0}), origin, heritage);
+  const InheritedSettings inherited{static_cast<double>(options_.seed & 0xFFFFFFFFU), options_.time, options_.seamless};
+  const auto root = texture(trimmed({recipe, 0}), origin, inherited);
   if (!root) {
     const Piece head = split_recipe(trimmed({recipe, 0}), origin).head;
     fail_at(origin, head.position, "unknown texture " + in_quotes(head.text) + did_you_mean(head.text, known_names()));
@@ -91,11 +91,11 @@ std::shared_ptr<const Graph> Compiler::compile(std::string_view recipe) {
   return graph_;
 }
 
-std::optional<int> Compiler::texture(Piece recipe, const Origin& origin, const Heritage& heritage) {
+std::optional<int> Compiler::texture(Piece recipe, const Origin& origin, const InheritedSettings& inherited) {
   const RecipeSyntax syntax = split_recipe(recipe, origin);
   if (!find_type(syntax.head.text) && !library_.find(syntax.head.text)) return std::nullopt;
-  const std::string key = std::string(recipe.text) + '\n' + std::to_string(heritage.seed) + '/' +
-                          std::to_string(heritage.time) + (heritage.seamless ? 's' : '-');
+  const std::string key = std::string(recipe.text) + '\n' + std::to_string(inherited.seed) + '/' +
+                          std::to_string(inherited.time) + (inherited.seamless ? 's' : '-');
   if (const auto it = made_.find(key); it != made_.end()) return it->second;
   if (depth_ >= k_deepest)
     fail_at(origin, recipe.position, "textures are nested more than " + std::to_string(k_deepest) + " deep");
@@ -103,10 +103,10 @@ std::optional<int> Compiler::texture(Piece recipe, const Origin& origin, const H
   const std::size_t open_before = open_.size();
   std::vector<Bound> bound;
   const TypeInfo& type = expand(syntax, origin, bound);
-  const int made = build(type, std::move(bound), heritage, origin, recipe.position);
+  const int made = build(type, std::move(bound), inherited, origin, recipe.position);
   open_.resize(open_before);
   --depth_;
-  // What asks for a neighbourhood keeps notes of the place where it is used.
+  // A texture with a neighbourhood is compiled for every use, because each use has requests of its own.
   if (!node(made).uses_near) made_.emplace(key, made);
   return made;
 }
@@ -160,9 +160,9 @@ const TypeInfo& Compiler::expand(const RecipeSyntax& syntax, const Origin& origi
   return *type;
 }
 
-int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Heritage& heritage, const Origin& origin,
-                    std::size_t position) {
-  Arguments arguments(*this, type, std::move(bound), heritage);
+int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const InheritedSettings& inherited,
+                    const Origin& origin, std::size_t position) {
+  Arguments arguments(*this, type, std::move(bound), inherited);
   auto made = std::make_unique<Node>();
   made->type = &type;
   made->multi = type.name == "multi";

@@ -241,7 +241,7 @@ std::unique_ptr<Pattern> make_led(TypeArguments& arguments) {
   });
 }
 
-/// What the layers below have.
+/// The main value of the layers below.
 std::unique_ptr<Pattern> make_lower(TypeArguments& arguments) {
   const std::string key = arguments.text("sdkey");
   return row_pattern([key](const PatternRow& row) {

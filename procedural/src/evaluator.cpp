@@ -99,7 +99,7 @@ void Evaluator::step(const Instruction& code, int index, Frame& frame, const Blo
       break;
     case Action::neighbourhood:
       if (block.near)
-        block.near->exchange(code.index, block.texels, n, frame.texel, in[0], out);
+        block.near->evaluate(code.index, block.texels, n, frame.texel, in[0], out);
       else
         without_neighbours(graph_.near[static_cast<std::size_t>(code.index)].kind, in[0], n, out);
       break;

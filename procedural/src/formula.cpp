@@ -4,8 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "bytecode_writer.hpp"
-#include "formula_names.hpp"
+#include "formula_compiler.hpp"
 
 namespace papilla::procedural_detail {
 namespace {
@@ -168,7 +167,7 @@ class FormulaParser {
     return *value;
   }
   Value named(std::string_view name, std::size_t start) {
-    if (peek() != '(') return names_.plain(name, start_ + start);
+    if (peek() != '(') return names_.resolve_name(name, start_ + start);
     ++at_;
     std::vector<Value> arguments;
     std::vector<std::size_t> places;
@@ -183,7 +182,7 @@ class FormulaParser {
       }
     }
     expect(')', "or ',' behind an argument");
-    return names_.called(name, std::move(arguments), places, start_ + start);
+    return names_.resolve_call(name, std::move(arguments), places, start_ + start);
   }
 
   std::string_view text_;

@@ -9,10 +9,10 @@
 
 namespace papilla::procedural_detail {
 
-/// What is evaluated when: a formula knows what came before it.
+/// The order of evaluation: a formula can use the results of earlier stages.
 enum class FormulaStage : std::uint8_t { first, second, place, main, channel };
 
-/// What a formula may name, and what it learns about the texture on the way.
+/// The names that a formula may use, and what compiling it finds out about its texture.
 struct FormulaScope {
   Graph* graph = nullptr;
   const Origin* origin = nullptr;
@@ -28,7 +28,7 @@ struct FormulaScope {
   std::function<std::vector<std::string_view>()> known_names;  ///< For suggestions.
   double cost = 0;                                             ///< Evaluations of textures within the formulas so far.
   FormulaStage stage = FormulaStage::channel;
-  int lower_level = 0;  ///< Neighbourhood statistics that the layers below rest on.
+  int lower_level = 0;  ///< Level of the neighbourhood statistics in the layers below.
   bool textures_use_near = false;
   bool uses_normal = false, uses_infos = false, uses_near = false;
 };

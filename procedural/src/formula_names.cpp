@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formula_names.hpp"
+#include "formula_compiler.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace papilla::procedural_detail {
 namespace {
 
-/// Where a variable stands, and which formulas come too early to know it.
+/// The row of a variable, and the first stage that can use it.
 struct RowVariable {
   Operand place;
   FormulaStage from = FormulaStage::first;
@@ -99,12 +99,12 @@ std::optional<Value> FormulaNames::texture(Piece recipe, std::size_t position) {
   const Node& within = *scope_.graph->nodes[static_cast<std::size_t>(*node)];
   scope_.cost += within.evaluations;
   scope_.uses_near = scope_.uses_near || within.uses_near;
-  Scalar value = writer_.act(Action::texture, {}, *node);
+  Scalar value = writer_.emit(Action::texture, {}, *node);
   value.level = scope_.graph->deepest_near();
   return Value::of(value);
 }
 
-Value FormulaNames::plain(std::string_view name, std::size_t position) {
+Value FormulaNames::resolve_name(std::string_view name, std::size_t position) {
   const FunctionInfo* function = find_function(name);
   if (function && function->arity == 0) return variable(name, position);
   if (scope_.point)
@@ -120,8 +120,8 @@ Value FormulaNames::plain(std::string_view name, std::size_t position) {
   fail(position, "unknown name " + in_quotes(name) + suggestion(name));
 }
 
-Value FormulaNames::called(std::string_view name, std::vector<Value> arguments, const std::vector<std::size_t>& places,
-                           std::size_t position) {
+Value FormulaNames::resolve_call(std::string_view name, std::vector<Value> arguments,
+                                 const std::vector<std::size_t>& places, std::size_t position) {
   const FunctionInfo* info = find_function(name);
   if (!info) fail(position, "unknown function " + in_quotes(name) + suggestion(name));
   if (static_cast<int>(arguments.size()) != info->arity)
@@ -140,16 +140,16 @@ Value FormulaNames::called(std::string_view name, std::vector<Value> arguments, 
 // --- variables ---
 
 Value FormulaNames::variable(std::string_view name, std::size_t position) {
-  if (const auto value = setting(name)) return *value;
+  if (const auto value = constant_variable(name)) return *value;
   constexpr std::string_view distances[] = {"f1", "f2", "f3", "f4", "orig", "index"};
   if (std::find(std::begin(distances), std::end(distances), name) != std::end(distances))
-    return of_the_distances(name, position);
+    return distance_variable(name, position);
   if (!scope_.point) fail(position, in_quotes(name) + " depends on the place and is not known here");
-  return of_the_point(name, position);
+  return point_variable(name, position);
 }
 
-/// What is one number for the whole texture.
-std::optional<Value> FormulaNames::setting(std::string_view name) const {
+/// Variables that are one number for the whole texture.
+std::optional<Value> FormulaNames::constant_variable(std::string_view name) const {
   if (name == "pi") return Value::of(std::numbers::pi);
   if (name == "time" || name == "globaltime") {
     scope_.graph->uses_time = true;
@@ -164,7 +164,7 @@ std::optional<Value> FormulaNames::setting(std::string_view name) const {
   return std::nullopt;
 }
 
-Value FormulaNames::of_the_distances(std::string_view name, std::size_t position) const {
+Value FormulaNames::distance_variable(std::string_view name, std::size_t position) const {
   const bool density = name == "orig" || name == "index";
   if (density && !scope_.density) fail(position, in_quotes(name) + " is known within densityfunc only");
   if (!density && !scope_.distances) fail(position, in_quotes(name) + " is known within func only");
@@ -178,7 +178,7 @@ void FormulaNames::refuse_early(std::string_view name, std::size_t position) con
                      "mainfunction, and last the channels");
 }
 
-Value FormulaNames::of_the_point(std::string_view name, std::size_t position) {
+Value FormulaNames::point_variable(std::string_view name, std::size_t position) {
   if (name == "normaldot") scope_.uses_normal = scope_.graph->uses_normal = true;
   if (name == "posx" || name == "posy" || name == "posz") scope_.graph->uses_position = true;
   if (name == "sky") scope_.graph->uses_sky = true;
@@ -198,7 +198,7 @@ Value FormulaNames::of_the_point(std::string_view name, std::size_t position) {
   if (name == "hue") return function("gethsvhue", {current_colour()}, position);
   if (name == "saturation") return function("gethsvsaturation", {current_colour()}, position);
   if (name == "value") return function("gethsvvalue", {current_colour()}, position);
-  return texmapped(name, position);  // What is left are texmapped….
+  return texmapped(name, position);  // The remaining names begin with texmapped.
 }
 
 Value FormulaNames::current_colour() const {
@@ -212,19 +212,19 @@ Value FormulaNames::current_colour() const {
   return v;
 }
 
-void FormulaNames::need_textures(std::string_view name, std::size_t position) {
+void FormulaNames::require_textures(std::string_view name, std::size_t position) {
   if (scope_.textures == 0) fail(position, in_quotes(name) + " needs the parameter 'textures'");
   for (const double cost : scope_.texture_costs) scope_.cost += cost;
   scope_.uses_near = scope_.uses_near || scope_.textures_use_near;
 }
 
 Value FormulaNames::texmapped(std::string_view name, std::size_t position) {
-  need_textures(name, position);
+  require_textures(name, position);
   if (scope_.stage < FormulaStage::main) refuse_early(name, position);
   const std::string_view channel = name.substr(std::string_view("texmapped").size());
   const Scalar main{false, 0, frame_row(FrameRow::main).place, scope_.graph->deepest_near()};
-  if (channel == "color") return writer_.act_for_colour(Action::texmap_color, {main}, 0);
-  return Value::of(writer_.act(Action::texmap_channel, {main}, static_cast<int>(channel_named(channel))));
+  if (channel == "color") return writer_.emit_colour(Action::texmap_color, {main}, 0);
+  return Value::of(writer_.emit(Action::texmap_channel, {main}, static_cast<int>(channel_named(channel))));
 }
 
 // --- functions ---
@@ -239,8 +239,8 @@ Value FormulaNames::function(std::string_view name, const std::vector<Value>& in
   if (!scope_.point && needs_a_place(name))
     fail(position, in_quotes(name) + " depends on the place and is not known here");
   if (const auto value = colour_function(name, in)) return *value;
-  if (const auto value = information(name, in, position)) return *value;
-  if (const auto value = moving_function(name, in)) return *value;
+  if (const auto value = info_function(name, in, position)) return *value;
+  if (const auto value = place_function(name, in)) return *value;
   if (const auto value = neighbourhood(name, in, position)) return *value;
   if (const auto value = colour_map(name, in, position)) return *value;
   if (name == "preparemapping") return Value::of(0);
@@ -290,20 +290,20 @@ std::optional<Value> FormulaNames::colour_function(std::string_view name, const 
   return std::nullopt;
 }
 
-std::optional<Value> FormulaNames::information(std::string_view name, const std::vector<Value>& in,
-                                               std::size_t position) {
+std::optional<Value> FormulaNames::info_function(std::string_view name, const std::vector<Value>& in,
+                                                 std::size_t position) {
   if (name != "get" && name != "set") return std::nullopt;
   const int number = fixed_integer(in[0], k_infos - 1, "the number of an information", position);
-  if (name == "set") return Value::of(writer_.act(Action::set_info, {in[1].part[0]}, number));
+  if (name == "set") return Value::of(writer_.emit(Action::set_info, {in[1].part[0]}, number));
   scope_.uses_infos = true;
   return Value::of(
       Scalar{false, 0, frame_row(FrameRow::info0, FormulaStage::first, number).place, scope_.graph->deepest_near()});
 }
 
-std::optional<Value> FormulaNames::moving_function(std::string_view name, const std::vector<Value>& in) {
-  if (name == "zoom") return Value::of(writer_.act(Action::zoom, numbers(in), 0));
-  if (name == "rotate") return Value::of(writer_.act(Action::rotate, numbers(in), 0));
-  if (name == "sphere") return Value::of(writer_.act(Action::sphere, numbers(in), 0));
+std::optional<Value> FormulaNames::place_function(std::string_view name, const std::vector<Value>& in) {
+  if (name == "zoom") return Value::of(writer_.emit(Action::zoom, numbers(in), 0));
+  if (name == "rotate") return Value::of(writer_.emit(Action::rotate, numbers(in), 0));
+  if (name == "sphere") return Value::of(writer_.emit(Action::sphere, numbers(in), 0));
   return std::nullopt;
 }
 
@@ -320,7 +320,7 @@ std::optional<Value> FormulaNames::neighbourhood(std::string_view name, const st
     fail(position, "more than " + std::to_string(k_most_near) + " neighbourhood statistics, or more than " +
                        std::to_string(k_deepest_near) + " that rest on each other");
   scope_.uses_near = true;
-  Scalar out = writer_.act(Action::neighbourhood, {value}, static_cast<int>(requests.size()));
+  Scalar out = writer_.emit(Action::neighbourhood, {value}, static_cast<int>(requests.size()));
   out.level = value.level + 1;
   requests.push_back({it->second, radius.number, out.level});
   return Value::of(out);
@@ -328,22 +328,22 @@ std::optional<Value> FormulaNames::neighbourhood(std::string_view name, const st
 
 std::optional<Value> FormulaNames::colour_map(std::string_view name, const std::vector<Value>& in,
                                               std::size_t position) {
-  if (name == "colmap") return writer_.act_for_colour(Action::colmap, {in[0].part[0]}, 0);
+  if (name == "colmap") return writer_.emit_colour(Action::colmap, {in[0].part[0]}, 0);
   if (name == "texmap") {
-    need_textures(name, position);
-    return writer_.act_for_colour(Action::texmap_color, {in[0].part[0]}, 0);
+    require_textures(name, position);
+    return writer_.emit_colour(Action::texmap_color, {in[0].part[0]}, 0);
   }
   if (name == "texmap2") return texmap2(in, position);
   return std::nullopt;
 }
 
 Value FormulaNames::texmap2(const std::vector<Value>& in, std::size_t position) {
-  need_textures("texmap2", position);
+  require_textures("texmap2", position);
   const int texture = fixed_integer(in[1], static_cast<int>(scope_.textures) - 1, "the index of a texture", position);
   const int mode = fixed_integer(in[2], 2, "the mode", position);
-  const Value first = writer_.act_for_colour(Action::texture_color, {}, texture);
-  const Value second = mode == 0   ? writer_.act_for_colour(Action::colmap, {in[3].part[0]}, 0)
-                       : mode == 1 ? writer_.act_for_colour(Action::texmap_color, {in[3].part[0]}, 0)
+  const Value first = writer_.emit_colour(Action::texture_color, {}, texture);
+  const Value second = mode == 0   ? writer_.emit_colour(Action::colmap, {in[3].part[0]}, 0)
+                       : mode == 1 ? writer_.emit_colour(Action::texmap_color, {in[3].part[0]}, 0)
                                    : current_colour();
   Value v;
   v.colour = true;

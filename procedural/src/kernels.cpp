@@ -11,7 +11,7 @@ namespace papilla::procedural_detail {
 namespace {
 
 constexpr double k_pi = std::numbers::pi;
-/// More octaves than this are finer than a double can tell.
+/// Further octaves are finer than the resolution of a double.
 constexpr double k_most_octaves = 30;
 
 double clamp_to(double x, double low, double high) { return x < low ? low : x > high ? high : x; }

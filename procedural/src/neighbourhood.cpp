@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "neighbourhood.hpp"
+#include "evaluator.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double k_cells_of_radius = 8;
 constexpr float k_unknown = std::numeric_limits<float>::quiet_NaN();
 
-/// What is known of a block of texels.
+/// Statistics of the known values in a block of texels.
 struct Cell {
   double weight = 0, mean = 0, square = 0, least = 0, most = 0;
 };
@@ -196,7 +196,7 @@ bool Neighbourhoods::next() {
   return pass_++ <= graph_.deepest_near();
 }
 
-void Neighbourhoods::exchange(int request, const std::uint32_t* texels, int n, double texel, const double* in,
+void Neighbourhoods::evaluate(int request, const std::uint32_t* texels, int n, double texel, const double* in,
                               double* out) {
   Request& r = requests_[static_cast<std::size_t>(request)];
   if (!r.found.empty()) {

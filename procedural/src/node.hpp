@@ -19,7 +19,7 @@ class Evaluator;
 struct Block;
 struct ChannelRows;
 
-/// What a pattern is asked for: n points at (x, y), in units of the texture.
+/// Input and output of a pattern: n points at (x, y), in units of the texture.
 struct PatternRow {
   int n = 0;
   const double *x = nullptr, *y = nullptr;
@@ -51,7 +51,7 @@ inline constexpr int k_deepest_near = 8;
 
 struct NearRequest {
   NearStatistic kind;
-  double radius;  ///< In the coordinates of the texture whose formula asks.
+  double radius;  ///< In the coordinates of the texture whose formula uses it.
   int level;      ///< 1, or one more than the largest of the statistics that its argument rests on.
 };
 
@@ -77,8 +77,8 @@ struct Node {
   std::array<double, k_channels> channel_scale{};
   double range = 1, fade = 1;  ///< Of this texture within texmap.
   bool uses_normal = false;
-  bool uses_near = false;   ///< A formula of it or of a texture within asks for a neighbourhood.
-  bool uses_infos = false;  ///< A formula reads the information numbers; else nobody clears them.
+  bool uses_near = false;   ///< A formula of it or of a texture within uses a neighbourhood.
+  bool uses_infos = false;  ///< A formula reads the information numbers; otherwise they are not cleared.
   double evaluations = 1;   ///< A point's cost in textures, those within included.
 };
 

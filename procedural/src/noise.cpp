@@ -6,14 +6,8 @@
 namespace papilla::procedural_detail {
 namespace {
 
-/// Beyond this a coordinate is taken as its border, so that lattice numbers fit into 32 bits.
-constexpr double k_far = 1e9;
 constexpr double k_gain = 1.5;
 
-inline double tame(double v) noexcept {
-  v = v > -k_far ? v : -k_far;  // Also catches what is not a number.
-  return v < k_far ? v : k_far;
-}
 inline double fade(double t) noexcept { return t * t * t * (t * (t * 6 - 15) + 10); }
 inline double low_half(std::uint32_t h) noexcept { return (static_cast<int>(h & 0xFFFFU) - 32768) * (1.0 / 32768); }
 inline double high_half(std::uint32_t h) noexcept { return (static_cast<int>(h >> 16) - 32768) * (1.0 / 32768); }
@@ -50,23 +44,27 @@ inline double noise_at(double px, double py, double period_x, double period_y, s
 PAPILLA_WIDE static void open_row(const double* x, const double* y, int n, const Octave& o, double* out) {
   const double fx = o.frequency_x, fy = o.frequency_y, sx = o.shift_x, sy = o.shift_y;
   const std::uint32_t seed = o.seed;
-  for (int i = 0; i < n; ++i) out[i] = noise_at<false>(tame(x[i] * fx + sx), tame(y[i] * fy + sy), 0, 0, seed);
+  for (int i = 0; i < n; ++i)
+    out[i] = noise_at<false>(clamp_coordinate(x[i] * fx + sx), clamp_coordinate(y[i] * fy + sy), 0, 0, seed);
 }
 
 PAPILLA_WIDE static void periodic_row(const double* x, const double* y, int n, const Octave& o, double* out) {
   const double fx = o.frequency_x, fy = o.frequency_y, sx = o.shift_x, sy = o.shift_y;
   const double px = o.period_x, py = o.period_y;
   const std::uint32_t seed = o.seed;
-  for (int i = 0; i < n; ++i) out[i] = noise_at<true>(tame(x[i] * fx + sx), tame(y[i] * fy + sy), px, py, seed);
+  for (int i = 0; i < n; ++i)
+    out[i] = noise_at<true>(clamp_coordinate(x[i] * fx + sx), clamp_coordinate(y[i] * fy + sy), px, py, seed);
 }
 
 PAPILLA_WIDE static void space_row(const double* x, const double* y, const double* z, int n, const Octave& o,
                                    double* out) {
   const double fx = o.frequency_x, fy = o.frequency_y, sx = o.shift_x, sy = o.shift_y;
-  const double rx = o.period_x > 0 ? o.period_x : 4 * k_far, ry = o.period_y > 0 ? o.period_y : 4 * k_far;
+  const double rx = o.period_x > 0 ? o.period_x : 4 * k_most_coordinate,
+               ry = o.period_y > 0 ? o.period_y : 4 * k_most_coordinate;
   const std::uint32_t seed = o.seed;
   for (int i = 0; i < n; ++i) {
-    const double px = tame(x[i] * fx + sx), py = tame(y[i] * fy + sy), pz = tame(z[i] * fx);
+    const double px = clamp_coordinate(x[i] * fx + sx), py = clamp_coordinate(y[i] * fy + sy),
+                 pz = clamp_coordinate(z[i] * fx);
     double cx = std::floor(px), cy = std::floor(py);
     const double cz = std::floor(pz);
     const double dx = px - cx, dy = py - cy, dz = pz - cz;

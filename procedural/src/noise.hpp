@@ -27,6 +27,14 @@ inline std::uint32_t mix_bits(std::uint32_t a, std::uint32_t b, std::uint32_t se
 }
 inline double unit_number(std::uint32_t h) noexcept { return h * (1.0 / 4294967296.0); }
 
+/// Largest coordinate of a lattice, so that its numbers fit into 32 bits.
+inline constexpr double k_most_coordinate = 1e9;
+/// A coordinate within ±k_most_coordinate; the lower end for NaN.
+inline double clamp_coordinate(double v) noexcept {
+  v = v > -k_most_coordinate ? v : -k_most_coordinate;
+  return v < k_most_coordinate ? v : k_most_coordinate;
+}
+
 /// How an octave of noise lies in the plane.
 struct Octave {
   double frequency_x = 1, frequency_y = 1;  ///< Cells per unit.

@@ -17,7 +17,7 @@ std::uint32_t whole(double v) {
 }
 double wrap(double cell, double count) { return count > 0 ? cell - count * std::floor(cell / count) : cell; }
 
-/// Where a point lies in its cell.
+/// The place of a point in its cell.
 struct InCell {
   double column, row;  ///< Of the cell.
   double x, y;         ///< Within it, about [0, 1].
@@ -60,15 +60,15 @@ class Overview final : public Pattern {
       row.evaluator->channels(shown_[k], inner, (1U << k_channels) - 1, part);
       for (std::size_t c = 0; c < k_channels + 2; ++c)
         for (int i = 0; i < row.n; ++i)
-          if (choice[i] == k) out.row[c][i] = part.row[c][i] * (sinks(c) ? inside[i] : 1);
+          if (choice[i] == k) out.row[c][i] = part.row[c][i] * (is_zero_in_joints(c) ? inside[i] : 1);
     }
   }
 
  private:
   static constexpr std::size_t k_most_shown = 16;
 
-  /// Value, height and colour are 0 in the joints.
-  static bool sinks(std::size_t row) {
+  /// True for value, height and colour.
+  static bool is_zero_in_joints(std::size_t row) {
     return row == static_cast<std::size_t>(Channel::main) || row == static_cast<std::size_t>(Channel::bump) ||
            row >= static_cast<std::size_t>(Channel::color);
   }

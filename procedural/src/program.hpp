@@ -17,7 +17,7 @@ inline constexpr int k_most_arguments = 6;
 /// out[i] = f(in[0][i], in[1][i], …). `out` is none of the inputs.
 using Kernel = void (*)(double* out, const double* const* in, int n);
 
-/// Rows that exist beside the registers.
+/// Input rows of a formula, beside its registers.
 enum class FrameRow : std::uint8_t { u, v, self, main, a, b, id, normaldot, f1, f2, f3, f4, info0 };
 inline constexpr int k_frame_rows = static_cast<int>(FrameRow::info0) + k_infos;
 enum class BlockRow : std::uint8_t {
@@ -47,7 +47,7 @@ enum class BlockRow : std::uint8_t {
 };
 inline constexpr int k_block_rows = static_cast<int>(BlockRow::lower_blue) + 1;
 
-/// Where an operand stands.
+/// The storage of an operand.
 struct Operand {
   enum class Where : std::uint8_t { reg, constant, frame, block } where = Where::reg;
   int index = 0;
@@ -82,7 +82,7 @@ struct Program {
   int registers = 0;
   bool colour = false;
   std::array<Operand, 3> result{};
-  bool constant = true;  ///< Then `value` is all there is.
+  bool constant = true;  ///< The result is `value`; there is no code.
   std::array<double, 3> value{};
   bool present = false;  ///< False: the recipe does not have this formula.
 };

@@ -25,7 +25,7 @@ constexpr std::int64_t k_most_texels = std::int64_t{1} << 30;
 constexpr std::size_t k_most_near_texels = std::size_t{1} << 26;
 constexpr double k_most_factor = 10;  ///< Of friction and stiffness.
 
-/// What a thread needs for a row of points.
+/// Buffers of a thread for a row of points.
 struct Workspace {
   explicit Workspace(const Graph& graph) : evaluator(graph) {}
   Evaluator evaluator;
@@ -41,7 +41,8 @@ struct Raster {
   double texel = 0;
 };
 
-void fill_known(Workspace& w, Block& block, const Raster& raster, std::int64_t first, const TexturePoints* points) {
+void fill_block_rows(Workspace& w, Block& block, const Raster& raster, std::int64_t first,
+                     const TexturePoints* points) {
   const int n = block.n;
   for (std::size_t k = 0; k < 10; ++k) block.rows[k] = w.known[k];
   const auto row = [&](BlockRow r) { return w.known[static_cast<std::size_t>(r)]; };
@@ -76,7 +77,7 @@ void fill_known(Workspace& w, Block& block, const Raster& raster, std::int64_t f
   if (points && !points->normals.empty()) block.normals = points->normals.data() + 3 * first;
 }
 
-/// Evaluates the points of `block` and stores the channels behind number `first`.
+/// Evaluates the points of `block` and stores the channels from index `first` on.
 void evaluate_block(const Graph& graph, Workspace& w, const Block& block, unsigned channels, std::int64_t first,
                     TextureValues& values) {
   if ((channels & ~1U) == 0)
@@ -98,7 +99,7 @@ void evaluate_block(const Graph& graph, Workspace& w, const Block& block, unsign
   }
 }
 
-void make_room(TextureValues& values, unsigned channels, std::size_t count) {
+void allocate_channels(TextureValues& values, unsigned channels, std::size_t count) {
   for (std::size_t c = 0; c < k_channels; ++c)
     if (channels >> c & 1U) values.channels[c].resize(count * (c == k_color ? 3 : 1));
 }
@@ -139,7 +140,7 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
                        " texels; each side must be 1 to 65536, and all together at most 2^30");
   const Graph& graph = texture.graph();
   RenderedTexture result{options.width, options.height, {}};
-  make_room(result.values, options.channels, static_cast<std::size_t>(texels));
+  allocate_channels(result.values, options.channels, static_cast<std::size_t>(texels));
   const bool stretch = graph.nodes[static_cast<std::size_t>(graph.root)]->stretch;
   const double shorter = std::min(options.width, options.height);
   const double step_x = 1 / (stretch ? options.width : shorter), step_y = 1 / (stretch ? options.height : shorter);
@@ -147,6 +148,8 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
   if (!graph.near.empty()) refuse_large("render_texture", raster);
   Neighbourhoods near(graph, raster);
   Workspaces workspaces;
+  SharedProgress progress(options.progress, "texture",
+                          static_cast<double>(options.height) * (graph.deepest_near() + 1));
   const auto evaluate = [&](const tbb::blocked_range<int>& range) {
     Workspace& w = local(workspaces, graph);
     for (int row = range.begin(); row < range.end(); ++row)
@@ -157,18 +160,19 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
         block.x = w.x, block.y = w.y, block.texel = std::max(step_x, step_y);
         block.extent_x = options.width * step_x, block.extent_y = options.height * step_y;
         const std::int64_t first = std::int64_t{row} * options.width + column;
-        fill_known(w, block, {static_cast<double>(options.width), static_cast<double>(options.height), block.texel},
-                   first, nullptr);
+        fill_block_rows(w, block,
+                        {static_cast<double>(options.width), static_cast<double>(options.height), block.texel}, first,
+                        nullptr);
         if (!graph.near.empty()) {
           std::iota(w.texels, w.texels + block.n, static_cast<std::uint32_t>(first));
           block.near = &near, block.texels = w.texels;
         }
         evaluate_block(graph, w, block, options.channels, first, result.values);
       }
+    progress.add(static_cast<double>(range.size()));
   };
   const auto grain = static_cast<std::size_t>(std::max(1, 16384 / options.width));
   while (near.next()) tbb::parallel_for(tbb::blocked_range<int>(0, options.height, grain), evaluate);
-  report_progress(options.progress, "texture", 1);
   return result;
 }
 
@@ -190,7 +194,7 @@ TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePo
   }
   Neighbourhoods near(graph, raster);
   TextureValues values;
-  make_room(values, channels, count);
+  allocate_channels(values, channels, count);
   Workspaces workspaces;
   const std::size_t blocks = (count + k_row - 1) / k_row;
   const auto evaluate = [&](const tbb::blocked_range<std::size_t>& range) {
@@ -200,7 +204,7 @@ TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePo
       Block block;
       block.n = static_cast<int>(std::min<std::size_t>(k_row, count - first));
       block.x = points.x.data() + first, block.y = points.y.data() + first, block.texel = texel;
-      fill_known(w, block, {0, 0, texel}, static_cast<std::int64_t>(first), &points);
+      fill_block_rows(w, block, {0, 0, texel}, static_cast<std::int64_t>(first), &points);
       if (near_used) block.near = &near, block.texels = points.raster.at.data() + first;
       evaluate_block(graph, w, block, channels, static_cast<std::int64_t>(first), values);
     }

@@ -11,13 +11,13 @@ namespace papilla::procedural_detail {
 /// A recipe longer than this is refused.
 inline constexpr std::size_t k_most_text = std::size_t{1} << 20;
 
-/// A piece of a recipe that knows where it stands.
+/// A piece of a recipe and its position in the whole text.
 struct Piece {
   std::string_view text;
   std::size_t position = 0;  ///< Of its first character in the whole text.
 };
 
-/// The text that positions count in, and how messages call it.
+/// The text that positions count in, and its name in messages.
 struct Origin {
   std::string name;
   std::string_view whole;

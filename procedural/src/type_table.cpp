@@ -225,7 +225,7 @@ constexpr ParameterInfo k_xplo[] = {number_in("radius", 1e-6, 1e3, "0.20", "radi
                                     flag_of("absturb", "false", "absolute values")};
 
 constexpr TypeInfo k_types[] = {
-    {"base", "nothing of its own; its mainfunction says it all (this = 0)", Seamless::four_corner, {}},
+    {"base", "no pattern of its own (this = 0); its mainfunction gives the value", Seamless::four_corner, {}},
     {"block", "rectangles that are divided again", Seamless::tile, k_block},
     {"brick", "bricks and joints; get(0), get(1) number the brick", Seamless::tile, k_brick},
     {"brickfunky", "an overview: each of the named recipes in bricks of its own, with all its channels", Seamless::tile,

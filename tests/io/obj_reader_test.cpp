@@ -124,7 +124,7 @@ TEST_F(ObjReader, MaterialsAndTextures) {
   EXPECT_DOUBLE_EQ(wood.roughness, 0.5);
   ASSERT_TRUE(wood.base_color_texture && wood.base_color_texture->transform);
   // OBJ: v' = 3 v + 0.25. The lower left corner goes to (0.5, 0.25), the upper right to (2.5, 3.25).
-  const TextureTransform& transform = *wood.base_color_texture->transform;
+  const UvTransform& transform = *wood.base_color_texture->transform;
   EXPECT_EQ(transform_uv(transform, {0, 0}), (Vec2{0.5, 0.25}));
   EXPECT_EQ(transform_uv(transform, {1, 1}), (Vec2{2.5, 3.25}));
   EXPECT_EQ(scene.images.at(0).bytes.size(), sizeof test::k_grey8_png);

@@ -52,7 +52,7 @@ inline Scene rich_scene() {
   grain.base_color = {0.25, 0.5, 0.75, 1};
   grain.roughness = 0.5;
   grain.double_sided = true;
-  grain.normal_texture = TextureReference{0, 0, 0.5, TextureTransform{{0.5, 0}, 0, {2, 2}}};
+  grain.normal_texture = TextureReference{0, 0, 0.5, UvTransform{{0.5, 0}, 0, {2, 2}}};
   grain.base_color_texture = TextureReference{0, 0, 1, {}};
   grain.extras_json = R"({"haptic":{"version":1,"stiffness":900.0,"empty":[],"big":4294967296,"none":null}})";
   grain.extensions_json = R"({"KHR_materials_clearcoat":{"clearcoatFactor":0.5,"clearcoatTexture":{"index":0}}})";

@@ -9,7 +9,6 @@
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/texture/feature_matrix.hpp"
-#include "shared_progress.hpp"
 
 namespace papilla {
 namespace {
@@ -33,7 +32,7 @@ void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, in
   const auto columns = static_cast<std::ptrdiff_t>(matrix.width());
   double* centre =
       matrix.distortion.data() + texture_detail::pixel_index(matrix.reach_x, matrix.reach_y, matrix.width());
-  texture_detail::SharedProgress rows(progress, "symmetry", matrix.reach_y + 1);
+  SharedProgress rows(progress, "symmetry", matrix.reach_y + 1);
   oneapi::tbb::parallel_for(0, matrix.reach_y + 1, [&](int dy) {
     for (int dx = dy == 0 ? 0 : -matrix.reach_x; dx <= matrix.reach_x; ++dx) {
       const int left = std::max(0, -dx), count = width - std::abs(dx);
@@ -45,7 +44,7 @@ void fill(FeatureMatrix& matrix, const std::vector<Value>& values, int width, in
       centre[dy * columns + dx] = value;
       centre[-dy * columns - dx] = value;
     }
-    rows.step();
+    rows.add(1);
   });
 }
 

@@ -124,18 +124,15 @@ double mean_of(const std::array<double, 4>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double jackknife_half_width(const LagTable& table, double noise) {
+double half_width(const LagTable& table, double noise) {
   std::array<double, k_blocks> estimates{};
   for (int block = 0; block < k_blocks; ++block)
     estimates[static_cast<std::size_t>(block)] = mean_of(directional_hurst(table, noise, block));
-  const double mean = std::accumulate(estimates.begin(), estimates.end(), 0.0) / k_blocks;
-  double squares = 0;
-  for (const double value : estimates) squares += (value - mean) * (value - mean);
-  return texture_detail::student_quantile(k_blocks - 1) * std::sqrt(squares * (k_blocks - 1) / k_blocks);
+  return texture_detail::jackknife_half_width(estimates);
 }
 
-/// Every direction has two lags that rise above the rounding noise, whichever block is left out: without them H is
-/// taken as 1 and seems steady.
+/// True when every direction has two lags above the rounding noise, whichever block is left out. Otherwise
+/// direction_hurst() gives the constant 1, whose variation from block to block is 0.
 bool is_usable(const LagTable& table, double noise) {
   for (std::size_t d = 0; d < k_directions.size(); ++d)
     for (int skipped = -1; skipped < k_blocks; ++skipped) {
@@ -153,10 +150,10 @@ LagTable steadiest(const GreyImage& image, double noise) {
   double least = 0;
   for (std::size_t lags = 2; lags <= all.size(); lags *= 2) {
     LagTable part(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(lags));
-    const double half_width = jackknife_half_width(part, noise);
-    if (best.empty() || (is_usable(part, noise) && (half_width < least || !is_usable(best, noise)))) {
+    const double width = half_width(part, noise);
+    if (best.empty() || (is_usable(part, noise) && (width < least || !is_usable(best, noise)))) {
       best = std::move(part);
-      least = half_width;
+      least = width;
     }
   }
   return best;
@@ -188,9 +185,9 @@ BestDimension best_dimension(const GreyImage& image) {
   FractalEstimate& estimate = result.estimate;
   estimate.hurst = mean_of(result.directional_hurst);
   estimate.dimension = 3 - estimate.hurst;
-  const double half_width = jackknife_half_width(table, noise);
-  estimate.low = estimate.dimension - half_width;
-  estimate.high = estimate.dimension + half_width;
+  const double width = half_width(table, noise);
+  estimate.low = estimate.dimension - width;
+  estimate.high = estimate.dimension + width;
   for (std::size_t i = 0; i < table.size(); ++i)
     estimate.curve.push_back({static_cast<double>(i + 1), std::sqrt(std::max(0.0, mean_variance(table[i]) - noise))});
   return result;

@@ -2,7 +2,6 @@
 #include "checks.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "papilla/core/error.hpp"
@@ -39,8 +38,7 @@ void require_image(const GreyImage& image, const char* function, int least_side)
 
 void require_height_map(const HeightMap& map, const char* function, bool needs_pitch) {
   require_samples(map.mm, map.width, map.height, function);
-  const auto positive = [](double pitch) { return std::isfinite(pitch) && pitch > 0; };
-  if (needs_pitch && (!positive(map.pitch_mm_x) || !positive(map.pitch_mm_y)))
+  if (needs_pitch && (!is_positive(map.pitch_mm_x) || !is_positive(map.pitch_mm_y)))
     throw InvalidInput(std::string(function) + ": the pitch " + std::to_string(map.pitch_mm_x) + " x " +
                        std::to_string(map.pitch_mm_y) + " mm is not positive");
 }
@@ -51,6 +49,15 @@ Vec3 require_light(Vec3 light, const char* function) {
     throw InvalidInput(std::string(function) + ": the light (" + std::to_string(light.x) + ", " +
                        std::to_string(light.y) + ", " + std::to_string(light.z) + ") does not come from the front");
   return unit;
+}
+
+std::size_t index_of_name(std::string_view name, std::span<const std::string_view> names, const char* function) {
+  std::string known;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return i;
+    known += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + std::string(names[i]);
+  }
+  throw InvalidInput(std::string(function) + ": '" + std::string(name) + "' is not " + known);
 }
 
 std::vector<std::uint8_t> whole_bytes(const GreyImage& image) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
@@ -17,8 +20,15 @@ void require_image(const GreyImage& image, const char* function, int least_side 
 /// The same for a relief; with `needs_pitch` its pitch must be positive too.
 void require_height_map(const HeightMap& map, const char* function, bool needs_pitch);
 
-/// The direction with length 1. @throws InvalidInput when it is not finite, is zero or comes from behind (z ≤ 0).
+/// The direction with length 1. @throws InvalidInput when it is not finite, is zero or points away from the viewer (z ≤
+/// 0).
 Vec3 require_light(Vec3 light, const char* function);
+
+/// The index of `name` among the names of an enumeration's values, in their order.
+/// @throws InvalidInput naming `function` and all names.
+std::size_t index_of_name(std::string_view name, std::span<const std::string_view> names, const char* function);
+/// Finite and above 0.
+inline bool is_positive(double value) { return std::isfinite(value) && value > 0; }
 
 /// The picture stretched to 0…255 and rounded; all 0 when it has a single value.
 std::vector<std::uint8_t> stretched_bytes(const GreyImage& image);

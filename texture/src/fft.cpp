@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <mutex>
 #include <new>
+#include <tuple>
+#include <utility>
 
 namespace papilla::texture_detail {
 namespace {
@@ -22,21 +24,7 @@ bool has_small_factors(int n) {
   return n == 1;
 }
 
-/// A pair of plans, destroyed together.
-struct PlanPair {
-  fftw_plan forward = nullptr, backward = nullptr;
-  PlanPair() = default;
-  PlanPair(const PlanPair&) = delete;
-  PlanPair& operator=(const PlanPair&) = delete;
-  ~PlanPair() {
-    const std::scoped_lock lock(planner());
-    if (forward) fftw_destroy_plan(forward);
-    if (backward) fftw_destroy_plan(backward);
-  }
-  void require() const {
-    if (!forward || !backward) throw std::bad_alloc();
-  }
-};
+fftw_complex* to_fftw(std::complex<double>* values) { return reinterpret_cast<fftw_complex*>(values); }
 
 }  // namespace
 
@@ -47,85 +35,75 @@ int good_fft_size(int least) {
   return n;
 }
 
-template <typename T>
-FftBuffer<T>::FftBuffer(std::size_t size) : data_(static_cast<T*>(fftw_malloc(size * sizeof(T)))), size_(size) {
-  if (!data_) throw std::bad_alloc();
+void InPlaceTransform::Free::operator()(double* values) const noexcept { fftw_free(values); }
+
+InPlaceTransform::InPlaceTransform(std::size_t size) : values_(fftw_alloc_real(size)) {
+  if (!values_) throw std::bad_alloc();
 }
 
-template <typename T>
-void FftBuffer<T>::Free::operator()(T* data) const noexcept {
-  fftw_free(data);
+InPlaceTransform::~InPlaceTransform() {
+  const std::scoped_lock lock(planner());
+  if (forward_) fftw_destroy_plan(forward_);
+  if (backward_) fftw_destroy_plan(backward_);
 }
 
-template class FftBuffer<double>;
+template <typename Plans>
+void InPlaceTransform::plan(const Plans& plans) {
+  const std::scoped_lock lock(planner());
+  std::tie(forward_, backward_) = plans();
+  if (!forward_ || !backward_) throw std::bad_alloc();
+}
 
-struct RealFft2d::Plans : PlanPair {};
-struct RealFftRows::Plans : PlanPair {};
-struct ComplexFftBatch::Plans : PlanPair {};
-struct CosineTransform2d::Plans : PlanPair {};
+void InPlaceTransform::forward() { fftw_execute(forward_); }
+void InPlaceTransform::backward() { fftw_execute(backward_); }
 
 RealFft2d::RealFft2d(int width, int height)
-    : width_(width),
-      height_(height),
-      buffer_(stride() * static_cast<std::size_t>(height)),
-      plans_(std::make_unique<Plans>()) {
-  auto* complex = reinterpret_cast<fftw_complex*>(buffer_.data());
-  const std::scoped_lock lock(planner());
-  plans_->forward = fftw_plan_dft_r2c_2d(height_, width_, buffer_.data(), complex, FFTW_ESTIMATE);
-  plans_->backward = fftw_plan_dft_c2r_2d(height_, width_, complex, buffer_.data(), FFTW_ESTIMATE);
-  plans_->require();
+    : InPlaceTransform((2 * (static_cast<std::size_t>(width) / 2 + 1)) * static_cast<std::size_t>(height)),
+      width_(width),
+      height_(height) {
+  plan([&] {
+    return std::pair{fftw_plan_dft_r2c_2d(height, width, real(), to_fftw(spectrum()), FFTW_ESTIMATE),
+                     fftw_plan_dft_c2r_2d(height, width, to_fftw(spectrum()), real(), FFTW_ESTIMATE)};
+  });
 }
 
-RealFft2d::~RealFft2d() = default;
-void RealFft2d::forward() { fftw_execute(plans_->forward); }
-void RealFft2d::backward() { fftw_execute(plans_->backward); }
+void RealFft2d::load(const double* field) {
+  for (int y = 0; y < height_; ++y, field += width_) std::copy_n(field, width_, &real(0, y));
+}
+
+void RealFft2d::store(double* field) {
+  for (int y = 0; y < height_; ++y, field += width_) std::copy_n(&real(0, y), width_, field);
+}
 
 RealFftRows::RealFftRows(int width, int forward_rows, int backward_rows)
-    : width_(static_cast<std::size_t>(width)),
-      buffer_(2 * spectrum_width() * static_cast<std::size_t>(std::max(forward_rows, backward_rows))),
-      plans_(std::make_unique<Plans>()) {
-  auto* complex = reinterpret_cast<fftw_complex*>(buffer_.data());
+    : InPlaceTransform(2 * (static_cast<std::size_t>(width) / 2 + 1) *
+                       static_cast<std::size_t>(std::max(forward_rows, backward_rows))),
+      width_(static_cast<std::size_t>(width)) {
   const int reals = static_cast<int>(2 * spectrum_width()), complexes = static_cast<int>(spectrum_width());
-  const std::scoped_lock lock(planner());
-  plans_->forward = fftw_plan_many_dft_r2c(1, &width, forward_rows, buffer_.data(), nullptr, 1, reals, complex, nullptr,
-                                           1, complexes, FFTW_ESTIMATE);
-  plans_->backward = fftw_plan_many_dft_c2r(1, &width, backward_rows, complex, nullptr, 1, complexes, buffer_.data(),
-                                            nullptr, 1, reals, FFTW_ESTIMATE);
-  plans_->require();
+  plan([&] {
+    return std::pair{fftw_plan_many_dft_r2c(1, &width, forward_rows, real(0), nullptr, 1, reals, to_fftw(spectrum(0)),
+                                            nullptr, 1, complexes, FFTW_ESTIMATE),
+                     fftw_plan_many_dft_c2r(1, &width, backward_rows, to_fftw(spectrum(0)), nullptr, 1, complexes,
+                                            real(0), nullptr, 1, reals, FFTW_ESTIMATE)};
+  });
 }
-
-RealFftRows::~RealFftRows() = default;
-void RealFftRows::forward() { fftw_execute(plans_->forward); }
-void RealFftRows::backward() { fftw_execute(plans_->backward); }
 
 ComplexFftBatch::ComplexFftBatch(int length, int count)
-    : length_(static_cast<std::size_t>(length)),
-      buffer_(2 * length_ * static_cast<std::size_t>(count)),
-      plans_(std::make_unique<Plans>()) {
-  auto* values = reinterpret_cast<fftw_complex*>(buffer_.data());
-  const std::scoped_lock lock(planner());
-  plans_->forward = fftw_plan_many_dft(1, &length, count, values, nullptr, 1, length, values, nullptr, 1, length,
-                                       FFTW_FORWARD, FFTW_ESTIMATE);
-  plans_->backward = fftw_plan_many_dft(1, &length, count / 2, values, nullptr, 1, length, values, nullptr, 1, length,
-                                        FFTW_BACKWARD, FFTW_ESTIMATE);
-  plans_->require();
+    : InPlaceTransform(2 * static_cast<std::size_t>(length) * static_cast<std::size_t>(count)),
+      length_(static_cast<std::size_t>(length)) {
+  const auto plan_of = [&](int transforms, int sign) {
+    return fftw_plan_many_dft(1, &length, transforms, to_fftw(data(0)), nullptr, 1, length, to_fftw(data(0)), nullptr,
+                              1, length, sign, FFTW_ESTIMATE);
+  };
+  plan([&] { return std::pair{plan_of(count, FFTW_FORWARD), plan_of(count / 2, FFTW_BACKWARD)}; });
 }
-
-ComplexFftBatch::~ComplexFftBatch() = default;
-void ComplexFftBatch::forward() { fftw_execute(plans_->forward); }
-void ComplexFftBatch::backward_half() { fftw_execute(plans_->backward); }
 
 CosineTransform2d::CosineTransform2d(int width, int height)
-    : buffer_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), plans_(std::make_unique<Plans>()) {
-  double* values = buffer_.data();
-  const std::scoped_lock lock(planner());
-  plans_->forward = fftw_plan_r2r_2d(height, width, values, values, FFTW_REDFT10, FFTW_REDFT10, FFTW_ESTIMATE);
-  plans_->backward = fftw_plan_r2r_2d(height, width, values, values, FFTW_REDFT01, FFTW_REDFT01, FFTW_ESTIMATE);
-  plans_->require();
+    : InPlaceTransform(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+  const auto plan_of = [&](fftw_r2r_kind kind) {
+    return fftw_plan_r2r_2d(height, width, data(), data(), kind, kind, FFTW_ESTIMATE);
+  };
+  plan([&] { return std::pair{plan_of(FFTW_REDFT10), plan_of(FFTW_REDFT01)}; });
 }
-
-CosineTransform2d::~CosineTransform2d() = default;
-void CosineTransform2d::forward() { fftw_execute(plans_->forward); }
-void CosineTransform2d::backward() { fftw_execute(plans_->backward); }
 
 }  // namespace papilla::texture_detail

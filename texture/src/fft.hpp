@@ -5,118 +5,97 @@
 #include <cstddef>
 #include <memory>
 
+struct fftw_plan_s;
+
 namespace papilla::texture_detail {
 
 /// Least n ≥ `least` whose only prime factors are 2, 3 and 5, and even when `least` > 1.
 int good_fft_size(int least);
 
-/// Memory aligned for the vector units, as FFTW wants it.
-template <typename T>
-class FftBuffer {
+/// Values in memory aligned for the vector units, a transform of them in place and its inverse. Plans by estimate, so
+/// that the same input gives the same bits in every run. Different threads may make and use different objects.
+class InPlaceTransform {
  public:
-  explicit FftBuffer(std::size_t size);
-  T* data() noexcept { return data_.get(); }
-  const T* data() const noexcept { return data_.get(); }
-  std::size_t size() const noexcept { return size_; }
-  T& operator[](std::size_t i) noexcept { return data_.get()[i]; }
-  const T& operator[](std::size_t i) const noexcept { return data_.get()[i]; }
+  InPlaceTransform(const InPlaceTransform&) = delete;
+  InPlaceTransform& operator=(const InPlaceTransform&) = delete;
+  void forward();
+  void backward();  ///< Not normalised.
+
+ protected:
+  explicit InPlaceTransform(std::size_t size);
+  ~InPlaceTransform();
+  /// @param plans  returns the forward and the backward plan.
+  template <typename Plans>
+  void plan(const Plans& plans);
+  double* values() noexcept { return values_.get(); }
+  std::complex<double>* complex_values() noexcept { return reinterpret_cast<std::complex<double>*>(values()); }
 
  private:
   struct Free {
-    void operator()(T* data) const noexcept;
+    void operator()(double* values) const noexcept;
   };
-  std::unique_ptr<T[], Free> data_;
-  std::size_t size_;
+  std::unique_ptr<double[], Free> values_;
+  fftw_plan_s *forward_ = nullptr, *backward_ = nullptr;
 };
 
-/// Real 2D Fourier transform in place of a picture of `width` × `height`, row by row. The real rows are
-/// padded to `stride()` = 2·(width/2+1) values, the spectrum has rows of width/2+1 complex values.
-/// Plans by estimate, so that the same input gives the same bits in every run. Plans of different objects
-/// may be made and used by different threads.
-class RealFft2d {
+/// Real 2D Fourier transform of a picture of `width` × `height`, row by row. The real rows are padded to
+/// `stride()` = 2·(width/2+1) values, the spectrum has rows of width/2+1 complex values.
+/// Forward and backward multiply by width·height.
+class RealFft2d : public InPlaceTransform {
  public:
   RealFft2d(int width, int height);
-  ~RealFft2d();
-  RealFft2d(const RealFft2d&) = delete;
-  RealFft2d& operator=(const RealFft2d&) = delete;
 
   std::size_t stride() const noexcept { return 2 * spectrum_width(); }
   std::size_t spectrum_width() const noexcept { return static_cast<std::size_t>(width_) / 2 + 1; }
-  double* real() noexcept { return buffer_.data(); }
+  double* real() noexcept { return values(); }
   double& real(int x, int y) noexcept {
-    return buffer_[static_cast<std::size_t>(y) * stride() + static_cast<std::size_t>(x)];
+    return values()[static_cast<std::size_t>(y) * stride() + static_cast<std::size_t>(x)];
   }
-  std::complex<double>* spectrum() noexcept { return reinterpret_cast<std::complex<double>*>(buffer_.data()); }
-  void forward();   ///< real() -> spectrum().
-  void backward();  ///< spectrum() -> real(), not normalised: forward and backward multiply by width·height.
+  std::complex<double>* spectrum() noexcept { return complex_values(); }
+  /// Copies a field of width · height values, row by row, to or from real().
+  void load(const double* field);
+  void store(double* field);
 
  private:
-  struct Plans;
   int width_, height_;
-  FftBuffer<double> buffer_;
-  std::unique_ptr<Plans> plans_;
 };
 
-/// Real transforms of single rows in place: the first `forward_rows` rows to spectra of width/2+1 complex values, and
-/// the first `backward_rows` spectra back.
-class RealFftRows {
+/// Real transforms of single rows: the first `forward_rows` rows to spectra of width/2+1 complex values, and the first
+/// `backward_rows` spectra back. Forward and backward multiply by the width.
+class RealFftRows : public InPlaceTransform {
  public:
   RealFftRows(int width, int forward_rows, int backward_rows);
-  ~RealFftRows();
-  RealFftRows(const RealFftRows&) = delete;
-  RealFftRows& operator=(const RealFftRows&) = delete;
 
   std::size_t spectrum_width() const noexcept { return width_ / 2 + 1; }
-  double* real(int row) noexcept { return buffer_.data() + 2 * spectrum_width() * static_cast<std::size_t>(row); }
-  std::complex<double>* spectrum(int row) noexcept { return reinterpret_cast<std::complex<double>*>(real(row)); }
-  void forward();
-  void backward();  ///< Not normalised: forward and backward multiply by the width.
+  double* real(int row) noexcept { return values() + 2 * spectrum_width() * static_cast<std::size_t>(row); }
+  std::complex<double>* spectrum(int row) noexcept {
+    return complex_values() + spectrum_width() * static_cast<std::size_t>(row);
+  }
 
  private:
-  struct Plans;
   std::size_t width_;
-  FftBuffer<double> buffer_;
-  std::unique_ptr<Plans> plans_;
 };
 
-/// `count` complex transforms of `length` values in place, one behind the other.
-class ComplexFftBatch {
+/// `count` complex transforms of `length` values, one behind the other. Only the first count/2 are transformed back.
+class ComplexFftBatch : public InPlaceTransform {
  public:
   ComplexFftBatch(int length, int count);
-  ~ComplexFftBatch();
-  ComplexFftBatch(const ComplexFftBatch&) = delete;
-  ComplexFftBatch& operator=(const ComplexFftBatch&) = delete;
 
   std::complex<double>* data(int transform) noexcept {
-    return reinterpret_cast<std::complex<double>*>(buffer_.data()) + length_ * static_cast<std::size_t>(transform);
+    return complex_values() + length_ * static_cast<std::size_t>(transform);
   }
-  void forward();
-  void backward_half();  ///< Only the first count/2 ones; not normalised.
 
  private:
-  struct Plans;
   std::size_t length_;
-  FftBuffer<double> buffer_;
-  std::unique_ptr<Plans> plans_;
 };
 
-/// Cosine transform (DCT-II and its inverse) in place, rows of `width` values: diagonalises the
-/// Laplacian with reflecting borders.
-class CosineTransform2d {
+/// Cosine transform (DCT-II and its inverse) of rows of `width` values: diagonalises the Laplacian with reflecting
+/// borders. Forward and backward multiply by 4·width·height.
+class CosineTransform2d : public InPlaceTransform {
  public:
   CosineTransform2d(int width, int height);
-  ~CosineTransform2d();
-  CosineTransform2d(const CosineTransform2d&) = delete;
-  CosineTransform2d& operator=(const CosineTransform2d&) = delete;
 
-  double* data() noexcept { return buffer_.data(); }
-  void forward();
-  void backward();  ///< Not normalised: forward and backward multiply by 4·width·height.
-
- private:
-  struct Plans;
-  FftBuffer<double> buffer_;
-  std::unique_ptr<Plans> plans_;
+  double* data() noexcept { return values(); }
 };
 
 }  // namespace papilla::texture_detail

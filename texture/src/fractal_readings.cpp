@@ -14,9 +14,10 @@ namespace {
 
 using texture_detail::mean_estimate;
 
-/// What one method gave on the pieces that were large enough for it.
+/// The readings of one method from the pieces that were large enough for it.
 template <class Reading>
-std::vector<Reading> given(std::span<const FractalReadings> pieces, std::optional<Reading> FractalReadings::*method) {
+std::vector<Reading> readings_of(std::span<const FractalReadings> pieces,
+                                 std::optional<Reading> FractalReadings::*method) {
   std::vector<Reading> found;
   for (const FractalReadings& piece : pieces)
     if (piece.*method) found.push_back(*(piece.*method));
@@ -68,9 +69,10 @@ FractalReadings mean_readings(std::span<const FractalReadings> pieces) {
   FractalReadings result;
   for (const auto method : {&FractalReadings::box, &FractalReadings::information, &FractalReadings::correlation,
                             &FractalReadings::probability})
-    if (const auto found = given(pieces, method); !found.empty()) result.*method = mean_estimate(found);
-  if (const auto found = given(pieces, &FractalReadings::fshot); !found.empty()) result.fshot = mean_signature(found);
-  if (const auto found = given(pieces, &FractalReadings::best); !found.empty()) result.best = mean_best(found);
+    if (const auto found = readings_of(pieces, method); !found.empty()) result.*method = mean_estimate(found);
+  if (const auto found = readings_of(pieces, &FractalReadings::fshot); !found.empty())
+    result.fshot = mean_signature(found);
+  if (const auto found = readings_of(pieces, &FractalReadings::best); !found.empty()) result.best = mean_best(found);
   return result;
 }
 

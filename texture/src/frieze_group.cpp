@@ -99,7 +99,7 @@ Cell mean_cell(const GreyImage& strip, double period_px) {
   return cell;
 }
 
-/// A group on rows first…last, whose sum is twice the axis.
+/// A group whose axis is half of rows_sum.
 struct Candidate {
   FriezeGroup group;
   double kept, criterion, shift;  ///< shift: u → −u + shift for mirrors across, in periods.

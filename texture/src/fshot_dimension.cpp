@@ -154,14 +154,6 @@ void set_ellipse(const Ellipse& ellipse, FshotSignature& signature) {
   signature.estimate.hurst = signature.sta;
 }
 
-/// 1.96… times the jackknife's standard error of the values obtained without one block each.
-double jackknife_half_width(const std::array<double, k_blocks>& values) {
-  double mean = 0, squares = 0;
-  for (const double value : values) mean += value / k_blocks;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return texture_detail::student_quantile(k_blocks - 1) * std::sqrt(squares * (k_blocks - 1) / k_blocks);
-}
-
 void add_intervals(const std::vector<Offset>& offsets, FshotSignature& signature) {
   std::array<double, k_blocks> sta{};
   std::map<int, std::array<double, k_blocks>> slopes;
@@ -174,12 +166,12 @@ void add_intervals(const std::vector<Offset>& offsets, FshotSignature& signature
       if (const auto found = slopes.find(direction.bin); found != slopes.end())
         found->second[static_cast<std::size_t>(block)] = direction.hurst;
   }
-  const double half_width = jackknife_half_width(sta);
+  const double half_width = texture_detail::jackknife_half_width(sta);
   signature.estimate.low = signature.estimate.dimension - half_width;
   signature.estimate.high = signature.estimate.dimension + half_width;
   for (DirectionalHurst& direction : signature.directions) {
-    const double width =
-        jackknife_half_width(slopes[static_cast<int>(std::lround(direction.angle_deg / k_angle_step_deg))]);
+    const double width = texture_detail::jackknife_half_width(
+        slopes[static_cast<int>(std::lround(direction.angle_deg / k_angle_step_deg))]);
     direction.low = direction.hurst - width;
     direction.high = direction.hurst + width;
   }

@@ -22,33 +22,24 @@
 namespace papilla {
 namespace {
 
-constexpr std::array<std::pair<HeightMethod, std::string_view>, 5> k_names = {
-    {{HeightMethod::automatic, "auto"},
-     {HeightMethod::variational, "variational"},
-     {HeightMethod::pentland, "pentland"},
-     {HeightMethod::tsai_shah, "tsai-shah"},
-     {HeightMethod::intensity, "intensity"}}};
+constexpr std::array<std::string_view, 5> k_method_names = {"auto", "variational", "pentland", "tsai-shah",
+                                                            "intensity"};
 
-constexpr std::array<std::pair<HeightRoughness, std::string_view>, 4> k_roughness_names = {
-    {{HeightRoughness::whole, "whole"},
-     {HeightRoughness::none, "none"},
-     {HeightRoughness::residual, "residual"},
-     {HeightRoughness::synthesized, "synthesized"}}};
+constexpr std::array<std::string_view, 4> k_roughness_names = {"whole", "none", "residual", "synthesized"};
 
 /// Finer than this is roughness, coarser is relief.
 constexpr double k_roughness_mm = 1;
 
 void require_options(const HeightOptions& options) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-  if (!positive(options.depth_mm))
+  if (!texture_detail::is_positive(options.depth_mm))
     throw InvalidInput("height_from_image: depth " + std::to_string(options.depth_mm) + " mm is not positive");
-  if (options.pitch_mm != 0 && !positive(options.pitch_mm))
+  if (options.pitch_mm != 0 && !texture_detail::is_positive(options.pitch_mm))
     throw InvalidInput("height_from_image: pitch " + std::to_string(options.pitch_mm) + " mm is not positive");
-  if (options.albedo != 0 && !positive(options.albedo))
+  if (options.albedo != 0 && !texture_detail::is_positive(options.albedo))
     throw InvalidInput("height_from_image: albedo " + std::to_string(options.albedo) + " is not positive");
   if (options.iterations < 0)
     throw InvalidInput("height_from_image: iterations " + std::to_string(options.iterations) + " is negative");
-  if (options.shortest_wavelength_mm != 0 && !positive(options.shortest_wavelength_mm))
+  if (options.shortest_wavelength_mm != 0 && !texture_detail::is_positive(options.shortest_wavelength_mm))
     throw InvalidInput("height_from_image: wavelength " + std::to_string(options.shortest_wavelength_mm) +
                        " mm is not positive");
 }
@@ -63,7 +54,7 @@ void choose_method(const HeightOptions& options, const Lattice& lattice, HeightR
   result.reason = lattice.found ? "the picture repeats: lit elements" : "grey read as height: " + lattice.reason;
 }
 
-/// The map becomes one tile of the lattice.
+/// Sets the size of the map to one tile of the lattice.
 void choose_tile(const GreyImage& image, const Lattice& lattice, HeightResult& result) {
   if (!lattice.found)
     throw InvalidInput("height_from_image: a tile needs a lattice, but " + lattice.reason +
@@ -145,7 +136,7 @@ Field rough_part(const GreyImage& residual, const HeightResult& result) {
   Field field(residual.pixels.begin(), residual.pixels.end());
   const double pitch = result.map.pitch_mm_x;
   const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
-  const bool periodic = result.map.periodic && !result.tile;  // The residual does not tile where the lattice does.
+  const bool periodic = result.map.periodic && !result.tile;  // A tile of the lattice is no period of the residual.
   texture_detail::filter(field, residual.width, residual.height, periodic, [=](double x, double y) {
     return (x != 0 || y != 0) && std::hypot(x, y) * longest_px >= 1 ? 1.0 : 0.0;
   });
@@ -171,7 +162,8 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
 }
 
 /// Relief of the symmetric part plus roughness, both in units of the relief's range.
-Field composed(const GreyImage& image, const Lattice& lattice, const HeightOptions& options, HeightResult& result) {
+Field relief_with_roughness(const GreyImage& image, const Lattice& lattice, const HeightOptions& options,
+                            HeightResult& result) {
   const SymmetricPart part = symmetric_part(image, lattice.vectors_px);
   Field field = relief_of(result.tile ? fill_tile(part.primitive, *result.tile) : part.synthesis, options, result);
   const double range = range_of(field);
@@ -187,7 +179,7 @@ Field composed(const GreyImage& image, const Lattice& lattice, const HeightOptio
   return field;
 }
 
-/// Leaves no wave shorter than the cut, and fades those up to half as long again.
+/// Removes the waves shorter than the cut and attenuates those up to half as long again.
 void cut_short_waves(Field& field, const HeightOptions& options, HeightResult& result) {
   const double pitch = result.map.pitch_mm_x;
   if (pitch > 0) result.shortest_wavelength_mm = std::max(2 * pitch, options.shortest_wavelength_mm);
@@ -195,7 +187,7 @@ void cut_short_waves(Field& field, const HeightOptions& options, HeightResult& r
   if (!(pitch > 0)) throw InvalidInput("height_from_image: a shortest wavelength in millimetres needs a pitch");
   const double cut_px = options.shortest_wavelength_mm / pitch;
   texture_detail::filter(field, result.map.width, result.map.height, result.map.periodic, [=](double x, double y) {
-    const double waves = std::hypot(x, y) * cut_px;  // 1 at the cut, 2/3 where the fading begins.
+    const double waves = std::hypot(x, y) * cut_px;  // 1 at the cut, 2/3 where the attenuation begins.
     return waves <= 2.0 / 3 ? 1.0 : waves >= 1 ? 0.0 : 0.5 + 0.5 * std::cos(std::numbers::pi * (3 * waves - 2));
   });
 }
@@ -218,7 +210,7 @@ double share_across(const HeightMap& map, Vec3 light) {
   return total > 0 ? across / total : 0;
 }
 
-void tell_what_is_known(const HeightOptions& options, HeightResult& result) {
+void list_measured_and_assumed(const HeightOptions& options, HeightResult& result) {
   const bool lit = result.method != HeightMethod::intensity;
   result.assumed.emplace_back("depth: one picture tells shape, not scale");
   if (!lit) result.assumed.emplace_back("grey value is height: nothing in the picture says so");
@@ -240,34 +232,22 @@ void tell_what_is_known(const HeightOptions& options, HeightResult& result) {
 
 }  // namespace
 
-std::string_view to_string(HeightMethod method) noexcept {
-  for (const auto& [value, name] : k_names)
-    if (value == method) return name;
-  return "unknown";
-}
+std::string_view to_string(HeightMethod method) noexcept { return k_method_names[static_cast<std::size_t>(method)]; }
 
 HeightMethod height_method(std::string_view name) {
-  for (const auto& [value, known] : k_names)
-    if (known == name) return value;
-  throw InvalidInput("height_method: '" + std::string(name) +
-                     "' is not auto, variational, pentland, tsai-shah or intensity");
+  return static_cast<HeightMethod>(texture_detail::index_of_name(name, k_method_names, "height_method"));
 }
 
 std::string_view to_string(HeightRoughness roughness) noexcept {
-  for (const auto& [value, name] : k_roughness_names)
-    if (value == roughness) return name;
-  return "unknown";
+  return k_roughness_names[static_cast<std::size_t>(roughness)];
 }
 
 HeightRoughness height_roughness(std::string_view name) {
-  for (const auto& [value, known] : k_roughness_names)
-    if (known == name) return value;
-  throw InvalidInput("height_roughness: '" + std::string(name) + "' is not whole, none, residual or synthesized");
+  return static_cast<HeightRoughness>(texture_detail::index_of_name(name, k_roughness_names, "height_roughness"));
 }
 
 double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-  if (!positive(speed_mm_per_s) || !positive(rate_hz))
+  if (!texture_detail::is_positive(speed_mm_per_s) || !texture_detail::is_positive(rate_hz))
     throw InvalidInput("shortest_playable_wavelength_mm: speed " + std::to_string(speed_mm_per_s) + " mm/s or rate " +
                        std::to_string(rate_hz) + " Hz is not positive");
   return 2 * speed_mm_per_s / rate_hz;
@@ -303,7 +283,7 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   if (composes && lattice.found) {
     const bool tiles = options.tile && options.roughness != HeightRoughness::none;
     result.roughness = tiles ? HeightRoughness::synthesized : options.roughness;
-    field = composed(image, lattice, options, result);
+    field = relief_with_roughness(image, lattice, options, result);
   } else {
     field = relief_of(image, options, result);
   }
@@ -313,7 +293,7 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   result.roughness_rms_mm *= range > 0 ? options.depth_mm / range : 0;
   result.rms_mm = rms_height_mm(result.map);
   if (result.method != HeightMethod::intensity) result.guessed_share = share_across(result.map, result.light);
-  tell_what_is_known(options, result);
+  list_measured_and_assumed(options, result);
   return result;
 }
 

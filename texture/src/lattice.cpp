@@ -2,17 +2,246 @@
 #include "papilla/texture/lattice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <optional>
+#include <vector>
 
-#include "correlation_map.hpp"
 #include "papilla/core/error.hpp"
-#include "projection_lattice.hpp"
+#include "papilla/core/vec.hpp"
+#include "papilla/texture/feature_matrix.hpp"
 
 namespace papilla {
 namespace {
 
-using texture_detail::CorrelationMap;
+/// A feature matrix as correlation: c(t) = 1 − d²(t) / mean(d²), smoothed by a Gaussian of about one pixel, so that
+/// c averages 0 and is 1 at a perfect repetition.
+class CorrelationMap {
+ public:
+  explicit CorrelationMap(const FeatureMatrix& matrix);
+
+  int reach_x() const noexcept { return reach_x_; }
+  int reach_y() const noexcept { return reach_y_; }
+  /// False when the picture is flat: then there is nothing to correlate.
+  bool usable() const noexcept { return usable_; }
+  /// Share of the variance that is not white pixel noise, in [0, 1]: c extrapolated to t = 0.
+  double attainable() const noexcept { return attainable_; }
+
+  double at(int dx, int dy) const { return values_[index(dx, dy)]; }
+  /// Whether a bilinear look-up is possible at t.
+  bool contains(Vec2 t) const;
+  double sample(Vec2 t) const;  ///< Bilinear. @pre contains(t)
+  /// The vertex of the parabola through the 3 × 3 values around a grid point that is a local maximum.
+  Vec2 refined_peak(int dx, int dy) const;
+  /// Local maxima (3 × 3) of the half plane dy > 0 or (dy = 0, dx > 0), further than 2 pixels from the origin.
+  std::vector<Vec2> peaks() const;
+  /// The local maximum reached by climbing from t, at most 3 steps, sub-pixel; t itself when there is none.
+  Vec2 climb(Vec2 t) const;
+
+ private:
+  std::size_t index(int dx, int dy) const {
+    return static_cast<std::size_t>(dy + reach_y_) * static_cast<std::size_t>(2 * reach_x_ + 1) +
+           static_cast<std::size_t>(dx + reach_x_);
+  }
+  bool is_peak(int dx, int dy) const;
+  void smooth();
+
+  int reach_x_, reach_y_;
+  bool usable_ = false;
+  double attainable_ = 0;
+  std::vector<double> values_;
+};
+
+/// Distortion that is left when the shift goes to zero, extrapolated from shifts of one and two pixels.
+double noise_distortion(const FeatureMatrix& matrix) {
+  if (matrix.reach_x < 2 || matrix.reach_y < 2) return 0;
+  const double one = (matrix.at(1, 0) + matrix.at(0, 1)) / 2, two = (matrix.at(2, 0) + matrix.at(0, 2)) / 2;
+  return std::clamp(2 * one - two, 0.0, one);
+}
+
+CorrelationMap::CorrelationMap(const FeatureMatrix& matrix)
+    : reach_x_(matrix.reach_x), reach_y_(matrix.reach_y), values_(matrix.distortion) {
+  const double mean = std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
+  if (!(mean > 0) || reach_x_ < 4 || reach_y_ < 4) return;
+  usable_ = true;
+  const double noise = noise_distortion(matrix);
+  attainable_ = std::clamp(1 - noise / mean, 0.0, 1.0);
+  values_[index(0, 0)] = noise;  // Pixel noise does not repeat: without this the origin stands out as a spike.
+  for (double& value : values_) value = 1 - value / mean;
+  smooth();
+}
+
+void CorrelationMap::smooth() {
+  static constexpr std::array<double, 5> k_binomial = {1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16};
+  const int width = 2 * reach_x_ + 1, height = 2 * reach_y_ + 1;
+  const auto blur = [&](int count, int lines, std::size_t step, std::size_t line_step) {
+    std::vector<double> line(static_cast<std::size_t>(count));
+    for (int l = 0; l < lines; ++l) {
+      double* values = values_.data() + static_cast<std::size_t>(l) * line_step;
+      for (int i = 0; i < count; ++i) line[static_cast<std::size_t>(i)] = values[static_cast<std::size_t>(i) * step];
+      for (int i = 0; i < count; ++i) {
+        double sum = 0;
+        for (int k = -2; k <= 2; ++k)
+          sum += k_binomial[static_cast<std::size_t>(k + 2)] *
+                 line[static_cast<std::size_t>(std::clamp(i + k, 0, count - 1))];
+        values[static_cast<std::size_t>(i) * step] = sum;
+      }
+    }
+  };
+  blur(width, height, 1, static_cast<std::size_t>(width));
+  blur(height, width, static_cast<std::size_t>(width), 1);
+}
+
+bool CorrelationMap::contains(Vec2 t) const { return std::abs(t.x) <= reach_x_ - 1 && std::abs(t.y) <= reach_y_ - 1; }
+
+double CorrelationMap::sample(Vec2 t) const {
+  const int x = static_cast<int>(std::floor(t.x)), y = static_cast<int>(std::floor(t.y));
+  const double u = t.x - x, v = t.y - y;
+  return (1 - v) * ((1 - u) * at(x, y) + u * at(x + 1, y)) + v * ((1 - u) * at(x, y + 1) + u * at(x + 1, y + 1));
+}
+
+bool CorrelationMap::is_peak(int dx, int dy) const {
+  const double centre = at(dx, dy);
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      if (x == 0 && y == 0) continue;
+      const double other = at(dx + x, dy + y);
+      const bool earlier = y < 0 || (y == 0 && x < 0);  // Of equal neighbours the first one is the peak.
+      if (earlier ? other >= centre : other > centre) return false;
+    }
+  return true;
+}
+
+Vec2 CorrelationMap::refined_peak(int dx, int dy) const {
+  double gx = 0, gy = 0, xx = 0, yy = 0;
+  for (int k = -1; k <= 1; ++k) {  // Least squares over the 3 × 3 block.
+    gx += (at(dx + 1, dy + k) - at(dx - 1, dy + k)) / 6;
+    gy += (at(dx + k, dy + 1) - at(dx + k, dy - 1)) / 6;
+    xx += (at(dx + 1, dy + k) - 2 * at(dx, dy + k) + at(dx - 1, dy + k)) / 3;
+    yy += (at(dx + k, dy + 1) - 2 * at(dx + k, dy) + at(dx + k, dy - 1)) / 3;
+  }
+  const double xy = (at(dx + 1, dy + 1) - at(dx - 1, dy + 1) - at(dx + 1, dy - 1) + at(dx - 1, dy - 1)) / 4;
+  const double determinant = xx * yy - xy * xy;
+  Vec2 offset{};
+  if (xx < 0 && determinant > 0) offset = {(xy * gy - yy * gx) / determinant, (xy * gx - xx * gy) / determinant};
+  return {dx + std::clamp(offset.x, -1.0, 1.0), dy + std::clamp(offset.y, -1.0, 1.0)};
+}
+
+std::vector<Vec2> CorrelationMap::peaks() const {
+  std::vector<Vec2> found;
+  for (int dy = 0; dy < reach_y_; ++dy)
+    for (int dx = dy == 0 ? 1 : 1 - reach_x_; dx < reach_x_; ++dx)
+      if (dx * dx + dy * dy > 4 && is_peak(dx, dy)) found.push_back(refined_peak(dx, dy));
+  return found;
+}
+
+Vec2 CorrelationMap::climb(Vec2 t) const {
+  int x = static_cast<int>(std::lround(t.x)), y = static_cast<int>(std::lround(t.y));
+  for (int step = 0; step <= 3; ++step) {
+    if (std::abs(x) >= reach_x_ || std::abs(y) >= reach_y_) return t;
+    int best_x = x, best_y = y;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (at(x + dx, y + dy) > at(best_x, best_y)) {
+          best_x = x + dx;
+          best_y = y + dy;
+        }
+    if (best_x == x && best_y == y) return refined_peak(x, y);
+    x = best_x;
+    y = best_y;
+  }
+  return t;
+}
+
+constexpr double k_decay = 0.5;      // λ, per pixel.
+constexpr double k_spread_px = 1.5;  // Standard deviation of a distance.
+constexpr double k_least_length_px = 4;
+constexpr int k_steps_a_degree = 2, k_directions = 180 * k_steps_a_degree;
+constexpr int k_least_turn = 10 * k_steps_a_degree;
+
+Vec2 direction(int step) {
+  const double angle = step * std::numbers::pi / k_directions;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// Σ_ij exp(−λ |a_i − a_j|) in one pass over the sorted values: each sum to the left decays from value to value.
+double concentration(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  double left = 0, sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) left = (left + 1) * std::exp(-k_decay * (values[i] - values[i - 1]));
+    sum += 1 + 2 * left;
+  }
+  return sum;
+}
+
+/// The most frequent distance of the values; 0 when none is long enough.
+double frequent_distance(const std::vector<double>& values) {
+  constexpr double k_step_px = 0.1;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto size = static_cast<std::size_t>((*high - *low) / k_step_px) + 1;
+  const auto first = static_cast<std::size_t>(k_least_length_px / k_step_px);
+  constexpr std::size_t k_most = 100000;
+  if (size <= first || size > k_most) return 0;
+  std::vector<double> counts(size, 0.0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      counts[std::min(size - 1, static_cast<std::size_t>(std::abs(values[i] - values[j]) / k_step_px))] += 1;
+  const int reach = static_cast<int>(4 * k_spread_px / k_step_px);
+  double best = 0, length = 0;
+  for (std::size_t at = first; at < size; ++at) {
+    double density = 0;
+    for (int k = -reach; k <= reach; ++k) {
+      const auto other = static_cast<std::ptrdiff_t>(at) + k;
+      // Points of one line have no distance; those nearer than half the least length are such.
+      if (static_cast<double>(other) * k_step_px < k_least_length_px / 2 || other >= static_cast<std::ptrdiff_t>(size))
+        continue;
+      const double deviation = k * k_step_px / k_spread_px;
+      density += counts[static_cast<std::size_t>(other)] * std::exp(-deviation * deviation / 2);
+    }
+    if (density <= best) continue;
+    best = density;
+    length = (static_cast<double>(at) + 0.5) * k_step_px;
+  }
+  return length;
+}
+
+/// Two vectors that span the lattice of a cloud of points, by Davis' and Peinecke's method: the two directions along
+/// which the projected points are most concentrated, (1/n²) Σ_ij exp(−λ |a_i − a_j|), λ = 0.5 per pixel, and along each
+/// of them the most frequent distance of the points projected along the other one, every distance counted as a normal
+/// distribution of 1.5 pixels. Nothing for fewer than three points or when no distance exceeds 4 pixels.
+/// Davis, 1979 (polarograms); Schulze 2005, section 7.2.2.
+std::optional<std::array<Vec2, 2>> projection_lattice(const std::vector<Vec2>& points) {
+  if (points.size() < 3) return std::nullopt;
+  std::vector<double> values(points.size()), concentrations;
+  for (int step = 0; step < k_directions; ++step) {
+    const Vec2 q = direction(step);
+    std::transform(points.begin(), points.end(), values.begin(), [&](Vec2 p) { return cross(q, p); });
+    concentrations.push_back(concentration(values));
+  }
+  const auto first =
+      static_cast<int>(std::max_element(concentrations.begin(), concentrations.end()) - concentrations.begin());
+  int second = -1;
+  for (int step = 0; step < k_directions; ++step) {
+    const int turn = std::abs(step - first), apart = std::min(turn, k_directions - turn);
+    if (apart >= k_least_turn && (second < 0 || concentrations[static_cast<std::size_t>(step)] >
+                                                    concentrations[static_cast<std::size_t>(second)]))
+      second = step;
+  }
+  const std::array<Vec2, 2> q = {direction(first), direction(second)};
+  std::array<Vec2, 2> vectors;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec2 along = q[i], other = q[1 - i];
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [&](Vec2 p) { return cross(p, other) / cross(along, other); });
+    const double length = frequent_distance(values);
+    if (!(length > 0)) return std::nullopt;
+    vectors[i] = length * along;
+  }
+  return vectors;
+}
 
 struct Basis {
   Vec2 a, b;
@@ -63,8 +292,8 @@ std::vector<Node> lattice_nodes(const CorrelationMap& map, const Basis& basis, d
 
 double whole_radius(const CorrelationMap& map) { return std::hypot(map.reach_x(), map.reach_y()); }
 
-constexpr std::size_t k_scored_nodes =
-    40;  // Enough to tell a repetition from chance; near ones suffer least from drift.
+/// Enough to distinguish a repetition from chance; an error of the basis moves near nodes least.
+constexpr std::size_t k_scored_nodes = 40;
 
 /// Mean correlation over the nearest nodes; −1 when fewer than three lie within the map.
 double score(const CorrelationMap& map, const Basis& basis) {
@@ -195,7 +424,7 @@ bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis&
 
 /// Replaces the basis by a finer lattice as long as all its new nodes repeat as well, and by a
 /// coarser one where only that repeats fully.
-Basis with_right_index(const CorrelationMap& map, Basis basis, const LatticeOptions& options) {
+Basis with_corrected_index(const CorrelationMap& map, Basis basis, const LatticeOptions& options) {
   constexpr int k_most_rounds = 8;
   const auto finer = [&]() -> std::optional<Basis> {
     for (const int p : {2, 3, 5})
@@ -224,7 +453,8 @@ Basis with_right_index(const CorrelationMap& map, Basis basis, const LatticeOpti
   return basis;
 }
 
-/// The source's method on the minima as deep as node_tolerance of the deepest, on both sides of the origin.
+/// LatticeMethod::projection on the minima whose correlation is at least node_tolerance of the best one's, on both
+/// sides of the origin.
 std::optional<Basis> projected(const std::vector<Peak>& peaks, const LatticeOptions& options) {
   std::vector<Vec2> points = {{0, 0}};
   for (const Peak& peak : peaks) {
@@ -232,7 +462,7 @@ std::optional<Basis> projected(const std::vector<Peak>& peaks, const LatticeOpti
     points.push_back(peak.t);
     points.push_back(-1.0 * peak.t);
   }
-  const auto vectors = texture_detail::projection_lattice(points);
+  const auto vectors = projection_lattice(points);
   if (!vectors) return std::nullopt;
   const Basis basis = reduced({(*vectors)[0], (*vectors)[1]});
   return is_plausible(basis) ? std::optional(basis) : std::nullopt;
@@ -241,10 +471,10 @@ std::optional<Basis> projected(const std::vector<Peak>& peaks, const LatticeOpti
 std::optional<Basis> fitted(const CorrelationMap& map, const std::vector<Peak>& peaks, const LatticeOptions& options) {
   const std::optional<Basis> pair = best_pair(map, peaks, options);
   if (!pair) return std::nullopt;
-  return with_right_index(map, refined(map, *pair), options);
+  return with_corrected_index(map, refined(map, *pair), options);
 }
 
-/// How far the correlation rises at a node above its mean over the cell around it.
+/// Correlation at a node minus its mean over the cell around the node.
 double contrast(const CorrelationMap& map, const Basis& basis, Vec2 node) {
   constexpr int k_samples = 8;
   double sum = 0;
@@ -269,7 +499,7 @@ double significance(const CorrelationMap& map, const Basis& basis, const std::ve
   return std::max(0.0, sum / static_cast<double>(nodes.size()) / std::max(map.attainable(), k_least_signal));
 }
 
-/// True when the correlation stays up all the way to some neighbouring node.
+/// True when the correlation does not dip on the way to some neighbouring node.
 bool is_striped(const CorrelationMap& map, const Basis& basis) {
   constexpr double k_least_dip = 0.1;  // Of the correlation at the node.
   for (const Vec2 node : {basis.a, basis.b, basis.a + basis.b, basis.a - basis.b}) {

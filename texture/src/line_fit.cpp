@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace papilla::texture_detail {
@@ -59,6 +60,14 @@ MeanInterval mean_interval(const std::vector<double>& values) {
   const int freedom = static_cast<int>(values.size()) - 1;
   if (freedom > 0) result.half_width = student_quantile(freedom) * std::sqrt(squares / freedom / count);
   return result;
+}
+
+double jackknife_half_width(std::span<const double> values) {
+  const auto count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return student_quantile(static_cast<int>(values.size()) - 1) * std::sqrt(squares * (count - 1) / count);
 }
 
 FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve) {

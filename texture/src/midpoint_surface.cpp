@@ -24,7 +24,7 @@ void require(int levels, int most_levels, double hurst, const char* function) {
     throw InvalidInput(std::string(function) + ": hurst " + std::to_string(hurst) + " is not within (0, 1)");
 }
 
-/// The samples while they are made: `side` intervals, one sample more unless periodic.
+/// The samples: `side` intervals, one sample more unless periodic.
 class Grid {
  public:
   Grid(int levels, bool periodic) : side_(1 << levels), size_(side_ + (periodic ? 0 : 1)), periodic_(periodic) {
@@ -70,10 +70,10 @@ std::array<double, 3> corner_heights(double hurst, Random& random) {
   return heights;
 }
 
-/// Told the share of the samples that have their height.
-using Told = std::function<void(double)>;
+/// Takes the share of the samples that have their height.
+using ReportShare = std::function<void(double)>;
 
-void corrected(Grid& grid, double hurst, Random& random, const Told& told) {
+void displace_corrected(Grid& grid, double hurst, Random& random, const ReportShare& report_share) {
   const int n = grid.side();
   if (grid.holds(n, n) && grid.size() > n) {
     const std::array<double, 3> corners = corner_heights(hurst, random);
@@ -105,11 +105,11 @@ void corrected(Grid& grid, double hurst, Random& random, const Told& told) {
           }
         grid.at(x, y) = sum / count + (count == 4 ? edge : at_border) * random.normal();
       }
-    told(1.0 / half / half);
+    report_share(1.0 / half / half);
   }
 }
 
-void cho(Grid& grid, int levels, double hurst, Random& random, const Told& told) {
+void displace_cho(Grid& grid, int levels, double hurst, Random& random, const ReportShare& report_share) {
   const int n = grid.side();
   for (int y = 0; y < grid.size(); y += n)
     for (int x = 0; x < grid.size(); x += n) grid.at(x, y) = random.normal();
@@ -142,7 +142,7 @@ void cho(Grid& grid, int levels, double hurst, Random& random, const Told& told)
         grid.at(x, y) = (ends + centres / count) / 3 + delta();
       }
     set_centres(0);
-    told(1.0 / half / half);
+    report_share(1.0 / half / half);
   }
 }
 
@@ -152,11 +152,11 @@ Surface midpoint_surface(const MidpointOptions& options) {
   require(options.levels, 13, options.hurst, "midpoint_surface");
   Random random(options.seed);
   Grid grid(options.levels, options.periodic);
-  const Told told = [&](double share) { report_progress(options.progress, "synthesis", share); };
+  const ReportShare report_share = [&](double share) { report_progress(options.progress, "synthesis", share); };
   if (options.rule == MidpointRule::corrected)
-    corrected(grid, options.hurst, random, told);
+    displace_corrected(grid, options.hurst, random, report_share);
   else
-    cho(grid, options.levels, options.hurst, random, told);
+    displace_cho(grid, options.levels, options.hurst, random, report_share);
   return std::move(grid).surface();
 }
 

@@ -13,7 +13,7 @@
 namespace papilla::texture_detail {
 namespace {
 
-/// Bounds the memory of the pieces in work, and so of the whole, on machines of many cores.
+/// Bounds the memory on machines of many cores.
 constexpr std::size_t k_pieces_at_once = 4;
 
 Piece cut_out(const GreyImage& image, const PieceSpan& across, const PieceSpan& down) {
@@ -44,9 +44,9 @@ void add_weighted(const PieceSpan& across, const PieceSpan& down, const std::vec
 std::vector<PieceSpan> piece_spans(int side, const PieceLayout& layout) {
   const int count = (side + layout.core - 1) / layout.core;
   const auto start_of = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(k) * side / count); };
-  // A lone piece of a side that does not go on shares nothing; one that goes on is mixed with its own other end.
+  // A single piece has no neighbour, except its own other end when the picture is periodic.
   const int overlap = count == 1 && !layout.periodic ? 0 : std::min(layout.overlap, side / count / 2);
-  // Without overlap a lone piece is the whole side, and what lies beyond its ends is itself.
+  // Without overlap a single piece is the whole side, and periodic in itself.
   const bool whole = count == 1 && layout.overlap == 0;
   std::vector<PieceSpan> spans;
   for (int k = 0; k < count; ++k) {

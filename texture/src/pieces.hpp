@@ -12,10 +12,10 @@ namespace papilla::texture_detail {
 
 /// How a picture too large for one solve is cut.
 struct PieceLayout {
-  int core = 1024;        ///< Pieces are at most this wide and high, what they share with others left aside.
-  int before = 0;         ///< Pixels further left and up that a piece sees but does not decide.
+  int core = 1024;        ///< Largest width and height of a piece without the pixels that it shares with others.
+  int before = 0;         ///< Pixels to the left and above that a piece reads and whose result it does not give.
   int overlap = 0;        ///< Pixels shared with the next piece, over which the two are mixed by a ramp.
-  bool periodic = false;  ///< The picture goes on beyond its borders; otherwise pieces end there.
+  bool periodic = false;  ///< The picture repeats beyond its borders; otherwise pieces end there.
 };
 
 /// A part of a picture along one axis: samples begin … begin + weights.size() − 1, modulo the side when periodic.
@@ -30,7 +30,7 @@ struct PieceSpan {
 /// The parts of a side in order.
 std::vector<PieceSpan> piece_spans(int side, const PieceLayout& layout);
 
-/// One piece: where it lies and the picture there.
+/// One piece: its place and its pixels.
 struct Piece {
   const PieceSpan& across;
   const PieceSpan& down;
@@ -41,10 +41,10 @@ struct Piece {
   }
 };
 
-/// Over how many pixels pieces of a picture are mixed: more than what the last steps of a solve still change.
+/// Pixels over which neighbouring pieces are mixed: farther than the last steps of a solve change the result.
 int piece_overlap(int largest_piece_px);
 
-/// The sum of values that came in any order, the same to the last bit in each.
+/// The sum of the values in ascending order: the same to the last bit whatever order they come in.
 double ordered_sum(std::vector<double> values);
 
 /// Progress of a part of the work, from `begin` to `end` of the whole; empty when `whole` is.
@@ -52,8 +52,8 @@ ProgressCallback part_of(const ProgressCallback& whole, double begin, double end
 
 /// Solves a picture piece by piece, several at a time on all threads: `solve` returns the heights of a piece, row by
 /// row, and their weighted sum over the pieces is the result. Memory: that of the result and of four pieces. The result
-/// does not depend on the number of threads. `solve` must be safe to run on several pieces at once; `progress` is told
-/// `stage` and the share of pieces done.
+/// does not depend on the number of threads. `solve` must be safe to run on several pieces at once; `progress` gets
+/// `stage` and the share of the pieces that are done.
 std::vector<double> solve_by_pieces(const GreyImage& image, const PieceLayout& layout,
                                     const std::function<std::vector<double>(const Piece&)>& solve,
                                     const ProgressCallback& progress, std::string_view stage);

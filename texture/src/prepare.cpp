@@ -7,58 +7,140 @@
 #include <numbers>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "best_plane.hpp"
-#include "border_cut.hpp"
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/texture/image.hpp"
 #include "papilla/texture/symmetry.hpp"
 #include "pyramid.hpp"
 #include "shaped_noise.hpp"
+#include "texture_class_rules.hpp"
 
 namespace papilla {
 namespace {
 
-using texture_detail::best_plane;
+using namespace texture_detail;
+
+double squared_step(const GreyImage& image, int x, int y, int shift) {
+  const double difference = static_cast<double>(image.at(x, y)) - static_cast<double>(image.at(x + shift, y));
+  return difference * difference;
+}
+
+/// The overlap within `least` … `most` over which left and right border differ least.
+int least_different_overlap(const GreyImage& image, int least, int most) {
+  int best = least;
+  double lowest = 1e300;
+  for (int overlap = least; overlap <= most; ++overlap) {
+    const int shift = image.width - overlap;
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < overlap; ++x) sum += squared_step(image, x, y, shift);
+    const double mean = sum / (static_cast<double>(overlap) * image.height);
+    if (mean >= lowest) continue;
+    lowest = mean;
+    best = overlap;
+  }
+  return best;
+}
+
+/// least_different_overlap() between a sixteenth and a quarter of the width. In wide pictures only a few pixels around
+/// the best overlap of the picture at half its size are tried, so that the search costs a few passes.
+int best_overlap(const GreyImage& image) {
+  constexpr int k_widest = 2048, k_near = 2;
+  const int least = std::max(2, image.width / 16), most = std::max(least, image.width / 4);
+  if (image.width <= k_widest) return least_different_overlap(image, least, most);
+  const GreyImage half = halved(image);
+  const auto near = static_cast<int>(std::lround(static_cast<double>(best_overlap(half)) * image.width / half.width));
+  return least_different_overlap(image, std::clamp(near - k_near, least, most), std::clamp(near + k_near, least, most));
+}
+
+/// Column of the cut in every row, moving by at most one from row to row; first and last row agree when the picture
+/// tiles from top to bottom.
+std::vector<int> cut(const GreyImage& image, int overlap, bool periodic_down) {
+  const int shift = image.width - overlap, rows = image.height;
+  const auto cost = [&](int x, int y) { return squared_step(image, x, y, shift); };
+  const auto path = [&](int first, int last) {  // −1: any column.
+    std::vector<double> sums(static_cast<std::size_t>(overlap) * static_cast<std::size_t>(rows));
+    std::vector<int> from(sums.size());
+    for (int y = 0; y < rows; ++y)
+      for (int x = 0; x < overlap; ++x) {
+        double before = y == 0 && first >= 0 && x != first ? 1e300 : 0;
+        int best = x;
+        if (y > 0) {
+          before = 1e300;
+          for (int k = std::max(0, x - 1); k <= std::min(overlap - 1, x + 1); ++k)
+            if (const double sum = sums[pixel_index(k, y - 1, overlap)]; sum < before) {
+              before = sum;
+              best = k;
+            }
+        }
+        sums[pixel_index(x, y, overlap)] = std::min(1e300, before + cost(x, y));
+        from[pixel_index(x, y, overlap)] = best;
+      }
+    std::vector<int> columns(static_cast<std::size_t>(rows));
+    const auto end = sums.end() - overlap;
+    int at = last >= 0 ? last : static_cast<int>(std::min_element(end, sums.end()) - end);
+    for (int y = rows - 1; y >= 0; --y) {
+      columns[static_cast<std::size_t>(y)] = at;
+      at = from[pixel_index(at, y, overlap)];
+    }
+    return columns;
+  };
+  std::vector<int> columns = path(-1, -1);
+  if (!periodic_down || columns.front() == columns.back()) return columns;
+  // Through the row half way along the free path: a closed path near the best one.
+  const int through = (columns.front() + columns.back()) / 2;
+  columns = path(through, through);
+  return columns;
+}
+
+/// The picture made to tile from left to right: see prepare_picture(). Narrower by the overlap.
+GreyImage cut_across(const GreyImage& image, bool periodic_down) {
+  const int overlap = best_overlap(image), width = image.width - overlap;
+  const std::vector<int> columns = cut(image, overlap, periodic_down);
+  GreyImage result{width, image.height, {}, image.pitch_mm, 32};
+  const double feather = std::min(2.0, overlap / 4.0);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double own = static_cast<double>(image.at(x, y));
+      if (x >= overlap) {
+        result.pixels.push_back(static_cast<float>(own));
+        continue;
+      }
+      // Left of the cut what goes on from the right border, right of it the picture itself; the outermost columns are
+      // never mixed, so that both neighbours of the seam come from the picture's own rows.
+      const double t = (x - columns[static_cast<std::size_t>(y)]) / std::max(feather, 1e-9);
+      double share = std::clamp(0.5 + t / 2, 0.0, 1.0);
+      if (x == 0) share = 0;
+      if (x == overlap - 1) share = 1;
+      result.pixels.push_back(
+          static_cast<float>(share * own + (1 - share) * static_cast<double>(image.at(x + width, y))));
+    }
+  return result;
+}
+
+/// Rows become columns.
+GreyImage transposed(const GreyImage& image) {
+  GreyImage result{image.height, image.width, {}, image.pitch_mm, image.bits};
+  result.pixels.reserve(image.pixels.size());
+  for (int x = 0; x < image.width; ++x)
+    for (int y = 0; y < image.height; ++y) result.pixels.push_back(image.at(x, y));
+  return result;
+}
+
 using Field = std::vector<double>;
 
-constexpr std::array<std::pair<BorderMatching, std::string_view>, 4> k_names = {{{BorderMatching::automatic, "auto"},
-                                                                                 {BorderMatching::none, "none"},
-                                                                                 {BorderMatching::cut, "cut"},
-                                                                                 {BorderMatching::mirror, "mirror"}}};
+constexpr std::array<std::string_view, 4> k_names = {"auto", "none", "cut", "mirror"};
 
 /// Convolution with a Gaussian of that standard deviation; mirrored borders.
 Field blurred(Field field, int width, int height, double deviation_px) {
-  texture_detail::filter(field, width, height, false, [=](double x, double y) {
+  filter(field, width, height, false, [=](double x, double y) {
     const double wave = 2 * std::numbers::pi * deviation_px;
     return std::exp(-wave * wave * (x * x + y * y) / 2);
   });
   return field;
-}
-
-struct Moments {
-  double mean = 0, deviation = 0;
-};
-
-Moments block_moments(const GreyImage& image, int blocks, int column, int row) {
-  double sum = 0, squares = 0;
-  int count = 0;
-  for (int y = row * image.height / blocks; y < (row + 1) * image.height / blocks; ++y)
-    for (int x = column * image.width / blocks; x < (column + 1) * image.width / blocks; ++x, ++count) {
-      const double grey = static_cast<double>(image.at(x, y));
-      sum += grey;
-      squares += grey * grey;
-    }
-  if (count == 0) return {};
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
-}
-
-std::vector<Moments> block_grid(const GreyImage& image, int blocks) {
-  std::vector<Moments> grid;
-  for (int row = 0; row < blocks; ++row)
-    for (int column = 0; column < blocks; ++column) grid.push_back(block_moments(image, blocks, column, row));
-  return grid;
 }
 
 double median(Field values) {
@@ -82,11 +164,11 @@ std::vector<std::size_t> outliers(const Field& values, double least_deviation) {
 
 constexpr int k_knot_blocks = 8;
 
-/// Blocks whose mean or contrast stands out.
+/// Numbers of the blocks whose mean or contrast is an outlier.
 std::vector<std::size_t> knots(const GreyImage& image, double contrast) {
   if (std::min(image.width, image.height) < 4 * k_knot_blocks) return {};
   Field means, deviations;
-  for (const Moments& block : block_grid(image, k_knot_blocks)) {
+  for (const Moments& block : block_moments(image, k_knot_blocks)) {
     means.push_back(block.mean);
     deviations.push_back(block.deviation);
   }
@@ -105,21 +187,21 @@ double mean_of(const GreyImage& image) {
 }
 
 /// The picture at a size at which a Gaussian of that standard deviation still spans some pixels.
-texture_detail::Shrunk sized_for(const GreyImage& image, double deviation_px) {
+Shrunk sized_for(const GreyImage& image, double deviation_px) {
   constexpr double k_least_deviation = 8;
   constexpr int k_large = 2048;
   const double most = std::max<double>(k_large, std::max(image.width, image.height) * k_least_deviation / deviation_px);
-  return texture_detail::shrunk(image, static_cast<int>(std::min(most, 1e9)));
+  return shrunk(image, static_cast<int>(std::min(most, 1e9)));
 }
 
-/// Replaces every grey by change(grey, value of the smooth field there), row by row: the field never exists at the
-/// picture's size.
+/// Replaces every grey value by change(grey, value of the smooth field there). The field is enlarged row by row, so
+/// that it never takes the memory of the whole picture.
 template <class Change>
 void change_rows(GreyImage& image, const GreyImage& small, const Field& smooth, const Change& change) {
-  const texture_detail::CoarseHeights field{smooth, small.width, small.height, image.width, image.height, false};
-  const double scale = texture_detail::enlargement(field, {0, 1, 0}, {0, 1, 0});
+  const CoarseHeights field{smooth, small.width, small.height, image.width, image.height, false};
+  const double scale = enlargement(field, {0, 1, 0}, {0, 1, 0});
   for (int y = 0; y < image.height; ++y) {
-    const Field row = texture_detail::enlarged(field, {0, 1, image.width}, {static_cast<double>(y), 1, 1});
+    const Field row = enlarged(field, {0, 1, image.width}, {static_cast<double>(y), 1, 1});
     for (int x = 0; x < image.width; ++x)
       image.at(x, y) =
           static_cast<float>(change(static_cast<double>(image.at(x, y)), row[static_cast<std::size_t>(x)] / scale));
@@ -143,7 +225,7 @@ void flatten(GreyImage& image, double deviation_px) {
   GreyImage squares = image;
   for (float& value : squares.pixels) value *= value;
   const double deviation = std::sqrt(mean_of(squares));
-  squares = texture_detail::shrunk(squares, std::max(small.width, small.height)).image;
+  squares = shrunk(squares, std::max(small.width, small.height)).image;
   const Field local = blurred(to_field(squares), small.width, small.height, deviation_small);
   change_rows(image, small, local, [=](double rest, double square) {
     const double here = std::sqrt(std::max(0.0, square));
@@ -182,7 +264,7 @@ void stretch(GreyImage& image) {
 
 void require(const GreyImage& image, const PrepareOptions& options) {
   constexpr int k_least_side = 16;
-  texture_detail::require_image(image, "prepare_picture", k_least_side);
+  require_image(image, "prepare_picture", k_least_side);
   if (!(options.flatten_px >= 0 && options.flatten_px <= 1e6))
     throw InvalidInput("prepare_picture: flatten_px " + std::to_string(options.flatten_px) + " is not within 0 to 1e6");
   if (!(options.plasticity >= 0 && options.plasticity <= 4))
@@ -208,8 +290,8 @@ void match_borders(PreparedPicture& result, BorderMatching wanted) {
       {"match_borders", matching != BorderMatching::none, reason + ": " + std::string(to_string(matching))});
   if (matching == BorderMatching::mirror) result.image = mirrored(result.image);
   if (matching != BorderMatching::cut) return;
-  result.image = texture_detail::cut_across(result.image, false);
-  result.image = texture_detail::transposed(texture_detail::cut_across(texture_detail::transposed(result.image), true));
+  result.image = cut_across(result.image, false);
+  result.image = transposed(cut_across(transposed(result.image), true));
   result.steps.push_back({"remove_seams", true, "the path of least difference through the overlap is mixed over"});
 }
 
@@ -233,25 +315,19 @@ void warn(const GreyImage& picture, PreparedPicture& result) {
 
 }  // namespace
 
-std::string_view to_string(BorderMatching matching) noexcept {
-  for (const auto& [value, name] : k_names)
-    if (value == matching) return name;
-  return "unknown";
-}
+std::string_view to_string(BorderMatching matching) noexcept { return k_names[static_cast<std::size_t>(matching)]; }
 
 BorderMatching border_matching(std::string_view name) {
-  for (const auto& [value, known] : k_names)
-    if (known == name) return value;
-  throw InvalidInput("border_matching: '" + std::string(name) + "' is not auto, none, cut or mirror");
+  return static_cast<BorderMatching>(index_of_name(name, k_names, "border_matching"));
 }
 
 PictureNumbers measure_picture(const GreyImage& image) {
-  texture_detail::require_image(image, "measure_picture");
+  require_image(image, "measure_picture");
   constexpr int k_blocks = 4;
-  const Moments whole = block_moments(image, 1, 0, 0);
+  const Moments whole = moments_of(image);
   PictureNumbers numbers{image.width, image.height, whole.mean, whole.deviation, 0, 1, 0, measure_tiling(image)};
   if (std::min(image.width, image.height) < k_blocks || !(whole.deviation > 0)) return numbers;
-  const std::vector<Moments> blocks = block_grid(image, k_blocks);
+  const std::vector<Moments> blocks = block_moments(image, k_blocks);
   const auto [dark, bright] = std::minmax_element(blocks.begin(), blocks.end(),
                                                   [](const Moments& a, const Moments& b) { return a.mean < b.mean; });
   const auto [weak, strong] = std::minmax_element(
@@ -266,33 +342,33 @@ PictureNumbers measure_picture(const GreyImage& image) {
 
 PreparedPicture prepare_picture(const GreyImage& image, const PrepareOptions& options) {
   require(image, options);
-  const auto tell = [&](double fraction) { report_progress(options.progress, "prepare", fraction); };
-  tell(0);
+  const auto report = [&](double fraction) { report_progress(options.progress, "prepare", fraction); };
+  report(0);
   PreparedPicture result;
   result.image = image;
   result.image.bits = 32;
   result.before = measure_picture(image);
   const bool flat = !(result.before.contrast > 0);
-  tell(0.1);
+  report(0.1);
   result.steps.push_back({"flatten", options.flatten && !flat,
                           flat              ? "the picture is flat"
                           : options.flatten ? "gradients of brightness and contrast show as a pattern when tiled"
                                             : "not asked for"});
   if (options.flatten && !flat)
     flatten(result.image, options.flatten_px > 0 ? options.flatten_px : default_flatten_px(image));
-  tell(0.4);
+  report(0.4);
   result.steps.push_back({"plasticity", options.plasticity > 0,
                           options.plasticity > 0 ? "fine detail raised as asked for" : "not asked for"});
   if (options.plasticity > 0) raise_detail(result.image, options.plasticity);
-  tell(0.5);
+  report(0.5);
   match_borders(result, options.borders);
-  tell(0.8);
+  report(0.8);
   result.steps.push_back(
       {"contrast", options.contrast, options.contrast ? "the full range of greys is used" : "not asked for"});
   if (options.contrast) stretch(result.image);
-  tell(0.9);
+  report(0.9);
   result.after = measure_picture(result.image);
-  tell(1);
+  report(1);
   warn(image, result);
   return result;
 }

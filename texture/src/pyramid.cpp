@@ -9,7 +9,7 @@
 namespace papilla::texture_detail {
 namespace {
 
-/// What a coarse pixel covers along one axis: pixels first…last, the two at the ends in part.
+/// The fine pixels that a coarse one covers along one axis: first…last, the two at the ends in part.
 struct Cover {
   int first = 0, last = 0;
   double first_share = 1, last_share = 1;

@@ -7,7 +7,7 @@
 
 namespace papilla::texture_detail {
 
-/// The picture at half its sides (rounded), every pixel the mean of what it covers.
+/// The picture at half its sides (rounded), every pixel the mean of the area it covers.
 GreyImage halved(const GreyImage& image);
 
 /// A picture halved until no side is longer than `most_side`, and how often that was.
@@ -32,10 +32,10 @@ struct FineAxis {
   int count = 0;
 };
 
-/// What heights are multiplied with on that way: the samples of the one picture over those of the other.
+/// Factor on heights in pixels: fine samples per coarse sample.
 double enlargement(const CoarseHeights& coarse, const FineAxis& across, const FineAxis& down);
 
-/// The heights brought to a part of the finer grid and to its samples: bilinear, across the borders when periodic.
+/// The heights, in fine pixels, at the samples of a part of the finer grid: bilinear, across the borders when periodic.
 std::vector<double> enlarged(const CoarseHeights& coarse, const FineAxis& across, const FineAxis& down);
 /// The same for the whole picture.
 std::vector<double> enlarged(const CoarseHeights& coarse);

@@ -16,9 +16,8 @@ void require_shading(const GreyImage& image, const ShadingOptions& options, cons
   if (options.largest_piece_px < k_least_piece)
     throw InvalidInput(std::string(function) + ": pieces of " + std::to_string(options.largest_piece_px) +
                        " pixels are smaller than " + std::to_string(k_least_piece));
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-  if (!positive(options.albedo) || !positive(options.smoothness) || options.iterations < 1 ||
-      !positive(options.relative_tolerance))
+  if (!is_positive(options.albedo) || !is_positive(options.smoothness) || options.iterations < 1 ||
+      !is_positive(options.relative_tolerance))
     throw InvalidInput(std::string(function) + ": albedo " + std::to_string(options.albedo) + ", smoothness " +
                        std::to_string(options.smoothness) + ", tolerance " +
                        std::to_string(options.relative_tolerance) + " and iterations " +

@@ -20,7 +20,7 @@ using texture_detail::CircleWaves;
 
 constexpr int k_angles = 96;  // Holds the 12-fold turn and its double.
 constexpr int k_most_rotations = 12;
-constexpr double k_centre_known = 0.15;  // Of the shorter side: further off nothing is searched.
+constexpr double k_centre_reach = 0.15;  // Of the shorter side: largest distance of the search from the given centre.
 
 /// The picture along circles, every circle counted by its length.
 struct Circles {
@@ -28,11 +28,11 @@ struct Circles {
   std::vector<double> weights;
   std::vector<int> highest;  ///< Waves along the circle longer than 4 pixels.
   double energy = 0, parameters = 0;
-  double noise = 0;  ///< Energy per parameter that is no picture: pixel noise, and what interpolation leaves.
+  double noise = 0;  ///< Energy per parameter of pixel noise and interpolation errors.
 };
 
 /// Standard deviation of the noise of single pixels, from the median of |second difference of second differences|:
-/// smooth motifs leave little there, edges are outvoted [Immerkær 1996, with the median].
+/// smooth motifs have small ones, and the median ignores edges [Immerkær 1996, with the median].
 double pixel_noise(const GreyImage& motif) {
   std::vector<double> values;
   const auto second = [&](int x, int y) {
@@ -74,7 +74,7 @@ Circles circles(const GreyImage& motif, Vec2 centre, double noise) {
   return result;
 }
 
-/// The circles about every centre that was asked for: the searches for different orders pass the same ones.
+/// The circles about every centre tried so far: the searches for different orders try the same ones.
 class CircleTable {
  public:
   explicit CircleTable(const GreyImage& motif) : motif_(motif), noise_(pixel_noise(motif)) {}
@@ -175,14 +175,14 @@ RosetteSymmetry find_rosette_group(const GreyImage& motif, Vec2 centre_px) {
     throw InvalidInput("find_rosette_group: the centre (" + std::to_string(centre_px.x) + ", " +
                        std::to_string(centre_px.y) + ") is not within the picture, 6 pixels off its border");
   CircleTable table(motif);
-  const double reach = std::min(motif.width, motif.height) * k_centre_known;
+  const double reach = std::min(motif.width, motif.height) * k_centre_reach;
   const Circles& start = table.about(centre_px);
   Candidate best;
   best.symmetry.centre_px = centre_px;
   if (!(start.energy > 0)) return best.symmetry;
   std::array<Vec2, k_most_rotations + 1> centres;
   for (int n = 1; n <= k_most_rotations; ++n) {
-    // An n-fold centre is one of every divisor of n too, and those are found from further away.
+    // An n-fold centre is also a centre for every divisor of n, and those searches converge from further away.
     Vec2 centre = centre_px;
     double most = turned(start, n);
     for (int divisor = 2; divisor < n; ++divisor) {

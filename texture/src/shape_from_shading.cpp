@@ -1,30 +1,101 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "papilla/texture/shape_from_shading.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <deque>
+#include <memory>
 #include <mutex>
+#include <numbers>
 #include <numeric>
 #include <string_view>
+#include <vector>
 
 #include "checks.hpp"
+#include "fft.hpp"
 #include "pieces.hpp"
 #include "pyramid.hpp"
 #include "reflectance.hpp"
-#include "relief_solver.hpp"
 #include "shaped_noise.hpp"
 
 namespace papilla {
 namespace {
 
-using texture_detail::brightness;
-using texture_detail::InverseBilaplacian;
-using texture_detail::pixel_index;
-using texture_detail::Reflectance;
-using texture_detail::reflectance;
-using texture_detail::remove_mean;
+using namespace texture_detail;
+
 using Field = std::vector<double>;
+
+/// Eigenvalues 2 − 2 cos(k·step) of the one-dimensional −Δ for k = 0…count−1.
+Field eigenvalues(int count, double step) {
+  Field values(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) values[static_cast<std::size_t>(k)] = 2 - 2 * std::cos(k * step);
+  return values;
+}
+
+/// 1 / (norm · 2(α K + λ K²)), 0 for the mean.
+double inverse_eigenvalue(double k, double alpha, double lambda, double norm) {
+  return k > 0 ? 1 / (norm * 2 * (alpha * k + lambda * k * k)) : 0;
+}
+
+/// Applies the inverse of 2(α K + λ K²) to a field, K the 5-point −Δ with periodic or reflecting borders.
+/// The mean of the result is 0.
+class InverseBilaplacian {
+ public:
+  virtual ~InverseBilaplacian() = default;
+  virtual void apply(const Field& field, double alpha, double lambda, Field& result) = 0;
+};
+
+class PeriodicInverse final : public InverseBilaplacian {
+ public:
+  PeriodicInverse(int width, int height)
+      : fft_(width, height),
+        across_(eigenvalues(width / 2 + 1, 2 * std::numbers::pi / width)),
+        down_(eigenvalues(height, 2 * std::numbers::pi / height)) {}
+
+  void apply(const Field& field, double alpha, double lambda, Field& result) override {
+    fft_.load(field.data());
+    fft_.forward();
+    const auto norm = static_cast<double>(field.size());
+    std::complex<double>* spectrum = fft_.spectrum();
+    for (const double down : down_)
+      for (const double across : across_) *spectrum++ *= inverse_eigenvalue(across + down, alpha, lambda, norm);
+    fft_.backward();
+    fft_.store(result.data());
+  }
+
+ private:
+  RealFft2d fft_;
+  Field across_, down_;
+};
+
+class ReflectingInverse final : public InverseBilaplacian {
+ public:
+  ReflectingInverse(int width, int height)
+      : transform_(width, height),
+        across_(eigenvalues(width, std::numbers::pi / width)),
+        down_(eigenvalues(height, std::numbers::pi / height)) {}
+
+  void apply(const Field& field, double alpha, double lambda, Field& result) override {
+    std::copy(field.begin(), field.end(), transform_.data());
+    transform_.forward();
+    const double norm = 4 * static_cast<double>(field.size());
+    double* value = transform_.data();
+    for (const double down : down_)
+      for (const double across : across_) *value++ *= inverse_eigenvalue(across + down, alpha, lambda, norm);
+    transform_.backward();
+    std::copy_n(transform_.data(), field.size(), result.begin());
+  }
+
+ private:
+  CosineTransform2d transform_;
+  Field across_, down_;
+};
+
+std::unique_ptr<InverseBilaplacian> make_inverse_bilaplacian(int width, int height, bool periodic) {
+  if (periodic) return std::make_unique<PeriodicInverse>(width, height);
+  return std::make_unique<ReflectingInverse>(width, height);
+}
 
 constexpr std::string_view k_stage = "shape from shading";
 
@@ -54,7 +125,7 @@ class ShadingEnergy {
       : width_(image.width),
         height_(image.height),
         periodic_(options.periodic),
-        light_(texture_detail::require_light(options.light, "shape_from_shading_variational")),
+        light_(require_light(options.light, "shape_from_shading_variational")),
         brightness_(brightness(image, options.albedo)),
         laplacian_(brightness_.size()),
         bilaplacian_(brightness_.size()) {}
@@ -107,9 +178,7 @@ class ShadingEnergy {
     }
   }
 
-  int beyond(int i, int count) const {
-    return periodic_ ? texture_detail::wrapped(i, count) : std::clamp(i, 0, count - 1);
-  }
+  int beyond(int i, int count) const { return periodic_ ? wrapped(i, count) : std::clamp(i, 0, count - 1); }
 
   double add_smoothness(const Field& z, double lambda, Field& gradient) {
     laplacian(z, laplacian_);
@@ -236,15 +305,15 @@ constexpr double k_stage_factor = 8;
 Field solve_coarsest(const GreyImage& image, const ShadingOptions& options, double begin, double end,
                      const Stopwatch& clock, ShadingResult& result) {
   ShadingEnergy energy(image, options);
-  InverseBilaplacian inverse(image.width, image.height, options.periodic);
+  const auto inverse = make_inverse_bilaplacian(image.width, image.height, options.periodic);
   Descent state{energy,
-                inverse,
+                *inverse,
                 options,
                 clock,
                 result,
                 begin,
                 end,
-                start_height(energy.image(), inverse),
+                start_height(energy.image(), *inverse),
                 Field(image.pixels.size())};
   int spent = 0;
   for (int stage = 1; stage <= k_stages; ++stage) {
@@ -271,8 +340,8 @@ ShadingOptions coarser(ShadingOptions options) {
 StopReason refine(const GreyImage& image, const ShadingOptions& options, double begin, double end,
                   const Stopwatch& clock, Field& z, ShadingResult& result) {
   ShadingEnergy energy(image, options);
-  InverseBilaplacian inverse(image.width, image.height, options.periodic);
-  Descent state{energy, inverse, options, clock, result, begin, end, std::move(z), Field(image.pixels.size())};
+  const auto inverse = make_inverse_bilaplacian(image.width, image.height, options.periodic);
+  Descent state{energy, *inverse, options, clock, result, begin, end, std::move(z), Field(image.pixels.size())};
   const StopReason stop = descend(state, options.smoothness, std::max(1, options.iterations / k_share));
   z = std::move(state.z);
   return stop;
@@ -283,30 +352,30 @@ Field solve(const GreyImage& image, const ShadingOptions& options, double end, c
             ShadingResult& result) {
   if (std::min(image.width, image.height) < 2 * k_coarsest_side)
     return solve_coarsest(image, options, 0, end, clock, result);
-  const GreyImage half = texture_detail::halved(image);
+  const GreyImage half = halved(image);
   const Field coarse = solve(half, coarser(options), end / 4, clock, result);
-  Field z = texture_detail::enlarged({coarse, half.width, half.height, image.width, image.height, options.periodic});
+  Field z = enlarged({coarse, half.width, half.height, image.width, image.height, options.periodic});
   result.stop = refine(image, options, end / 4, end, clock, z, result);
   return z;
 }
 
 /// The common coarse heights at the samples of a piece.
-Field start_of(const texture_detail::Piece& piece, const texture_detail::CoarseHeights& coarse) {
-  const auto axis = [](const texture_detail::PieceSpan& span, int count) {
-    return texture_detail::FineAxis{static_cast<double>(span.begin), static_cast<double>(span.length()) / count, count};
+Field start_of(const Piece& piece, const CoarseHeights& coarse) {
+  const auto axis = [](const PieceSpan& span, int count) {
+    return FineAxis{static_cast<double>(span.begin), static_cast<double>(span.length()) / count, count};
   };
-  return texture_detail::enlarged(coarse, axis(piece.across, piece.image.width), axis(piece.down, piece.image.height));
+  return enlarged(coarse, axis(piece.across, piece.image.width), axis(piece.down, piece.image.height));
 }
 
 /// The heights of one piece: from the common coarse start through the levels in between.
-Field refine_piece(const texture_detail::Piece& piece, const texture_detail::CoarseHeights& coarse, int level,
-                   const ShadingOptions& options, const Stopwatch& clock, ShadingResult& steps) {
+Field refine_piece(const Piece& piece, const CoarseHeights& coarse, int level, const ShadingOptions& options,
+                   const Stopwatch& clock, ShadingResult& steps) {
   Field z;
   if (level > 0) {
-    const GreyImage half = texture_detail::halved(piece.image);
+    const GreyImage half = halved(piece.image);
     const Field heights =
         refine_piece({piece.across, piece.down, half}, coarse, level - 1, coarser(options), clock, steps);
-    z = texture_detail::enlarged({heights, half.width, half.height, piece.image.width, piece.image.height, false});
+    z = enlarged({heights, half.width, half.height, piece.image.width, piece.image.height, false});
   } else {
     z = start_of(piece, coarse);
   }
@@ -318,7 +387,7 @@ Field refine_piece(const texture_detail::Piece& piece, const texture_detail::Coa
 /// than six pixels of the common start. Those stay what they are in the start.
 void keep_short_waves(Field& heights, const Field& start, int width, int height, double longest_px) {
   for (std::size_t i = 0; i < heights.size(); ++i) heights[i] -= start[i];
-  texture_detail::filter(heights, width, height, false, [=](double x, double y) {
+  filter(heights, width, height, false, [=](double x, double y) {
     const double waves = longest_px * std::hypot(x, y);
     return -std::expm1(-waves * waves);
   });
@@ -329,7 +398,7 @@ void keep_short_waves(Field& heights, const Field& start, int width, int height,
 /// pieces with free borders that start from those, mixed by ramps.
 Field solve_large(const GreyImage& image, const ShadingOptions& options, const Stopwatch& clock,
                   ShadingResult& result) {
-  const auto [small, levels] = texture_detail::shrunk(image, options.largest_piece_px / 2);
+  const auto [small, levels] = shrunk(image, options.largest_piece_px / 2);
   ShadingOptions coarse_options = options;
   for (int level = 0; level < levels; ++level) coarse_options = coarser(coarse_options);
   constexpr double k_coarse_share = 0.02;
@@ -337,20 +406,19 @@ Field solve_large(const GreyImage& image, const ShadingOptions& options, const S
   ShadingOptions local = options;
   local.periodic = false;
   local.progress = {};
-  texture_detail::PieceLayout layout;
+  PieceLayout layout;
   layout.core = options.largest_piece_px / 2;
-  layout.overlap = texture_detail::piece_overlap(options.largest_piece_px);
+  layout.overlap = piece_overlap(options.largest_piece_px);
   layout.periodic = options.periodic;
   constexpr double k_resolved_px = 6;
   const double longest_px = std::max<double>(layout.overlap, k_resolved_px * std::ldexp(1, levels));
-  const texture_detail::CoarseHeights common{coarse,      small.width,  small.height,
-                                             image.width, image.height, options.periodic};
+  const CoarseHeights common{coarse, small.width, small.height, image.width, image.height, options.periodic};
   std::mutex mutex;
   std::vector<double> squares;
   StopReason stop = StopReason::converged;
-  Field z = texture_detail::solve_by_pieces(
+  Field z = solve_by_pieces(
       image, layout,
-      [&](const texture_detail::Piece& piece) {
+      [&](const Piece& piece) {
         ShadingResult steps;
         Field heights = refine_piece(piece, common, levels - 1, local, clock, steps);
         keep_short_waves(heights, start_of(piece, common), piece.image.width, piece.image.height, longest_px);
@@ -359,9 +427,9 @@ Field solve_large(const GreyImage& image, const ShadingOptions& options, const S
         if (steps.stop != StopReason::converged) stop = StopReason::iteration_limit;
         return heights;
       },
-      texture_detail::part_of(options.progress, k_coarse_share, 1), k_stage);
+      part_of(options.progress, k_coarse_share, 1), k_stage);
   const auto pieces = static_cast<double>(squares.size());
-  result.trace.push_back({clock.seconds(), std::sqrt(texture_detail::ordered_sum(std::move(squares)) / pieces)});
+  result.trace.push_back({clock.seconds(), std::sqrt(ordered_sum(std::move(squares)) / pieces)});
   result.stop = stop;
   return z;
 }
@@ -369,7 +437,7 @@ Field solve_large(const GreyImage& image, const ShadingOptions& options, const S
 }  // namespace
 
 ShadingResult shape_from_shading_variational(const GreyImage& image, const ShadingOptions& options) {
-  texture_detail::require_shading(image, options, "shape_from_shading_variational");
+  require_shading(image, options, "shape_from_shading_variational");
   const Stopwatch clock;
   ShadingResult result;
   const bool large = std::max(image.width, image.height) > options.largest_piece_px;

@@ -22,14 +22,14 @@ using Field = std::vector<double>;
 constexpr const char* k_name = "shape_from_shading_tsai_shah";
 constexpr std::string_view k_stage = "shape from shading";
 
-/// Whether the picture goes on at its left and at its upper border.
+/// Whether the picture repeats across its left and its upper border.
 struct Wraps {
   bool across, down;
 };
 
-/// Calls told(squared error of every pixel, step) after each step.
-template <class Told>
-Field iterate(const GreyImage& image, const ShadingOptions& options, Wraps wraps, const Told& told) {
+/// Calls after_step(squared error of every pixel, number of the step) after each step.
+template <class AfterStep>
+Field iterate(const GreyImage& image, const ShadingOptions& options, Wraps wraps, const AfterStep& after_step) {
   const Vec3 s = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
   constexpr double k_noise = 1e-8, k_first_gain = 0.01;  // W and S of the paper.
   const Field target = texture_detail::brightness(image, options.albedo);
@@ -51,12 +51,13 @@ Field iterate(const GreyImage& image, const ShadingOptions& options, Wraps wraps
         squares[i] = error * error;
       }
     std::swap(z, next);
-    told(squares, iteration);
+    after_step(squares, iteration);
   }
   return z;
 }
 
-/// A piece that sees as many pixels to its left and above as there are steps gives what the whole picture would.
+/// A piece that includes as many pixels to its left and above as there are steps gives the same heights as the whole
+/// picture.
 Field iterate_by_pieces(const GreyImage& image, const ShadingOptions& options, ShadingResult& result) {
   const Stopwatch clock;
   texture_detail::PieceLayout layout;

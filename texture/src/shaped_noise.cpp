@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "checks.hpp"
 #include "fft.hpp"
 #include "random.hpp"
 
@@ -24,17 +23,17 @@ void multiply_spectrum(RealFft2d& fft, int width, int height, double norm,
 
 std::vector<double> shaped_noise(int width, int height, std::uint64_t seed,
                                  const std::function<double(double, double)>& gain, const ProgressCallback& progress) {
-  const auto tell = [&](double fraction) { report_progress(progress, "synthesis", fraction); };
-  tell(0);
+  const auto report = [&](double fraction) { report_progress(progress, "synthesis", fraction); };
+  report(0);
   RealFft2d fft(width, height);
   Random random(seed);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) fft.real(x, y) = random.normal();
-  tell(0.4);
+  report(0.4);
   fft.forward();
-  tell(0.5);
+  report(0.5);
   multiply_spectrum(fft, width, height, 1, gain);
-  tell(0.8);
+  report(0.8);
   fft.backward();
   std::vector<double> field;
   field.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -46,20 +45,19 @@ std::vector<double> shaped_noise(int width, int height, std::uint64_t seed,
     }
   const double scale = squares > 0 ? std::sqrt(static_cast<double>(field.size()) / squares) : 0;
   for (double& value : field) value *= scale;
-  tell(1);
+  report(1);
   return field;
 }
 
 void filter(std::vector<double>& field, int width, int height, bool periodic,
             const std::function<double(double, double)>& gain) {
-  const auto row = static_cast<std::size_t>(width);
   if (periodic) {
     RealFft2d fft(width, height);
-    for (int y = 0; y < height; ++y) std::copy_n(field.data() + pixel_index(0, y, width), row, &fft.real(0, y));
+    fft.load(field.data());
     fft.forward();
     multiply_spectrum(fft, width, height, 1 / (static_cast<double>(width) * height), gain);
     fft.backward();
-    for (int y = 0; y < height; ++y) std::copy_n(&fft.real(0, y), row, field.data() + pixel_index(0, y, width));
+    fft.store(field.data());
     return;
   }
   CosineTransform2d transform(width, height);

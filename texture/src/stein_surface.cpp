@@ -70,29 +70,29 @@ Surface brownian_surface_exact(const BrownianSurfaceOptions& options) {
   const int period = texture_detail::good_fft_size(static_cast<int>(std::ceil(2 * covariance.reach / pitch)) + 1);
 
   constexpr std::string_view k_stage = "synthesis";
-  const auto tell = [&](double fraction) { report_progress(options.progress, k_stage, fraction); };
-  tell(0);
+  const auto report = [&](double fraction) { report_progress(options.progress, k_stage, fraction); };
+  report(0);
   RealFft2d field(period, period);
   texture_detail::Random random(options.seed);
   for (int y = 0; y < period; ++y)
     for (int x = 0; x < period; ++x) field.real(x, y) = random.normal();
-  tell(0.3);
+  report(0.3);
   field.forward();
-  tell(0.45);
+  report(0.45);
   {
     RealFft2d circulant(period, period);
-    // The same in all four quadrants: a power for one in four samples.
+    // All four quadrants are equal: the covariance is computed for one in four samples.
     const auto row = static_cast<std::size_t>(period);
     for (int y = 0; y <= period / 2; ++y) {
       for (int x = 0; x <= period / 2; ++x)
         circulant.real(x, y) = circulant.real((period - x) % period, y) = covariance(pitch * std::hypot(x, y));
       if (y > 0) std::copy_n(&circulant.real(0, y), row, &circulant.real(0, period - y));
     }
-    tell(0.65);
+    report(0.65);
     circulant.forward();
     colour_spectrum(field, circulant, period);
   }
-  tell(0.85);
+  report(0.85);
   field.backward();
 
   // The field has the variogram 2 r^α − 2 c2 r² with r in units of the diagonal; the plane adds the missing term.
@@ -105,7 +105,7 @@ Surface brownian_surface_exact(const BrownianSurfaceOptions& options) {
     for (int x = 0; x < n; ++x)
       surface.heights[texture_detail::pixel_index(x, y, n)] =
           scale * (unfft * field.real(x, y) + pitch * (slope_x * x + slope_y * y));
-  tell(1);
+  report(1);
   return surface;
 }
 

@@ -13,38 +13,25 @@
 #include "texture_class_rules.hpp"
 
 namespace papilla {
-namespace {
-
-using texture_detail::Moments;
-
-Moments moments(const GreyImage& image, int left, int top, int right, int bottom) {
-  double sum = 0, squares = 0;
-  for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x) {
-      const double grey = static_cast<double>(image.at(x, y));
-      sum += grey;
-      squares += grey * grey;
-    }
-  const double pixels = std::max(1.0, static_cast<double>(right - left) * (bottom - top));
-  const double mean = sum / pixels;
-  return {mean, std::sqrt(std::max(0.0, squares / pixels - mean * mean))};
-}
-
-std::vector<Moments> block_moments(const GreyImage& image) {
-  constexpr int k_blocks = 4;
-  std::vector<Moments> blocks;
-  for (int row = 0; row < k_blocks; ++row)
-    for (int column = 0; column < k_blocks; ++column)
-      blocks.push_back(moments(image, column * image.width / k_blocks, row * image.height / k_blocks,
-                               (column + 1) * image.width / k_blocks, (row + 1) * image.height / k_blocks));
-  return blocks;
-}
-
-}  // namespace
-
 namespace texture_detail {
 
-Moments moments_of(const GreyImage& image) { return moments(image, 0, 0, image.width, image.height); }
+std::vector<Moments> block_moments(const GreyImage& image, int blocks) {
+  std::vector<Moments> result;
+  for (int row = 0; row < blocks; ++row)
+    for (int column = 0; column < blocks; ++column) {
+      double sum = 0, squares = 0;
+      int pixels = 0;
+      for (int y = row * image.height / blocks; y < (row + 1) * image.height / blocks; ++y)
+        for (int x = column * image.width / blocks; x < (column + 1) * image.width / blocks; ++x, ++pixels) {
+          const double grey = static_cast<double>(image.at(x, y));
+          sum += grey;
+          squares += grey * grey;
+        }
+      const double mean = sum / std::max(1, pixels);
+      result.push_back({mean, std::sqrt(std::max(0.0, squares / std::max(1, pixels) - mean * mean))});
+    }
+  return result;
+}
 
 bool is_homogeneous(const std::vector<Moments>& blocks, const Moments& whole) {
   constexpr double k_most_contrast_ratio = 2;
@@ -135,7 +122,8 @@ Suitability measure_suitability(const GreyImage& image, const Lattice& lattice) 
   const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   Suitability suitability;
   suitability.flat = !(*low < *high);
-  suitability.homogeneous = texture_detail::is_homogeneous(block_moments(image), texture_detail::moments_of(image));
+  suitability.homogeneous =
+      texture_detail::is_homogeneous(texture_detail::block_moments(image, 4), texture_detail::moments_of(image));
   suitability.directional =
       texture_detail::structure_tensor(image).coherence() >= texture_detail::k_directional_coherence;
   suitability.symmetric = lattice.found;

@@ -11,10 +11,13 @@ namespace papilla::texture_detail {
 /// From this coherence on a texture has a direction: beyond half of what oblique light on an isotropic relief causes.
 inline constexpr double k_directional_coherence = 0.4;
 
+/// Mean and standard deviation of grey values.
 struct Moments {
   double mean = 0, deviation = 0;
 };
-Moments moments_of(const GreyImage& image);
+/// Of blocks × blocks parts of the picture, row by row; 0 for a part without pixels.
+std::vector<Moments> block_moments(const GreyImage& image, int blocks);
+inline Moments moments_of(const GreyImage& image) { return block_moments(image, 1).front(); }
 
 /// Block means within one standard deviation of the whole, block contrasts within a factor of two.
 bool is_homogeneous(const std::vector<Moments>& blocks, const Moments& whole);

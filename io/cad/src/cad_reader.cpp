@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -21,22 +20,11 @@
 #include "isolated.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/trace.hpp"
 #include "papilla/core/unit_name.hpp"
 
 namespace papilla {
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since construction or the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check_options(const CadReadOptions& options) {
   const auto refuse = [](const std::string& what, double value) {
@@ -150,11 +138,11 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
     tree.scene.warnings.push_back("BREP carries no unit: taken as mm");
   const CadReadOptions unscaled = in_file_units(options, unit / tree.scene.millimetres_per_unit);
   check_size(path, tree.shapes, unscaled);
-  report.seconds_read = watch.lap();
+  report.seconds_read = watch.restart();
 
   cad::allow_processor_time(tessellating_seconds(tree.shapes));
   std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, unscaled, progress);
-  report.seconds_tessellate = watch.lap();
+  report.seconds_tessellate = watch.restart();
 
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     report_progress(progress, "convert", 0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(shapes.size()));
@@ -164,7 +152,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   if (report.triangles == 0) throw InvalidInput(path.string() + ": none of its faces can be tessellated");
   warn_of_faces(report, tree.scene);
   if (unit != tree.scene.millimetres_per_unit) rescale(tree.scene, report, unit);
-  report.seconds_convert = watch.lap();
+  report.seconds_convert = watch.restart();
   report_progress(progress, "convert", 1);
   return std::move(tree.scene);
 }

@@ -37,7 +37,7 @@ bool read_claims(draco::DecoderBuffer& buffer, std::uint8_t method, Claims& clai
          draco::DecodeVarint(&symbols, &buffer) && draco::DecodeVarint(&claims.splits, &buffer);
 }
 
-/// libdraco takes memory for what a stream claims, so the claims are looked at first.
+/// libdraco allocates memory for the counts that a stream claims, so the claims are checked first.
 void check_claims(std::span<const unsigned char> bytes, const DracoRequest& request, const std::string& where) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -9,7 +9,7 @@
 
 namespace papilla::gltf {
 
-/// What a primitive expects of its compressed data.
+/// Attributes and sizes that a primitive expects of its compressed data.
 struct DracoRequest {
   std::map<int, int> components;  ///< By the attribute's unique id: numbers an element has.
   std::size_t max_points = 0, max_triangles = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_accessor.hpp"
+#include "gltf_document.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 namespace papilla::gltf {
 namespace {
 
-/// Elements that one file may hand out, all uses of an accessor counted: 2^28 are 90 million triangles. A small
-/// file gets less: each of its bytes may be used 64 times.
+/// Most elements read from one file, all uses of an accessor counted: 2^28 are 90 million triangles. A small file gets
+/// less: each of its bytes may be used 64 times.
 constexpr std::size_t k_max_elements = std::size_t{1} << 28;
 constexpr std::size_t k_elements_per_byte = 64;
 constexpr std::size_t k_free_elements = std::size_t{1} << 20;

@@ -6,37 +6,143 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "draco_mesh.hpp"
 #include "meshopt_view.hpp"
-#include "missing_member.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/io/read_file.hpp"
 
 namespace papilla::gltf {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+enum class Kind { index, number, text, array, object, component_type, accessor_type, camera_type, stride };
+
+/// A member that tinygltf requires. "[]" follows the name of an array all of whose elements need it; members on the
+/// path may be missing.
+struct Required {
+  std::string_view path;
+  Kind kind;
+  bool may_be_missing = false;
+};
+
+constexpr std::array k_required = {
+    Required{"buffers[].byteLength", Kind::index},
+    Required{"bufferViews[].buffer", Kind::index},
+    Required{"bufferViews[].byteLength", Kind::index},
+    Required{"bufferViews[].byteStride", Kind::stride, true},
+    Required{"accessors[].componentType", Kind::component_type},
+    Required{"accessors[].count", Kind::index},
+    Required{"accessors[].type", Kind::accessor_type},
+    Required{"accessors[].sparse.count", Kind::index},
+    Required{"accessors[].sparse.indices", Kind::object},
+    Required{"accessors[].sparse.indices.bufferView", Kind::index},
+    Required{"accessors[].sparse.indices.componentType", Kind::index},
+    Required{"accessors[].sparse.values", Kind::object},
+    Required{"accessors[].sparse.values.bufferView", Kind::index},
+    Required{"meshes[].primitives[].attributes", Kind::object},
+    Required{"textures[]", Kind::object},
+    Required{"images[]", Kind::object},
+    Required{"materials[]", Kind::object},
+    Required{"nodes[]", Kind::object},
+    Required{"scenes[]", Kind::object},
+    Required{"samplers[]", Kind::object},
+    Required{"skins[].joints", Kind::array},
+    Required{"animations[].samplers[].input", Kind::index},
+    Required{"animations[].samplers[].output", Kind::index},
+    Required{"cameras[].type", Kind::camera_type},
+    Required{"extensions.KHR_lights_punctual.lights[].type", Kind::text},
+    Required{"cameras[].perspective.yfov", Kind::number},
+    Required{"cameras[].perspective.znear", Kind::number},
+    Required{"cameras[].orthographic.xmag", Kind::number},
+    Required{"cameras[].orthographic.ymag", Kind::number},
+    Required{"cameras[].orthographic.zfar", Kind::number},
+    Required{"cameras[].orthographic.znear", Kind::number},
+};
+
+bool is_index(const Json& value) { return value.is_number_integer() && value.get<std::int64_t>() >= 0; }
+
+bool is_one_of(const Json& value, std::initializer_list<Json> allowed) {
+  return std::find(allowed.begin(), allowed.end(), value) != allowed.end();
+}
+
+/// Whether a member is of the kind, and the complaint when it is not.
+std::pair<bool, std::string_view> is_of(const Json& value, Kind kind) {
+  switch (kind) {
+    case Kind::index: return {is_index(value), "is no whole number"};
+    case Kind::number: return {value.is_number(), "is no number"};
+    case Kind::text: return {value.is_string(), "is no string"};
+    case Kind::array: return {value.is_array(), "is no array"};
+    case Kind::object: return {value.is_object(), "is no object"};
+    case Kind::component_type:
+      return {is_one_of(value, {5120, 5121, 5122, 5123, 5124, 5125, 5126, 5130}), "is no component type"};
+    case Kind::accessor_type:
+      return {is_one_of(value, {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}), "is no accessor type"};
+    case Kind::camera_type: return {is_one_of(value, {"perspective", "orthographic"}), "is no camera type"};
+    case Kind::stride:
+      return {is_index(value) && value.get<std::int64_t>() % 4 == 0 && value.get<std::int64_t>() <= 252,
+              "is no multiple of 4 up to 252"};
+  }
+  return {true, ""};
+}
+
+/// @param path What is left of the way below `value`, which stands at `place`. @returns a message, or nothing.
+std::string find_in(const Json& value, std::string_view path, const Required& required, const std::string& place) {
+  if (path.empty()) {
+    const auto [good, complaint] = is_of(value, required.kind);
+    return good ? "" : place + " " + std::string(complaint);
+  }
+  if (path.starts_with("[]")) {
+    if (!value.is_array()) return place + " is no array";
+    path.remove_prefix(path.starts_with("[].") ? 3 : 2);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (std::string found = find_in(value[i], path, required, place + "[" + std::to_string(i) + "]"); !found.empty())
+        return found;
+    return "";
+  }
+  if (!value.is_object()) return place + " is no object";
+  const std::size_t end = std::min(path.find_first_of(".["), path.size());
+  const std::string name(path.substr(0, end));
+  path.remove_prefix(end + (end < path.size() && path[end] == '.' ? 1 : 0));
+  const std::string member = place.empty() ? name : place + "." + name;
+  if (const auto found = value.find(name); found != value.end()) return find_in(*found, path, required, member);
+  return path.empty() && !required.may_be_missing ? member + " is missing" : "";
+}
+
+/// A camera has the member that its type names.
+std::string find_camera_without_lens(const Json& document) {
+  const auto cameras = document.find("cameras");
+  if (cameras == document.end()) return "";
+  for (std::size_t i = 0; i < cameras->size(); ++i) {
+    const auto& camera = (*cameras)[i];
+    const std::string place = "cameras[" + std::to_string(i) + "]", lens = camera.at("type").get<std::string>();
+    if (std::string found = find_in(camera, lens, {"", Kind::object}, place); !found.empty()) return found;
+  }
+  return "";
+}
+
+/// The first member that tinygltf requires and that is missing or of another kind, for messages:
+/// "accessors[3].componentType is missing". Empty when there is none.
+std::string find_missing_member(const Json& document) {
+  for (const Required& required : k_required)
+    if (std::string found = find_in(document, required.path, required, ""); !found.empty()) return found;
+  return find_camera_without_lens(document);
+}
+
 static_assert(std::endian::native == std::endian::little, "glTF buffers are read in place");
 
 constexpr std::string_view k_magic = "glTF";
 constexpr std::uint32_t k_json_chunk = 0x4e4f534a;
+constexpr std::size_t k_quoted = 80;   ///< Characters of a name from the file in messages.
 constexpr int k_max_json_depth = 200;  ///< Parsing recurses: deeper text would exhaust the stack.
-
-using Json = nlohmann::ordered_json;
-
-/// The first line of a library's message, so that ours stays one line.
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-/// A name from the file as messages quote it: its beginning, printable ASCII.
-std::string printable(std::string_view name) {
-  std::string text(name.substr(0, 80));
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
-}
 
 std::uint32_t word(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -99,7 +205,7 @@ std::vector<std::size_t> count_primitives(const Json& json) {
   return counts;
 }
 
-/// Checks what must be known before tinygltf may see the text.
+/// Parses the text and checks everything that tinygltf does not.
 Json parse_header(std::string_view text, const std::string& file) {
   check_depth(text, file);
   Json json;
@@ -116,14 +222,14 @@ Json parse_header(std::string_view text, const std::string& file) {
     throw InvalidInput(file + ": is no glTF: asset.version is missing");
   const std::string version = (*asset)["version"].get<std::string>();
   if (!version.starts_with("2."))
-    throw InvalidInput(file + ": glTF version '" + printable(version) + "' is not supported (2.x is)");
+    throw InvalidInput(file + ": glTF version '" + printable(version, k_quoted) + "' is not supported (2.x is)");
   const auto required = json.find("extensionsRequired");
   if (required == json.end()) return json;
   if (!required->is_array()) throw InvalidInput(file + ": extensionsRequired is not an array");
   std::string missing;
   for (const auto& extension : *required) {
     const std::string name = extension.is_string() ? extension.get<std::string>() : extension.dump();
-    if (!is_supported(name)) missing += (missing.empty() ? "" : ", ") + printable(name);
+    if (!is_supported(name)) missing += (missing.empty() ? "" : ", ") + printable(name, k_quoted);
   }
   if (!missing.empty()) throw InvalidInput(file + ": needs " + missing + ", which is not supported");
   return json;
@@ -150,8 +256,8 @@ struct Indices {
   int accessor;
 };
 
-/// tinygltf refuses indices whose accessor has no bufferView, which compressed and sparse ones need not have. Takes
-/// them away, to be put back into the model.
+/// tinygltf refuses indices whose accessor has no bufferView, which compressed and sparse ones need not have. Removes
+/// them from the text, so that they can be restored in the model.
 std::vector<Indices> detach_indices(Json& json) {
   std::vector<Indices> detached;
   const auto meshes = json.find("meshes"), accessors = json.find("accessors");
@@ -174,7 +280,7 @@ std::vector<Indices> detach_indices(Json& json) {
   return detached;
 }
 
-/// tinygltf keeps what extensions say in 32 bits; counts and ranges of more must be refused before.
+/// tinygltf stores the numbers of extensions in 32 bits: refuses larger counts and ranges before.
 void check_meshopt_numbers(const Json& json, const std::string& file) {
   const auto views = json.find("bufferViews");
   if (views == json.end() || !views->is_array()) return;
@@ -185,8 +291,8 @@ void check_meshopt_numbers(const Json& json, const std::string& file) {
       if (!extension.ends_with("_meshopt_compression") || !content.is_object()) continue;
       for (const auto& [name, number] : content.items())
         if (number.is_number_unsigned() && number.get<std::uint64_t>() > std::numeric_limits<std::int32_t>::max())
-          throw InvalidInput(file + ": bufferViews[" + std::to_string(i) + "], meshopt: " + printable(name) + " " +
-                             number.dump() + " is out of range");
+          throw InvalidInput(file + ": bufferViews[" + std::to_string(i) + "], meshopt: " + printable(name, k_quoted) +
+                             " " + number.dump() + " is out of range");
     }
   }
 }
@@ -197,12 +303,12 @@ std::string with_json(std::string_view bytes, bool binary, std::string json) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::string_view rest = bytes.substr(std::min<std::size_t>(20 + std::size_t{word(bytes, 12)}, bytes.size()));
   std::string result(bytes.substr(0, 20));
-  const auto put = [&](std::size_t at, std::size_t value) {
+  const auto store_word = [&](std::size_t at, std::size_t value) {
     const auto number = static_cast<std::uint32_t>(value);
     std::memcpy(result.data() + at, &number, sizeof number);
   };
-  put(8, 20 + json.size() + rest.size());
-  put(12, json.size());
+  store_word(8, 20 + json.size() + rest.size());
+  store_word(12, json.size());
   return result + json + std::string(rest);
 }
 

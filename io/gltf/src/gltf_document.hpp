@@ -3,10 +3,16 @@
 
 #include <tiny_gltf.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "papilla/io/scene.hpp"
 
 namespace papilla::gltf {
 
@@ -22,5 +28,61 @@ struct Document {
 /// Reads and parses; pictures stay encoded in Image::image (those in buffer views stay there).
 /// @throws IoError, InvalidInput as read_gltf().
 Document load_document(const std::filesystem::path& path);
+
+/// glTF 2.0, 3.11: how a normalized integer becomes a real number. Floats stay as they are.
+double normalize(double value, int component_type);
+
+/// Reads accessors; every offset, stride and count is checked against the buffers before anything is
+/// allocated. One object serves a whole file and limits the total number of elements that it returns.
+class AccessorReader {
+ public:
+  explicit AccessorReader(const Document& document);
+
+  /// Components of all elements, one after the other, as numbers: normalized integers become [0, 1] or [−1, 1].
+  /// @param components  what the accessor's type must have (VEC3: 3).
+  /// @param where       how messages name the use, for example "mesh 0, primitive 1, POSITION".
+  /// @throws InvalidInput naming file, use, accessor and reason; also when a number is not finite.
+  std::vector<double> numbers(int accessor, int components, const std::string& where);
+
+  /// The elements of a scalar accessor of unsigned integers.
+  std::vector<std::uint32_t> indices(int accessor, const std::string& where);
+
+  /// @throws InvalidInput when the accessor does not exist.
+  const tinygltf::Accessor& accessor(int number, const std::string& where) const;
+
+  /// The bytes of a buffer view, decoded when they are compressed with meshopt.
+  std::span<const unsigned char> view(int number, const std::string& where);
+
+  /// Counts elements against the limit of the file.
+  /// @throws InvalidInput when the limit is exceeded.
+  void spend(std::size_t elements, const std::string& where);
+
+ private:
+  struct Elements;
+  [[noreturn]] void fail(const std::string& where, const std::string& reason) const;
+  std::span<const unsigned char> range(int buffer, std::size_t offset, std::size_t length, const std::string& what,
+                                       const std::string& where) const;
+  Elements elements(int view, std::size_t offset, std::size_t count, int component_type, int components, bool strided,
+                    const std::string& where);
+  void apply_sparse(const tinygltf::Accessor& accessor, int components, std::vector<double>& values,
+                    const std::string& where);
+  std::vector<double> raw_numbers(const tinygltf::Accessor& accessor, int components, const std::string& where);
+
+  const Document& document_;
+  std::size_t budget_ = 0;
+  std::map<int, std::vector<unsigned char>> decoded_;  ///< By the number of the view.
+};
+
+/// Element i of numbers() of three components.
+inline Vec3 vec3_at(const std::vector<double>& numbers, std::size_t i) {
+  return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+}
+
+/// Copies images, textures and materials of a document to a scene, in the same order.
+void read_materials(const Document& document, AccessorReader& reader, Scene& scene);
+
+/// Turns the meshes of a document into the parts of a scene, in the same order.
+/// Adds a default material when a primitive names none. @pre `scene.materials` have been read.
+void read_parts(const Document& document, AccessorReader& reader, Scene& scene);
 
 }  // namespace papilla::gltf

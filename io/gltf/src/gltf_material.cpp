@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_material.hpp"
+#include "gltf_document.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -12,7 +11,7 @@
 namespace papilla::gltf {
 namespace {
 
-/// "image/png" and the like by the first bytes; what the file declares when they tell nothing.
+/// "image/png" and the like by the first bytes; the declared type when they are of no known format.
 std::string mime_type_of(const std::vector<std::byte>& bytes, const std::string& declared) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.starts_with("\x89PNG")) return "image/png";
@@ -48,8 +47,7 @@ EncodedImage read_image(const tinygltf::Image& source, std::size_t number, Acces
   const std::string where = "image " + std::to_string(number);
   const auto bytes =
       source.bufferView >= 0 ? reader.view(source.bufferView, where) : std::span<const unsigned char>(source.image);
-  image.bytes.resize(bytes.size());
-  if (!bytes.empty()) std::memcpy(image.bytes.data(), bytes.data(), bytes.size());
+  image.bytes.assign(std::as_bytes(bytes).begin(), std::as_bytes(bytes).end());
   image.mime_type = mime_type_of(image.bytes, source.mimeType);
   if (image.bytes.empty()) scene.warnings.push_back(where + " '" + image.uri + "' is missing");
   return image;
@@ -123,7 +121,7 @@ class MaterialReader {
     const auto json = nlohmann::json::parse(extensions, nullptr, false);
     const auto found = json.is_object() ? json.find("KHR_texture_transform") : json.end();
     if (found == json.end() || !found->is_object()) return;
-    TextureTransform transform;
+    UvTransform transform;
     transform.offset = read_pair(*found, "offset", transform.offset, where);
     transform.scale = read_pair(*found, "scale", transform.scale, where);
     if (const auto rotation = found->find("rotation"); rotation != found->end() && rotation->is_number())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_mesh.hpp"
+#include "gltf_document.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,10 +35,6 @@ struct PartBuilder {
 };
 
 constexpr std::uint8_t k_uv = 1, k_uv1 = 2, k_colors = 4;
-
-Vec3 vec3_at(const std::vector<double>& numbers, std::size_t i) {
-  return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-}
 
 /// glTF's v runs down.
 Vec2 uv_at(const std::vector<double>& numbers, std::size_t i) { return {numbers[2 * i], 1 - numbers[2 * i + 1]}; }

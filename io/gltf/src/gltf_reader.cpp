@@ -2,23 +2,229 @@
 #include "papilla/io/gltf_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 #include <utility>
 
-#include "gltf_instancing.hpp"
-#include "gltf_levels.hpp"
-#include "gltf_material.hpp"
-#include "gltf_mesh.hpp"
-#include "gltf_transform.hpp"
+#include "gltf_document.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/io/scene.hpp"
 
 namespace papilla {
 namespace {
 
+using gltf::AccessorReader;
 using gltf::Document;
+
+/// Translation · rotation · scale.
+/// @param rotation  a quaternion x, y, z, w of any length but zero.
+/// @param where     begins messages.
+/// @throws InvalidInput when the quaternion is zero.
+Transform transform_from_trs(Vec3 t, const std::array<double, 4>& q, Vec3 s, const std::string& where) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(length > 0)) throw InvalidInput(where + ": rotation is the zero quaternion");
+  const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
+  return {s.x * (1 - 2 * (y * y + z * z)),
+          s.y * 2 * (x * y - z * w),
+          s.z * 2 * (x * z + y * w),
+          t.x,
+          s.x * 2 * (x * y + z * w),
+          s.y * (1 - 2 * (x * x + z * z)),
+          s.z * 2 * (y * z - x * w),
+          t.y,
+          s.x * 2 * (x * z - y * w),
+          s.y * 2 * (y * z + x * w),
+          s.z * (1 - 2 * (x * x + y * y)),
+          t.z,
+          0,
+          0,
+          0,
+          1};
+}
+
+/// A node costs as much memory as this many elements of an accessor.
+constexpr std::size_t k_elements_per_node = 16;
+
+class InstanceReader {
+ public:
+  InstanceReader(const Document& document, AccessorReader& reader) : file_(document.file), reader_(reader) {}
+
+  /// The places of all instances, in metres.
+  std::vector<Transform> read(const tinygltf::Value& attributes, const std::string& where) {
+    const auto translations = numbers(attributes, "TRANSLATION", 3, where);
+    const auto rotations = numbers(attributes, "ROTATION", 4, where);
+    const auto scales = numbers(attributes, "SCALE", 3, where);
+    const std::size_t count = std::max({translations.size() / 3, rotations.size() / 4, scales.size() / 3});
+    const auto fits = [&](const std::vector<double>& n, std::size_t width) {
+      return n.empty() || n.size() == width * count;
+    };
+    if (!fits(translations, 3) || !fits(rotations, 4) || !fits(scales, 3))
+      throw InvalidInput(file_ + ": " + where + ": the instances' attributes differ in number");
+    reader_.spend(k_elements_per_node * count, where);
+    std::vector<Transform> places;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 t = translations.empty() ? Vec3{} : gltf::vec3_at(translations, i);
+      const Vec3 s = scales.empty() ? Vec3{1, 1, 1} : gltf::vec3_at(scales, i);
+      std::array<double, 4> q = {0, 0, 0, 1};
+      if (!rotations.empty()) std::copy_n(rotations.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, q.begin());
+      places.push_back(transform_from_trs(t, q, s, file_ + ": " + where + ", instance " + std::to_string(i)));
+    }
+    return places;
+  }
+
+ private:
+  std::vector<double> numbers(const tinygltf::Value& attributes, const char* name, int components,
+                              const std::string& where) {
+    if (!attributes.Has(name)) return {};
+    const tinygltf::Value& accessor = attributes.Get(name);
+    return reader_.numbers(accessor.IsNumber() ? accessor.GetNumberAsInt() : -1, components, where + ", " + name);
+  }
+
+  const std::string& file_;
+  AccessorReader& reader_;
+};
+
+void add_children(std::vector<Transform> places, std::uint32_t number, const std::string& where, Scene& scene) {
+  const auto part = scene.nodes[number].part;
+  scene.nodes[number].part.reset();
+  for (Transform& place : places) {
+    for (const std::size_t i : {3U, 7U, 11U}) place[i] *= k_mm_per_metre;
+    if (!std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }))
+      throw InvalidInput(where + ": an instance's transform is not finite");
+    Node child;
+    child.part = part;
+    child.local = place;
+    scene.nodes[number].children.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
+    scene.nodes.push_back(std::move(child));
+  }
+}
+
+/// EXT_mesh_gpu_instancing: a node that shows its mesh at many places gets a child for every place, and shows nothing
+/// itself. Attributes of the instances other than their places are losses.
+/// @pre scene.nodes are the document's, in the same order.
+/// @throws InvalidInput when the attributes differ in number, or a place is not finite.
+void expand_instances(const Document& document, AccessorReader& reader, Scene& scene) {
+  InstanceReader instances(document, reader);
+  std::set<std::string> lost;
+  for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {
+    const auto& extensions = document.model.nodes[i].extensions;
+    const auto extension = extensions.find("EXT_mesh_gpu_instancing");
+    if (extension == extensions.end() || !scene.nodes[i].part) continue;
+    const std::string where = "node " + std::to_string(i) + ", EXT_mesh_gpu_instancing";
+    const tinygltf::Value& attributes = extension->second.Get("attributes");
+    if (!attributes.IsObject()) throw InvalidInput(document.file + ": " + where + ": attributes are missing");
+    add_children(instances.read(attributes, where), static_cast<std::uint32_t>(i), document.file + ": " + where, scene);
+    for (const std::string& name : attributes.Keys())
+      if (name != "TRANSLATION" && name != "ROTATION" && name != "SCALE") lost.insert("instances' attribute " + name);
+  }
+  scene.losses.insert(scene.losses.end(), lost.begin(), lost.end());
+}
+
+constexpr const char* k_extension = "MSFT_lod";
+
+/// The nodes that node `number` lists as its lower levels.
+std::vector<std::uint32_t> lower_levels(const Document& document, std::size_t number) {
+  const tinygltf::Node& node = document.model.nodes[number];
+  const auto extension = node.extensions.find(k_extension);
+  std::vector<std::uint32_t> levels;
+  if (extension == node.extensions.end() || !extension->second.Has("ids")) return levels;
+  const tinygltf::Value& ids = extension->second.Get("ids");
+  for (std::size_t i = 0; i < ids.ArrayLen(); ++i) {
+    const tinygltf::Value& id = ids.Get(static_cast<int>(i));
+    const int value = id.IsInt() ? id.Get<int>() : -1;
+    if (value < 0 || static_cast<std::size_t>(value) >= document.model.nodes.size() ||
+        static_cast<std::size_t>(value) == number)
+      throw InvalidInput(document.file + ": node " + std::to_string(number) + ": " + k_extension + ".ids[" +
+                         std::to_string(i) + "] names no other node");
+    levels.push_back(static_cast<std::uint32_t>(value));
+  }
+  return levels;
+}
+
+/// Flags the nodes and all their descendants; the nodes are a forest.
+void flag_below(const Scene& scene, std::vector<std::uint32_t> open, std::vector<bool>& flags) {
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    if (flags[node]) continue;
+    flags[node] = true;
+    open.insert(open.end(), scene.nodes[node].children.begin(), scene.nodes[node].children.end());
+  }
+}
+
+/// New numbers of what stays.
+std::vector<std::uint32_t> numbers_of_kept(const std::vector<bool>& dropped) {
+  std::vector<std::uint32_t> numbers(dropped.size());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < dropped.size(); ++i) numbers[i] = dropped[i] ? next : next++;
+  return numbers;
+}
+
+template <class T>
+void drop(std::vector<T>& values, const std::vector<bool>& dropped) {
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (dropped[i]) continue;
+    if (to != i) values[to] = std::move(values[i]);
+    ++to;
+  }
+  values.resize(to);
+}
+
+void renumber(std::vector<std::uint32_t>& nodes, const std::vector<bool>& dropped,
+              const std::vector<std::uint32_t>& numbers) {
+  std::erase_if(nodes, [&](std::uint32_t node) { return dropped[node]; });
+  for (std::uint32_t& node : nodes) node = numbers[node];
+}
+
+void drop_nodes(Scene& scene, const std::vector<bool>& dropped) {
+  const std::vector<std::uint32_t> numbers = numbers_of_kept(dropped);
+  drop(scene.nodes, dropped);
+  for (Node& node : scene.nodes) renumber(node.children, dropped, numbers);
+  renumber(scene.roots, dropped, numbers);
+}
+
+void drop_parts(Scene& scene, const std::vector<bool>& dropped) {
+  const std::vector<std::uint32_t> numbers = numbers_of_kept(dropped);
+  drop(scene.parts, dropped);
+  for (Node& node : scene.nodes)
+    if (node.part) node.part = numbers[*node.part];
+}
+
+void drop_coverages(Node& node) {
+  nlohmann::ordered_json extras = nlohmann::ordered_json::parse(node.extras_json, nullptr, false);
+  if (!extras.is_object() || extras.erase("MSFT_screencoverage") == 0) return;
+  node.extras_json = extras.empty() ? "" : extras.dump();
+}
+
+/// Leaves out the coarser levels of detail (MSFT_lod): the nodes that a node lists as its lower levels, what stands
+/// below them, the parts that only they show, and the screen coverages in the node's extras. Noted in Scene::losses.
+/// @throws InvalidInput when a list names its own node or one that does not exist.
+void keep_finest_levels(const Document& document, Scene& scene) {
+  std::vector<bool> lower(scene.nodes.size(), false);
+  std::size_t levels = 0;
+  for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {  // the scene may have more: instances
+    const std::vector<std::uint32_t> ids = lower_levels(document, i);
+    if (ids.empty()) continue;
+    levels += ids.size();
+    drop_coverages(scene.nodes[i]);
+    flag_below(scene, ids, lower);
+  }
+  if (levels == 0) return;
+  std::vector<bool> only_lower(scene.parts.size(), false);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].part && lower[i]) only_lower[*scene.nodes[i].part] = true;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].part && !lower[i]) only_lower[*scene.nodes[i].part] = false;
+  drop_nodes(scene, lower);
+  drop_parts(scene, only_lower);
+  scene.losses.push_back(std::to_string(levels) + " coarser levels of detail (" + k_extension + ")");
+}
 
 std::vector<double> numbers_or(const std::vector<double>& given, std::vector<double> fallback, const char* name,
                                const std::string& where) {
@@ -44,7 +250,7 @@ Transform from_trs(const tinygltf::Node& node, const std::string& where) {
   const auto t = numbers_or(node.translation, {0, 0, 0}, "translation", where);
   const auto q = numbers_or(node.rotation, {0, 0, 0, 1}, "rotation", where);
   const auto s = numbers_or(node.scale, {1, 1, 1}, "scale", where);
-  return gltf::transform_from_trs({t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}, {s[0], s[1], s[2]}, where);
+  return transform_from_trs({t[0], t[1], t[2]}, {q[0], q[1], q[2], q[3]}, {s[0], s[1], s[2]}, where);
 }
 
 Transform local_transform(const tinygltf::Node& node, const std::string& where) {
@@ -82,7 +288,7 @@ void read_nodes(const Document& document, Scene& scene) {
   }
 }
 
-/// The nodes that nobody has as a child.
+/// The nodes that are no child of another one.
 /// @throws InvalidInput when the nodes are no forest, whether the scene uses them or not.
 std::vector<std::uint32_t> nodes_without_parent(const Document& document, const Scene& scene) {
   std::vector<bool> is_child(scene.nodes.size(), false);
@@ -123,7 +329,7 @@ void read_roots(const Document& document, Scene& scene) {
   }
 }
 
-/// Everything the scene has no place for.
+/// Lists the content of the document that a scene can't hold.
 void note_losses(const Document& document, Scene& scene) {
   const tinygltf::Model& model = document.model;
   const auto count = [&](std::size_t n, const std::string& what) {
@@ -155,13 +361,13 @@ Scene read_gltf(const std::filesystem::path& path) {
   scene.millimetres_per_unit = k_mm_per_metre;
   scene.up = UpAxis::y;
   scene.warnings = std::move(document.warnings);
-  gltf::AccessorReader reader(document);
+  AccessorReader reader(document);
   gltf::read_materials(document, reader, scene);
   gltf::read_parts(document, reader, scene);
   read_nodes(document, scene);
   read_roots(document, scene);
-  gltf::expand_instances(document, reader, scene);  // appends nodes: those of the file keep their numbers
-  gltf::keep_finest_levels(document, scene);
+  expand_instances(document, reader, scene);  // appends nodes: those of the file keep their numbers
+  keep_finest_levels(document, scene);
   note_losses(document, scene);
   try {
     assign_part_ids(scene);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/scene.hpp"
 
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -98,12 +97,6 @@ Vec3 transform_point(const Transform& t, Vec3 p) noexcept {
 Transform to_y_up(UpAxis up) noexcept {
   if (up == UpAxis::y) return k_identity;
   return {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
-}
-
-Vec2 transform_uv(const TextureTransform& transform, Vec2 uv) noexcept {
-  const double c = std::cos(transform.rotation), s = std::sin(transform.rotation);
-  const double u = transform.scale.x * uv.x, v = transform.scale.y * (1 - uv.y);
-  return {c * u + s * v + transform.offset.x, 1 - (-s * u + c * v + transform.offset.y)};
 }
 
 std::vector<Instance> instances(const Scene& scene) {

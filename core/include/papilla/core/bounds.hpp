@@ -14,8 +14,8 @@ constexpr Vec2 upper(Vec2 a, Vec2 b) noexcept { return {std::max(a.x, b.x), std:
 constexpr Vec3 lower(Vec3 a, Vec3 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 constexpr Vec3 upper(Vec3 a, Vec3 b) noexcept { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
-/// The smallest box along the axes around all that was added; empty until then. The unit is the owner's. Coordinates
-/// that are not a number are passed over.
+/// The smallest axis-aligned box around all that was added; empty at first. The unit is the owner's. Coordinates that
+/// are not a number are ignored.
 template <class Vec>
 struct Bounds {
   Vec low = everywhere(std::numeric_limits<double>::infinity());

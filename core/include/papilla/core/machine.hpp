@@ -6,7 +6,7 @@
 
 namespace papilla {
 
-/// What a time was measured on. Fields that the system does not tell are empty or 0.
+/// What a time was measured on. Fields that the system does not report are empty or 0.
 struct Machine {
   std::string cpu;              ///< The processor's name.
   int cores = 0;                ///< Processors online.
@@ -17,7 +17,7 @@ struct Machine {
 /// Reads /proc and uname(). Never throws but for want of memory.
 Machine this_machine();
 
-/// The most memory that this process has had resident so far, in MiB; 0 where /proc does not tell.
+/// The most memory that this process has had resident so far, in MiB; 0 where /proc does not report it.
 double peak_rss_mib();
 
 }  // namespace papilla

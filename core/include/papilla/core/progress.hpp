@@ -12,17 +12,17 @@
 
 namespace papilla {
 
-/// How far long work is.
+/// State of a long computation.
 struct Progress {
   std::string_view stage;  ///< Its name, for people; valid during the call only.
   double fraction = 0;     ///< Of this stage, in [0, 1].
 };
 
-/// Called by long work, from one thread at a time, at most a few hundred times a stage. May be empty.
-/// Returns false to cancel: the work then ends with Cancelled at its next report.
+/// Called by long computations, from one thread at a time, at most a few hundred times a stage. May be empty.
+/// Returns false to cancel: the computation then throws Cancelled.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
-/// Work was ended because its ProgressCallback returned false. Nothing was written.
+/// A computation was ended because its ProgressCallback returned false. It has written nothing.
 class Cancelled : public Error {
  public:
   using Error::Error;
@@ -34,25 +34,29 @@ inline void report_progress(const ProgressCallback& callback, std::string_view s
   if (callback && !callback({stage, fraction})) throw Cancelled("cancelled during '" + std::string(stage) + "'");
 }
 
-/// One stage's progress, counted by several threads.
+/// Reports the progress of a stage that several threads share: one report at a time, about 200 in all.
 class SharedProgress {
  public:
-  /// @param total What the amounts of add() come to in the end; > 0.
-  SharedProgress(ProgressCallback callback, std::string stage, double total)
-      : callback_(std::move(callback)), stage_(std::move(stage)), total_(total) {}
+  /// @param all  the work of the stage, in any unit.
+  SharedProgress(ProgressCallback callback, std::string stage, double all)
+      : callback_(std::move(callback)), stage_(std::move(stage)), all_(all) {}
 
+  /// Counts work that is done.
   /// @throws Cancelled as report_progress().
-  void add(double amount) {
-    if (!callback_) return;
+  void add(double work) {
+    if (!callback_ || !(work > 0)) return;
     const std::scoped_lock lock(mutex_);
-    done_ += amount;
-    report_progress(callback_, stage_, std::min(1.0, done_ / total_));
+    done_ += work;
+    if (done_ < next_ && done_ < all_) return;
+    next_ = done_ + all_ / k_reports;
+    report_progress(callback_, stage_, std::min(1.0, done_ / all_));
   }
 
  private:
+  static constexpr double k_reports = 200;
   ProgressCallback callback_;
   std::string stage_;
-  double total_, done_ = 0;
+  double all_, done_ = 0, next_ = 0;
   std::mutex mutex_;
 };
 

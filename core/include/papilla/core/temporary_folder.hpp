@@ -6,11 +6,11 @@
 
 namespace papilla {
 
-/// A new, empty folder below the system's folder for temporary files, that only its owner can read; it goes with all it
-/// holds when the object does.
+/// A new, empty folder below the system's folder for temporary files, that only its owner can read. The destructor
+/// removes it with its content.
 class TemporaryFolder {
  public:
-  /// @param purpose a word that its name starts with.
+  /// @param purpose first word of its name.
   /// @throws IoError when it can't be made.
   explicit TemporaryFolder(std::string_view purpose);
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace papilla {
@@ -10,7 +11,7 @@ namespace papilla {
 /// One point of the error-over-run-time curve of an iterative or resolution-dependent method.
 struct TraceSample {
   double seconds = 0;  ///< Wall time since the method was entered.
-  double error = 0;    ///< What the method minimises; each method says what and in which unit.
+  double error = 0;    ///< The quantity that the method minimises; each method documents it and its unit.
 };
 
 using Trace = std::vector<TraceSample>;
@@ -29,6 +30,11 @@ class Stopwatch {
  public:
   double seconds() const noexcept {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  /// As seconds(), and starts again.
+  double restart() noexcept {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
   }
 
  private:

@@ -13,7 +13,13 @@ namespace papilla {
 /// do not depend on the order of unions. Cost: O(log n) amortized per call.
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::uint32_t{0}); }
+  explicit UnionFind(std::size_t size = 0) { reset(size); }
+
+  /// Parts all sets into single members again, 0 .. size-1. Keeps the memory.
+  void reset(std::size_t size) {
+    parent_.resize(size);
+    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+  }
 
   std::uint32_t find(std::uint32_t a) noexcept {
     while (parent_[a] != a) {

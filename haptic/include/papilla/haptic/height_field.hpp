@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "papilla/core/uv_transform.hpp"
 #include "papilla/core/vec.hpp"
 
 namespace papilla {
@@ -16,14 +17,6 @@ enum class Wrap { repeat, clamp, mirror };
 /// Interpolation between samples. Bilinear is continuous; bicubic (Catmull–Rom) has a continuous gradient as well and
 /// still passes through the samples.
 enum class Interpolation { bilinear, bicubic };
-
-/// KHR_texture_transform: uv' = offset + R(rotation) · diag(scale) · uv.
-struct UvTransform {
-  Vec2 offset{0, 0};
-  double rotation = 0;  ///< Radians, counter-clockwise as the extension defines it.
-  Vec2 scale{1, 1};
-  friend bool operator==(const UvTransform&, const UvTransform&) = default;
-};
 
 /// From 16-bit samples to heights in metres: h = offset + scale · v / 65535.
 struct HeightFieldOptions {

@@ -11,8 +11,8 @@ namespace papilla {
 
 struct GlbWriteOptions {
   double crease_deg = 40;  ///< Parts without normals are shaded smoothly over edges up to this angle.
-  /// Drafts of others' extensions that repeat what the haptic tags say, as far as they have a place for it. The tags
-  /// stay, and count: tools that do not know an extension drop it.
+  /// Draft extensions of others that repeat the content of the haptic tags as far as they can hold it. The tags remain
+  /// and take precedence: tools drop an extension that they do not know.
   bool mirror_mpeg_haptics = false;  ///< MPEG_material_haptic: height maps as vibrotactile textures of whole meshes.
   bool mirror_khr_physics = false;   ///< KHR_physics_rigid_bodies: friction as physics materials of colliders.
 };

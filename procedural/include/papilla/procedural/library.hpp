@@ -19,7 +19,7 @@ namespace papilla {
 ///     worn_brick   brick|scale=.5|mortarthickness=.08
 ///                  |mainfunction=this*[fbm|scale=.2]
 ///
-/// Names hold letters, digits and _. and begin with a letter; names of base types and functions are taken.
+/// Names hold letters, digits and _. and begin with a letter; names of base types and functions are reserved.
 /// A later entry replaces an earlier one of the same name.
 class RecipeLibrary {
  public:
@@ -42,7 +42,7 @@ class RecipeLibrary {
 
   const std::string* find(std::string_view name) const;
   const std::string* find_colours(std::string_view name) const;
-  /// All that was read, includes too, in the order of reading; also what could not be read.
+  /// All files read, with includes, in the order of reading; also those that could not be read.
   const std::vector<std::filesystem::path>& files() const noexcept { return files_; }
   const std::map<std::string, std::string, std::less<>>& recipes() const noexcept { return recipes_; }
 

@@ -16,7 +16,7 @@
 
 namespace papilla {
 
-/// What a texture gives at a point. `color` has three numbers, the others one.
+/// The values of a texture at a point. `color` has three numbers, the others one.
 enum class Channel {
   main,
   bump,
@@ -43,10 +43,10 @@ struct RecipePicture {
 
 struct CompileOptions {
   double time = 0;                ///< 0 new … 1 worn.
-  double realtime_s = 0;          ///< What `realtime` gives.
+  double realtime_s = 0;          ///< The value of `realtime`.
   std::uint32_t seed = 0;         ///< Added to the seed of the recipe.
   bool seamless = false;          ///< As if the recipe said seamless=true.
-  std::string source = "recipe";  ///< How messages call the recipe.
+  std::string source = "recipe";  ///< The name of the recipe in messages.
   /// Reads picpath; without it recipes that name a file are refused.
   std::function<RecipePicture(const std::string& path)> read_picture;
 };
@@ -64,9 +64,9 @@ class ProceduralTexture {
   bool depends_on_position() const noexcept;    ///< posx, posy, posz or checker3d is used somewhere.
   bool depends_on_sky() const noexcept;         ///< sky is used somewhere.
   bool depends_on_time() const noexcept;        ///< time is used somewhere.
-  bool depends_on_neighbours() const noexcept;  ///< nearmean() or one of its kin is used somewhere.
-  /// The dirt directions of all that use normaldot, each once: two normals with the same product with each of them look
-  /// the same to the recipe.
+  bool depends_on_neighbours() const noexcept;  ///< nearmean() or another neighbourhood function is used somewhere.
+  /// The dirt directions of all textures that use normaldot, each once: two normals with the same product with each of
+  /// them look the same to the recipe.
   std::vector<std::array<double, 3>> dirt_directions() const;
   std::vector<std::string> recipes_used() const;  ///< Names from the library, sorted.
 
@@ -84,10 +84,10 @@ class ProceduralTexture {
 ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& library,
                                   const CompileOptions& options = {});
 
-/// Where points lie in a picture, so that nearmean() and its kin know their neighbours.
+/// The places of points in a picture, for nearmean() and the other neighbourhood functions.
 struct PointRaster {
-  int width = 0, height = 0;          ///< 0: the points are alone. @pre at most 2^26 texels.
-  bool repeats = false;               ///< The picture goes on round its borders.
+  int width = 0, height = 0;          ///< 0: the points have no neighbours. @pre at most 2^26 texels.
+  bool repeats = false;               ///< The picture repeats across its borders.
   std::span<const std::uint32_t> at;  ///< row * width + column of every point, each place at most once.
 };
 
@@ -120,8 +120,8 @@ struct RenderedTexture {
 };
 
 /// The channels as pictures. The shorter side spans 1 unless the recipe says stretch.
-/// Every value is finite: what is not, on the way, counts as 0. Alpha, coloralpha and colours are cut to [0, 1],
-/// friction and stiffness to [0, 10]. Cost: O(texels), once more for every neighbourhood statistic that rests on
+/// Every value is finite: intermediate results that are not count as 0. Alpha, coloralpha and colours are cut to [0,
+/// 1], friction and stiffness to [0, 10]. Cost: O(texels), once more for every neighbourhood statistic that rests on
 /// another one; all cores (TBB). Deterministic, whatever the number of threads.
 /// @throws InvalidInput when the size breaks its precondition, or a recipe with neighbourhoods exceeds 2^26 texels.
 RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOptions& options);

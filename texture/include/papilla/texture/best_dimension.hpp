@@ -26,7 +26,7 @@ struct BestDimension {
 /// v_raw)². Accuracy (rms error of D on exact surfaces, D = 2.1…2.9): about 0.0044 / 0.0024 / 0.0013 for 257² / 513² /
 /// 1025² of floating-point data, 0.005 / 0.004 / 0.006 for 8 bit. The interval is a 95 % jackknife over 16 blocks of
 /// the picture. Cost: O(pixels) a lag. Deterministic.
-/// @param image at least 32 pixels a side, `bits` telling the rounding the values have seen.
+/// @param image at least 32 pixels a side, `bits` the rounding of its values.
 /// @throws InvalidInput when the picture is smaller, empty or not finite.
 /// Istas and Lang, Quadratic variations and estimation of the local Hölder index, 1997.
 BestDimension best_dimension(const GreyImage& image);

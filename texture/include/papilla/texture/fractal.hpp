@@ -16,7 +16,7 @@ struct ScalePoint {
 struct FractalEstimate {
   double dimension = 2;
   double hurst = 1;               ///< 3 − dimension; outside [0, 1] when the picture is no fractal surface.
-  double low = 2, high = 2;       ///< 95 % interval of the dimension; each method says from what it comes.
+  double low = 2, high = 2;       ///< 95 % interval of the dimension; each method documents its source.
   std::vector<ScalePoint> curve;  ///< The points of the log-log plot, by rising scale.
 };
 

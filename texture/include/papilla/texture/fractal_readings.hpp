@@ -28,7 +28,7 @@ FractalReadings read_fractal_dimensions(const GreyImage& image, const ProgressCa
 
 /// The readings of a picture too large for memory from those of its pieces: the mean over the pieces of every number,
 /// curves as geometric means at the scales all pieces have, for fshot the ellipse through the mean Hurst exponents. The
-/// 95 % intervals are those of the mean: ± t · deviation / √pieces, so that they tell how far the pieces differ; with
+/// 95 % intervals are those of the mean: ± t · deviation / √pieces, so that they show how far the pieces differ; with
 /// one piece they are its own. Every method keeps the scales it was made for; the box family and `probability` depend
 /// on the size of what they read, which is that of a piece. The quantization step is the smallest of the pieces.
 FractalReadings mean_readings(std::span<const FractalReadings> pieces);

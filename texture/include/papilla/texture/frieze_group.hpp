@@ -22,7 +22,7 @@ std::string_view to_string(FriezeGroup group) noexcept;
 struct FriezeSymmetry {
   bool found = false;  ///< The strip repeats.
   FriezeGroup group = FriezeGroup::p1;
-  int order = 1;                    ///< Operations of the group, translations left aside.
+  int order = 1;                    ///< Operations of the group without its translations.
   double period_px = 0;             ///< Along x, 0 when not found.
   double kept = 0;                  ///< Share of the mean cell's variance that averaging over the group keeps.
   double origin_x = 0;              ///< A mirror across the strip, or a centre of half turns.

@@ -37,8 +37,7 @@ std::string_view to_string(HeightRoughness roughness) noexcept;
 /// The roughness of that name. @throws InvalidInput for any other name.
 HeightRoughness height_roughness(std::string_view name);
 
-/// The shortest wavelength that a device can play and a hand can feel in its stroke: two ticks of the loop, v · 2 /
-/// rate.
+/// The shortest wavelength that a device can render at a stroking speed v: two ticks of the haptic loop, 2 v / rate.
 /// @throws InvalidInput when a value is not positive.
 double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz);
 
@@ -77,17 +76,17 @@ struct HeightResult {
   HeightRoughness roughness = HeightRoughness::whole;
   double roughness_rms_mm = 0;        ///< Of the roughness added; 0 for whole and none.
   double shortest_wavelength_mm = 0;  ///< Left in the result: the cut, or two pixels; 0 when the pitch is unknown.
-  /// Share of the slopes' power that runs across the light: shading shows it to second order only, so that much of the
-  /// relief is guessed. 0 for intensity.
+  /// Share of the slopes' power that runs across the light: shading shows these slopes to second order only, so that
+  /// this share of the relief is guessed. 0 for intensity.
   double guessed_share = 0;
   std::optional<CommensurateTile> tile;        ///< When one was asked for: its size and the strain it costs.
-  std::vector<std::string> measured, assumed;  ///< What rests on the picture, and what on nothing.
+  std::vector<std::string> measured, assumed;  ///< What the picture determines, and what is assumed.
   Trace trace;                                 ///< See ShadingResult; empty for intensity.
   StopReason stop = StopReason::direct;
 };
 
 /// Height map in millimetres from one picture of a surface. White or lit is outward.
-/// The depth is what is asked for: one picture of unknown albedo and light tells shape, not scale. Shape from one
+/// The depth is what is asked for: one picture of unknown albedo and light determines shape, not scale. Shape from one
 /// picture is a guess under the assumptions of the method and of estimate_light().
 /// Periodic pictures give exactly periodic heights. A flat or black picture gives a flat map. Every height is finite.
 /// Cost: that of the method; variational takes about 0.15 s at 256². Deterministic.
@@ -98,9 +97,9 @@ struct HeightResult {
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options = {});
 
 /// The other relief that the same picture allows: h → highest + lowest − h. Light from the opposite azimuth on the
-/// inverted relief gives the same picture, R(−p, −q; −s_x, −s_y) = R(p, q; s_x, s_y), so that one picture can't tell
-/// them apart; nor can it tell bright as high from dark as high. The light that goes with it is (−s_x, −s_y, s_z).
-/// Belhumeur, Kriegman and Yuille, The bas-relief ambiguity, 1999.
+/// inverted relief gives the same picture, R(−p, −q; −s_x, −s_y) = R(p, q; s_x, s_y), so that one picture does not
+/// distinguish them; nor does it distinguish bright as high from dark as high. The light that goes with it is (−s_x,
+/// −s_y, s_z). Belhumeur, Kriegman and Yuille, The bas-relief ambiguity, 1999.
 /// @throws InvalidInput when the relief is empty or not finite.
 HeightMap opposite_relief(const HeightMap& relief);
 

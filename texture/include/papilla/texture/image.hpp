@@ -11,7 +11,7 @@ struct GreyImage {
   int width = 0, height = 0;
   std::vector<float> pixels;  ///< width * height values.
   double pitch_mm = 0;        ///< Millimetres per pixel; 0 when unknown.
-  int bits = 32;              ///< Bits per sample of the file (8, 16, 32); tells what rounding the values have seen.
+  int bits = 32;              ///< Bits per sample of the file (8, 16, 32); the rounding of the values.
 
   float& at(int x, int y) { return pixels[index(x, y)]; }
   float at(int x, int y) const { return pixels[index(x, y)]; }

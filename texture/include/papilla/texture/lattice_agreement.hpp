@@ -18,7 +18,7 @@ struct LatticeAgreement {
 
   void add(const Lattice& middle, const Lattice& piece);
   int pieces() const { return same + other + none; }
-  /// At least half of the pieces say what the middle says.
+  /// At least half of the pieces agree with the middle.
   bool holds() const { return 2 * same >= pieces(); }
 };
 

@@ -28,8 +28,8 @@ struct ShadingOptions {
 
 /// Pictures of any size: those longer than `largest_piece_px` are cut into pieces, several of which are solved at a
 /// time on all threads. Memory is 8 bytes a pixel for the result and a constant for the pieces in work, time grows with
-/// the pixels. tsai-shah: a piece sees as many pixels to its left and above as there are steps, from where all that
-/// reaches it comes; the result is that of the whole picture to the last bit, up to half of largest_piece_px steps.
+/// the pixels. tsai-shah: a piece includes as many pixels to its left and above as there are steps, all that
+/// influence it; the result is that of the whole picture to the last bit, up to half of largest_piece_px steps.
 /// variational and pentland: waves longer than a few pixels of the picture at half of largest_piece_px a side come from
 /// that, the others from pieces with free borders that overlap by 128 pixels (a quarter of largest_piece_px, if that is
 /// less) and are mixed by linear ramps, across the borders of periodic pictures too. How much that differs from the
@@ -49,7 +49,8 @@ struct ShadingResult {
 /// the linearised energy in Fourier (periodic) or cosine space: every step is two transforms, whatever the scale of the
 /// relief. The energy of a stage never rises. Pictures of 192 pixels a side or more are solved at half their size
 /// first, down to 96 to 191 pixels, and take a tenth of the steps at each finer level; the trace runs through all
-/// levels. One picture does not tell convex under one light from concave under the opposite one: the light decides.
+/// levels. One picture does not distinguish convex under one light from concave under the opposite one: the light
+/// decides.
 /// Waves across the light direction shade only to second order. Frontal light is ambiguous: the start takes bright as
 /// high. Mean depth error on known reliefs under oblique light: see the tests and the report of the benchmark. Cost:
 /// about 0.2 s at 256², 2.5 s at 1024². Deterministic.

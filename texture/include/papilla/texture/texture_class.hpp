@@ -51,7 +51,7 @@ using AnalysisPlan = std::vector<PlanStep>;
 /// direction only (Lattice::stripes), and the coherence of its structure tensor. strongly_ordered_symmetric from an
 /// explained share of 0.5 on, composite from 0.15 on; strongly_ordered_nonsymmetric where stripes repeat from 0.5 on;
 /// weakly_ordered from a coherence of 0.4 on. Elements placed by a rule without any translation (bricks of different
-/// size) are not told apart from disordered ones.
+/// size) count as disordered.
 /// Cost: O(pixels). @throws InvalidInput when the picture is empty or not finite.
 TextureClass classify(const GreyImage& image, double explained_variance, double stripes = 0);
 

@@ -10,7 +10,7 @@
 namespace papilla {
 
 /// Class, suitability and orientation of a picture too large for memory, from its pieces: what classify(),
-/// measure_suitability() and orientation_field() tell of a whole picture, with the pieces as blocks. Gradients across
+/// measure_suitability() and orientation_field() give for a whole picture, with the pieces as blocks. Gradients across
 /// the borders of pieces are left out. Pieces are added row by row, from left to right.
 class TextureOrder {
  public:

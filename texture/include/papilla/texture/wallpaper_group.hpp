@@ -33,11 +33,11 @@ struct WallpaperCandidate {
 /// What find_wallpaper_group() returns.
 struct WallpaperSymmetry {
   WallpaperGroup group = WallpaperGroup::p1;
-  int order = 1;        ///< Rotations and reflections of the group, translations left aside.
+  int order = 1;        ///< Rotations and reflections of the group, without its translations.
   double kept = 1;      ///< See WallpaperCandidate.
   Vec2 origin_px{};     ///< A centre of the highest rotation, or a point of a mirror or glide line; from the centre of
                         ///< the picture's first pixel.
-  GreyImage primitive;  ///< The primitive averaged over the group: sampled as the one given, bit-equal borders kept.
+  GreyImage primitive;  ///< The primitive averaged over the group: sampled as the one given, bit-equal borders stay so.
   /// Corners of the smallest generating region: a convex polygon of 1/order of the cell, whose images under the group
   /// cover the plane once. Mirror lines bound it.
   std::vector<Vec2> region_px;

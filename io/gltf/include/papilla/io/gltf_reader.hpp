@@ -17,10 +17,10 @@ namespace papilla {
 /// (MSFT_lod: the finest is read) are listed in `losses`; pictures that are missing in `warnings`. Links no heavy
 /// library, so that the player can use it.
 ///
-/// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says. No count is believed before
-/// it is held against the bytes that are there; what accessors hand out, all their uses together, is limited to 64
-/// elements per byte of the buffers plus 2^20, and to 2^28. Cost: one pass over the file, about 200 bytes per triangle.
-/// Deterministic.
+/// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says. Every count is checked
+/// against the bytes present before memory is allocated for it; the elements of all uses of all accessors together are
+/// limited to 64 per byte of the buffers plus 2^20, and to 2^28. Cost: one pass over the file, about 200 bytes per
+/// triangle. Deterministic.
 /// @throws IoError when the file can't be read; InvalidInput naming file, place and reason when it is no
 ///         valid glTF 2, truncated, or needs an extension that is not supported (KHR_texture_basisu, ...).
 Scene read_gltf(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "papilla/core/up_axis.hpp"
+#include "papilla/core/uv_transform.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
 namespace papilla {
@@ -35,19 +36,13 @@ struct Texture {
   std::string extras_json, extensions_json;
 };
 
-/// KHR_texture_transform: uv' = translate(offset) · rotate(rotation) · scale(scale) · uv, with uv in glTF's own
-/// space (v down, origin at the picture's upper left). transform_uv() applies it to a scene's uv.
-struct TextureTransform {
-  Vec2 offset{0, 0};
-  double rotation = 0;  ///< Radians; turns the uv counter-clockwise as seen with v down.
-  Vec2 scale{1, 1};
-};
+using TextureTransform = UvTransform;
 
 struct TextureReference {
   std::uint32_t texture = 0;  ///< Index into Scene::textures.
   int tex_coord = 0;
-  double factor = 1;  ///< normalTexture.scale or occlusionTexture.strength.
-  std::optional<TextureTransform> transform;
+  double factor = 1;                     ///< normalTexture.scale or occlusionTexture.strength.
+  std::optional<UvTransform> transform;  ///< transform_uv() applies it to a scene's uv.
 };
 
 struct Material {
@@ -126,9 +121,6 @@ Vec3 transform_point(const Transform& t, Vec3 p) noexcept;
 
 /// Turns the scene's axes to glTF's Y up (the identity when it is Y up already): Z up becomes Y up, X stays.
 Transform to_y_up(UpAxis up) noexcept;
-
-/// The transformed texture coordinates of a scene's uv (v up in and out).
-Vec2 transform_uv(const TextureTransform& transform, Vec2 uv) noexcept;
 
 /// All parts with their world transforms, depth first from the roots, children in their order. Nodes that can't be
 /// reached from a root are left out. Cost: linear in the number of nodes; no recursion.

@@ -36,9 +36,38 @@ struct PlyHeader {
   std::size_t size = 0;                    ///< Bytes up to the first element.
 };
 
-/// Reads the header and holds its counts against the bytes that follow it.
+/// Reads the header and checks its counts against the bytes that follow it.
 /// @param file  what messages call it.
 /// @throws InvalidInput naming file, line and reason.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
+
+/// The numbers behind a PLY header, in order. No more memory is allocated than the remaining bytes can fill.
+class PlyBody {
+ public:
+  /// @param bytes  the whole file.
+  PlyBody(std::string_view bytes, const PlyHeader& header, const std::string& file)
+      : bytes_(bytes), format_(header.format), at_(header.size), file_(file) {}
+
+  /// @throws InvalidInput naming the line or byte, as everything here, when the file ends or holds no number.
+  double number(PlyType type);
+
+  /// A list's numbers.
+  void list(const PlyProperty& property, std::vector<double>& values);
+
+  void skip(const PlyElement& element);
+
+  std::size_t position() const noexcept { return at_; }
+  void go_to(std::size_t position) noexcept { at_ = position; }
+
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  std::size_t list_length(const PlyProperty& property);
+
+  std::string_view bytes_;
+  PlyFormat format_;
+  std::size_t at_;
+  const std::string& file_;
+};
 
 }  // namespace papilla
