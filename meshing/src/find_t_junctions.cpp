@@ -28,7 +28,7 @@ std::vector<Index> end_vertices(const std::vector<Triangle>& triangles, const st
 }  // namespace
 
 std::vector<TJunction> find_t_junctions(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
-                                        const EdgeTable& edges, double tolerance) {
+                                        const EdgeTable& edges, double reach, double from_ends) {
   const std::vector<Index> boundary = edges.boundary_halfedges();
   if (boundary.empty()) return {};
   const PointTree tree(positions, end_vertices(triangles, boundary));
@@ -36,12 +36,11 @@ std::vector<TJunction> find_t_junctions(const std::vector<Vec3>& positions, cons
   const auto visit_edge = [&](Index h, std::vector<TJunction>& found) {
     const Vec3 a = positions[from_vertex(triangles, h)], d = positions[to_vertex(triangles, h)] - a;
     const double length = norm(d);
-    if (length <= 4 * tolerance) return;
-    tree.near_segment(a, a + d, tolerance, [&](Index v, const Vec3& p) {
+    if (length <= 2 * from_ends) return;
+    tree.near_segment(a, a + d, reach, [&](Index v, const Vec3& p) {
       const Vec3 w = p - a;
       const double s = dot(w, d) / (length * length);
-      if (s * length > 2 * tolerance && (1 - s) * length > 2 * tolerance && norm(w - s * d) < tolerance)
-        found.push_back({h, v, s});
+      if (s * length > from_ends && (1 - s) * length > from_ends && norm(w - s * d) < reach) found.push_back({h, v, s});
     });
   };
 

@@ -14,10 +14,10 @@ struct TJunction {
   double s = 0;  ///< Where on the half-edge, in (0, 1).
 };
 
-/// All T-junctions: boundary vertices (of edges with one half-edge) nearer than `tolerance` to another boundary edge
-/// and further than twice that from its ends. Sorted by (half-edge, s, vertex). Each vertex must have its own position.
+/// All T-junctions: boundary vertices (of edges with one half-edge) nearer than `reach` to another boundary edge and
+/// further than `from_ends` from its ends. Sorted by (half-edge, s, vertex). Each vertex must have its own position.
 /// O(n log n) for n boundary edges whose neighbourhoods are bounded; deterministic, parallel.
 std::vector<TJunction> find_t_junctions(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
-                                        const EdgeTable& edges, double tolerance);
+                                        const EdgeTable& edges, double reach, double from_ends);
 
 }  // namespace papilla::detail

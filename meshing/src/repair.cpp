@@ -226,12 +226,13 @@ void check_options(const RepairOptions& options) {
 }
 
 RepairScale scale_of(const TriangleMesh& mesh, const RepairOptions& options) {
-  const double diagonal = bounds_of(mesh).diagonal();
+  const Bounds3 bounds = bounds_of(mesh);
+  const double reference = reference_length(bounds);
   const WeldOptions weld;
-  return {.diagonal_mm = diagonal,
-          .weld = {options.weld_mm.value_or(weld.relative_tolerance * diagonal), weld.feature_fraction,
-                   k_degenerate_altitude * diagonal},
-          .stitch_mm = options.stitch_mm.value_or(k_stitched_gap * diagonal),
+  return {.reference_mm = reference,
+          .weld = {options.weld_mm.value_or(weld.relative_tolerance * reference), weld.feature_fraction,
+                   k_degenerate_altitude * reference},
+          .stitch_mm = options.stitch_mm.value_or(k_stitched_gap * bounds.diagonal()),
           .fill_holes_mm = options.fill_holes_mm,
           .max_passes = options.max_passes};
 }
@@ -242,9 +243,13 @@ RepairResult repair(TriangleMesh mesh, const RepairOptions& options) {
   check_options(options);
   check_mesh(mesh, "repair");
   const RepairScale scale = scale_of(mesh, options);
-  const std::size_t merged = merge_equal(mesh);
+  std::size_t merged = merge_equal(mesh);
+  double rounding_mm = 0;
+  merged += merge_stored_equal(mesh, rounding_mm);
   RepairResult result = SoupRepair(std::move(mesh), scale, options.progress).run();
   result.counts.welded_equal += merged;
+  result.deviations.weld = std::max(result.deviations.weld, rounding_mm);
+  result.max_deviation_mm += rounding_mm;
   result.weld_tolerance_mm = scale.weld.tolerance_mm;
   result.stitch_tolerance_mm = scale.stitch_mm;
   return result;

@@ -6,12 +6,10 @@
 #include <utility>
 
 #include "find_t_junctions.hpp"
+#include "triangle_shape.hpp"
 
 namespace papilla::detail {
 namespace {
-
-/// Three times what counts as degenerate, so that writing single precision doesn't make a triangle degenerate again.
-constexpr double k_repaired_altitude = 3e-7;
 
 /// The state of a repair: the mesh, the table of its edges while that is valid, and what was done so far.
 class Repair {
@@ -63,6 +61,10 @@ class Repair {
     if (changed) edges_.reset();
   }
 
+  /// How near to an edge a vertex makes a T-junction, also after both are rounded, and how far from the edge's ends.
+  double t_junction_reach_mm() const { return (k_touching_distance + 2 * k_rounding_distance) * scale_.reference_mm; }
+  double t_junction_from_ends_mm() const { return 2 * k_touching_distance * scale_.reference_mm; }
+
   void report(double fraction) const { report_progress(progress_, "repair", fraction); }
 
   void note(double RepairDeviations::*operation, double deviation_mm) {
@@ -106,7 +108,7 @@ class Repair {
 
   void drop_degenerate() {
     DegenerateResult step;
-    forget_edges_if(resolve_degenerate(all_.mesh, k_repaired_altitude * scale_.diagonal_mm, step));
+    forget_edges_if(resolve_degenerate(all_.mesh, k_repaired_altitude * scale_.reference_mm, step));
     all_.counts.repeated_corners += step.repeated;
     all_.counts.collapsed_needles += step.collapsed;
     all_.counts.flipped_caps += step.flipped;
@@ -116,8 +118,7 @@ class Repair {
 
   bool close_t_junctions() {
     TJunctionResult step;
-    const bool changed =
-        split_borders(all_.mesh, edges(), TJunctionOptions{}.relative_tolerance * scale_.diagonal_mm, step);
+    const bool changed = split_borders(all_.mesh, edges(), t_junction_reach_mm(), t_junction_from_ends_mm(), step);
     forget_edges_if(changed);
     all_.counts.t_junctions += step.inserted_vertices;
     all_.counts.border_slivers += step.slivers;
@@ -136,7 +137,7 @@ class Repair {
   void part() {
     for (std::size_t round = 0; round < scale_.max_passes; ++round) {
       ManifoldResult step;
-      forget_edges_if(part_sheets(all_.mesh, edges(), ManifoldOptions{}.relative_gap * scale_.diagonal_mm, step));
+      forget_edges_if(part_sheets(all_.mesh, edges(), ManifoldOptions{}.relative_gap * scale_.reference_mm, step));
       all_.counts.parted_edges += step.parted_edges;
       all_.counts.added_vertices += step.added_vertices;
       note(&RepairDeviations::partings, step.max_deviation_mm);
@@ -161,10 +162,9 @@ class Repair {
   bool is_clean() {
     const TriangleMesh& mesh = all_.mesh;
     return !has_bad_edges(mesh.triangles, edges()) && !has_duplicates(mesh.triangles, edges()) &&
-           !has_degenerate(mesh, k_repaired_altitude * scale_.diagonal_mm) &&
+           !has_degenerate(mesh, k_repaired_altitude * scale_.reference_mm) &&
            !has_near_borders(mesh, edges(), scale_.weld) &&
-           find_t_junctions(mesh.positions, mesh.triangles, edges(),
-                            TJunctionOptions{}.relative_tolerance * scale_.diagonal_mm)
+           find_t_junctions(mesh.positions, mesh.triangles, edges(), t_junction_reach_mm(), t_junction_from_ends_mm())
                .empty();
   }
 

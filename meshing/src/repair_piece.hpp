@@ -11,7 +11,7 @@ namespace papilla::detail {
 
 /// What a repair works to: lengths that belong to the whole mesh.
 struct RepairScale {
-  double diagonal_mm = 0;
+  double reference_mm = 0;  ///< reference_length() of the whole mesh.
   WeldReach weld;
   double stitch_mm = 0;
   double fill_holes_mm = 0;

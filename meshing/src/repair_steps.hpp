@@ -19,6 +19,10 @@ namespace papilla::detail {
 /// merged.
 std::size_t merge_equal(TriangleMesh& mesh);
 
+/// The same for positions that single precision makes equal, in millimetres (PLY, STL) or metres (glTF). Each keeps the
+/// place of the first; raises `max_deviation_mm` to the furthest that one moved.
+std::size_t merge_stored_equal(TriangleMesh& mesh, double& max_deviation_mm);
+
 /// How far welding may move vertices; see WeldOptions.
 struct WeldReach {
   double tolerance_mm = 0;
@@ -29,7 +33,8 @@ struct WeldReach {
 bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& reach, WeldResult& result);
 bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, DuplicateResult& result);
 bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result);
-bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, TJunctionResult& result);
+bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double reach_mm, double from_ends_mm,
+                   TJunctionResult& result);
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result);
 bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result);
 bool fill_borders(TriangleMesh& mesh, const EdgeTable& edges, const FillHolesOptions& options, FillHolesResult& result);

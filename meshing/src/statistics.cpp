@@ -37,22 +37,24 @@ Welded weld_exactly(const TriangleMesh& mesh) {
   return welded;
 }
 
-void measure_box(const Welded& welded, MeshStatistics& result) {
-  if (welded.positions.empty()) return;
+/// Returns the reference length.
+double measure_box(const Welded& welded, MeshStatistics& result) {
+  if (welded.positions.empty()) return 0;
   Bounds3 bounds;
   for (const Vec3& p : welded.positions) bounds.add(p);
   result.low = bounds.low;
   result.high = bounds.high;
+  return reference_length(bounds);
 }
 
 /// Degenerate triangles, aspect, area; returns the signed volume seen from the box's centre.
-double measure_shapes(const Welded& welded, double diagonal, MeshStatistics& result) {
+double measure_shapes(const Welded& welded, double reference, MeshStatistics& result) {
   const Vec3 centre = 0.5 * (result.low + result.high);
   double volume = 0;
   for (const Triangle& t : welded.triangles) {
     const Vec3 a = welded.positions[t[0]], b = welded.positions[t[1]], c = welded.positions[t[2]];
     const TriangleShape shape = triangle_shape(a, b, c);
-    if (repeats_corner(t) || shape.altitude < k_degenerate_altitude * diagonal)
+    if (repeats_corner(t) || shape.altitude < k_degenerate_altitude * reference)
       ++result.degenerate_triangles;
     else
       result.aspect_max = std::max(result.aspect_max, shape.longest_edge / shape.altitude);
@@ -165,9 +167,10 @@ void count_topology(const Welded& welded, const EdgeTable& edges, MeshStatistics
     if (manifold[c]) result.genus += 0.5 * static_cast<double>(2 - loops[c] - euler[c]);
 }
 
-std::size_t count_t_junctions(const Welded& welded, const EdgeTable& edges, double diagonal) {
+std::size_t count_t_junctions(const Welded& welded, const EdgeTable& edges, double reference) {
   std::vector<Index> vertices;
-  for (const TJunction& t : find_t_junctions(welded.positions, welded.triangles, edges, k_touching_distance * diagonal))
+  const double reach = k_touching_distance * reference, from_ends = 2 * reach + 2 * k_rounding_distance * reference;
+  for (const TJunction& t : find_t_junctions(welded.positions, welded.triangles, edges, reach, from_ends))
     vertices.push_back(t.vertex);
   std::sort(vertices.begin(), vertices.end());
   return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
@@ -182,16 +185,15 @@ MeshStatistics mesh_statistics(const TriangleMesh& mesh) {
   result.triangles = mesh.triangles.size();
   result.vertices = welded.positions.size();
   result.has_uv = !mesh.uv.empty();
-  measure_box(welded, result);
-  const double diagonal = norm(result.high - result.low);
-  const double volume = measure_shapes(welded, diagonal, result);
+  const double reference = measure_box(welded, result);
+  const double volume = measure_shapes(welded, reference, result);
   for_each_same_group(welded.triangles,
                       [&](std::span<const Index> same) { result.duplicate_triangles += same.size() - 1; });
 
   const EdgeTable edges(welded.triangles, welded.positions.size());
   count_edges(welded.triangles, edges, result);
   count_topology(welded, edges, result);
-  result.t_junctions = count_t_junctions(welded, edges, diagonal);
+  result.t_junctions = count_t_junctions(welded, edges, reference);
   const bool closed = result.boundary_edges == 0 && result.nonmanifold_edges == 0 && result.flipped_edges == 0;
   if (closed && result.edges > 0) result.volume_mm3 = volume;
   return result;

@@ -56,8 +56,10 @@ void split_sides(TriangleMesh& mesh, std::span<const TJunction> junctions, TJunc
 
 namespace detail {
 
-bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double tolerance_mm, TJunctionResult& result) {
-  const std::vector<TJunction> junctions = find_t_junctions(mesh.positions, mesh.triangles, edges, tolerance_mm);
+bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double reach_mm, double from_ends_mm,
+                   TJunctionResult& result) {
+  const std::vector<TJunction> junctions =
+      find_t_junctions(mesh.positions, mesh.triangles, edges, reach_mm, from_ends_mm);
   if (junctions.empty()) return false;
   for (const TJunction& j : junctions)
     result.max_deviation_mm = std::max(result.max_deviation_mm, distance_to_edge(mesh, j));
@@ -90,8 +92,8 @@ TJunctionResult split_t_junctions(TriangleMesh mesh, const TJunctionOptions& opt
                        " is not in [0, 0.1]");
   check_mesh(mesh, "split_t_junctions");
   TJunctionResult result;
-  split_borders(mesh, EdgeTable(mesh.triangles, mesh.positions.size()),
-                options.relative_tolerance * bounds_of(mesh).diagonal(), result);
+  const double tolerance = options.relative_tolerance * bounds_of(mesh).diagonal();
+  split_borders(mesh, EdgeTable(mesh.triangles, mesh.positions.size()), tolerance, 2 * tolerance, result);
   result.mesh = std::move(mesh);
   return result;
 }

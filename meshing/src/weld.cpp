@@ -10,6 +10,7 @@
 #include "edge_table.hpp"
 #include "exact_positions.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/units.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "point_tree.hpp"
 #include "repair_steps.hpp"
@@ -84,12 +85,8 @@ std::vector<Index> weld_targets(const TriangleMesh& mesh, const EdgeTable& edges
   return {};
 }
 
-}  // namespace
-
-namespace detail {
-
-std::size_t merge_equal(TriangleMesh& mesh) {
-  const ExactPositions exact = exact_positions(mesh);
+/// Makes positions of the same number one vertex; returns how many were merged.
+std::size_t merge(TriangleMesh& mesh, const ExactPositions& exact) {
   std::vector<Vec3> positions;
   positions.reserve(exact.first.size());
   for (const Index v : exact.first) positions.push_back(mesh.positions[v]);
@@ -97,6 +94,37 @@ std::size_t merge_equal(TriangleMesh& mesh) {
   mesh.positions = std::move(positions);
   for (Triangle& t : mesh.triangles)
     for (Index& v : t) v = exact.of_position[v];
+  return merged;
+}
+
+/// The number that a file in single precision holds for x; x where that is infinite.
+double stored(double x, double unit) noexcept {
+  const double scaled = unit * x;
+  return std::abs(scaled) <= std::numeric_limits<float>::max() ? static_cast<double>(static_cast<float>(scaled)) : x;
+}
+
+}  // namespace
+
+namespace detail {
+
+std::size_t merge_equal(TriangleMesh& mesh) { return merge(mesh, exact_positions(mesh)); }
+
+std::size_t merge_stored_equal(TriangleMesh& mesh, double& max_deviation_mm) {
+  std::size_t merged = 0;
+  for (const double unit : {1.0, k_metres_per_mm}) {
+    std::vector<Vec3> positions;
+    positions.reserve(mesh.positions.size());
+    for (const Vec3& p : mesh.positions) positions.push_back({stored(p.x, unit), stored(p.y, unit), stored(p.z, unit)});
+    positions.swap(mesh.positions);
+    const ExactPositions equal = exact_positions(mesh);
+    positions.swap(mesh.positions);
+    if (equal.first.size() == mesh.positions.size()) continue;
+    for (Index v = 0; v < mesh.positions.size(); ++v)
+      if (equal.of_position[v] != k_none)
+        max_deviation_mm =
+            std::max(max_deviation_mm, norm(mesh.positions[v] - mesh.positions[equal.first[equal.of_position[v]]]));
+    merged += merge(mesh, equal);
+  }
   return merged;
 }
 

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Cracks, testing::Range(1u, 6u));
 
 TEST(Repair, CountsWhatBecomesNothingByWelding) {
   TriangleMesh mesh;  // A tetrahedron with a crack along one edge, closed by a needle along another.
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1 + 1e-7, 0, 0}};
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1 + 1.5e-7, 0, 0}};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {4, 2, 3}, {0, 3, 2}, {1, 2, 4}};
   const RepairResult result = repair(mesh);
   EXPECT_EQ(result.counts.welded_near, 1u);

@@ -3,6 +3,7 @@
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BinTools.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
@@ -29,7 +30,7 @@
 namespace papilla::cad {
 namespace {
 
-enum class Kind { step, iges, brep };
+enum class Kind { step, iges, text_brep, binary_brep };
 
 struct FileEnds {
   std::string head, tail;
@@ -75,18 +76,10 @@ std::string_view last_line(std::string_view text) {
   return start == std::string_view::npos ? text : text.substr(start + 1);
 }
 
-/// The last line of a BREP file: orientation and number of the whole shape, then its location, as "+1 0".
-bool names_a_shape(std::string_view line) {
-  if (line.empty() || std::string_view("+-ie").find(line.front()) == std::string_view::npos) return false;
-  line.remove_prefix(1);
-  const auto eat_number = [&] {
-    const std::size_t end = std::min(line.find_first_not_of("0123456789"), line.size());
-    line.remove_prefix(end);
-    return end > 0;
-  };
-  if (!eat_number() || line.empty() || line.front() != ' ') return false;
-  line.remove_prefix(1);
-  return eat_number() && line.find_first_not_of(' ') == std::string_view::npos;
+bool has_line_starting(std::string_view text, std::string_view start) {
+  for (std::size_t at = text.find(start); at != std::string_view::npos; at = text.find(start, at + 1))
+    if (at == 0 || text[at - 1] == '\n') return true;
+  return false;
 }
 
 Kind kind_of(const std::filesystem::path& path, const FileEnds& ends) {
@@ -96,11 +89,6 @@ Kind kind_of(const std::filesystem::path& path, const FileEnds& ends) {
       throw InvalidInput(path.string() + ": STEP file is truncated (no END-ISO-10303-21 at its end)");
     return Kind::step;
   }
-  if (head.starts_with("DBRep_DrawableShape") || head.starts_with("CASCADE Topology V")) {
-    if (!names_a_shape(last_line(ends.tail)))
-      throw InvalidInput(path.string() + ": BREP file is truncated (its last line names no shape)");
-    return Kind::brep;
-  }
   if (is_iges_line(ends.head, 'S')) {
     std::string terminate(last_line(ends.tail));
     terminate.resize(std::max<std::size_t>(terminate.size(), 80), ' ');
@@ -108,6 +96,9 @@ Kind kind_of(const std::filesystem::path& path, const FileEnds& ends) {
       throw InvalidInput(path.string() + ": IGES file is truncated (its last line is not of section T)");
     return Kind::iges;
   }
+  // OpenCASCADE skips all lines before the one with the version, such as DRAW's DBRep_DrawableShape.
+  if (has_line_starting(head, "CASCADE Topology V")) return Kind::text_brep;
+  if (has_line_starting(head, "Open CASCADE Topology V")) return Kind::binary_brep;
   throw InvalidInput(path.string() + ": neither STEP, IGES nor BREP (unknown first bytes)");
 }
 
@@ -193,15 +184,17 @@ void read_iges(const std::filesystem::path& path, CadDocument& result, const Pro
     throw InvalidInput(path.string() + ": IGES file holds no shape that can be read");
 }
 
-void read_brep(const std::filesystem::path& path, CadDocument& result) {
+void read_brep(const std::filesystem::path& path, bool is_binary, CadDocument& result) {
   TopoDS_Shape shape;
-  BRep_Builder builder;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": can't be opened");
   // The library does not look whether its reads succeed: it would count to whatever a damaged number says.
   file.exceptions(std::ios::failbit | std::ios::badbit);
   try {
-    BRepTools::Read(shape, file, builder);
+    if (is_binary)
+      BinTools::Read(shape, file);
+    else
+      BRepTools::Read(shape, file, BRep_Builder());
   } catch (const std::ios::failure&) {
     throw InvalidInput(path.string() + ": BREP file is damaged (it ends early or has text where a number belongs)");
   }
@@ -226,9 +219,10 @@ CadDocument read_document(const std::filesystem::path& path, const ProgressCallb
       result.format = "IGES";
       read_iges(path, result, progress);
       break;
-    case Kind::brep:
+    case Kind::text_brep:
+    case Kind::binary_brep:
       result.format = "BREP";
-      read_brep(path, result);
+      read_brep(path, kind == Kind::binary_brep, result);
       break;
   }
   return result;

@@ -107,12 +107,43 @@ void FacePatch::merge(const std::vector<Index>& same) {
 }
 
 bool FacePatch::remove(const std::vector<std::uint8_t>& gone) {
+  fixed_.resize(3 * triangles.size(), 0);
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    if (gone[i] == 0) triangles[kept++] = triangles[i];
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (gone[i] != 0) continue;
+    std::copy_n(fixed_.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                fixed_.begin() + static_cast<std::ptrdiff_t>(3 * kept));
+    triangles[kept++] = triangles[i];
+  }
   triangles.resize(kept);
-  fixed_.assign(3 * kept, 0);
+  fixed_.resize(3 * kept);
   return connect();
+}
+
+std::vector<HalfEdge> FacePatch::around(HalfEdge h) const {
+  std::vector<HalfEdge> ring;
+  HalfEdge g = h;
+  do {
+    ring.push_back(g);
+    g = opposite_[next(next(g))];
+  } while (g != h && g != k_no_value);
+  if (g == k_no_value)
+    for (g = opposite_[h]; g != k_no_value; g = opposite_[g]) ring.push_back(g = next(g));
+  return ring;
+}
+
+void FacePatch::collapse(HalfEdge h) {
+  // (v, w, c) and (w, v, d) collapse onto the edges w-c and w-d.
+  const Index w = to(h);
+  for (const HalfEdge g : around(h)) triangles[g / 3][g % 3] = w;
+  for (const HalfEdge side : {h, opposite_[h]}) {
+    const HalfEdge one = next(side), other = next(one);
+    const std::uint8_t fixed = fixed_[one] | fixed_[other];
+    for (const HalfEdge outer : {opposite_[one], opposite_[other]})
+      if (outer != k_no_value) fixed_[outer] = fixed;
+    link(opposite_[one], opposite_[other]);
+    triangles[side / 3] = {w, w, w};
+  }
 }
 
 std::vector<std::uint32_t> FacePatch::in_rings() const {

@@ -58,6 +58,11 @@ class FacePatch {
   void merge(const std::vector<Index>& same);
   /// Removes triangles, then finds the neighbours anew; nodes stay.
   bool remove(const std::vector<std::uint8_t>& gone);
+  /// The half-edges that leave the start of h, one of each of its triangles.
+  std::vector<HalfEdge> around(HalfEdge h) const;
+  /// Merges the start of h, which is inside of the face, into its end. The two triangles beside h then name one node
+  /// three times and are to be removed.
+  void collapse(HalfEdge h);
 
   /// All triangles, each near those before it: rings around the first of every piece. Refinement leaves them scattered,
   /// and whoever walks over scattered triangles waits for memory.

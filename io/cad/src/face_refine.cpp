@@ -80,7 +80,7 @@ class Refiner {
       }
       again = split_triangles();
     }
-    return patch_.nodes.size() - before;
+    return patch_.nodes.size() - before - collapse_short_edges();
   }
 
  private:
@@ -278,6 +278,42 @@ class Refiner {
     };
     constexpr double k_clearly = 1e-6;
     return cotangent(c) + cotangent(d) < -k_clearly;
+  }
+
+  /// Merges nodes inside of the face into neighbours that splits have put right beside them: in a fan of needles each
+  /// new node gives rise to the next, ever nearer to it, and single precision would make them one. Returns how many.
+  std::size_t collapse_short_edges() {
+    std::size_t count = 0;
+    for (HalfEdge h = 0; h < 3 * patch_.triangles.size(); ++h)
+      if (patch_.from(h) != patch_.to(h) && length(patch_.from(h), patch_.to(h)) < k_shortest * limits_.chord &&
+          is_collapsible(h)) {
+        patch_.collapse(h);
+        ++count;
+      }
+    if (count == 0) return 0;
+    std::vector<std::uint8_t> gone;
+    for (const Triangle& t : patch_.triangles) gone.push_back(t[0] == t[1]);
+    patch_.remove(gone);
+    return count;
+  }
+
+  /// Whether the edge's start is inside of the face and can move onto its end without folding a triangle over.
+  bool is_collapsible(HalfEdge h) const {
+    const PatchNode &start = patch_.nodes[patch_.from(h)], &end = patch_.nodes[patch_.to(h)];
+    if (start.shared != k_no_value || start.is_singular() || end.is_singular() || patch_.is_fixed(h)) return false;
+    const Index to = patch_.to(h), c = patch_.apex(h), d = patch_.apex(patch_.opposite(h));
+    std::vector<Index> others;
+    for (const HalfEdge g : patch_.around(h)) {
+      if (patch_.is_fixed(g)) return false;
+      const Index p = patch_.to(g), q = patch_.apex(g);
+      if (p != to && q != to && is_flat(to, p, q)) return false;
+      if (p != to && p != c && p != d) others.push_back(p);
+    }
+    // Of the nodes that the start would hand over, none may be a neighbour of the end already.
+    for (const HalfEdge g : patch_.around(FacePatch::next(h)))
+      for (const Index p : {patch_.to(g), patch_.apex(g)})
+        if (std::find(others.begin(), others.end(), p) != others.end()) return false;
+    return c != d;
   }
 
   double sample_excess(std::uint32_t t) const {

@@ -5,9 +5,12 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
+#include <BinTools.hxx>
 
 #include <algorithm>
 #include <random>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,6 +94,22 @@ TEST_F(CadErrors, TruncatedFilesAreRefused) {
   }
 }
 
+TEST_F(CadErrors, TruncatedBrepsAreRefusedWhereverTheyEnd) {
+  const TopoDS_Shape shape = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
+  std::ostringstream text, binary;
+  BRepTools::Write(shape, text);
+  BinTools::Write(shape, binary);
+  // The text ends in a blank and "+1 0", the binary form in an orientation and two numbers: all that is cut from them
+  // takes the whole shape away.
+  for (const std::string& whole : {text.str(), binary.str()}) {
+    const std::size_t least = std::string(whole).find_last_not_of(" \n");
+    for (const std::size_t kept : {least, least - 1, least - 2, least - 8, least - 100, std::size_t{60}}) {
+      folder_.write("cut.brep", whole.substr(0, kept));
+      expect_refused("cut.brep");
+    }
+  }
+}
+
 /// Bytes changed at random: either a scene or a refusal in one line, whatever the library does with them.
 class DamagedCadFile : public CadErrors, public ::testing::WithParamInterface<const char*> {};
 
@@ -100,11 +119,12 @@ TEST_P(DamagedCadFile, IsReadOrRefused) {
   if (extension == ".step") write_step(shape, folder_ / "whole.step");
   if (extension == ".igs") write_iges(shape, folder_ / "whole.igs");
   if (extension == ".brep") write_brep(shape, folder_ / "whole.brep");
+  if (extension == ".brp") BinTools::Write(shape, (folder_ / "whole.brp").c_str());
   const std::string text = read_text(folder_ / ("whole" + extension));
   std::mt19937 random(7);
   for (int i = 0; i < 25; ++i) {
     std::string damaged = text;
-    // The tail stays, or the file would only count as truncated.
+    // The tail stays, or STEP and IGES would only count as truncated.
     for (int k = 0; k < 3; ++k) damaged[random() % (damaged.size() * 9 / 10)] = static_cast<char>('#' + random() % 24);
     const std::string name = "damaged" + extension;
     folder_.write(name, damaged);
@@ -113,7 +133,7 @@ TEST_P(DamagedCadFile, IsReadOrRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, DamagedCadFile, ::testing::Values(".step", ".igs", ".brep"),
+INSTANTIATE_TEST_SUITE_P(Formats, DamagedCadFile, ::testing::Values(".step", ".igs", ".brep", ".brp"),
                          [](const auto& format) { return std::string(format.param).substr(1); });
 
 TEST_F(CadErrors, OptionsOutOfRangeAreRefused) {

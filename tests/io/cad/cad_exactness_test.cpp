@@ -2,9 +2,12 @@
 // Triangles against the exact surface, by formula or by the CAD kernel's own projection.
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -21,6 +24,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <gp_Ax1.hxx>
+#include <gp_Elips.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 
@@ -350,6 +354,42 @@ TEST_F(CadExactness, SampleSolidsHaveTheirAreas) {
                           pi * (k_cone_radius * k_cone_radius + k_cone_top_radius * k_cone_top_radius) +
                           pi * (k_cone_radius + k_cone_top_radius) * slant;
   EXPECT_NEAR(area / expected, 1, 2e-3);
+}
+
+/// A blade lofted through ellipses, whose long triangles between sharply turning ends take many splits.
+TopoDS_Shape blade() {
+  BRepOffsetAPI_ThruSections loft(true);
+  struct Section {
+    double x, z, half_width, half_height;
+  };
+  for (const Section& s : {Section{40, -22, 26, 9}, {75, -19, 22, 7}, {120, -11, 17, 6}, {182, 0, 19, 7}}) {
+    const gp_Elips ellipse(gp_Ax2(gp_Pnt(s.x, 0, s.z), gp::DX(), gp::DY()), s.half_width, s.half_height);
+    loft.AddWire(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(ellipse).Edge()).Wire());
+  }
+  loft.Build();
+  return loft.Shape();
+}
+
+TEST_F(CadExactness, NodesKeepClearOfEachOther) {
+  for (const double chord : {0.05, 0.1}) {
+    const TriangleMesh mesh = read(blade(), options(chord, 20));
+    EXPECT_LE(report_.max_deviation_mm, chord);
+    EXPECT_TRUE(report_.off_faces.empty());
+    EXPECT_TRUE(is_closed(mesh));
+    double shortest = chord;
+    std::size_t without_area = 0;  // as glTF stores it: metres in single precision
+    const auto stored = [](const Vec3& p) {
+      const auto number = [](double mm) { return static_cast<double>(static_cast<float>(k_metres_per_mm * mm)); };
+      return Vec3{number(p.x), number(p.y), number(p.z)};
+    };
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (int k = 0; k < 3; ++k) shortest = std::min(shortest, norm(mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)));
+      const Vec3 a = stored(mesh.corner(t, 0)), b = stored(mesh.corner(t, 1)), c = stored(mesh.corner(t, 2));
+      without_area += norm(cross(b - a, c - a)) > 0 ? 0u : 1u;
+    }
+    EXPECT_GE(shortest, 0.01 * chord);
+    EXPECT_EQ(without_area, 0u);
+  }
 }
 
 }  // namespace

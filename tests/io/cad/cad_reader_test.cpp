@@ -8,7 +8,9 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BinTools.hxx>
 #include <TopoDS_Compound.hxx>
 
 #include <algorithm>
@@ -18,6 +20,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
+#include <sstream>
+#include <utility>
 
 #include "io/cad/cad_fixtures.hpp"
 #include "io/temporary_folder.hpp"
@@ -258,6 +262,64 @@ TEST_F(CadReader, SameResultWithOneThreadAndMany) {
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_TRUE(same_mesh(many.parts[i].mesh, again.parts[i].mesh));
     EXPECT_TRUE(same_mesh(many.parts[i].mesh, one.parts[i].mesh));
+  }
+}
+
+std::string brep_text(const TopoDS_Shape& shape, TopTools_FormatVersion version) {
+  std::ostringstream out;
+  BRepTools::Write(shape, out, true, true, version);
+  return out.str();
+}
+
+std::string brep_binary(const TopoDS_Shape& shape, BinTools_FormatVersion version) {
+  std::ostringstream out;
+  BinTools::Write(shape, out, true, true, version);
+  return out.str();
+}
+
+std::string with_crlf(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  return result;
+}
+
+/// A solid of curved and flat faces, placed by a location of its own.
+TopoDS_Shape placed_cone() {
+  gp_Trsf place;
+  place.SetTranslation(gp_Vec(50, -20, 7));
+  return BRepPrimAPI_MakeCone(5, 2, 12).Shape().Located(TopLoc_Location(place));
+}
+
+/// The layout of DRAW's `save`: the class of the object, the shape, a line `0`, an empty line.
+std::string as_draw_saves(const std::string& brep) { return "DBRep_DrawableShape\n" + brep + "\n0\n\n"; }
+
+TEST_F(CadReader, EveryBrepThatOpenCascadeWritesIsRead) {
+  const TopoDS_Shape shape = placed_cone();
+  const std::string v1 = brep_text(shape, TopTools_FormatVersion_VERSION_1);
+  const std::vector<std::pair<const char*, std::string>> files = {
+      {"text 1", v1},
+      {"text 2", brep_text(shape, TopTools_FormatVersion_VERSION_2)},
+      {"text 3", brep_text(shape, TopTools_FormatVersion_VERSION_3)},
+      {"DRAW 1", as_draw_saves(v1)},
+      {"DRAW 3", as_draw_saves(brep_text(shape, TopTools_FormatVersion_VERSION_3))},
+      {"text, CRLF", with_crlf(v1)},
+      {"DRAW, CRLF", with_crlf(as_draw_saves(v1))},
+      {"text after blank lines", "\n\n\r\n" + v1},
+      {"text and blank lines", v1 + "\n\n \n"},
+      {"DRAW after blank lines", "\n\n" + as_draw_saves(v1)},
+      {"binary 1", brep_binary(shape, BinTools_FormatVersion_VERSION_1)},
+      {"binary 2", brep_binary(shape, BinTools_FormatVersion_VERSION_2)},
+      {"binary 3", brep_binary(shape, BinTools_FormatVersion_VERSION_3)},
+      {"binary 4", brep_binary(shape, BinTools_FormatVersion_VERSION_4)}};
+  for (const auto& [name, bytes] : files) {
+    SCOPED_TRACE(name);
+    CadReport report;
+    const Scene scene = read_cad(folder_.write("file.brep", bytes), {}, &report);
+    EXPECT_EQ(scene.format, "BREP");
+    ASSERT_EQ(scene.parts.size(), 1u);
+    EXPECT_TRUE(is_closed(scene.parts[0].mesh));
+    EXPECT_NEAR(volume(scene.parts[0].mesh), k_pi * 12 * (25 + 10 + 4) / 3, 0.02 * k_pi * 12 * 13);
+    EXPECT_EQ(report.faces, 3u);
   }
 }
 

@@ -9,9 +9,11 @@
 
 namespace papilla {
 
-/// Options of repair(). The defaults are relative to the part, so they serve any size.
+/// Options of repair(). The defaults are relative to the part, so they serve any size: fractions of its bounding
+/// diagonal, or of 0.6 of its farthest distance from the origin of its frame where that is more, because what is
+/// written in single precision is coarser there.
 struct RepairOptions {
-  std::optional<double> weld_mm = {};    ///< Weld tolerance; not given: 1e-6 of the bounding diagonal.
+  std::optional<double> weld_mm = {};    ///< Weld tolerance; not given: 1e-6 of that length.
   std::optional<double> stitch_mm = {};  ///< Widest gap between faces that is closed; not given: 2e-4 of the diagonal;
                                          ///< 0: gaps stay.
   double fill_holes_mm = 0;              ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
@@ -21,7 +23,7 @@ struct RepairOptions {
 
 /// What each operation did, summed over the passes.
 struct RepairCounts {
-  std::size_t welded_equal = 0;      ///< Positions that another one equalled.
+  std::size_t welded_equal = 0;      ///< Positions that another one equalled, in single precision.
   std::size_t welded_near = 0;       ///< Vertices moved onto another one to close a crack.
   std::size_t repeated_corners = 0;  ///< Triangles dropped because they named a vertex twice, or came to by welding.
   std::size_t collapsed_needles = 0;
@@ -64,8 +66,10 @@ struct RepairResult {
 ///
 /// Guarantees when `settled`: no degenerate or duplicate triangle, no edge of more than two triangles, no neighbours
 /// running opposite senses, no T-junction, every vertex with one fan of triangles (indices; sheets that touch in a
-/// point keep equal positions there); repairing the result again changes nothing. Closed input stays closed unless it
-/// was a double sheet. Positions, normals, uv, colours, materials and CAD faces are carried through.
+/// point keep equal positions there); all of that, as mesh_statistics() counts it, also of the positions rounded to
+/// single precision in millimetres or metres, as files hold them; repairing the result again changes nothing. Closed
+/// input stays closed unless it was a double sheet. Positions, normals, uv, colours, materials and CAD faces are
+/// carried through.
 ///
 /// Cost: O(n log n), a few linear passes for CAD soups; about 250 bytes per triangle. Deterministic.
 /// @throws InvalidInput when an index is out of range, a position is not finite, `weld_mm` is negative or not finite,
