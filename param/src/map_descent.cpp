@@ -442,7 +442,8 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
     }
     slope_before = slope;
     const bool blocked = problem.barrier && options.leave_when_blocked && taken.length < k_blocked_step * step;
-    if (taken.refused || blocked) {
+    const bool stuck = !problem.barrier && !(gain > 0);  // what it gains is lost in rounding
+    if (taken.refused || blocked || stuck) {
       result.stop = StopReason::line_search_stalled;
       break;
     }

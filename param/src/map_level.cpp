@@ -26,10 +26,29 @@ std::vector<BorderPair> border_of(const MapLevel& level) {
   return border;
 }
 
+void view_from(Index v, const MapLevel& level, const CornersOfVertices& corners, std::vector<CornerView>& ring) {
+  ring.clear();
+  const Vec2 at = level.uv[v];
+  for (const Index c : corners.of(v)) {
+    const Triangle& t = level.triangles[c / 3];
+    const std::size_t k = c % 3;
+    ring.push_back(corner_view(level.rest[c / 3], k, level.uv[t[(k + 1) % 3]] - at, level.uv[t[(k + 2) % 3]] - at));
+  }
+}
+
+/// Moves a vertex unless the border would run into itself.
+void move(Index v, Vec2 place, MapLevel& level, std::optional<BorderGuard>& guard) {
+  if (guard && guard->on_border(v)) {
+    if (!guard->may_move(v, place)) return;
+    guard->move(v, place);
+  }
+  level.uv[v] = place;
+}
+
 }  // namespace
 
 MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> positions, std::span<const Vec2> uv,
-                       double least_area) {
+                       LeastArea least_area) {
   constexpr Index nowhere = ~Index{0};
   MapLevel level;
   std::vector<Index> number(positions.size(), nowhere);
@@ -50,6 +69,11 @@ MapLevel current_level(const DiskHierarchy& hierarchy, std::span<const Vec3> pos
     level.triangles.push_back(local);
   }
   level.rest = rest_shapes(own_positions, level.triangles, least_area);
+  if (std::isfinite(least_area.shape)) {
+    const std::vector<RestShape> own = rest_shapes(own_positions, level.triangles);
+    for (Index t = 0; t < own.size(); ++t)
+      if (level.rest[t].area > own[t].area) level.slivers.push_back({t, own[t]});
+  }
   for (const RestShape& rest : level.rest) level.area += rest.area;
   level.border = border_of(level);
   return level;
@@ -66,25 +90,47 @@ int relax(MapLevel& level, int sweeps, double tolerance, bool guarded) {
   int sweep = 0;
   while (sweep++ < sweeps) {
     for (Index v = 0; v < level.uv.size(); ++v) {
-      ring.clear();
-      const Vec2 at = level.uv[v];
-      for (const Index c : corners.of(v)) {
-        const Triangle& t = level.triangles[c / 3];
-        const std::size_t k = c % 3;
-        ring.push_back(corner_view(level.rest[c / 3], k, level.uv[t[(k + 1) % 3]] - at, level.uv[t[(k + 2) % 3]] - at));
-      }
-      const Vec2 place = at + corner_step(ring);
-      if (guard && guard->on_border(v)) {
-        if (!guard->may_move(v, place)) continue;
-        guard->move(v, place);
-      }
-      level.uv[v] = place;
+      view_from(v, level, corners, ring);
+      move(v, level.uv[v] + corner_step(ring), level, guard);
     }
     const double before = value;
     value = total_energy(problem, level.uv);
     if (!(before - value > tolerance * value)) break;
   }
   return std::min(sweep, sweeps);
+}
+
+void restore_slivers(MapLevel& level, bool guarded) {
+  if (level.slivers.empty()) return;
+  for (const Sliver& sliver : level.slivers) {
+    RestShape& rest = level.rest[sliver.triangle];
+    level.area += sliver.shape.area - rest.area;
+    rest = sliver.shape;
+  }
+  const CornersOfVertices corners(level.triangles, level.vertices.size());
+  std::optional<BorderGuard> guard;
+  if (guarded) guard.emplace(level.border, level.uv);
+  std::vector<CornerView> ring;
+  for (const Sliver& sliver : level.slivers) {
+    const RestShape& s = sliver.shape;
+    const std::array<Vec2, 3> own{Vec2{0, 0}, Vec2{s.base(), 0}, Vec2{s.along(), s.height()}};
+    const auto squared_edge = [&](std::size_t k) {
+      const Vec2 edge = own[(k + 1) % 3] - own[k];
+      return dot(edge, edge);
+    };
+    std::size_t k = 0;
+    for (const std::size_t other : {std::size_t{1}, std::size_t{2}})
+      if (squared_edge(other) > squared_edge(k)) k = other;
+    // The similarity that takes the longest edge to its image.
+    const Vec2 edge = own[(k + 1) % 3] - own[k], apex = own[(k + 2) % 3] - own[k];
+    const double x = dot(edge, apex) / dot(edge, edge), y = cross(edge, apex) / dot(edge, edge);
+    const Triangle& t = level.triangles[sliver.triangle];
+    const Vec2 from = level.uv[t[k]], image = level.uv[t[(k + 1) % 3]] - from;
+    const Index v = t[(k + 2) % 3];
+    const Vec2 place = from + x * image + y * Vec2{-image.y, image.x};
+    view_from(v, level, corners, ring);
+    if (corner_energy(ring, place - level.uv[v]) < corner_energy(ring, {})) move(v, place, level, guard);
+  }
 }
 
 }  // namespace papilla::param_detail

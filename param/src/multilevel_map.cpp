@@ -21,8 +21,10 @@ constexpr std::size_t k_growth = 6;
 constexpr std::size_t k_guarded_growth = 3;
 
 /// Triangles of coarse levels count as having at least this part of the mean area: their shape is not the surface's,
-/// and slivers would only hold the others up.
-constexpr double k_coarse_area = 1e-3;
+/// and slivers keep vertices from moving one by one. On the finest level this holds, until it is relaxed, for
+/// triangles whose doubled area is below k_sliver of their longest edge squared.
+constexpr double k_least_area = 1e-3;
+constexpr double k_sliver = 1e-4;
 
 /// Of levels that are only a step on the way.
 constexpr double k_coarse_tolerance = 1e-2;
@@ -212,10 +214,11 @@ class Multilevel {
   }
 
   MapLevel make_level() const {
-    return current_level(hierarchy_, chart_.positions, uv_, hierarchy_.removed_count() > 0 ? least_area() : 0);
+    return current_level(hierarchy_, chart_.positions, uv_, least_area(hierarchy_.removed_count() == 0));
   }
 
-  double least_area() const {
+  /// @param last for the whole chart: of slivers alone.
+  LeastArea least_area(bool last) const {
     double area = 0;
     std::size_t count = 0;
     for (Index t = 0; t < hierarchy_.triangles().size(); ++t) {
@@ -225,7 +228,8 @@ class Multilevel {
                                chart_.positions[c[2]] - chart_.positions[c[0]]));
       ++count;
     }
-    return k_coarse_area * area / static_cast<double>(count);
+    return {k_least_area * area / static_cast<double>(count),
+            last ? k_sliver : std::numeric_limits<double>::infinity()};
   }
 
   double total(const MapLevel& level) const {
@@ -244,10 +248,14 @@ class Multilevel {
   void improve(MapLevel& level) {
     const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= k_most_factored;
     trace(level, last);
-    if (last && factored && options_.only_when_rough && total(level) <= k_smooth * mean_energy_ * level.area) return;
+    if (last && factored && options_.only_when_rough && level.slivers.empty() &&
+        total(level) <= k_smooth * mean_energy_ * level.area)
+      return;
     const int sweeps = guarded_ ? k_guarded_sweeps : k_relax_sweeps;
-    const double relax_tolerance = last && !factored ? 0.1 * options_.tolerance : k_relax_tolerance;
+    const bool well_relaxed = last && (!factored || !level.slivers.empty());
+    const double relax_tolerance = well_relaxed ? 0.1 * options_.tolerance : k_relax_tolerance;
     relax(level, last && !factored ? k_fine_sweeps : sweeps, relax_tolerance, guarded_);
+    if (last) restore_slivers(level, guarded_);
     trace(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
     const SymmetricDirichlet dirichlet(level.rest);
@@ -295,7 +303,8 @@ class Multilevel {
     const std::size_t all = hierarchy_.removed_count() + hierarchy_.vertex_count();
     // A rest that is smaller than a level of its own joins this one.
     const std::size_t leave = 2 * all < 3 * enough ? 0 : all - enough;
-    const double least = leave > 0 ? least_area() / static_cast<double>(growth) : 0;
+    LeastArea least = least_area(leave == 0);
+    least.area /= static_cast<double>(growth);
     guard_.reset();
     if (guarded_) {
       std::vector<BorderPair> border = level.border;
@@ -312,7 +321,7 @@ class Multilevel {
     return true;
   }
 
-  bool insert(double least_area) {
+  bool insert(LeastArea least_area) {
     const Removal removal = hierarchy_.restore();
     ring_.clear();
     Index first = ~Index{0}, last = first;

@@ -17,7 +17,7 @@ double least_edge(std::span<const Vec3> positions, std::span<const Triangle> tri
 }
 
 std::vector<RestShape> rest_shapes(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                                   double least_area) {
+                                   LeastArea least_area) {
   const double least = least_edge(positions, triangles);
   std::vector<RestShape> shapes;
   shapes.reserve(triangles.size());

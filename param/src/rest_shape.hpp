@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,12 +27,18 @@ struct RestShape {
 /// the shape of triangles without area finite, and is below what any measured triangle that matters has.
 inline constexpr double k_least_shape = 1e-10;
 
+/// The area that triangles count as having at least. Those of less are made higher, or wider where they are high.
+struct LeastArea {
+  double area = 0;
+  double shape = std::numeric_limits<double>::infinity();  ///< Only where 2 area / longest edge² is below this.
+};
+
 /// @param least_edge what triangles of length zero count as; positive.
-/// @param least_area triangles of less area are made higher, or wider where they are high.
-inline RestShape rest_shape(Vec3 a, Vec3 b, Vec3 c, double least_edge, double least_area) {
+inline RestShape rest_shape(Vec3 a, Vec3 b, Vec3 c, double least_edge, LeastArea least_area = {}) {
   const Vec3 p = b - a, q = c - a;
   const double length = norm(p), longest = std::max({length, norm(q), norm(c - b), least_edge});
-  const double doubled = norm(cross(p, q)), least = std::max(2 * least_area, k_least_shape * longest * longest);
+  const double doubled = norm(cross(p, q)), square = longest * longest;
+  const double least = std::max(doubled < least_area.shape * square ? 2 * least_area.area : 0, k_least_shape * square);
   double base = length, along = length > 0 ? dot(p, q) / length : 0, height = length > 0 ? doubled / length : 0;
   if (doubled < least) {
     const bool wide = 10 * length > longest;
@@ -47,7 +54,7 @@ inline RestShape rest_shape(Vec3 a, Vec3 b, Vec3 c, double least_edge, double le
 double least_edge(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 std::vector<RestShape> rest_shapes(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                                   double least_area = 0);
+                                   LeastArea least_area = {});
 
 /// The derivative of the map: columns ∂(u,v)/∂x and ∂(u,v)/∂y, from the edges m (to the second corner) and n (to the
 /// third).

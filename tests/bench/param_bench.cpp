@@ -126,6 +126,7 @@ void body(BenchReport& report) {
   const std::vector<Disk> all = disks(report.options().quick);
   step("methods on one chart");
   add_speed(all, report);
+  add_factorizations(all, report);
   report.measure();
   step("H: bad input");
   report_bad_input(report);

@@ -85,6 +85,9 @@ bool is_disk(const TriangleMesh& mesh);
 /// Adds "name" to a list that begins with `start`.
 void add_name(std::string& list, const std::string& name, const char* start = "not: ");
 
+/// Newton steps of best on the dashboards, by own and other factorizations.
+void add_factorizations(const std::vector<Disk>& all, BenchReport& report);
+
 /// What the targets by their letters have to say.
 void report_linear(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report);   // A
 void report_maillot(const std::vector<Disk>& all, Peers& peers, const Medians& of, BenchReport& report);  // B

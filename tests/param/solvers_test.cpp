@@ -170,7 +170,7 @@ TEST(Descent, OfTheLogarithmIsFasterFarFromTheMinimum) {
 MapLevel whole_level(const TriangleMesh& mesh) {
   const DiskHierarchy all(mesh.positions, mesh.triangles, mesh.positions.size());
   const std::vector<Vec2> nowhere(mesh.positions.size());
-  return current_level(all, mesh.positions, nowhere, 0);
+  return current_level(all, mesh.positions, nowhere, {});
 }
 
 TEST(ConvexMap, DeepDisksStayOpen) {

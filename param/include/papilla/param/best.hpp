@@ -29,28 +29,30 @@ struct BestOptions {
 /// follows grain_direction() on the area average.
 ///
 /// Guarantees: what Flattening promises; no triangle flipped or collapsed, no chart that overlaps itself, however
-/// curved the chart. Triangles without area get finite uv and hold the others up as little as possible. Breaks down: a
-/// chart that is not a connected, orientable piece of genus 0 with a border (holes are welcome) has no such map and
-/// falls back or is refused; so does one with two edges between the same two vertices, and one whose parts shrink below
-/// what doubles resolve. Charts that lie over themselves when flattened freely (spiral ramps, knots of strips) are kept
-/// apart; how they are laid out then is a local optimum among many. Good input: any welded disk. Strongly curved charts
-/// (heads, hands) have maps of E / ΣA = 5 to 10 whatever one does: more charts help, iterations do not.
+/// curved the chart. Triangles without area count as having a height of 1e-10 of their longest edge: they get uv of
+/// little more area than that, and hold no others up. Breaks down: a chart that is not a connected, orientable piece of
+/// genus 0 with a border (holes are welcome) has no such map and falls back or is refused; so does one with two edges
+/// between the same two vertices, and one whose parts shrink below what doubles resolve. Charts that lie over
+/// themselves when flattened freely (spiral ramps, knots of strips) are kept apart; how they are laid out then is a
+/// local optimum among many. Good input: any welded disk. Strongly curved charts (heads, hands) have maps of E / ΣA = 5
+/// to 10 whatever one does: more charts help, iterations do not.
 ///
 /// Method: the chart is coarsened vertex by vertex to a few triangles, these are mapped by Tutte's method, and the
 /// vertices come back in order, each into the kernel of its ring; every level is relaxed, first vertex by vertex, then
 /// (up to 200,000 vertices) by projected Newton steps on a nested-dissection factorization, with a line search that
-/// crosses no flip and goes further than the model says where the energy bends less. Charts that come out deep (E / ΣA
-/// above 15) begin with 200 vertices, and what leads away from their border pulls harder in Tutte's map; one with a
-/// single end (a finger, a bag) begins as a tube instead, on its finest level: its wall goes to a cylinder by harmonic
-/// weights, its rings to circles of the area inside them, whose scales are then set by Newton steps. From the first
-/// level on whose border runs into itself, a barrier between the edges of the border keeps it apart; where vertices
-/// find no room then, the map begins again from an earlier level or a finer base. Cost: O(n) for coarsening and
-/// relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the factorization and sums run in
-/// parallel; the result does not depend on the number of threads. Trace: error = E / ΣA, from the first map of the
-/// whole chart on. Papers: J.
-/// Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M. Rabinovich et al., Scalable locally
-/// injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith et al., Analytic eigensystems for
-/// isotropic distortion energies, 2019.
+/// crosses no flip and goes further than the model says where the energy bends less. Slivers (doubled area below 1e-4
+/// of the longest edge squared, area below 1e-3 of the mean) count as having 1e-3 of the mean area until all vertices
+/// are relaxed; then the vertex opposite to the longest edge goes to where their own shape puts it. Charts that come
+/// out deep (E / ΣA above 15) begin with 200 vertices, and what leads away from their border pulls harder in Tutte's
+/// map; one with a single end (a finger, a bag) begins as a tube instead, on its finest level: its wall goes to a
+/// cylinder by harmonic weights, its rings to circles of the area inside them, whose scales are then set by Newton
+/// steps. From the first level on whose border runs into itself, a barrier between the edges of the border keeps it
+/// apart; where vertices find no room then, the map begins again from an earlier level or a finer base. Cost: O(n) for
+/// coarsening and relaxing, O(n^1.5) per Newton step; about 2 kB per vertex. Charts, branches of the factorization and
+/// sums run in parallel; the result does not depend on the number of threads. Trace: error = E / ΣA, from the first map
+/// of the whole chart on. Papers: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015; M.
+/// Rabinovich et al., Scalable locally injective mappings, 2017; H. Shen et al., Progressive embedding, 2019; B. Smith
+/// et al., Analytic eigensystems for isotropic distortion energies, 2019.
 ///
 /// @param charts one number below charts.count for every triangle.
 /// @throws InvalidInput for a mesh, chart set or option that breaks these preconditions; without fall_back also for a

@@ -8,13 +8,13 @@ namespace papilla {
 
 /// Who solves the least squares problem. Both pin two border vertices far apart.
 enum class LscmSolver {
-  cgal,       ///< CGAL::Surface_mesh_parameterization::LSCM_parameterizer_3; triangles weighted by area squared.
   hermitian,  ///< One complex Hermitian system of a row per vertex; triangles weighted by area, as in the paper.
+  cgal,       ///< CGAL::Surface_mesh_parameterization::LSCM_parameterizer_3; triangles weighted by area squared.
 };
 
 struct LscmOptions {
   UpAxis up = UpAxis::z;
-  LscmSolver solver = LscmSolver::cgal;
+  LscmSolver solver = LscmSolver::hermitian;
   /// What a chart gets that has no valid map: one as flatten_best() makes, or planar projections of its pieces when it
   /// is no disk, with a note; or, when false, an exception.
   bool fall_back = true;
@@ -32,7 +32,7 @@ struct LscmOptions {
 /// Triangles without area get finite uv and count for nothing.
 /// Good input: charts of moderate curvature. Conformal maps keep angles, not sizes: caps of a sphere beyond a
 /// hemisphere and long fingers shrink without bound; LSCM may then also flip triangles. Cost: one sparse factorization
-/// per chart, O(n^1.5) time, about 2 kB (cgal) or 1.2 kB (hermitian) per vertex. Charts run in parallel; the result
+/// per chart, O(n^1.5) time, about 1.2 kB (hermitian) or 2 kB (cgal) per vertex. Charts run in parallel; the result
 /// does not depend on the number of threads. Trace: one sample, error = Σ A (σ1 - σ2)² / Σ A of the scaled maps; charts
 /// that fell back are left out. Paper: B. Lévy, S. Petitjean, N. Ray, J. Maillot, Least squares conformal maps for
 /// automatic texture atlas generation, SIGGRAPH 2002.
