@@ -2,6 +2,7 @@
 #include "papilla/haptic/material_tag.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -263,6 +264,10 @@ void read_friction(const Members& in, MaterialTag& tag) {
   }
 }
 
+constexpr std::array k_members{"version",          "stiffness",     "damping",      "staticFriction", "dynamicFriction",
+                               "stribeckVelocity", "frictionModel", "forceShading", "height",         "roughness",
+                               "forceModel",       "symmetry",      "provenance"};
+
 MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   const std::string place = "haptic";
   if (!json.is_object()) throw InvalidInput("haptic tag: is no JSON object");
@@ -295,6 +300,9 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
     tag.symmetry = read_symmetry(*symmetry, place + ".symmetry", warnings);
   if (const Json* provenance = in.object("provenance", "tag_provenance"))
     tag.provenance = read_provenance(*provenance, place + ".provenance", warnings);
+  Json other = json;
+  for (const char* known : k_members) other.erase(known);
+  if (!other.empty()) tag.other_json = other.dump(-1, ' ', false, Json::error_handler_t::replace);
   return tag;
 }
 
@@ -347,6 +355,7 @@ Json tag_json(const MaterialTag& tag) {
   if (tag.provenance)
     json["provenance"] = {
         {"tool", tag.provenance->tool}, {"source", tag.provenance->source}, {"plan", tag.provenance->plan}};
+  if (!tag.other_json.empty()) json.update(Json::parse(tag.other_json));
   return json;
 }
 
@@ -371,16 +380,19 @@ MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>
   return read_tag(parse(json), warnings);
 }
 
-std::optional<MaterialTag> material_tag_of_extras(std::string_view extras_json, std::vector<HapticWarning>& warnings) {
+std::optional<MaterialTag> take_material_tag(std::string& extras_json, std::vector<HapticWarning>& warnings) {
   if (extras_json.empty()) return std::nullopt;
-  const Json extras = parse(extras_json);
+  Json extras = parse(extras_json);
   if (extras.is_discarded()) {
     warnings.push_back({"tag_refused", "extras: are no JSON"});
     return std::nullopt;
   }
   if (!extras.is_object() || !extras.contains("haptic")) return std::nullopt;
   try {
-    return read_tag(extras.at("haptic"), warnings);
+    MaterialTag tag = read_tag(extras.at("haptic"), warnings);
+    extras.erase("haptic");
+    extras_json = extras.empty() ? "" : extras.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return tag;
   } catch (const InvalidInput& error) {
     warnings.push_back({"tag_refused", error.what()});
     return std::nullopt;
@@ -389,13 +401,6 @@ std::optional<MaterialTag> material_tag_of_extras(std::string_view extras_json, 
 
 std::string to_json(const MaterialTag& tag) {
   return tag_json(tag).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string with_material_tag(std::string_view extras_json, const MaterialTag& tag) {
-  Json extras = extras_json.empty() ? Json::object() : parse(extras_json);
-  if (!extras.is_object()) throw InvalidInput("with_material_tag: the extras are no JSON object");
-  extras["haptic"] = tag_json(tag);
-  return extras.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace papilla

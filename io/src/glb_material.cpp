@@ -115,6 +115,15 @@ Json MaterialWriter::reference(const TextureReference& reference, const char* fa
   return json;
 }
 
+/// The tag, whose picture is written as it is: only the document is turned into text.
+static Json haptic_json(const MaterialTag& tag) {
+  MaterialTag without_picture = tag;
+  if (tag.height) without_picture.height->uri.clear();
+  Json json = Json::parse(to_json(without_picture));
+  if (tag.height && !tag.height->uri.empty()) json["height"]["uri"] = tag.height->uri;
+  return json;
+}
+
 Json MaterialWriter::material(std::size_t number) {
   const Material& source = scene_.materials[number];
   const std::string where = fmt::format("write_glb: material {} '{}'", number, source.name);
@@ -125,6 +134,12 @@ Json MaterialWriter::material(std::size_t number) {
   };
   Json json = Json::object();
   add_name_and_extras(json, source.name, source.extras_json, where);
+  if (source.haptic) {
+    Json& extras = json["extras"];
+    if (!extras.is_null() && !extras.is_object())
+      throw InvalidInput(where + ": extras that hold a haptic tag must be an object");
+    extras["haptic"] = haptic_json(*source.haptic);
+  }
   Json& pbr = json["pbrMetallicRoughness"];
   pbr["baseColorFactor"] = numbers(source.base_color, where);
   pbr["metallicFactor"] = in_unit_range(source.metallic, where);

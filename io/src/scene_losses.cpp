@@ -69,7 +69,7 @@ class Losses {
     note(false, materials_with([](const Material& m) { return m.metallic_roughness_texture || m.occlusion_texture; }),
          "materials' roughness, metalness or occlusion pictures");
     note(false, materials_with([](const Material& m) { return !m.extensions_json.empty(); }), "materials' extensions");
-    note(false, materials_with([](const Material& m) { return !m.extras_json.empty(); }),
+    note(false, materials_with([](const Material& m) { return m.haptic || !m.extras_json.empty(); }),
          "materials' extras, the haptic tag among them");
   }
 

@@ -113,8 +113,7 @@ void process(Work& work, const PartContext& context, const UnwrapOptions& option
 /// Adds pictures and materials to the scene, each once.
 class SceneMaterials {
  public:
-  SceneMaterials(BakeResult& result, const Materials& rules)
-      : result_(result), scene_(result.scene), rules_(rules) {
+  SceneMaterials(BakeResult& result, const Materials& rules) : result_(result), scene_(result.scene), rules_(rules) {
     result_.mm_per_uv.resize(scene_.materials.size());
   }
 
@@ -154,7 +153,8 @@ class SceneMaterials {
         attach_to_new_uv(material, relief);
     }
     apply_constants(rule, tag, grain ? result_.grains.at(rule.name).stiffness_factor : 1);
-    if (felt) material.extras_json = with_material_tag(material.extras_json, tag);
+    material.haptic.reset();
+    if (felt) material.haptic = std::move(tag);
     note_origin(material, rule, original_name);
     scene_.materials.push_back(std::move(material));
     result_.mm_per_uv.resize(scene_.materials.size());

@@ -7,12 +7,11 @@
 #include <numeric>
 #include <string>
 
-#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
-#include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/texture.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/normal_map.hpp"
@@ -22,7 +21,6 @@
 #include "papilla/texture/texture_class.hpp"
 #include "papilla/texture/tiling.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
-#include "papilla/pipeline/recipe_source.hpp"
 
 namespace papilla {
 namespace {
@@ -77,19 +75,6 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const La
   return relief;
 }
 
-/// The map travels as a data: URI within the tag: strings in extras survive tools that drop pictures no texture uses.
-HeightTag height_tag(const Grain& grain, const EncodedHeight& encoded) {
-  HeightTag tag;
-  tag.uri = "data:image/png;base64," + encode_base64(encoded.png);
-  tag.sha256 = sha256_hex(encoded.png);
-  tag.size = {grain.relief.width, grain.relief.height};
-  tag.scale_m = encoded.scale_mm * k_metres_per_mm;
-  tag.offset_m = encoded.offset_mm * k_metres_per_mm;
-  tag.metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
-  tag.rms_m = rms_height_mm(grain.relief) * k_metres_per_mm;
-  return tag;
-}
-
 /// The picture of a material, from a file or computed.
 struct Source {
   GreyImage grey;  ///< Of a recipe: the height channel.
@@ -139,8 +124,13 @@ HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain&
                    grain.size_mm[1] / source.grey.height,
                    true};
   for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
-  grain.height = {"recipe", "the height channel of the recipe", {}, false, depth * rule.height.scale,
-                  rms_height_mm(relief), StopReason::direct};
+  grain.height = {"recipe",
+                  "the height channel of the recipe",
+                  {},
+                  false,
+                  depth * rule.height.scale,
+                  rms_height_mm(relief),
+                  StopReason::direct};
   return relief;
 }
 
@@ -198,7 +188,11 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, lattice, grain);
   describe_relief(grain);
   const EncodedHeight encoded = encode_height_png16(grain.relief);
-  grain.tag.height = height_tag(grain, encoded);
+  grain.tag.height = make_height_tag(grain.relief, {.png = encoded.png,
+                                                    .scale_mm = encoded.scale_mm,
+                                                    .offset_mm = encoded.offset_mm,
+                                                    .rms_mm = rms_height_mm(grain.relief)});
+  grain.tag.height->metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
   grain.height_seconds = height_clock.seconds();
 
   const Stopwatch normal_clock;

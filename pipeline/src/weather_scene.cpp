@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -16,12 +17,12 @@
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/texture.hpp"
 #include "papilla/texture/normal_map.hpp"
-#include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/texture/roughness.hpp"
 #include "weather/atlas_uv.hpp"
 #include "weather/material_surface.hpp"
-#include "weather/felt_relief.hpp"
 #include "weather/paint.hpp"
 #include "weather/sky_texels.hpp"
 
@@ -157,17 +158,32 @@ Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, Felt& fel
     }
     material.uv.push_back(fresh);
   }
-  material.report.atlas = {picture.width,        picture.height,  atlas.charts.size(),
-                           atlas.tiles.size(),  distinct.size(), atlas.texels_per_repeat};
+  material.report.atlas = {picture.width,      picture.height,  atlas.charts.size(),
+                           atlas.tiles.size(), distinct.size(), atlas.texels_per_repeat};
   return picture;
 }
 
-/// Gives a tagged material the friction and stiffness of its new surface.
-void set_haptic_constants(Material& material, MaterialTag tag, double friction, double factor) {
+/// The friction and stiffness of a new surface.
+void set_haptic_constants(MaterialTag& tag, double friction, double factor) {
   const double ratio = tag.dynamic_friction > 0 ? tag.static_friction / tag.dynamic_friction : 1;
   tag.dynamic_friction = friction, tag.static_friction = ratio * friction;
   tag.stiffness *= factor;
-  material.extras_json = with_material_tag(material.extras_json, tag);
+}
+
+/// Gives a tagged material a relief that lies on the coordinates of its normal map.
+void assign_relief(Material& material, HeightTag height) {
+  if (!material.haptic) return;
+  if (const auto& place = material.normal_texture) {
+    height.tex_coord = place->tex_coord;
+    if (place->transform) {
+      height.uv_transform = *place->transform;
+      // Before the transform; a repeat is 1 / scale of the uv.
+      height.metres_per_uv = {height.metres_per_uv.x * std::abs(place->transform->scale.x),
+                              height.metres_per_uv.y * std::abs(place->transform->scale.y)};
+    }
+  }
+  if (material.haptic->roughness) material.haptic->roughness->rms_height_m = height.rms_m;
+  material.haptic->height = std::move(height);
 }
 
 /// Everything that a material's look depends on apart from the scene.
@@ -205,7 +221,8 @@ std::shared_ptr<const MaterialSurface> surface_for(Job& job, std::uint32_t index
 /// Paints one material anew.
 /// @param felt  the tag that it had. @param compiled  compiles the recipe, seamless or not.
 PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optional<MaterialTag>& felt,
-                            const ProceduralTexture& texture, const std::function<ProceduralTexture(bool)>& compiled) {
+                               const ProceduralTexture& texture,
+                               const std::function<ProceduralTexture(bool)>& compiled) {
   PaintedMaterial material;
   WeatheredMaterial& report = material.report;
   const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), texture.depends_on_sky()};
@@ -230,7 +247,13 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
   HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
   // A height of 1/2 is the surface as it was.
   for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
-  if (felt && (!felt->height || surface->own->has_relief())) material.height = height_tag_of(relief);
+  if (felt && (!felt->height || surface->own->has_relief())) {
+    const EncodedHeight encoded = encode_height_png16(relief);
+    material.height = make_height_tag(relief, {.png = encoded.png,
+                                               .scale_mm = encoded.scale_mm,
+                                               .offset_mm = encoded.offset_mm,
+                                               .rms_mm = rms_height_mm(relief)});
+  }
   material.color_png = encode_png({picture.width, picture.height, std::move(picture.rgb)});
   material.normal_png = encode_png(normal_map(relief));
   report.friction = means.friction / means.texels, report.stiffness = means.stiffness / means.texels;
@@ -243,7 +266,7 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
 }
 
 /// Gives the material the maps that were painted.
-void apply(const PaintedMaterial& painted, const std::optional<MaterialTag>& tag, Material& material, Pictures& pictures) {
+void apply(const PaintedMaterial& painted, Material& material, Pictures& pictures) {
   TextureReference place;
   if (const TextureReference* own = own_place(material); painted.uv.empty() && own) place = *own;
   for (auto* reference : {&material.base_color_texture, &material.normal_texture}) {
@@ -253,15 +276,15 @@ void apply(const PaintedMaterial& painted, const std::optional<MaterialTag>& tag
     (*reference)->transform = place.transform, (*reference)->tex_coord = place.tex_coord;
   }
   material.base_color = {1, 1, 1, material.base_color[3]};
-  if (tag) set_haptic_constants(material, *tag, painted.report.friction, painted.report.stiffness);
+  if (material.haptic) set_haptic_constants(*material.haptic, painted.report.friction, painted.report.stiffness);
 }
 
 /// Weathers one material. @return what is reported of it.
-WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures, std::vector<NewUv>& uv,
-         std::vector<std::uint32_t>& with_atlas, std::vector<std::optional<HeightTag>>& heights) {
+WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures,
+                                   std::vector<NewUv>& uv, std::vector<std::uint32_t>& with_atlas,
+                                   std::vector<std::optional<HeightTag>>& heights) {
   const Material& before = job.scene.materials[index];
-  std::vector<HapticWarning> warnings;
-  const std::optional<MaterialTag> tag = material_tag_of_extras(before.extras_json, warnings);
+  const std::optional<MaterialTag>& tag = before.haptic;
   const std::string recipe = layered_recipe(job.config, before.name, tag ? tag->dynamic_friction : k_common_friction);
   WeatheredMaterial report;
   report.name = before.name, report.recipe = recipe;
@@ -289,7 +312,7 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
   report = painted.report;
   report.name = before.name, report.recipe = recipe;
   if (!report.painted()) return report;
-  apply(painted, tag, result.scene.materials[index], pictures);
+  apply(painted, result.scene.materials[index], pictures);
   uv.insert(uv.end(), painted.uv.begin(), painted.uv.end());
   if (!painted.uv.empty()) with_atlas.push_back(index);
   heights[index] = painted.height;

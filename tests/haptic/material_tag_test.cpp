@@ -166,26 +166,42 @@ TEST(MaterialTag, RefusesWhatIsNoTag) {
     EXPECT_THROW(parse_material_tag(json, warnings), InvalidInput) << json;
 }
 
-TEST(MaterialTag, RefusedTagInExtrasIsAWarning) {
+TEST(MaterialTag, RefusedTagInExtrasIsAWarningAndStays) {
   std::vector<HapticWarning> warnings;
-  EXPECT_FALSE(material_tag_of_extras(R"({"haptic":{"version":9,"stiffness":1}})", warnings));
+  const std::string refused = R"({"haptic":{"version":9,"stiffness":1}})";
+  std::string extras = refused;
+  EXPECT_FALSE(take_material_tag(extras, warnings));
   EXPECT_TRUE(has(warnings, "tag_refused"));
+  EXPECT_EQ(extras, refused);
 }
 
 TEST(MaterialTag, ExtrasWithoutTagAreSilent) {
   std::vector<HapticWarning> warnings;
-  EXPECT_FALSE(material_tag_of_extras("", warnings));
-  EXPECT_FALSE(material_tag_of_extras(R"({"a":1})", warnings));
-  EXPECT_FALSE(material_tag_of_extras("[1]", warnings));
+  for (const std::string text : {"", R"({"a":1})", "[1]"}) {
+    std::string extras = text;
+    EXPECT_FALSE(take_material_tag(extras, warnings));
+    EXPECT_EQ(extras, text);
+  }
   EXPECT_TRUE(warnings.empty());
 }
 
-TEST(MaterialTag, OtherExtrasStay) {
+TEST(MaterialTag, IsTakenOutOfExtrasThatKeepTheirOtherMembers) {
   std::vector<HapticWarning> warnings;
-  const std::string extras = with_material_tag(R"({"a":[1,{"b":null}],"haptic":5})", full_tag());
-  EXPECT_EQ(material_tag_of_extras(extras, warnings), full_tag());
-  EXPECT_EQ(nlohmann::json::parse(extras)["a"], nlohmann::json::parse(R"([1,{"b":null}])"));
-  EXPECT_THROW(with_material_tag("[1]", full_tag()), InvalidInput);
+  std::string extras = R"({"a":[1,{"b":null}],"haptic":)" + to_json(full_tag()) + R"(,"c":2.5})";
+  EXPECT_EQ(take_material_tag(extras, warnings), full_tag());
+  EXPECT_EQ(extras, R"({"a":[1,{"b":null}],"c":2.5})");
+  extras = R"({"haptic":)" + to_json(full_tag()) + "}";
+  EXPECT_TRUE(take_material_tag(extras, warnings));
+  EXPECT_EQ(extras, "");
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(MaterialTag, MembersOfOthersAreKept) {
+  std::vector<HapticWarning> warnings;
+  const MaterialTag tag = parse_material_tag(R"({"version":1,"stiffness":3,"vendor":{"a":[1]},"b":null})", warnings);
+  EXPECT_EQ(tag.other_json, R"({"vendor":{"a":[1]},"b":null})");
+  EXPECT_EQ(nlohmann::json::parse(to_json(tag))["vendor"], nlohmann::json::parse(R"({"a":[1]})"));
+  EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
 }
 
 TEST(MaterialTag, DamagedTextNeverDoesMoreThanThrow) {

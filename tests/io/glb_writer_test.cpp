@@ -73,7 +73,10 @@ TEST_F(GlbWriter, MaterialsTexturesAndExtrasComeBack) {
   const Scene back = round_trip(scene);
   ASSERT_EQ(back.materials.size(), 2U);
   const Material& grain = back.materials[0];
-  EXPECT_EQ(json::parse(grain.extras_json), json::parse(scene.materials[0].extras_json));
+  ASSERT_TRUE(grain.haptic);
+  EXPECT_EQ(grain.haptic->stiffness, 900);
+  EXPECT_EQ(json::parse(grain.haptic->other_json), json::parse(R"({"empty":[],"big":4294967296,"none":null})"));
+  EXPECT_EQ(grain.extras_json, "");
   EXPECT_EQ(json::parse(grain.extensions_json), json::parse(scene.materials[0].extensions_json));
   EXPECT_EQ(grain.base_color, scene.materials[0].base_color);
   EXPECT_TRUE(grain.double_sided);
@@ -125,6 +128,17 @@ Scene tagged_scene() {
   scene.materials[0].extras_json =
       R"({"haptic":{"version":1,"dynamicFriction":0.35,"height":{"uri":"data:image/png;base64,iVBORw==","scale":2e-4}}})";
   return scene;
+}
+
+TEST_F(GlbWriter, TheHapticTagIsWrittenAsItIsRead) {
+  Scene scene = tagged_scene();
+  const Scene once = round_trip(scene), twice = round_trip(once);
+  ASSERT_TRUE(once.materials[0].haptic && once.materials[0].haptic->height);
+  EXPECT_EQ(once.materials[0].haptic->height->uri, "data:image/png;base64,iVBORw==");
+  EXPECT_EQ(twice.materials[0].haptic, once.materials[0].haptic);
+  scene = once;
+  scene.materials[0].extras_json = "[1]";
+  EXPECT_THROW(write_glb(scene, folder_ / "a.glb"), InvalidInput);
 }
 
 TEST_F(GlbWriter, MirrorsHeightMapsAsTexturesOfMeshes) {

@@ -81,7 +81,7 @@ class BakeTest : public testing::Test {
   BakeResult run(Scene scene) const { return bake_scene(std::move(scene), rules_); }
 
   static nlohmann::json tag_of(const Material& material) {
-    return nlohmann::json::parse(material.extras_json).at("haptic");
+    return nlohmann::json::parse(to_json(material.haptic.value()));
   }
 
   const fs::path folder_ = fs::temp_directory_path() / ("papilla-bake-" + std::to_string(::getpid()));

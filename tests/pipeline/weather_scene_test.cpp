@@ -228,28 +228,27 @@ TEST(Weather, TheNewReliefIsFelt) {
   Scene scene = waves(relief);
   MaterialTag tag;
   tag.height = HeightTag{};
-  scene.materials[0].extras_json = with_material_tag("", tag);
+  scene.materials[0].haptic = tag;
   WeatherConfig config;
   config.size = 32, config.depth_mm = 50;
   // Half of the surface is filled up to 15 mm: (0.8 - 0.5) 50.
   config.layers = {{"base|bumpblend=interpolate|bumpfunction=max(lowerbump,.8)|alphafunction=step(.5,y)", {"*"}}};
   const Scene aged = weather_scene(scene, config, 1).scene;
-  std::vector<HapticWarning> warnings;
-  const auto felt = material_tag_of_extras(aged.materials[0].extras_json, warnings);
+  const std::optional<MaterialTag>& felt = aged.materials[0].haptic;
   ASSERT_TRUE(felt && felt->height);
-  EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(felt->height->size, (std::array<int, 2>{32, 32}));
   EXPECT_NEAR(felt->height->metres_per_uv.x, 1, 1e-9);
   EXPECT_NEAR(felt->height->offset_m, -0.020, 0.001) << "the lowest place of the other half";
   EXPECT_NEAR(felt->height->offset_m + felt->height->scale_m, 0.020, 0.001);
   EXPECT_GT(felt->height->rms_m, 0.008);
   // A material without a tag stays without, and a map on coordinates of its own stays.
-  scene.materials[0].extras_json = "";
-  EXPECT_EQ(weather_scene(scene, config, 1).scene.materials[0].extras_json, "");
+  scene.materials[0].haptic.reset();
+  EXPECT_FALSE(weather_scene(scene, config, 1).scene.materials[0].haptic);
   tag.height->sha256 = std::string(64, '0');
-  scene.materials[0].extras_json = with_material_tag("", tag);
+  scene.materials[0].haptic = tag;
   scene.materials[0].normal_texture.reset();
-  EXPECT_NE(weather_scene(scene, config, 1).scene.materials[0].extras_json.find(tag.height->sha256), std::string::npos);
+  EXPECT_EQ(weather_scene(scene, config, 1).scene.materials[0].haptic.value().height.value().sha256,
+            tag.height->sha256);
 }
 
 TEST(Weather, MapsTileWhereTheUvLeaveTheRepeat) {

@@ -41,8 +41,7 @@ Felt stroke(const std::string& recipe, double time, const RecipeLibrary& library
   const Grain& grain = baked.grains.at("wheel");
   const auto [low, high] = std::minmax_element(grain.relief.mm.begin(), grain.relief.mm.end());
   felt.roughness_mm = static_cast<double>(*high - *low);
-  std::vector<HapticWarning> warnings;
-  felt.tag = material_tag_of_extras(baked.scene.materials.back().extras_json, warnings).value();
+  felt.tag = baked.scene.materials.back().haptic.value();
 
   const HapticScene haptic = haptic_scene(baked.scene, ".");
   const ContactSurface surface(haptic.mesh, haptic.materials, haptic.heights, 0);

@@ -42,7 +42,7 @@ Json materials_json(const Scene& scene) {
                          {"base_color", m.base_color},
                          {"double_sided", m.double_sided},
                          {"textures", Json::object()},
-                         {"haptic", m.extras_json.find("\"haptic\"") != std::string::npos}});
+                         {"haptic", m.haptic.has_value()}});
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     for (const auto& [use, name] : texture_names(scene, scene.materials[i])) materials[i]["textures"][use] = name;
   return materials;

@@ -110,8 +110,8 @@ class PageMaterials {
                  {"normal_map", texture_json(scene_, material.normal_texture)},
                  {"haptic", nullptr},
                  {"height", nullptr}};
-    std::vector<HapticWarning> warnings;
-    if (const auto tag = material_tag_of_extras(material.extras_json, warnings)) {
+    std::vector<HapticWarning> warnings = material.haptic_warnings;
+    if (const auto& tag = material.haptic) {
       MaterialTag shown = *tag;  // The map itself travels with the heights.
       if (shown.height) {
         shown.height->uri.clear();
@@ -193,17 +193,17 @@ PageScene page_scene(const Scene& scene, const std::filesystem::path& file, cons
   }
   PageMaterials materials(scene, file);
   Json json = {{"file", file.filename().string()},
-          {"triangles", triangles},
-          {"triangles_shown", triangles_shown},
-          {"error_mm", error_mm},
-          {"z_up", scene.up == UpAxis::z},
-          {"parts", std::move(parts)},
-          {"instances", std::move(uses)},
-          {"materials", std::move(materials.materials)},
-          {"heights", std::move(materials.heights)},
-          {"images", images_json(scene)},
-          {"losses", scene.losses},
-          {"warnings", scene.warnings}};
+               {"triangles", triangles},
+               {"triangles_shown", triangles_shown},
+               {"error_mm", error_mm},
+               {"z_up", scene.up == UpAxis::z},
+               {"parts", std::move(parts)},
+               {"instances", std::move(uses)},
+               {"materials", std::move(materials.materials)},
+               {"heights", std::move(materials.heights)},
+               {"images", images_json(scene)},
+               {"losses", scene.losses},
+               {"warnings", scene.warnings}};
   return {std::move(json), triangles, triangles_shown, error_mm};
 }
 

@@ -77,6 +77,7 @@ class MaterialReader {
         reference(source.occlusionTexture, source.occlusionTexture.strength, where + ", occlusionTexture");
     material.emissive_texture = reference(source.emissiveTexture, 1, where + ", emissiveTexture");
     material.extras_json = source.extras_json_string;
+    material.haptic = take_material_tag(material.extras_json, material.haptic_warnings);
     material.extensions_json = source.extensions_json_string;
     check(material, where);
     return material;

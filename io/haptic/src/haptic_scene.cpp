@@ -39,8 +39,8 @@ class Builder {
     tagged_.resize(scene_.materials.size());
     tex_coord_.resize(scene_.materials.size(), 0);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-      std::vector<HapticWarning> warnings;
-      if (auto tag = material_tag_of_extras(scene_.materials[i].extras_json, warnings); tag && used[i]) {
+      std::vector<HapticWarning> warnings = scene_.materials[i].haptic_warnings;
+      if (std::optional<MaterialTag> tag = scene_.materials[i].haptic; tag && used[i]) {
         adopt_texture_transform(scene_.materials[i], *tag, warnings);
         tagged_[i] = static_cast<std::uint32_t>(result.materials.size());
         tex_coord_[i] = tag->height ? tag->height->tex_coord : 0;

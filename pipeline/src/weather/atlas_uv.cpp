@@ -39,11 +39,8 @@ void move_to_second_channel(Material& material) {
   for (std::optional<TextureReference>* reference :
        {&material.metallic_roughness_texture, &material.occlusion_texture, &material.emissive_texture})
     if (*reference && (*reference)->tex_coord == 0) (*reference)->tex_coord = 1;
-  std::vector<HapticWarning> warnings;
-  std::optional<MaterialTag> tag = material_tag_of_extras(material.extras_json, warnings);
-  if (!tag || !tag->height || tag->height->tex_coord != 0) return;
-  tag->height->tex_coord = 1;
-  material.extras_json = with_material_tag(material.extras_json, *tag);
+  if (material.haptic && material.haptic->height && material.haptic->height->tex_coord == 0)
+    material.haptic->height->tex_coord = 1;
 }
 
 }  // namespace

@@ -92,6 +92,7 @@ struct MaterialTag {
   std::optional<ForceModelTag> force_model;
   std::optional<SymmetryTag> symmetry;
   std::optional<ProvenanceTag> provenance;
+  std::string other_json;  ///< A JSON object of the members that version 1 does not define, or empty.
   friend bool operator==(const MaterialTag&, const MaterialTag&) = default;
 };
 
@@ -107,23 +108,19 @@ struct EncodedRelief {
 /// repeat of the map, without a transform. A data: URI in extras survives tools that drop images no texture uses.
 HeightTag make_height_tag(const HeightMap& relief, const EncodedRelief& encoded);
 
-/// Reads one tag. Unknown members are ignored. A value of the wrong type or range is reported and replaced by its
-/// default: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (no relief when its scale or
-/// offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness,
-/// tag_force_model, tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance.
+/// Reads one tag. Unknown members are kept in other_json. A value of the wrong type or range is reported and replaced
+/// by its default: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (no relief when its scale
+/// or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_force_model,
+/// tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance.
 /// @param json the object itself, not the extras around it.
 /// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);
 
-/// The tag in a material's extras, if any. A tag that parse_material_tag() refuses, and extras that are no JSON, are
-/// reported as tag_refused and give none.
-std::optional<MaterialTag> material_tag_of_extras(std::string_view extras_json, std::vector<HapticWarning>& warnings);
+/// Moves the tag out of a material's extras, which keep their other members. A tag that parse_material_tag() refuses,
+/// and extras that are no JSON, are reported as tag_refused, stay where they are and give none.
+std::optional<MaterialTag> take_material_tag(std::string& extras_json, std::vector<HapticWarning>& warnings);
 
 /// The tag as compact JSON; parse_material_tag() gives the same value back, bit for bit.
 std::string to_json(const MaterialTag& tag);
-
-/// The extras with "haptic" set to the tag; other members are kept. Empty extras become an object.
-/// @throws InvalidInput when the extras are no JSON object.
-std::string with_material_tag(std::string_view extras_json, const MaterialTag& tag);
 
 }  // namespace papilla

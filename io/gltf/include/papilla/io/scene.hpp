@@ -10,6 +10,7 @@
 
 #include "papilla/core/up_axis.hpp"
 #include "papilla/core/uv_transform.hpp"
+#include "papilla/haptic/material_tag.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
 namespace papilla {
@@ -55,7 +56,9 @@ struct Material {
   double alpha_cutoff = 0.5;
   std::optional<TextureReference> base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
       emissive_texture;
-  std::string extras_json;  ///< A JSON object, or empty.
+  std::optional<MaterialTag> haptic;           ///< extras.haptic: parsed by the reader, written by write_glb().
+  std::vector<HapticWarning> haptic_warnings;  ///< Of its parsing.
+  std::string extras_json;                     ///< The other extras: a JSON object, or empty.
   std::string
       extensions_json;  ///< glTF extensions as they were; texture numbers stay valid, textures are only appended.
 };
