@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,7 @@
 namespace papilla {
 namespace {
 
-constexpr int k_rows_at_once = 64, k_sample_side = 1024;
+constexpr int k_rows_at_once = 64;
 /// Tiles whose row holds more values than this are refused: a gigabyte.
 constexpr std::size_t k_most_values = std::size_t{1} << 28;
 
@@ -30,14 +31,14 @@ struct ImageBands::State {
   std::vector<float> stored;   ///< Scratch: rows as the file stores them.
   ColorImage sample;
 
-  State(const std::filesystem::path& file, std::size_t most_pixels)
+  State(const std::filesystem::path& file, std::size_t most_pixels, int sample_side)
       : path(file), input(io_detail::open_picture(file, most_pixels)) {
     const OIIO::ImageSpec& spec = input->spec();
     width = spec.width;
     height = spec.height;
     channels = io_detail::color_channels(spec);
     rows_at_once = std::min(height, spec.tile_height > 0 ? spec.tile_height : k_rows_at_once);
-    stride = (std::max(width, height) + k_sample_side - 1) / k_sample_side;
+    stride = static_cast<int>((std::int64_t{std::max(width, height)} + sample_side - 1) / sample_side);
     sample.width = (width + stride - 1) / stride;
     if (io_detail::pixel_count(width, rows_at_once) * static_cast<std::size_t>(channels) > k_most_values)
       throw InvalidInput(fmt::format("{}: rows of {} x {} pixels are too large to be read at once", path.string(),
@@ -84,8 +85,8 @@ struct ImageBands::State {
   }
 };
 
-ImageBands::ImageBands(const std::filesystem::path& path, std::size_t most_pixels)
-    : state_(std::make_unique<State>(path, most_pixels)) {}
+ImageBands::ImageBands(const std::filesystem::path& path, std::size_t most_pixels, int sample_side)
+    : state_(std::make_unique<State>(path, most_pixels, sample_side)) {}
 ImageBands::~ImageBands() = default;
 
 int ImageBands::width() const noexcept { return state_->width; }

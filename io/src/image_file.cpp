@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -112,6 +113,12 @@ GreyImage read_grey_image(const fs::path& path) {
 }
 
 ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_picture(path, k_max_image_pixels), path); }
+
+Picture read_picture(const fs::path& path) {
+  ImageBands bands(path, k_max_image_pixels, std::numeric_limits<int>::max());
+  GreyImage grey = bands.next(bands.height());
+  return {std::move(grey), bands.sample()};
+}
 
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
   check_png(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name);

@@ -111,7 +111,8 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   std::error_code error;
   if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
     return computed_source(rule, library);
-  return {read_grey_image(rule.texture), read_color_image(rule.texture)};
+  Picture picture = read_picture(rule.texture);
+  return {std::move(picture.grey), std::move(picture.color)};
 }
 
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.

@@ -74,6 +74,20 @@ TEST(ImageFile, ColourComesBack) {
             (std::vector<unsigned char>{1, 1, 1, 255, 255, 255}));
 }
 
+TEST(ImageFile, GreyAndColourOfOneDecodingAreThoseOfTwo) {
+  const test::TemporaryFolder folder("papilla_picture");
+  ColorImage image{1500, 3, std::vector<unsigned char>(3 * 1500 * 3)};
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<unsigned char>(i * 37 % 256);
+  write_color_image(folder / "a.png", image);
+  write_grey_image(folder / "b.png", read_grey_image(folder / "a.png"), 16);
+  for (const char* name : {"a.png", "b.png"}) {
+    const Picture picture = read_picture(folder / name);
+    EXPECT_EQ(picture.grey.pixels, read_grey_image(folder / name).pixels) << name;
+    EXPECT_EQ(picture.color.pixels, read_color_image(folder / name).pixels) << name;
+    EXPECT_EQ(picture.color.width, 1500);
+  }
+}
+
 TEST(ImageFile, GreyComesBackWithPitchInEveryDepth) {
   const TemporaryFolder folder;
   GreyImage image{3, 2, {0, 0.25F, 0.5F, 0.75F, 1, 0.125F}, 0.05, 32};

@@ -19,7 +19,9 @@ class ImageBands {
  public:
   /// Opens the file and looks at its size.
   /// @throws IoError, InvalidInput as read_grey_image(); InvalidInput too when the picture is over `most_pixels`.
-  explicit ImageBands(const std::filesystem::path& path, std::size_t most_pixels = k_max_streamed_pixels);
+  /// @param sample_side the longer side of sample(): every n-th pixel of every n-th row, n the least that gives it.
+  explicit ImageBands(const std::filesystem::path& path, std::size_t most_pixels = k_max_streamed_pixels,
+                      int sample_side = 1024);
   ~ImageBands();
   ImageBands(const ImageBands&) = delete;
   ImageBands& operator=(const ImageBands&) = delete;

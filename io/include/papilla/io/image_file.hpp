@@ -27,7 +27,17 @@ GreyImage read_grey_image(const std::filesystem::path& path);
 /// @throws IoError, InvalidInput as read_grey_image().
 ColorImage read_color_image(const std::filesystem::path& path);
 
-/// The same for a picture in memory, PNG or JPEG; `name` only names it in messages.
+/// Both of a picture, decoded once.
+struct Picture {
+  GreyImage grey;
+  ColorImage color;
+};
+
+/// read_grey_image() and read_color_image() of one file.
+/// @throws IoError, InvalidInput as read_grey_image().
+Picture read_picture(const std::filesystem::path& path);
+
+/// The same as read_color_image() for a picture in memory, PNG or JPEG; `name` only names it in messages.
 /// @throws InvalidInput as read_color_image().
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);
 
