@@ -75,7 +75,7 @@ TEST(ImageFile, ColourComesBack) {
 }
 
 TEST(ImageFile, GreyAndColourOfOneDecodingAreThoseOfTwo) {
-  const test::TemporaryFolder folder("papilla_picture");
+  const TemporaryFolder folder;
   ColorImage image{1500, 3, std::vector<unsigned char>(3 * 1500 * 3)};
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<unsigned char>(i * 37 % 256);
   write_color_image(folder / "a.png", image);
