@@ -25,11 +25,11 @@ struct Seam {
   Vec2 difference[2];
 };
 
-/// All that two charts have in common: the translation of `high` that continues the grain best, and what that is worth.
+/// All that two charts have in common: the translation of `high` that continues the grain best, and its score.
 struct ChartPair {
   std::uint32_t low, high;
   Vec2 translation;
-  double worth;
+  double score;
 };
 
 std::vector<Seam> find_seams(const TriangleMesh& mesh, const Adjacency& across, const Flattening& flattening) {
@@ -71,7 +71,7 @@ std::vector<ChartPair> fit_pairs(const std::vector<Seam>& seams, double toleranc
     begin = end;
   }
   std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const ChartPair& a, const ChartPair& b) { return a.worth > b.worth; });
+                   [](const ChartPair& a, const ChartPair& b) { return a.score > b.score; });
   return pairs;
 }
 
@@ -82,8 +82,8 @@ class OffsetForest {
     std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
   }
 
-  /// Ties `high` to `low` so that their offsets differ by `translation`, unless they are tied already.
-  void tie(std::uint32_t low, std::uint32_t high, Vec2 translation) {
+  /// Joins the trees of both charts so that their offsets differ by `translation`, unless they are one tree already.
+  void unite(std::uint32_t low, std::uint32_t high, Vec2 translation) {
     const Vec2 of_low = offset(low), of_high = offset(high);
     const std::uint32_t a = parent_[low], b = parent_[high];  // roots, after offset()
     if (a == b) return;
@@ -134,7 +134,7 @@ AlignedPhase align_phase(const TriangleMesh& mesh, const Flattening& flattening,
   const std::vector<Seam> seams = find_seams(mesh, across, flattening);
   OffsetForest forest(flattening.charts.count);
   for (const ChartPair& pair : fit_pairs(seams, options.tolerance_mm))
-    if (pair.worth > 0) forest.tie(pair.low, pair.high, pair.translation);
+    if (pair.score > 0) forest.unite(pair.low, pair.high, pair.translation);
 
   AlignedPhase result;
   for (std::uint32_t c = 0; c < flattening.charts.count; ++c) result.offset.push_back(forest.offset(c));

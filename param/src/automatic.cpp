@@ -7,9 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "best_options.hpp"
 #include "chart_driver.hpp"
-#include "lscm_solvers.hpp"
+#include "chart_solvers.hpp"
 #include "map_descent.hpp"
 #include "multilevel_map.hpp"
 #include "papilla/core/error.hpp"
@@ -103,7 +102,7 @@ class ChartMapper {
   ChartMap run() {
     const double defect = largest_defect_deg(chart_);
     if (defect <= options_.developable_deg) {
-      ConformalMap map = solve_lscm_hermitian(to_unit(chart_).surface);
+      SolvedMap map = solve_lscm_hermitian(to_unit(chart_).surface);
       const std::string reason = "angles around interior vertices miss 2π by " + number(defect) + "° at most";
       if (map.failure.empty() && take(std::move(map.uv), 4 + options_.developable_excess, {"exact", reason}))
         return std::move(result_);

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "best_options.hpp"
 #include "chart_driver.hpp"
 #include "multilevel_map.hpp"
 #include "papilla/core/error.hpp"

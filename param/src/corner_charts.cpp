@@ -3,30 +3,9 @@
 
 #include "adjacency.hpp"
 #include "chart_pieces.hpp"
+#include "papilla/core/union_find.hpp"
 
 namespace papilla::param_detail {
-namespace {
-
-/// Sets of things numbered from 0; the smallest number stands for a set.
-class Partition {
- public:
-  explicit Partition(std::size_t count) : parent_(count) {
-    for (Index i = 0; i < count; ++i) parent_[i] = i;
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
-}  // namespace
 
 CornerCharts charts_of_corners(const TriangleMesh& mesh, const std::vector<CornerUv>& uv,
                                const std::vector<std::uint32_t>& label) {
@@ -38,7 +17,7 @@ CornerCharts charts_of_corners(const TriangleMesh& mesh, const std::vector<Corne
     result.turned_over += over[t] != 0;
   }
   const Adjacency across = connect_triangles(mesh);
-  Partition triangles(count), corners(3 * count);
+  UnionFind triangles(count), corners(3 * count);
   for (Index t = 0; t < count; ++t)
     for (Index k = 0; k < 3; ++k) {
       const Index other = across[3 * t + k], l = (k + 1) % 3;
@@ -49,9 +28,9 @@ CornerCharts charts_of_corners(const TriangleMesh& mesh, const std::vector<Corne
         if (mesh.triangles[other][m] != mesh.triangles[t][l] || mesh.triangles[other][n] != mesh.triangles[t][k])
           continue;
         if (uv[t][l] != uv[other][m] || uv[t][k] != uv[other][n]) continue;
-        triangles.join(t, other);
-        corners.join(3 * t + l, 3 * other + m);
-        corners.join(3 * t + k, 3 * other + n);
+        triangles.unite(t, other);
+        corners.unite(3 * t + l, 3 * other + m);
+        corners.unite(3 * t + k, 3 * other + n);
       }
     }
   Flattening& f = result.flattening;

@@ -20,8 +20,8 @@ void subtract_square(const double* panel, std::size_t rows, std::size_t columns,
 void subtract_square(const std::complex<double>* panel, std::size_t rows, std::size_t columns, std::complex<double>* c,
                      std::size_t size);
 
-/// x := L⁻¹ x for the columns of a factored panel (rows × columns): the first `columns` numbers of x are solved for,
-/// the others get what they owe subtracted.
+/// x := L⁻¹ x for the columns of a factored panel (rows × columns): solves for the first `columns` numbers of x and
+/// subtracts the products of the lower rows with them from the others.
 void solve_forward(const double* panel, std::size_t rows, std::size_t columns, double* x);
 void solve_forward(const std::complex<double>* panel, std::size_t rows, std::size_t columns, std::complex<double>* x);
 

@@ -123,7 +123,7 @@ class DiskHierarchy::Coarsener {
     Index last = k_none;
     while (*link != k_none) {
       const Index c = *link;
-      if (!h_.alive_[c / 3]) {  // forgotten here, where it is met
+      if (!h_.alive_[c / 3]) {  // links to removed triangles are dropped on the way
         *link = next_[c];
         continue;
       }
@@ -147,9 +147,9 @@ class DiskHierarchy::Coarsener {
       return true;
     });
     if (!small || count == 0) return false;
-    // Into the order around the vertex, those that are left behind: from the first triangle on, and before it.
+    // Sorts the triangles around the vertex: ahead from the first one, then behind it.
     std::size_t ordered = 1;
-    const auto bring = [&](const std::array<Index, k_most_triangles>& list, Index wanted) {
+    const auto append_next = [&](const std::array<Index, k_most_triangles>& list, Index wanted) {
       for (std::size_t i = ordered; i < count; ++i)
         if (list[i] == wanted) {
           std::swap(from[i], from[ordered]), std::swap(to[i], to[ordered]), std::swap(triangle[i], triangle[ordered]);
@@ -158,12 +158,12 @@ class DiskHierarchy::Coarsener {
         }
       return false;
     };
-    while (bring(from, to[ordered - 1])) {
+    while (append_next(from, to[ordered - 1])) {
     }
     const std::size_t ahead = ordered;
     ring.closed = to[ahead - 1] == from[0];
     if (!ring.closed)
-      while (bring(to, from[ordered == ahead ? 0 : ordered - 1])) {
+      while (append_next(to, from[ordered == ahead ? 0 : ordered - 1])) {
       }
     if (ordered != count) return false;
     ring.triangles = ring.size = count;

@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "chart_driver.hpp"
-#include "levy_conformal.hpp"
-#include "levy_lengths.hpp"
-#include "levy_system.hpp"
-#include "lscm_solvers.hpp"
+#include "chart_solvers.hpp"
+#include "levy_systems.hpp"
 #include "papilla/core/error.hpp"
 #include "rest_shape.hpp"
 
@@ -297,7 +295,7 @@ class LevyMap {
   }
 
   std::string start_free() {
-    ConformalMap map = solve_lscm_hermitian(chart_);
+    SolvedMap map = solve_lscm_hermitian(chart_);
     if (!map.failure.empty()) return map.failure;
     uv_ = std::move(map.uv);
     normalise(chart_, options_.up, true, uv_);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "chart_driver.hpp"
-#include "lscm_solvers.hpp"
+#include "chart_solvers.hpp"
 #include "maillot_energy.hpp"
 #include "map_descent.hpp"
 #include "multilevel_map.hpp"
@@ -45,7 +45,7 @@ struct StartMap {
 
 StartMap start_map(const ChartSurface& unit, MaillotStart start) {
   if (start == MaillotStart::conformal) {
-    ConformalMap map = solve_lscm_hermitian(unit);
+    SolvedMap map = solve_lscm_hermitian(unit);
     if (map.failure.empty()) {
       normalise(unit, UpAxis::z, true, map.uv);
       if (map_failure(unit, map.uv).empty()) return {std::move(map.uv), {}};

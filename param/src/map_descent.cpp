@@ -34,7 +34,8 @@ constexpr double k_good_step = 0.3;
 /// A small gain means convergence only where the slope did not promise this many times as much.
 constexpr double k_promise = 10;
 
-/// A shorter step was stopped by the border before the barrier was felt: next time it is. One alone is no convergence.
+/// A shorter step was stopped by the border where the barrier had no gradient yet; the next one has it. One such step
+/// alone is no convergence.
 constexpr double k_blocked_step = 0.1;
 
 /// Of the gains of a full Newton step and the one before, while there is no other to go by; 0.04 to 0.3 were seen.
@@ -297,7 +298,7 @@ class LineSearch {
         start_(energy + barrier_value(problem, pairs, uv)),
         trial_(uv.size()) {}
 
-  /// Goes as far as the energy falls (Armijo) and nobody refuses.
+  /// Takes a step that satisfies Armijo's condition and that `accept` accepts.
   /// @param energy of uv on entry, of the new uv on return.
   Step run(double first_length, double& energy) {
     double length = std::min(first_length, most_);

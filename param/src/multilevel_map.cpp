@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "multilevel_map.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "convex_map.hpp"
 #include "map_descent.hpp"
 #include "map_level.hpp"
-#include "ring_placement.hpp"
+#include "papilla/core/bounds.hpp"
 #include "tube_map.hpp"
+#include "vertex_step.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -65,6 +70,115 @@ constexpr double k_smooth = 1.01;
 /// How hard a vertex and an edge of the border push each other away, in mean areas of a triangle.
 constexpr double k_push = 0.05;
 
+/// A triangle of a vertex that comes back into a map: the edge opposite to the vertex, and the shape of
+/// (vertex, from, to).
+struct RingEdge {
+  Vec2 from, to;
+  RestShape rest;
+};
+
+constexpr int k_place_steps = 20;
+
+/// Steps end when the vertex moves by less than this fraction of an edge of its ring.
+constexpr double k_small_move = 0.01;
+
+/// How much larger or smaller than its rest shape a triangle may be taken when the apex is guessed from it.
+constexpr double k_most_scale = 2;
+
+/// A corner that is nearer to the vertex than this fraction of the edge between the others tells where it goes.
+constexpr double k_near = 0.1;
+
+struct Guess {
+  Vec2 apex;
+  double weight;
+};
+
+/// Where the triangle's own shape puts the vertex. Edges that are short for their distance say little about it, a
+/// corner that is close to it says much.
+Guess guess(const RingEdge& e) {
+  const double base = e.rest.base(), along = e.rest.along(), height = e.rest.height();
+  const Vec2 rest_edge{along - base, height};  // from the second to the third corner; the vertex is at the origin
+  const double length = std::sqrt(dot(rest_edge, rest_edge)), uv_length = std::sqrt(dot(e.to - e.from, e.to - e.from));
+  if (!(length > 0) || !(uv_length > 0)) return {e.from, 0};
+  const Vec2 x = (1 / length) * rest_edge, to_apex{-base, 0};
+  const double scale = std::clamp(uv_length / length, 1 / k_most_scale, k_most_scale);
+  const double s = dot(to_apex, x), t = cross(x, to_apex);
+  const Vec2 d = (1 / uv_length) * (e.to - e.from);
+  // Measured from the nearer end, so that a turned or stretched edge matters as little as possible.
+  const bool from_start = s < 0.5 * length;
+  const double offset = from_start ? s : s - length;
+  const Vec2 apex = (from_start ? e.from : e.to) + (scale * offset) * d + (scale * t) * Vec2{-d.y, d.x};
+  const double far = std::sqrt(along * along + height * height), trust = length * length / (base * far);
+  const double nearness = std::max(1.0, k_near * length / std::min(base, far));
+  return {apex, e.rest.area * trust * trust * nearness * nearness};
+}
+
+using Polygon = std::vector<Vec2>;
+
+/// The part of a convex polygon left of the line through a and b.
+Polygon clip(const Polygon& polygon, Vec2 a, Vec2 b) {
+  Polygon result;
+  const Vec2 d = b - a;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+    const double s = cross(d, p - a), t = cross(d, q - a);
+    if (s > 0) result.push_back(p);
+    if ((s > 0) != (t > 0)) result.push_back(p + (s / (s - t)) * (q - p));
+  }
+  return result;
+}
+
+/// The middle of all places that see every edge of the ring from the left.
+bool middle_of_kernel(std::span<const RingEdge> ring, bool closed_by_chord, Vec2& middle) {
+  Bounds2 bounds;
+  bounds.add(ring.front().from);
+  for (const RingEdge& e : ring) bounds.add(e.to);
+  const auto [low, high] = bounds;
+  Polygon kernel{low, {high.x, low.y}, high, {low.x, high.y}};
+  for (const RingEdge& e : ring) kernel = clip(kernel, e.from, e.to);
+  if (closed_by_chord) kernel = clip(kernel, ring.back().to, ring.front().from);
+  if (kernel.size() < 3) return false;
+  middle = {};
+  for (const Vec2 p : kernel) middle = middle + (1 / static_cast<double>(kernel.size())) * p;
+  return true;
+}
+
+bool all_positive(std::span<const RingEdge> ring, Vec2 at) {
+  return std::all_of(ring.begin(), ring.end(), [&](const RingEdge& e) { return cross(e.from - at, e.to - at) > 0; });
+}
+
+/// Finds a place where all triangles of the ring are positive and, as far as one vertex can do, their symmetric
+/// Dirichlet energy is low.
+/// @param ring edges in order, the last one ending where the first one starts when the vertex is not on the border.
+/// @param allowed may refuse places; empty: none. For a vertex on the border it must not refuse the polygon of the
+/// ring.
+/// @return false when rounding leaves no such place.
+bool place_in_ring(std::span<const RingEdge> ring, const std::function<bool(Vec2)>& allowed, Vec2& place) {
+  const auto good = [&](Vec2 p) { return all_positive(ring, p) && (!allowed || allowed(p)); };
+  double weight = 0;
+  place = {};
+  for (const RingEdge& e : ring) {
+    const Guess g = guess(e);
+    weight += g.weight, place = place + g.weight * g.apex;
+  }
+  if (weight > 0) place = (1 / weight) * place;
+  if (!(weight > 0) || !good(place)) {
+    if (!(middle_of_kernel(ring, false, place) && good(place)) && !(middle_of_kernel(ring, true, place) && good(place)))
+      return false;
+  }
+  const Vec2 edge = ring.front().to - ring.front().from;
+  std::vector<CornerView> views;
+  for (int i = 0; i < k_place_steps; ++i) {
+    views.clear();
+    for (const RingEdge& e : ring) views.push_back(corner_view(e.rest, 0, e.from - place, e.to - place));
+    const Vec2 step = corner_step(views);
+    if (allowed && !allowed(place + step)) break;
+    place = place + step;
+    if (dot(step, step) < k_small_move * k_small_move * dot(edge, edge)) break;
+  }
+  return true;
+}
+
 class Multilevel {
  public:
   Multilevel(const ChartSurface& chart, const MultilevelOptions& options)
@@ -76,7 +190,7 @@ class Multilevel {
         least_edge_(least_edge(chart.positions, chart.triangles)) {}
 
   bool run() {
-    while (!run_from_here()) {
+    while (!run_from_current()) {
       // A finer start has more room.
       while (hierarchy_.removed_count() < base_removed_) hierarchy_.remove_again();
       if (base_removed_ == 0) return false;
@@ -87,20 +201,20 @@ class Multilevel {
     return true;
   }
 
-  MultilevelMap take() { return std::move(result_); }
+  MultilevelMap result() { return std::move(result_); }
 
  private:
   /// Tutte's map of the chart as coarse as it is now. @return whether it has one.
-  bool start(MapLevel& level) {
+  bool start_on_circle(MapLevel& level) {
     result_ = {};
     level = make_level();
     level.uv = map_to_circle(level, chart_.positions);
-    if (!std::isfinite(total(level))) return false;
-    keep(level);
+    if (!std::isfinite(energy_of(level))) return false;
+    store_uv(level);
     return true;
   }
 
-  void bring_to(std::size_t vertices) {
+  void set_vertex_count(std::size_t vertices) {
     while (hierarchy_.vertex_count() > vertices) hierarchy_.remove_again();
     while (hierarchy_.removed_count() > 0 && hierarchy_.vertex_count() < vertices) hierarchy_.restore();
   }
@@ -108,67 +222,67 @@ class Multilevel {
   /// Puts a finer beginning into the place of the coarsest level, unless none is any good.
   /// @param level the coarsest one, improved; the finer one, improved, on return.
   /// @param beginning gets the finer one as it was before.
-  void begin_finer(MapLevel& level, MapLevel& beginning) {
+  void start_finer(MapLevel& level, MapLevel& beginning) {
     const double coarsest = mean_energy_;
     for (std::size_t vertices = k_deep_base_vertices; vertices >= 2 * level.vertices.size(); vertices /= 2) {
-      bring_to(vertices);
+      set_vertex_count(vertices);
       MapLevel finer;
-      if (!start(finer)) continue;
+      if (!start_on_circle(finer)) continue;
       MapLevel improved = finer;
-      improve(improved);
+      minimise(improved);
       if (!(mean_energy_ < k_much_worse * coarsest)) continue;
       beginning = std::move(finer);
       level = std::move(improved);
       return;
     }
-    bring_to(level.vertices.size());
+    set_vertex_count(level.vertices.size());
     result_ = {};
     mean_energy_ = coarsest;
   }
 
   /// Begins with the whole chart as one tube, unless it has several ends or that has failed.
   /// @param level the coarsest one, improved; the whole one, improved, on return.
-  bool begin_as_tube(MapLevel& level) {
-    bring_to(k_deep_base_vertices);
+  bool start_as_tube(MapLevel& level) {
+    set_vertex_count(k_deep_base_vertices);
     if (has_one_end(make_level(), chart_.positions)) {
-      bring_to(k_most_factored);
+      set_vertex_count(k_most_factored);
       MapLevel whole = make_level();
-      if (widen_tube(whole) && total(whole) < k_much_worse * mean_energy_ * whole.area) {
+      if (widen_tube(whole) && energy_of(whole) < k_much_worse * mean_energy_ * whole.area) {
         level = std::move(whole);
-        keep(level);
+        store_uv(level);
         is_tube_ = true;
-        improve(level);
+        minimise(level);
         is_tube_ = false;
         return true;
       }
     }
-    bring_to(level.vertices.size());
+    set_vertex_count(level.vertices.size());
     return false;
   }
 
   /// Radii r, as parts of the largest one, become r^1.5 as long as that lowers the energy: they begin as √z on a tube
   /// of height z, and should end near z.
-  void steepen(MapLevel& level) const {
+  void steepen_radii(MapLevel& level) const {
     const auto squared = [](Vec2 p) { return dot(p, p); };
     double most = 0;
     for (const Vec2 p : level.uv) most = std::max(most, squared(p));
-    for (double energy = total(level);;) {
+    for (double energy = energy_of(level);;) {
       MapLevel steeper = level;
       for (Vec2& p : steeper.uv) p = std::sqrt(std::sqrt(squared(p) / most)) * p;
-      const double next = total(steeper);
+      const double next = energy_of(steeper);
       if (!(next < energy)) return;
       energy = next;
       level.uv = std::move(steeper.uv);
     }
   }
 
-  /// Maps a level as a tube, and each of its rings to where the energy wants it. @return whether that is possible.
+  /// Maps a level as a tube and minimises the energy over the radii of its rings. @return whether that is possible.
   bool widen_tube(MapLevel& level) const {
     std::optional<TubeMap> tube = map_tube(level, chart_.positions);
     if (!tube) return false;
     level.uv = std::move(tube->uv);
-    if (!std::isfinite(total(level))) return false;
-    steepen(level);
+    if (!std::isfinite(energy_of(level))) return false;
+    steepen_radii(level);
     const SymmetricDirichlet energy(level.rest);
     DescentOptions descent;
     descent.tolerance = k_coarse_tolerance;
@@ -178,17 +292,17 @@ class Multilevel {
   }
 
   /// From Tutte's map of the chart as coarse as it is now.
-  bool run_from_here() {
+  bool run_from_current() {
     guarded_ = false;
     MapLevel level;
-    if (!start(level)) return fail("Tutte's map of the coarsened chart is not valid");
+    if (!start_on_circle(level)) return fail("Tutte's map of the coarsened chart is not valid");
     std::vector<MapLevel> left_alone{level};  // levels before the border was watched
     for (bool first = true;; first = false) {
-      improve(level);
-      if (first && is_deep() && !begin_as_tube(level)) begin_finer(level, left_alone.front());
+      minimise(level);
+      if (first && is_deep() && !start_as_tube(level)) start_finer(level, left_alone.front());
       std::string why = "the chart overlaps itself";
       if (is_simple(level)) {
-        keep(level);
+        store_uv(level);
         if (hierarchy_.removed_count() == 0) break;
         if (!guarded_) left_alone.push_back(level);
         if (refine(level)) continue;
@@ -202,7 +316,7 @@ class Multilevel {
       level = std::move(left_alone.back());
       left_alone.pop_back();
       while (hierarchy_.vertex_count() > level.vertices.size()) hierarchy_.remove_again();
-      keep(level);
+      store_uv(level);
     }
     result_.uv = uv_;
     return true;
@@ -232,7 +346,7 @@ class Multilevel {
             last ? k_sliver : std::numeric_limits<double>::infinity()};
   }
 
-  double total(const MapLevel& level) const {
+  double energy_of(const MapLevel& level) const {
     const SymmetricDirichlet energy(level.rest);
     return total_energy({level.triangles, &energy, nullptr}, level.uv);
   }
@@ -245,18 +359,18 @@ class Multilevel {
 
   static bool is_simple(const MapLevel& level) { return make_barrier(level).is_simple(level.uv); }
 
-  void improve(MapLevel& level) {
+  void minimise(MapLevel& level) {
     const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= k_most_factored;
-    trace(level, last);
+    add_trace_sample(level, last);
     if (last && factored && options_.only_when_rough && level.slivers.empty() &&
-        total(level) <= k_smooth * mean_energy_ * level.area)
+        energy_of(level) <= k_smooth * mean_energy_ * level.area)
       return;
     const int sweeps = guarded_ ? k_guarded_sweeps : k_relax_sweeps;
     const bool well_relaxed = last && (!factored || !level.slivers.empty());
     const double relax_tolerance = well_relaxed ? 0.1 * options_.tolerance : k_relax_tolerance;
     relax(level, last && !factored ? k_fine_sweeps : sweeps, relax_tolerance, guarded_);
     if (last) restore_slivers(level, guarded_);
-    trace(level, last);
+    add_trace_sample(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
     const SymmetricDirichlet dirichlet(level.rest);
     const double start = clock_.seconds();
@@ -287,21 +401,21 @@ class Multilevel {
     }
   }
 
-  void trace(const MapLevel& level, bool last) {
-    if (last) result_.trace.push_back({clock_.seconds(), total(level) / level.area});
+  void add_trace_sample(const MapLevel& level, bool last) {
+    if (last) result_.trace.push_back({clock_.seconds(), energy_of(level) / level.area});
   }
 
-  void keep(const MapLevel& level) {
+  void store_uv(const MapLevel& level) {
     for (std::size_t i = 0; i < level.vertices.size(); ++i) uv_[level.vertices[i]] = level.uv[i];
   }
 
-  /// Brings vertices back until there are k_growth times as many, or all, or the next one finds no place.
+  /// Inserts removed vertices until there are k_growth times as many, or all, or the next one has no valid place.
   bool refine(MapLevel& level) {
     const std::size_t before = hierarchy_.removed_count();
     const std::size_t growth = guarded_ ? k_guarded_growth : is_deep() ? k_deep_growth : k_growth;
     const std::size_t enough = growth * hierarchy_.vertex_count();
     const std::size_t all = hierarchy_.removed_count() + hierarchy_.vertex_count();
-    // A rest that is smaller than a level of its own joins this one.
+    // Too few vertices for another level are added to this one.
     const std::size_t leave = 2 * all < 3 * enough ? 0 : all - enough;
     LeastArea least = least_area(leave == 0);
     least.area /= static_cast<double>(growth);
@@ -312,7 +426,7 @@ class Multilevel {
       guard_.emplace(std::move(border), uv_);
     }
     while (hierarchy_.removed_count() > leave)
-      if (!insert(least)) {
+      if (!insert_next(least)) {
         hierarchy_.remove_again();
         break;
       }
@@ -321,7 +435,7 @@ class Multilevel {
     return true;
   }
 
-  bool insert(LeastArea least_area) {
+  bool insert_next(LeastArea least_area) {
     const Removal removal = hierarchy_.restore();
     ring_.clear();
     Index first = ~Index{0}, last = first;
@@ -352,7 +466,7 @@ class Multilevel {
   std::vector<Vec2> uv_;
   double least_edge_;
   bool is_tube_ = false;    ///< The level began as one.
-  bool guarded_ = false;    ///< Keep the border out of its own way.
+  bool guarded_ = false;    ///< The border is kept from running into itself.
   double mean_energy_ = 0;  ///< Per area, of the level before.
   std::vector<RingEdge> ring_;
   std::optional<BorderGuard> guard_;
@@ -364,7 +478,7 @@ class Multilevel {
 MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions& options) {
   Multilevel multilevel(chart, options);
   multilevel.run();
-  MultilevelMap map = multilevel.take();
+  MultilevelMap map = multilevel.result();
   if (map.failure.empty() && !map.trace.empty() && map.trace.back().error > options.energy_limit) {
     map.uv.clear();
     map.failure = "its mean symmetric Dirichlet energy is " + std::to_string(map.trace.back().error);

@@ -3,10 +3,12 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "chart_pieces.hpp"
 #include "papilla/core/trace.hpp"
+#include "papilla/param/best.hpp"
 
 namespace papilla::param_detail {
 
@@ -17,6 +19,11 @@ struct MultilevelOptions {
   bool only_when_rough = false;                                   ///< No iterations on a map that is smooth already.
   double energy_limit = std::numeric_limits<double>::infinity();  ///< A map with a larger mean energy is a failure.
 };
+
+/// @throws InvalidInput, in the name of `function`, for options out of range.
+void check_best_options(const BestOptions& options, std::string_view function);
+
+MultilevelOptions multilevel_options(const BestOptions& options);
 
 struct MultilevelMap {
   std::vector<Vec2> uv;  ///< Per vertex; empty when `failure` says why.

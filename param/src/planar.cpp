@@ -6,7 +6,6 @@
 #include "mesh_frame.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/projections.hpp"
-#include "principal_axis.hpp"
 
 namespace papilla {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "chart_driver.hpp"
+#include "chart_solvers.hpp"
 #include "map_descent.hpp"
 #include "papilla/core/error.hpp"
-#include "reference_cgal.hpp"
 
 namespace papilla {
 namespace {
@@ -26,7 +26,7 @@ void check(const ReferenceOptions& options) {
     refuse("arap_tolerance is " + std::to_string(options.arap_tolerance) + ", it must lie in [0, 1)");
 }
 
-ConformalMap solve(const ChartSurface& chart, const ReferenceOptions& options) {
+SolvedMap solve(const ChartSurface& chart, const ReferenceOptions& options) {
   switch (options.map) {
     case ReferenceMap::tutte: return solve_tutte_cgal(chart);
     case ReferenceMap::mean_value: return solve_mean_value_cgal(chart);
@@ -43,7 +43,7 @@ Flattening flatten_reference(const TriangleMesh& mesh, const ChartSet& charts, c
   const auto method = [&](const ChartSurface& chart) {
     const Stopwatch clock;
     // CGAL's ARAP compares energies with an absolute number: a chart of area 1 makes it relative.
-    ConformalMap solution = solve(to_unit(chart).surface, options);
+    SolvedMap solution = solve(to_unit(chart).surface, options);
     ChartMap map{std::move(solution.uv), std::move(solution.failure), StopReason::direct, {}, false};
     if (!map.failure.empty()) return map;
     const double seconds = clock.seconds();

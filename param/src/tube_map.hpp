@@ -22,7 +22,7 @@ struct TubeMap {
 /// A map for disks that are one tube with a closed end, or a bag: the deepest vertex becomes the pole; what remains, a
 /// surface between two closed curves, goes to the wall of a cylinder by harmonic weights, the end free to turn against
 /// the border; a ring's radius in the plane is that of a circle of the area inside it. Where Tutte's map on a disk
-/// shrinks a tube by a factor per diameter, this one has about the size that the least energy wants.
+/// shrinks a tube by a factor per diameter, this one has about the size of least energy.
 /// @return nothing where the pole has no ring of its own or a triangle is not positive.
 std::optional<TubeMap> map_tube(const MapLevel& level, std::span<const Vec3> positions);
 

@@ -3,10 +3,10 @@
 #include <string>
 
 #include "check_mesh.hpp"
+#include "mesh_frame.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/param/grain_direction.hpp"
 #include "place_charts.hpp"
-#include "principal_axis.hpp"
 
 namespace papilla {
 namespace {
