@@ -170,7 +170,7 @@ xvfb xvfb
 localedef|locale-gen locales
 qemu-system qemu-system-x86
 cpio cpio
-clang-format clang-format'
+check_sources\.sh clang-format'
 
 # The pattern that shows the use of name $2 by table $1.
 pattern_of() { awk -v name="$2" '{ for (i = 2; i <= NF; ++i) if ($i == name) { print $1; exit } }' <<<"$1"; }
@@ -200,7 +200,7 @@ includes_of_folder() {
 check_packages() {
   local file name pattern included scripts
   included=$(cpp_sources "${all_cpp[@]}" | includes || true)
-  scripts=$(sources CMakeLists.txt .ci cmake page docs/make "${all_cpp[@]}" | grep -vE '\.([ch]pp|h|c)$|/conventions/' || true)
+  scripts=$(sources CMakeLists.txt .ci cmake page docs/make "${all_cpp[@]}" | grep -vE '\.([ch]pp|h|c)$|/check_sources' || true)
   while read -r file name; do
     if pattern=$(pattern_of "$library_uses" "$name") && [[ -n $pattern ]]; then
       grep -qE " $pattern|$pattern\$" <<<"$included" || breach "$file" "requires $name, which no source includes"
