@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes docs/evidence/README.md from the pages beside it: node evidence_index.mjs DOCS [--check]
-import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import { anchorOf, firstParagraph, headings, tableAfter } from './markdown.mjs';
 
@@ -64,13 +64,7 @@ function curves() {
   return `Every method has a page with its formula, its limits and, on the built site (\`./run docs\`), its error over run time: [methods](../methods/README.md) (${methods.length}). \`papilla evaluate\` draws the same on your input.\n\n`;
 }
 
-/** The run of `papilla evaluate stability` that the pages hold. */
-function extremes() {
-  const file = join(docs, 'stability.md');
-  if (!existsSync(file)) return '';
-  const text = readFileSync(file, 'utf8'), parts = headings(text).filter((h) => h.level === 2);
-  return `- [stability](../stability.md): every method on input that was made to break it: ${parts.map((h) => `[${h.text}](../stability.md#${anchorOf(h.text)})`).join(', ')}\n`;
-}
+const EXTREMES = '- [stability](../stability.md): every method on input that was made to break it, counted by suite; `./run stability` makes the tables\n';
 
 function stableTables(pages) {
   const rows = pages.flatMap((page) => headings(page.text).filter((h) => h.level === 2 && STABLE_SECTION.test(h.text)).map((h) => {
@@ -78,7 +72,7 @@ function stableTables(pages) {
     return [`[${page.title}: ${h.text}](${page.name}#${anchorOf(h.text)})`, lines.length];
   }));
   const whole = pages.filter((p) => !p.promises.length).map((p) => `- ${link(p)}: ${firstParagraph(p.text).replace(/\n/g, ' ')}\n`).join('');
-  return `${extremes()}${whole}\n${table(['table', 'rows'], rows)}`;
+  return `${EXTREMES}${whole}\n${table(['table', 'rows'], rows)}`;
 }
 
 /** Links of a page of docs/ as they are from docs/evidence. */

@@ -5,6 +5,7 @@
 //   <!-- curve JSON METHOD [VARIANT] -->    error over run time of a method, all others of the file behind it
 //   <!-- stroke CSV,… force|depth|travel, CAPTION -->  recordings of the player
 //   <!-- table CSV -->                      the whole file
+//   <!-- tables MD -->                      a page of the runs without its title and first paragraph
 // A page below methods/ that lacks its formula, a picture, a curve, its limits or its source is an error.
 import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, extname, join, relative } from 'node:path';
@@ -49,8 +50,13 @@ class PageMaker {
     return [names, names.map(() => '---'), ...rows.map((r) => names.map((n) => r[n]))].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
   }
 
+  tables(text) {
+    const page = readFileSync(join(runs, text), 'utf8');
+    return page.slice(page.indexOf('\n## ') + 1);
+  }
+
   filled(text) {
-    return text.replace(/^<!-- (picture|curve|stroke|table) (.*) -->$/gm, (_, kind, what) => this[kind](what));
+    return text.replace(/^<!-- (picture|curve|stroke|tables?) (.*) -->$/gm, (_, kind, what) => this[kind](what));
   }
 }
 

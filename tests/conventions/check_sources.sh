@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Checks what the compiler can't: licence lines and who may include whom. Prints one line per breach, exits 1 if any.
+# Checks what the compiler can't: licence lines, who may include whom, that every required package is used, and the
+# format of C++ files. Prints one line per breach, exits 1 if any.
 # usage: check_sources.sh ROOT
 set -euo pipefail
 cd "$1"
@@ -42,6 +43,10 @@ licences() {
     END { if (file != "") print file, licence }'
 }
 
+# Folders of libraries, and all folders with C++ files.
+readonly libraries=(core meshing param texture procedural haptic io pipeline)
+readonly all_cpp=("${libraries[@]}" apps tests data examples)
+
 readonly gpl_headers=' <(CGAL/|fftw3)'
 readonly heavy_headers=' [<"](CGAL/|OpenMesh/|OpenImageIO/|Eigen/|ceres/|fftw3|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
 
@@ -58,12 +63,12 @@ check_licence_lines() {
       '') breach "$file" "has no SPDX-License-Identifier in its first three lines" ;;
       *) breach "$file" "unknown licence: $licence" ;;
     esac
-  done < <(sources run .ci CMakeLists.txt cmake core haptic io meshing param texture procedural apps page tests data | licences)
+  done < <(sources run .ci CMakeLists.txt cmake page docs/make "${all_cpp[@]}" | licences)
 }
 
 check_gpl_users() {
   local all
-  all=$(cpp_sources core haptic io meshing param texture procedural apps tests data)
+  all=$(cpp_sources "${all_cpp[@]}")
   breach_each "includes %s, which is GPL, but says MIT" < <(licences <<<"$all" | awk '$2 == "MIT" {print $1}' | includes |
     grep -E "$gpl_headers")
 }
@@ -76,7 +81,7 @@ check_light_folders() {
 
 # Public headers: the standard library and papilla only, so that no user needs our libraries to compile.
 check_public_headers() {
-  breach_each "a public header must not include %s" < <(cpp_sources core haptic io meshing param texture procedural |
+  breach_each "a public header must not include %s" < <(cpp_sources "${libraries[@]}" |
     grep /include/ | includes | grep -vE ' (<[a-z0-9_]+>|<std(def|int|bool)\.h>|"papilla/.*")$')
 }
 
@@ -90,15 +95,141 @@ allowed_modules() {
     procedural) echo 'core|texture|procedural' ;;
     haptic) echo 'core|haptic|texture' ;;
     io) echo 'core|haptic|texture|meshing|io' ;;
+    pipeline) echo 'core|haptic|texture|meshing|io|param|procedural|pipeline' ;;
+    apps/player) echo 'core|haptic|io' ;;
   esac
 }
 
 check_directions() {
   local folder
-  for folder in core meshing param texture procedural haptic io; do
+  for folder in "${libraries[@]}" apps/player; do
     breach_each "$folder must not include %s" < <(cpp_sources "$folder" | includes | grep ' "papilla/' |
       grep -vE " \"papilla/($(allowed_modules "$folder"))/")
   done
+}
+
+# A private header of a library is in its own src/.
+check_private_headers() {
+  local file name
+  while read -r file name; do
+    name=${name//\"/}
+    [[ -e ${file%%/src/*}/src/$name || -e $(dirname "$file")/$name ]] ||
+      breach "$file" "must not include \"$name\", which is no header of its library"
+  done < <(cpp_sources "${libraries[@]}" | grep /src/ | includes | grep -E ' "' | grep -v ' "papilla/')
+}
+
+# Scenes in, scenes out: no command line, no console, no server; JSON in parsers only.
+check_pipeline() {
+  breach_each "pipeline must not include %s" < <(cpp_sources pipeline | includes | grep -E ' <(CLI/|iostream>|httplib\.h)')
+  breach_each "a header of pipeline must not include %s" < <(cpp_sources pipeline | grep -E '/src/.*\.hpp$' | includes |
+    grep ' <nlohmann/')
+}
+
+# What shows that a library is used: a pattern of includes, then its names in CMake and as a Debian package.
+readonly library_uses='
+<(thread|mutex|atomic)> Threads Threads::Threads
+<nlohmann/ nlohmann_json nlohmann-json3-dev nlohmann_json::nlohmann_json
+<fmt/ fmt libfmt-dev fmt::fmt
+<CLI/ CLI11 libcli11-dev CLI11::CLI11
+<tiny_gltf\.h> TinyGLTF libtinygltf-dev TinyGLTF::TinyGLTF
+<draco/ draco libdraco-dev draco::draco
+<meshoptimizer\.h> meshoptimizer libmeshoptimizer-dev meshoptimizer::meshoptimizer
+<hidapi hidapi-hidraw libhidapi-dev PkgConfig::HIDAPI
+<sha2\.h> libmd libmd-dev PkgConfig::MD
+<gtest/ GTest libgtest-dev GTest::gtest_main
+<benchmark/ benchmark libbenchmark-dev benchmark::benchmark
+<ceres/ Ceres libceres-dev Ceres::ceres
+<Eigen/ Eigen3 libeigen3-dev Eigen3::Eigen
+<OpenMesh/ OpenMesh libopenmesh-dev OpenMeshCore OpenMeshTools
+<CGAL/ CGAL libcgal-dev
+<(CGAL|Eigen)/ papilla_cgal
+<(oneapi/)?tbb/ TBB libtbb-dev TBB::tbb
+\.hxx> OpenCASCADE libocct-data-exchange-dev libfontconfig-dev papilla_occt
+<fftw3 fftw3 libfftw3-dev PkgConfig::FFTW
+<httplib\.h> cpp-httplib libcpp-httplib-dev PkgConfig::HTTPLIB
+<OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
+<zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB'
+
+# The same of a program: a pattern of scripts and build files, then its names.
+readonly program_uses='
+LANGUAGES.*CXX g++
+cmake cmake
+Ninja ninja-build
+ccache ccache
+pkg_check_modules pkg-config PkgConfig
+git git
+help2man help2man
+oiiotool openimageio-tools
+gnuplot gnuplot-nox
+node nodejs
+npm npm ca-certificates
+mkdocs mkdocs
+chromium chromium
+firefox firefox-esr
+xvfb xvfb
+localedef|locale-gen locales
+qemu-system qemu-system-x86
+cpio cpio
+check_sources\.sh clang-format'
+
+# The pattern that shows the use of name $2 by table $1.
+pattern_of() { awk -v name="$2" '{ for (i = 2; i <= NF; ++i) if ($i == name) { print $1; exit } }' <<<"$1"; }
+
+# The packages that CMake and `run` ask for: "FILE NAME" a line.
+required_packages() {
+  local cmake=cmake/PapillaDependencies.cmake
+  if [[ -e $cmake ]]; then
+    sed -nE -e 's/^[[:space:]]*find_package\(([A-Za-z0-9_]+).*/\1/p' \
+      -e 's/^[[:space:]]*pkg_check_modules\(.*[[:space:]]([A-Za-z0-9_-]+)\).*/\1/p' "$cmake" | sort -u | sed "s|^|$cmake |"
+  fi
+  if [[ -e run ]]; then
+    awk '{ sub(/#.*/, "") }
+      /^readonly [a-z_]*packages=\(/ { inside = 1; sub(/^[^(]*\(/, "") }
+      inside { last = /\)/; sub(/\).*/, ""); for (i = 1; i <= NF; ++i) print "run", $i; inside = !last }' run
+  fi
+}
+
+# Of the includes on stdin those of the sources that a CMakeLists.txt builds: of its folder, and others that it names.
+includes_of_folder() {
+  local named
+  named=$({ grep -oE '\$\{CMAKE_SOURCE_DIR\}/[^ )]+\.cpp' "$1" || true; } | sed 's|^[^/]*/||' | paste -sd'|')
+  grep -E "^($(dirname "$1")/${named:+|($named) })"
+}
+
+# Nothing is required that no source includes or no script calls, and nothing linked that no source of the folder includes.
+check_packages() {
+  local file name pattern included scripts
+  included=$(cpp_sources "${all_cpp[@]}" | includes || true)
+  scripts=$(sources CMakeLists.txt .ci cmake page docs/make "${all_cpp[@]}" | grep -vE '\.([ch]pp|h|c)$|/check_sources' || true)
+  while read -r file name; do
+    if pattern=$(pattern_of "$library_uses" "$name") && [[ -n $pattern ]]; then
+      grep -qE " $pattern|$pattern\$" <<<"$included" || breach "$file" "requires $name, which no source includes"
+    elif pattern=$(pattern_of "$program_uses" "$name") && [[ -n $pattern ]]; then
+      { cat CMakePresets.json 2>/dev/null; sed '/^readonly [a-z_]*packages=(/,/)/d' run 2>/dev/null; xargs -r cat <<<"$scripts"; } |
+        grep -E -- "$pattern" >/dev/null || breach "$file" "requires $name, which no script calls"
+    else
+      breach "$file" "requires $name, of which check_sources.sh does not know how its use shows"
+    fi
+  done < <(required_packages)
+
+  while read -r file name; do
+    pattern=$(pattern_of "$library_uses" "$name")
+    [[ -n $pattern ]] || continue
+    includes_of_folder "$file" <<<"$included" | grep -E "$pattern" >/dev/null ||
+      breach "$file" "links $name, which no source of its folder includes"
+  done < <(sources "${all_cpp[@]}" | grep '/CMakeLists\.txt$' |
+    xargs -r grep -HoE '[A-Za-z0-9_]+::[A-Za-z0-9_]+|papilla_(cgal|occt)|OpenMesh(Core|Tools)' | sort -u | sed 's/:/ /')
+}
+
+check_format() {
+  local file
+  if ! command -v clang-format >/dev/null; then
+    echo "clang-format is not installed: the format of C++ files is not checked"
+    return
+  fi
+  while read -r file; do breach "$file" "is not formatted: clang-format -i $file"; done < <(cpp_sources "${all_cpp[@]}" |
+    xargs -r clang-format --style=file --fallback-style=none --dry-run -Werror 2>&1 |
+    sed -nE 's/^([^ :]+):[0-9]+:[0-9]+: error: .*/\1/p' | sort -u)
 }
 
 check_licence_lines
@@ -106,4 +237,8 @@ check_gpl_users
 check_light_folders
 check_public_headers
 check_directions
+check_private_headers
+check_pipeline
+check_packages
+check_format
 ((breaches == 0))
