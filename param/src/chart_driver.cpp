@@ -108,17 +108,6 @@ Trace add_up(const std::vector<MappedChart>& mapped, bool per_area) {
   return trace;
 }
 
-int severity(StopReason stop) {
-  switch (stop) {
-    case StopReason::direct: return 0;
-    case StopReason::converged: return 1;
-    case StopReason::line_search_stalled: return 2;
-    case StopReason::iteration_limit: return 3;
-    case StopReason::time_limit: return 4;
-  }
-  return 0;
-}
-
 }  // namespace
 
 Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, const ChartMethod& method,
@@ -145,7 +134,7 @@ Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, cons
   for (std::uint32_t c = 0; c < charts.count; ++c) {
     const auto own = members.of(c);
     if (own.empty()) continue;
-    if (severity(mapped[c].stop) > severity(result.stop)) result.stop = mapped[c].stop;
+    result.stop = worse(result.stop, mapped[c].stop);
     if (!mapped[c].failure.empty()) {
       const std::string what =
           "chart[" + std::to_string(c) + "] (triangle[" + std::to_string(own.front()) + "]): " + mapped[c].failure;
