@@ -22,9 +22,8 @@
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/roughness.hpp"
 #include "weather/atlas_uv.hpp"
-#include "weather/material_surface.hpp"
-#include "weather/paint.hpp"
 #include "weather/sky_texels.hpp"
+#include "weather/surface_atlas.hpp"
 
 namespace papilla {
 namespace {
@@ -96,6 +95,76 @@ class Pictures {
   std::map<std::string, std::uint32_t> known_;
 };
 
+/// What a window is painted with.
+struct PaintJob {
+  const ProceduralTexture& texture;
+  const SurfaceReading& reading;
+  const OwnSurface& own;
+  double depth_mm;     ///< Of a height of 1.
+  bool tiles = false;  ///< Windows go on round their borders.
+};
+
+/// Sums over the texels that something shows, for the means of the channels.
+struct ChannelSums {
+  double friction = 0, stiffness = 0, texels = 0;
+};
+
+/// A painted window: byte and height a texel.
+struct Painted {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgb;
+  std::vector<float> bump;
+};
+
+constexpr unsigned bit(Channel c) { return 1U << static_cast<unsigned>(c); }
+constexpr unsigned k_maps = bit(Channel::color) | bit(Channel::bump) | bit(Channel::friction) | bit(Channel::stiffness);
+
+/// Evaluates the recipe at the covered texels of a window; the others get a middle grey and height.
+/// @param sky  of the window; empty when it is not read. @param scale  texels a repeat.
+/// @param charts  how often the window is shown, for the means.
+Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vector<float>& sky, double scale,
+              double charts, ChannelSums& sums) {
+  std::vector<double> x, y;
+  std::vector<float> normals, positions, skies, colours, heights;
+  std::vector<std::uint32_t> place;
+  const auto covered = static_cast<std::size_t>(
+      std::count_if(texels.covered.begin(), texels.covered.end(), [](auto c) { return c != 0; }));
+  x.reserve(covered), y.reserve(covered), place.reserve(covered), colours.reserve(3 * covered);
+  if (!job.reading.directions.empty()) normals.reserve(3 * covered);
+  for (int j = 0; j < texels.height; ++j)
+    for (int i = 0; i < texels.width; ++i) {
+      const std::size_t at = texels.at(texels.left + i, texels.top + j);
+      if (!texels.covered[at]) continue;
+      place.push_back(static_cast<std::uint32_t>(at));
+      x.push_back((texels.left + i + 0.5) / scale), y.push_back((texels.top + j + 0.5) / scale);
+      const auto from = static_cast<std::ptrdiff_t>(3 * at);
+      if (!job.reading.directions.empty())
+        normals.insert(normals.end(), texels.normals.begin() + from, texels.normals.begin() + from + 3);
+      if (job.reading.position)
+        positions.insert(positions.end(), texels.positions.begin() + from, texels.positions.begin() + from + 3);
+      const std::array<float, 3> colour = job.own.colour_at(x.back(), y.back());
+      colours.insert(colours.end(), colour.begin(), colour.end());
+      if (job.own.has_relief())
+        heights.push_back(job.own.height_at(x.back(), y.back()) / static_cast<float>(job.depth_mm));
+      if (!sky.empty()) skies.push_back(sky[at]);
+    }
+  TexturePoints points{x, y, normals, positions, skies, colours, heights};
+  if (job.texture.depends_on_neighbours()) points.raster = {texels.width, texels.height, job.tiles, place};
+  const TextureValues values = evaluate_texture(job.texture, points, k_maps, 1 / scale);
+  const ColorImage image = to_color_image(values[Channel::color], static_cast<int>(place.size()), 1);
+  Painted out{texels.width, texels.height, std::vector<unsigned char>(3 * texels.count(), 128),
+              std::vector<float>(texels.count(), 0.5F)};
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * k), 3,
+                out.rgb.begin() + static_cast<std::ptrdiff_t>(3 * place[k]));
+    out.bump[place[k]] = values[Channel::bump][k];
+    sums.friction += charts * static_cast<double>(values[Channel::friction][k]);
+    sums.stiffness += charts * static_cast<double>(values[Channel::stiffness][k]);
+    sums.texels += charts;
+  }
+  return out;
+}
+
 std::size_t hash_of(const Painted& tile) {
   const auto bytes = std::as_bytes(std::span(tile.bump));
   const std::hash<std::string_view> hash;
@@ -133,13 +202,13 @@ void copy_tile(const Painted& tile, std::pair<int, int> corner, Painted& picture
   }
 }
 
-Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, Felt& felt, PaintedMaterial& material) {
+Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, ChannelSums& sums, PaintedMaterial& material) {
   const SurfaceAtlas& atlas = shown.atlas;
   const std::vector<SurfaceTriangle>& surface = shown.triangles;
   std::vector<Painted> painted, distinct;
   for (const AtlasTile& tile : atlas.tiles)
     painted.push_back(
-        paint(job, tile.texels, tile.sky, atlas.texels_per_repeat, static_cast<double>(tile.charts), felt));
+        paint(job, tile.texels, tile.sky, atlas.texels_per_repeat, static_cast<double>(tile.charts), sums));
   const std::vector<std::uint32_t> number = distinct_tiles(std::move(painted), distinct);
   std::vector<std::pair<int, int>> sizes;
   for (const Painted& p : distinct) sizes.emplace_back(p.width, p.height);
@@ -219,8 +288,8 @@ std::shared_ptr<const MaterialSurface> surface_for(Job& job, std::uint32_t index
 }
 
 /// Paints one material anew.
-/// @param felt  the tag that it had. @param compiled  compiles the recipe, seamless or not.
-PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optional<MaterialTag>& felt,
+/// @param tag  that it had. @param compiled  compiles the recipe, seamless or not.
+PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optional<MaterialTag>& tag,
                                const ProceduralTexture& texture,
                                const std::function<ProceduralTexture(bool)>& compiled) {
   PaintedMaterial material;
@@ -231,7 +300,7 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
     report.skipped = "no surface with uv shows it";
     return material;
   }
-  Felt means;
+  ChannelSums means;
   Painted picture;
   double scale = job.config.size;
   if (surface->repeat) {
@@ -247,7 +316,7 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
   HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
   // A height of 1/2 is the surface as it was.
   for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
-  if (felt && (!felt->height || surface->own->has_relief())) {
+  if (tag && (!tag->height || surface->own->has_relief())) {
     const EncodedHeight encoded = encode_height_png16(relief);
     material.height = make_height_tag(relief, {.png = encoded.png,
                                                .scale_mm = encoded.scale_mm,

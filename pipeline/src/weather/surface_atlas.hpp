@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "papilla/meshing/sky.hpp"
+#include "weather/own_surface.hpp"
 #include "weather/surface_texels.hpp"
 
 namespace papilla {
@@ -52,5 +55,21 @@ struct TilePlaces {
 
 /// Packs windows of the given sizes into a nearly square picture.
 TilePlaces place_tiles(std::span<const std::pair<int, int>> sizes);
+
+/// All that painting a material needs to know of the scene; the same at any time and for any recipe with this reading.
+struct MaterialSurface {
+  std::vector<SurfaceTriangle> triangles;
+  double mm_per_repeat = 0;  ///< 0: nothing with uv shows the material, and nothing else is known.
+  std::optional<OwnSurface> own;
+  std::optional<SurfaceTexels> repeat;  ///< One repeat, where no texel is shown by two unlike places.
+  std::vector<float> sky;               ///< Of `repeat`; empty when it is not read.
+  SurfaceAtlas atlas;                   ///< Else.
+  bool leaves_the_repeat() const;       ///< Some uv lie outside of [0, 1].
+  std::size_t texels() const;
+};
+
+/// @param size  texels a repeat. @param sky  is called if the reading asks for it.
+MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::uint32_t material, int size,
+                        const SurfaceReading& reading, const std::function<const SkyView&()>& sky);
 
 }  // namespace papilla
