@@ -9,7 +9,8 @@ static int run(char** argv) {
   ReadOptions read;
   read.chord_mm = 0.5;
   const ProgressCallback progress = [](const Progress& done) {
-    std::fprintf(stderr, "\r%.*s %3.0f %%  ", static_cast<int>(done.stage.size()), done.stage.data(), 100 * done.fraction);
+    std::fprintf(stderr, "\r%.*s %3.0f %%  ", static_cast<int>(done.stage.size()), done.stage.data(),
+                 100 * done.fraction);
     return true;
   };
   const Materials materials = read_materials(argv[2]);

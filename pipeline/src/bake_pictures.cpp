@@ -12,9 +12,9 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/meshing/sight_lines.hpp"
-#include "pictures/relief.hpp"
 #include "papilla/pipeline/pictures/scene_render.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
+#include "pictures/relief.hpp"
 #include "placed_meshes.hpp"
 
 namespace papilla {
@@ -74,7 +74,7 @@ std::vector<const BakedSurface*> largest_surfaces(const std::vector<BakedSurface
 /// The spot of a surface nearest to the middle of its area before which nothing stands in the way, with the normal
 /// there, in the frame of the scene; the nearest of all when that is true of none.
 std::optional<CloseUp> close_up_of(const BakedSurface& surface, const std::vector<Instance>& uses, UpAxis up,
-                               const SightLines& sight, double extent_mm) {
+                                   const SightLines& sight, double extent_mm) {
   const auto use = std::find_if(uses.begin(), uses.end(), [&](const Instance& u) { return u.part == surface.part; });
   if (use == uses.end()) return std::nullopt;
   std::vector<CloseUp> spots;
@@ -117,7 +117,7 @@ void add_close_ups(const BakeResult& result, const std::vector<const BakedSurfac
 }  // namespace
 
 std::vector<std::string> write_bake_pictures(const BakeResult& result, const std::filesystem::path& folder,
-                                        const ProgressCallback& progress) {
+                                             const ProgressCallback& progress) {
   const std::vector<const BakedSurface*> surfaces = largest_surfaces(result.surfaces);
   PictureFolder pictures(folder, 2 + surfaces.size() + 3 * result.grains.size(), progress);
   SceneViewOptions render;

@@ -8,11 +8,11 @@
 #include <map>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/srgb.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/meshing/statistics.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
-#include "papilla/core/srgb.hpp"
 
 namespace papilla {
 namespace {
@@ -79,8 +79,7 @@ UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
 bool is_clean(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, bool cad) {
   const MeshStatistics s = mesh_statistics(weld_equal(extract_triangles(mesh, triangles)).mesh);
   return s.nonmanifold_edges == 0 && s.degenerate_triangles == 0 && s.duplicate_triangles == 0 &&
-         s.flipped_edges == 0 && s.t_junctions == 0 && s.volume_mm3.value_or(1) > 0 &&
-         (cad || s.boundary_edges == 0);
+         s.flipped_edges == 0 && s.t_junctions == 0 && s.volume_mm3.value_or(1) > 0 && (cad || s.boundary_edges == 0);
 }
 
 std::vector<PartSurface> split_by_slot(const Scene& scene) {
@@ -150,7 +149,8 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rule
     surface.uv_mm_per_unit = uv.mm_per_unit;
     surface.uv_note = uv.note;
     const bool grain = rule && !rule->texture.empty();
-    const bool feel = grain || (rule && (rule->stiffness || rule->static_friction || rule->dynamic_friction || rule->damping));
+    const bool feel =
+        grain || (rule && (rule->stiffness || rule->static_friction || rule->dynamic_friction || rule->damping));
     Given given{cad, uv.state};
     if (!perception.empty()) {
       given.left_out = perception[surface.part].left_out;

@@ -44,8 +44,8 @@ struct Level {
   bool kept = true;
 };
 
-std::vector<Level> coarser_levels(const TriangleMesh& mesh, std::size_t finest_triangles, const std::vector<double>& tolerances,
-                                  const SimplifyOptions& simplify) {
+std::vector<Level> coarser_levels(const TriangleMesh& mesh, std::size_t finest_triangles,
+                                  const std::vector<double>& tolerances, const SimplifyOptions& simplify) {
   std::vector<Level> levels;
   if (mesh.triangles.empty()) return levels;
   std::vector<SimplifyResult> all = levels_of_detail(mesh, tolerances, simplify);
@@ -78,7 +78,12 @@ std::vector<LevelReport> add_levels(Scene& scene, std::span<const TriangleMesh> 
     const double size = bounds_of(originals[i]).diagonal();
     part.levels.clear();
     for (Level& level : levels[i]) {
-      LevelReport report{i, 0, level.tolerance_mm, level.result.deviation.bound(), 0, level.result.triangles_before,
+      LevelReport report{i,
+                         0,
+                         level.tolerance_mm,
+                         level.result.deviation.bound(),
+                         0,
+                         level.result.triangles_before,
                          level.result.mesh.triangles.size()};
       if (level.kept) {
         report.screen_coverage = std::min(1.0, size / (k_picture_height_px * level.tolerance_mm));

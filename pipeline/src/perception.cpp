@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "papilla/pipeline/bake_stages.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/pipeline/bake_stages.hpp"
 #include "placed_meshes.hpp"
 
 namespace papilla {

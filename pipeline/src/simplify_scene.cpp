@@ -81,8 +81,7 @@ SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& opti
     if (options.levels.asked()) originals.push_back(std::move(scene.parts[i].mesh));
     scene.parts[i].mesh = std::move(result.parts[i].mesh);
   }
-  if (options.levels.asked())
-    result.levels = add_levels(scene, originals, options.levels, options.simplify, finest_mm);
+  if (options.levels.asked()) result.levels = add_levels(scene, originals, options.levels, options.simplify, finest_mm);
   result.triangles_after = drawn_triangles(scene);
   result.scene = std::move(scene);
   result.seconds = clock.seconds();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/materials.hpp"
 #include "fuzz_input.hpp"
+#include "papilla/pipeline/materials.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace papilla;

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 
 namespace papilla {
 namespace {
@@ -48,8 +48,9 @@ std::size_t expect_same_uv(const fs::path& file, double chord_mm) {
   std::size_t compared = 0;
   for (const PartSurface& surface : baked.plan.surfaces) {
     if (surface.triangles.size() != scene.parts[surface.part].mesh.triangles.size()) continue;
-    const auto& report = *std::find_if(baked.surfaces.begin(), baked.surfaces.end(),
-                                       [&](const BakedSurface& s) { return s.label == surface.label && s.part == surface.part; });
+    const auto& report = *std::find_if(baked.surfaces.begin(), baked.surfaces.end(), [&](const BakedSurface& s) {
+      return s.label == surface.label && s.part == surface.part;
+    });
     const TriangleMesh& mesh = unwrapped[decision(surface.plan, Stage::repair).run].scene.parts[surface.part].mesh;
     EXPECT_EQ(report.mesh.triangles, mesh.triangles) << file << ": " << surface.label;
     EXPECT_EQ(report.mesh.uv.values, mesh.uv.values) << file << ": " << surface.label;

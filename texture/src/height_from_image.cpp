@@ -273,10 +273,9 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
   const bool composes = options.tile || options.roughness != HeightRoughness::whole;
   const bool asks_lattice = options.method == HeightMethod::automatic || composes;
-  const Lattice lattice =
-      options.lattice ? *options.lattice
-      : asks_lattice  ? analyze_symmetry(image, {}, FeatureKind::squared, options.progress).lattice
-                      : Lattice{};
+  const Lattice lattice = options.lattice ? *options.lattice
+                          : asks_lattice  ? analyze_symmetry(image, {}, FeatureKind::squared, options.progress).lattice
+                                          : Lattice{};
   choose_method(options, lattice, result);
   if (options.tile) choose_tile(image, lattice, result);
   Field field;

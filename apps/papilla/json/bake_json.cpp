@@ -94,7 +94,8 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
   json["identical_parts"] = shared_parts_json(result.plan.shared, result.scene);
   if (options.plan.perception.asked()) json["perception"] = perception_json(result.scene, result.plan.perception);
   if (const auto& budget = result.plan.budget)
-    json["budget"] = budget_json(result.scene, *options.plan.budget, *budget, budget->parts, result.plan.budget_triangles);
+    json["budget"] =
+        budget_json(result.scene, *options.plan.budget, *budget, budget->parts, result.plan.budget_triangles);
   return json;
 }
 
@@ -106,12 +107,9 @@ Json weather_json(const WeatheredMaterial& m) {
     return json;
   }
   if (m.atlas)
-    json["atlas"] = {{"width", m.atlas->width},
-                     {"height", m.atlas->height},
-                     {"charts", m.atlas->charts},
-                     {"tiles_computed", m.atlas->tiles_computed},
-                     {"tiles", m.atlas->tiles},
-                     {"texels_per_repeat", m.atlas->texels_per_repeat}};
+    json["atlas"] = {{"width", m.atlas->width},   {"height", m.atlas->height},
+                     {"charts", m.atlas->charts}, {"tiles_computed", m.atlas->tiles_computed},
+                     {"tiles", m.atlas->tiles},   {"texels_per_repeat", m.atlas->texels_per_repeat}};
   json["depends_on"] = {{"normal", m.depends_on_normal},
                         {"position", m.depends_on_position},
                         {"sky", m.depends_on_sky},

@@ -47,12 +47,10 @@ Json distortion_json(const DistortionReport& r) {
 Json worst_chart_json(const Scene& scene, const SceneDistortion& distortion) {
   const std::optional<WorstChart> worst = worst_chart(distortion);
   if (!worst) return {};
-  return {{"part", scene.parts[worst->part].name},
-          {"chart", worst->chart},
-          {"triangle", worst->triangle},
-          {"symmetric_dirichlet", {{"mean", worst->mean}, {"max", worst->max}}},
-          {"area_mm2", worst->area_mm2},
-          {"share_of_distortion", worst->share}};
+  return {
+      {"part", scene.parts[worst->part].name}, {"chart", worst->chart},
+      {"triangle", worst->triangle},           {"symmetric_dirichlet", {{"mean", worst->mean}, {"max", worst->max}}},
+      {"area_mm2", worst->area_mm2},           {"share_of_distortion", worst->share}};
 }
 
 Json histogram_json(const DistortionReport& report) {

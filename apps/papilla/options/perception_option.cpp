@@ -136,7 +136,9 @@ PerceptionOptions PerceptionOption::options() const {
   PerceptionOptions options;
   if (!reach.empty()) options.reach = parse_volumes("--reach", reach);
   if (!view.empty()) options.view = parse_volumes("--view", view);
-  const auto wants = [&](const char* what) { return std::find(leave_out.begin(), leave_out.end(), what) != leave_out.end(); };
+  const auto wants = [&](const char* what) {
+    return std::find(leave_out.begin(), leave_out.end(), what) != leave_out.end();
+  };
   options.leave_out_unreachable = wants("unreachable");
   options.leave_out_unseen = wants("unseen");
   options.samples = samples;

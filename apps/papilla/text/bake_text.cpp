@@ -27,8 +27,9 @@ std::string plan_table(const std::vector<PartSurface>& surfaces) {
       std::string& names = skipped[surface.plan[i].reason];
       names += (names.empty() ? "" : ", ") + std::string(k_stages[i].name);
     }
-    out += fmt::format("{:<{}}  {:<{}}  {:>9}  {}\n", surface.label, width, surface.material.empty() ? "-" : surface.material,
-                       material_width, surface.triangles.size(), stages.empty() ? "nothing to do" : stages);
+    out += fmt::format("{:<{}}  {:<{}}  {:>9}  {}\n", surface.label, width,
+                       surface.material.empty() ? "-" : surface.material, material_width, surface.triangles.size(),
+                       stages.empty() ? "nothing to do" : stages);
     for (const auto& [reason, names] : skipped)
       out += fmt::format("{:<{}}  without {}: {}\n", "", width, names, reason);
   }

@@ -13,11 +13,10 @@ std::string perception_text(const Scene& scene, const ScenePerception& perceptio
   for (std::size_t p = 0; p < perception.parts.size(); ++p) {
     const PartPerception& part = perception.parts[p];
     const auto cell = [](bool known, std::size_t count) { return known ? std::to_string(count) : std::string("-"); };
-    text += fmt::format("{:>9} {:>8} {:>7} {:>9}  {}\n", part.instances,
-                        cell(part.in_reach.has_value(), part.instances_in_reach),
-                        cell(part.visible_fraction.has_value(), part.instances_seen),
-                        part.visible_fraction ? fmt::format("{:.1f} %", 100 * *part.visible_fraction) : "-",
-                        scene.parts[p].name);
+    text += fmt::format(
+        "{:>9} {:>8} {:>7} {:>9}  {}\n", part.instances, cell(part.in_reach.has_value(), part.instances_in_reach),
+        cell(part.visible_fraction.has_value(), part.instances_seen),
+        part.visible_fraction ? fmt::format("{:.1f} %", 100 * *part.visible_fraction) : "-", scene.parts[p].name);
   }
   return text;
 }
@@ -92,8 +91,9 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
   std::string text;
   if (result.perception) text += left_out_table(scene, *result.perception);
   if (result.budget && !result.budget->reached)
-    text += fmt::format("the budget of {} triangles can't be reached: borders, seams and features allow no fewer than {}\n",
-                        *options.budget, result.budget->triangles);
+    text +=
+        fmt::format("the budget of {} triangles can't be reached: borders, seams and features allow no fewer than {}\n",
+                    *options.budget, result.budget->triangles);
   text += fmt::format("{:>10} {:>10} {:>12}  part\n", "before", "after", "deviation mm");
   for (std::size_t i = 0; i < result.parts.size(); ++i)
     if (const SimplifyResult& part = result.parts[i]; part.triangles_before > 0)
@@ -107,7 +107,8 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
       text += fmt::format("{:>10} {:>10} {:>12}  {}: no level within {:.4g} mm, it would not have a tenth less\n",
                           level.triangles_before, level.triangles, "-", name, level.tolerance_mm);
   }
-  return text + simplified_row(result.triangles_before, result.triangles_after, result.max_deviation_mm, "drawn in all");
+  return text +
+         simplified_row(result.triangles_before, result.triangles_after, result.max_deviation_mm, "drawn in all");
 }
 
 std::string unwrap_remarks(const UnwrapResult& result) {

@@ -7,10 +7,10 @@
 
 #include "exit_code.hpp"
 #include "json/scene_json.hpp"
+#include "options/scene_option.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
-#include "options/scene_option.hpp"
 #include "scene_output.hpp"
 #include "text/scene_text.hpp"
 #include "verb.hpp"

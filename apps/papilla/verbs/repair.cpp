@@ -46,7 +46,8 @@ void add_repair(CLI::App& program) {
                    "Widest gap between faces to close; default: 2e-4 of each part's diagonal, 0: none")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
-  verb->add_option("--fill-holes", options->repair.repair.fill_holes_mm, "Fill holes that fit into a box of this diagonal")
+  verb->add_option("--fill-holes", options->repair.repair.fill_holes_mm,
+                   "Fill holes that fit into a box of this diagonal")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--verify", options->repair.verify, "Measure the deviation from the input, not only bound it");

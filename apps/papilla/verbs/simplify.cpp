@@ -103,7 +103,8 @@ void add_simplify(CLI::App& program) {
       ->type_name("N")
       ->check(CLI::Range(1, 6))
       ->capture_default_str();
-  verb->add_option("--feature-angle", options->simplify.simplify.feature_angle_deg, "Sharper edges stay edges; 180: none")
+  verb->add_option("--feature-angle", options->simplify.simplify.feature_angle_deg,
+                   "Sharper edges stay edges; 180: none")
       ->type_name("DEG")
       ->check(CLI::Range(0.0, 180.0))
       ->capture_default_str();

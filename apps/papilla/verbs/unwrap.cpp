@@ -31,12 +31,14 @@ std::string trace_csv(const Trace& trace) {
 }
 
 Json run(const Options& options, VerbContext& context) {
-  if (const auto extension = std::filesystem::path(options.output).extension(); extension == ".stl" || extension == ".STL")
+  if (const auto extension = std::filesystem::path(options.output).extension();
+      extension == ".stl" || extension == ".STL")
     throw UsageError("-o " + options.output + ": STL has no place for texture coordinates");
   const UnwrapOptions unwrap = options.unwrap.options();
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   check_held_parts(unwrap.method, options.input, scene);
-  UnwrapResult result = named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
+  UnwrapResult result =
+      named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
   const SceneDistortion distortion =
       measure_scene(result.scene, {}, [&](std::size_t p) { return result.parts[p].failure.empty(); });
   write_output(result.scene, options.output, context.console);

@@ -9,10 +9,10 @@
 
 #include "exit_code.hpp"
 #include "live/follow.hpp"
+#include "options/scene_option.hpp"
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
 #include "papilla/io/scene_file.hpp"
-#include "options/scene_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 

@@ -65,17 +65,22 @@ void add_weather(CLI::App& program) {
                              "papilla weather house.glb -c weather.json -o old-house.glb"},
                             [options](VerbContext& context) { return run(*options, context); });
   verb->add_option("scene", options->scene, "Scene with uv")->required()->type_name("SCENE");
-  verb->add_option("-c,--layers", options->build.config, "Which recipes lie on which materials, at what size and time (JSON)")
+  verb->add_option("-c,--layers", options->build.config,
+                   "Which recipes lie on which materials, at what size and time (JSON)")
       ->required()
       ->type_name("CONFIG");
   verb->add_option("-o,--output", options->build.output, "GLB or OBJ file to write; a series is numbered")
       ->required()
       ->type_name("OUT");
-  auto* report = verb->add_option("--report", options->build.report, "Folder for a page: before, after, a slider over the times")
-                     ->type_name("DIR");
-  verb->add_flag("--pictures", options->build.pictures, "The page's pictures as PNG files in its folder, too")->needs(report);
-  verb->add_flag("--video", options->build.video, "The series as an animated GIF in the page's folder, too")->needs(report);
-  verb->add_flag("--live", options->live, "Stay, and build again whenever CONFIG, a library or a picture of it is saved");
+  auto* report =
+      verb->add_option("--report", options->build.report, "Folder for a page: before, after, a slider over the times")
+          ->type_name("DIR");
+  verb->add_flag("--pictures", options->build.pictures, "The page's pictures as PNG files in its folder, too")
+      ->needs(report);
+  verb->add_flag("--video", options->build.video, "The series as an animated GIF in the page's folder, too")
+      ->needs(report);
+  verb->add_flag("--live", options->live,
+                 "Stay, and build again whenever CONFIG, a library or a picture of it is saved");
   options->read.add_to(*verb);
 }
 

@@ -46,7 +46,8 @@ void write_report(const WeatherBuildOptions& options, const std::string& scene_f
     build.pictures.push_back(name);
   };
   write("before.png", before);
-  for (std::size_t step = 0; step < views.size(); ++step) write(fmt::format("time.{:04}.png", step), views[step].picture);
+  for (std::size_t step = 0; step < views.size(); ++step)
+    write(fmt::format("time.{:04}.png", step), views[step].picture);
 }
 
 }  // namespace
@@ -84,7 +85,8 @@ Json weather_build_json(const WeatherBuild& build) {
             {"painted", build.painted},
             {"files", Json::array()}};
   for (const WeatheredMaterial& material : build.materials) json["materials"].push_back(weather_json(material));
-  for (const WeatherBuild::File& file : build.files) json["files"].push_back({{"file", file.file}, {"time", file.time}});
+  for (const WeatherBuild::File& file : build.files)
+    json["files"].push_back({{"file", file.file}, {"time", file.time}});
   if (!build.page.empty()) json["page"] = build.page;
   if (!build.video.empty()) json["video"] = build.video;
   if (!build.pictures.empty()) json["pictures"] = build.pictures;

@@ -37,9 +37,10 @@ std::string row(const WeatheredMaterial& material) {
   std::string uses, maps = "one repeat";
   for (const std::string& name : material.uses) uses += (uses.empty() ? "" : ", ") + name;
   if (const auto& atlas = material.atlas)
-    maps = fmt::format("atlas of {} x {}: {} charts, {} unlike", atlas->width, atlas->height, atlas->charts, atlas->tiles);
-  return text + fmt::format("<td>{}<td>{}<td>{:.3f}<td>{:.2f}", html_text(uses), maps, material.friction,
-                            material.stiffness);
+    maps =
+        fmt::format("atlas of {} x {}: {} charts, {} unlike", atlas->width, atlas->height, atlas->charts, atlas->tiles);
+  return text +
+         fmt::format("<td>{}<td>{}<td>{:.3f}<td>{:.2f}", html_text(uses), maps, material.friction, material.stiffness);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ struct BakePlan {
   std::vector<PartSurface> surfaces;
   std::vector<SharedPart> shared;
   ScenePerception perception;
-  std::optional<BudgetResult> budget;  ///< Without its parts' meshes.
+  std::optional<BudgetResult> budget;         ///< Without its parts' meshes.
   std::vector<std::size_t> budget_triangles;  ///< Of each part within the budget.
   double perception_seconds = 0, simplify_seconds = 0;
 };

@@ -19,25 +19,25 @@ namespace papilla {
 
 /// How a grain's relief was found.
 struct GrainHeight {
-  std::string method, reason;                   ///< A HeightMethod's name, or "recipe".
-  std::optional<Vec3> light;                    ///< Of shape from shading; nothing for recipes.
+  std::string method, reason;  ///< A HeightMethod's name, or "recipe".
+  std::optional<Vec3> light;   ///< Of shape from shading; nothing for recipes.
   bool light_estimated = false;
-  double depth_mm = 0, rms_mm = 0;              ///< Peak to valley; root mean square about the mean.
+  double depth_mm = 0, rms_mm = 0;  ///< Peak to valley; root mean square about the mean.
   StopReason stop = StopReason::direct;
 };
 
 /// The lattice of a grain that repeats.
 struct GrainLattice {
-  std::string group;               ///< Wallpaper group.
+  std::string group;  ///< Wallpaper group.
   std::array<Vec2, 2> period_mm{};
 };
 
 /// What the picture of a material becomes: relief to be felt, the same relief to be seen, and how the picture is shown.
 struct Grain {
-  std::string source;                   ///< The picture's file, or the recipe.
-  ColorImage photograph;                ///< The source as a picture, whether shown or not.
-  double size_mm[2] = {0, 0};           ///< What one repeat measures.
-  bool tiles = false;                   ///< The picture's borders match.
+  std::string source;          ///< The picture's file, or the recipe.
+  ColorImage photograph;       ///< The source as a picture, whether shown or not.
+  double size_mm[2] = {0, 0};  ///< What one repeat measures.
+  bool tiles = false;          ///< The picture's borders match.
   bool monochrome = false;
   TextureClass kind;
   std::optional<GrainLattice> lattice;

@@ -28,12 +28,12 @@ SceneDistortion measure_scene(const Scene& scene, MeasureOptions options = {},
 /// The chart that has the largest share of a scene's distortion, Σ A (E - 4) of symmetric Dirichlet E over area A: one
 /// sliver can make up most of the mean.
 struct WorstChart {
-  std::uint32_t part = 0;        ///< In Scene::parts.
-  std::uint32_t chart = 0;       ///< Of the report.
-  std::size_t triangle = 0;      ///< Of the part: the most distorted one.
-  double mean = 0, max = 0;      ///< Symmetric Dirichlet.
+  std::uint32_t part = 0;    ///< In Scene::parts.
+  std::uint32_t chart = 0;   ///< Of the report.
+  std::size_t triangle = 0;  ///< Of the part: the most distorted one.
+  double mean = 0, max = 0;  ///< Symmetric Dirichlet.
   double area_mm2 = 0;
-  double share = 0;              ///< Of the scene's distortion, in (0, 1].
+  double share = 0;  ///< Of the scene's distortion, in (0, 1].
 };
 
 /// Nothing when there is no distortion.

@@ -33,8 +33,8 @@ struct SimplifySceneResult {
   std::vector<std::size_t> triangles;         ///< Of each part after.
   std::optional<BudgetResult> budget;         ///< Without its parts.
   std::vector<LevelReport> levels;
-  std::size_t triangles_before = 0, triangles_after = 0;    ///< Drawn: every part as often as nodes show it.
-  double max_deviation_mm = 0, max_deviation_met_mm = 0;    ///< Largest bound, largest distance that was met.
+  std::size_t triangles_before = 0, triangles_after = 0;  ///< Drawn: every part as often as nodes show it.
+  double max_deviation_mm = 0, max_deviation_met_mm = 0;  ///< Largest bound, largest distance that was met.
   double seconds = 0;
 };
 

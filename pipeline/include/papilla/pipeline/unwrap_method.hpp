@@ -70,7 +70,8 @@ struct MethodOptions {
   Vec3 grain_direction{0, 0, 1};  ///< Of GrainSource::direction.
   ChartSource charts = ChartSource::automatic;
   SegmentationOptions segmentation;
-  bool choose_seam_cost = true;   ///< choose_seam_cost() on parts of up to 50,000 triangles; false: as segmentation says.
+  bool choose_seam_cost =
+      true;  ///< choose_seam_cost() on parts of up to 50,000 triangles; false: as segmentation says.
   NaturalOptions natural;
   IntermediateOptions intermediate;
   PlanarOptions planar;

@@ -57,10 +57,10 @@ struct UnwrapResult {
   std::vector<UnwrappedPart> parts;  ///< As in the scene.
   std::uint32_t charts = 0;
   StopReason stop = StopReason::direct;  ///< The worst ending of any chart.
-  Trace trace;                        ///< Of all parts, by time.
-  double fill_rate = 0;               ///< Of the atlas; 0 for tiles.
-  double grain_mm = 1;                ///< The size of grain that seams are judged by.
-  std::optional<UniqueAtlas> unique;  ///< Without its uv, which the parts have.
+  Trace trace;                           ///< Of all parts, by time.
+  double fill_rate = 0;                  ///< Of the atlas; 0 for tiles.
+  double grain_mm = 1;                   ///< The size of grain that seams are judged by.
+  std::optional<UniqueAtlas> unique;     ///< Without its uv, which the parts have.
   UnwrapSeconds seconds;
 };
 
