@@ -166,8 +166,8 @@ npm npm ca-certificates
 mkdocs mkdocs
 chromium chromium
 firefox firefox-esr
-[Xx]vfb xvfb
-localedef|locale-gen locales
+Xvfb xvfb
+localedef locales
 qemu-system qemu-system-x86
 cpio cpio
 check_sources\.sh clang-format'
@@ -200,7 +200,7 @@ includes_of_folder() {
 check_packages() {
   local file name pattern included scripts
   included=$(cpp_sources "${all_cpp[@]}" | includes || true)
-  scripts=$(sources CMakeLists.txt .ci cmake page docs/make "${all_cpp[@]}" | grep -vE '^[^t].*\.([ch]pp|h|c)$|/check_sources' || true)
+  scripts=$(sources CMakeLists.txt .ci cmake page docs/make "${all_cpp[@]}" | grep -vE '/(src|include)/|/check_sources' || true)
   while read -r file name; do
     if pattern=$(pattern_of "$library_uses" "$name") && [[ -n $pattern ]]; then
       grep -qE " $pattern|$pattern\$" <<<"$included" || breach "$file" "requires $name, which no source includes"
