@@ -9,8 +9,8 @@
 
 #include "bench/bench_json.hpp"
 #include "bench/weather_job.hpp"
-#include "papilla/contact_sheet.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/contact_sheet.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "papilla/procedural/texture.hpp"
 #ifdef PAPILLA_HAVE_LIBNOISE
@@ -133,8 +133,7 @@ void seam_target(bench::BenchReport& report) {
 /// The contact sheet beside the page, and what each type gives.
 void types_table(bench::BenchReport& report) {
   namespace fs = std::filesystem;
-  const app::ContactSheet sheet =
-      app::make_contact_sheet(app::examples_of_types(), RecipeLibrary::builtin(), CompileOptions{}, 128);
+  const ContactSheet sheet = make_contact_sheet(examples_of_types(), RecipeLibrary::builtin(), CompileOptions{}, 128);
   bench::EvidenceTable table{"Types", "", {"type", "least height", "largest", "mean"}, {}};
   table.note = fmt::format("The plainest recipe of every type, {} a row, in the order of the table.", sheet.columns);
   if (const fs::path page = report.options().evidence; !page.empty()) {
@@ -142,7 +141,7 @@ void types_table(bench::BenchReport& report) {
     write_color_image(picture, sheet.picture);
     table.note += "\n\n![every type](" + picture.filename().string() + ")";
   }
-  for (const app::SheetEntry& e : sheet.entries)
+  for (const SheetEntry& e : sheet.entries)
     table.rows.push_back({e.name, text("{:.3f}", e.low), text("{:.3f}", e.high), text("{:.3f}", e.mean)});
   report.table(std::move(table));
 }

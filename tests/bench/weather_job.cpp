@@ -6,7 +6,7 @@
 #include <set>
 
 #include "bench/bench_json.hpp"
-#include "papilla/weather/weather.hpp"
+#include "papilla/pipeline/weather_scene.hpp"
 
 namespace papilla::bench {
 namespace {
