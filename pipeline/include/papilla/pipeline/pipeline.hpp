@@ -13,9 +13,14 @@
 ///   unwrap_scene()        charts and uv in millimetres                        unwrap_scene.hpp, unwrap_method.hpp
 ///   measure_scene()       distortion of any uv                                measure_scene.hpp
 ///   survey_picture()      class, symmetry and fractal dimension of a picture  texture_survey.hpp
+///   height_of_picture_file() picture -> height map in millimetres             height_file.hpp
+///   prepare_picture_file() even light, borders that match                     prepare_file.hpp
 ///   read_materials()      MATERIALS.json                                      materials.hpp
 ///   plan_bake()           which stages a scene needs, and why                 bake_plan.hpp, bake_stages.hpp
 ///   bake_scene()          grain and touch onto a scene                        bake_scene.hpp, grain.hpp
+///   synthesize_texture()  fractal surfaces and grains by formula             synthesis.hpp
+///   write_texture_files() a recipe's channels as pictures                    texture_files.hpp, contact_sheet.hpp
+///   evaluate()            error against run time of a method                 evaluate/evaluation.hpp, stability.hpp
 ///   weather_scene()       dirt, rust, snow and wear over its materials        weather_scene.hpp, weather_config.hpp
 ///   write_scene()         Scene -> GLB, OBJ, PLY, STL, OFF                    io/scene_file.hpp
 ///
@@ -26,11 +31,15 @@
 
 #include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/measure_scene.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/pipeline/perception.hpp"
+#include "papilla/pipeline/prepare_file.hpp"
 #include "papilla/pipeline/repair_scene.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
+#include "papilla/pipeline/synthesis.hpp"
+#include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
 #include "papilla/pipeline/unwrap_scene.hpp"
 #include "papilla/pipeline/weather_scene.hpp"
