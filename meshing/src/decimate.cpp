@@ -8,7 +8,7 @@
 #include <queue>
 #include <utility>
 
-#include "check_distance_input.hpp"
+#include "check_mesh.hpp"
 #include "mesh_attributes.hpp"
 #include "papilla/core/bounds.hpp"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "check_distance_input.hpp"
 #include "check_mesh.hpp"
 #include "decimate.hpp"
 #include "one_sided_deviation.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "unfold_merge.hpp"
+#include "segmentation_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ struct Motion {
 
 class Unfolder {
  public:
-  Unfolder(const Surface& surface, const SeamWeights& weights, const UnfoldOptions& options,
+  Unfolder(const SegmentedMesh& surface, const SeamWeights& weights, const UnfoldOptions& options,
            std::vector<std::uint8_t>& seam, std::vector<ChartOutline> charts)
       : surface_(surface),
         weights_(weights),
@@ -319,7 +319,7 @@ class Unfolder {
     return dot(grain[0], grain[1]) >= std::cos(k_grain_deg * k_radians_per_degree) * p * q;
   }
 
-  const Surface& surface_;
+  const SegmentedMesh& surface_;
   const SeamWeights& weights_;
   const UnfoldOptions& options_;
   std::vector<std::uint8_t>& seam_;
@@ -332,7 +332,7 @@ class Unfolder {
 
 }  // namespace
 
-std::vector<ChartOutline> merge_unfolded(const Surface& surface, const SeamWeights& weights,
+std::vector<ChartOutline> merge_unfolded(const SegmentedMesh& surface, const SeamWeights& weights,
                                          const UnfoldOptions& options, std::vector<std::uint8_t>& seam,
                                          std::vector<ChartOutline> charts) {
   return Unfolder(surface, weights, options, seam, std::move(charts)).run();

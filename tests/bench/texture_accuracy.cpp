@@ -108,7 +108,7 @@ DimensionErrors dimension_errors(int size, int seeds) {
   for (int tenth = 1; tenth <= 9; ++tenth)
     for (int seed = 1; seed <= seeds; ++seed) {
       const double dimension = 2 + tenth / 10.0;
-      const Surface surface =
+      const HeightGrid surface =
           brownian_surface_exact({size, 3 - dimension, static_cast<std::uint64_t>(100 * tenth + seed)});
       const GreyImage image = to_grey_image(surface);
       const FractalEstimate estimate = best_dimension(image).estimate;

@@ -18,9 +18,7 @@ std::optional<ColorImage> picture_of(const Scene& scene, const std::optional<Tex
 }
 
 bool same_place(const TextureReference& a, const TextureReference& b) {
-  if (a.tex_coord != b.tex_coord || a.transform.has_value() != b.transform.has_value()) return false;
-  return !a.transform || (a.transform->offset == b.transform->offset && a.transform->scale == b.transform->scale &&
-                          a.transform->rotation == b.transform->rotation);
+  return a.tex_coord == b.tex_coord && a.transform == b.transform;
 }
 
 /// The four texels around a place of a repeating picture, and their shares.

@@ -8,8 +8,8 @@
 namespace papilla::detail {
 
 /// What the segmentation asks of a mesh, computed once.
-struct Surface {
-  explicit Surface(const TriangleMesh& mesh);
+struct SegmentedMesh {
+  explicit SegmentedMesh(const TriangleMesh& mesh);
 
   const std::vector<Vec3>& positions;
   const std::vector<Triangle>& triangles;
