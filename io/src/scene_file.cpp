@@ -9,15 +9,8 @@
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
-#include "papilla/io/obj_reader.hpp"
-#include "papilla/io/obj_writer.hpp"
-#include "papilla/io/off_reader.hpp"
-#include "papilla/io/off_writer.hpp"
-#include "papilla/io/ply_reader.hpp"
-#include "papilla/io/ply_writer.hpp"
+#include "papilla/io/mesh_files.hpp"
 #include "papilla/io/read_file.hpp"
-#include "papilla/io/stl_reader.hpp"
-#include "papilla/io/stl_writer.hpp"
 
 namespace papilla {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "papilla/texture/box_dimension.hpp"
-#include "papilla/texture/crop.hpp"
 #include "papilla/texture/fshot_dimension.hpp"
 #include "papilla/texture/midpoint_surface.hpp"
 #include "papilla/texture/probability_dimension.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/stein_surface.hpp"
 
 namespace papilla::test {

@@ -22,10 +22,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "iges_syntax.hpp"
+#include "cad_syntax.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
-#include "step_syntax.hpp"
 
 namespace papilla::cad {
 namespace {

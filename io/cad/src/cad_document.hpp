@@ -6,7 +6,7 @@
 #include <string>
 
 #include "papilla/core/progress.hpp"
-#include "step_metadata.hpp"
+#include "cad_metadata.hpp"
 
 namespace papilla::cad {
 

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "cad_document.hpp"
-#include "cad_mesh.hpp"
 #include "cad_parallel.hpp"
 #include "cad_tessellate.hpp"
 #include "cad_tree.hpp"

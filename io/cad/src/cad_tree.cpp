@@ -27,7 +27,7 @@
 #include <utility>
 
 #include "cad_materials.hpp"
-#include "cad_pmi.hpp"
+#include "cad_metadata.hpp"
 #include "cad_text.hpp"
 #include "papilla/core/error.hpp"
 
