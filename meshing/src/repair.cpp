@@ -34,7 +34,7 @@ constexpr double k_stitched_gap = 2e-4;
 /// The fewest triangles that a closed surface has.
 constexpr std::size_t k_least_solid = 4;
 
-/// Triangles that hang together by vertices.
+/// Triangles connected through shared vertices.
 struct Components {
   std::vector<Index> begin;      ///< Of each one in `triangles`, and the end of the last.
   std::vector<Index> triangles;  ///< Ascending within each; components in the order of their smallest vertices.

@@ -7,7 +7,7 @@
 
 namespace papilla::detail {
 
-/// What the segmentation asks of a mesh, computed once.
+/// A mesh with what segmentation reads of it: edges, opposite half-edges, normals and areas.
 struct SegmentedMesh {
   explicit SegmentedMesh(const TriangleMesh& mesh);
 

@@ -69,11 +69,11 @@ write pipeline/src/a.cpp MIT '#include <iostream>' && expect 'pipeline must not 
 write pipeline/src/a.cpp MIT '#include "verb.hpp"' && expect 'must not include "verb.hpp", which is no header of its library'
 write pipeline/src/a.cpp Apache-2.0 && expect 'unknown licence'
 mkdir -p examples && echo 'int a;' >examples/a.cpp && expect 'examples/a.cpp: has no SPDX-License-Identifier'
-list cmake/PapillaDependencies.cmake 'find_package(Ceres REQUIRED)' && expect 'requires Ceres, which no source includes'
+list cmake/PapillaDependencies.cmake 'find_package(OpenMesh REQUIRED)' && expect 'requires OpenMesh, which no source includes'
 list cmake/PapillaDependencies.cmake 'pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)' &&
   expect 'requires fftw3, which no source includes'
 list cmake/PapillaDependencies.cmake 'find_package(Boost REQUIRED)' && expect 'requires Boost, of which'
-list run 'readonly build_packages=(libceres-dev)' && expect 'run: requires libceres-dev, which no source includes'
+list run 'readonly build_packages=(libopenmesh-dev)' && expect 'run: requires libopenmesh-dev, which no source includes'
 list run 'readonly docs_packages=(' '  gnuplot-nox  # plots' ')' && expect 'run: requires gnuplot-nox, which no script calls'
 write core/src/a.cpp MIT '#include <vector>' && list core/CMakeLists.txt 'papilla_module(core PRIVATE TBB::tbb)' &&
   expect 'core/CMakeLists.txt: links TBB::tbb, which no source of its folder includes'

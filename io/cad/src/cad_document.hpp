@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "papilla/core/progress.hpp"
 #include "cad_metadata.hpp"
+#include "papilla/core/progress.hpp"
 
 namespace papilla::cad {
 

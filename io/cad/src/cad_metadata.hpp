@@ -11,7 +11,7 @@
 
 namespace papilla::cad {
 
-/// What a STEP file says beside its geometry and what the library's document has no place for.
+/// Data of a STEP file other than geometry that OpenCASCADE's document can't hold.
 struct StepMetadata {
   Json header;                             ///< {"schema", "name", "time_stamp", "author", "organization", "system"}.
   std::map<std::string, Json> properties;  ///< By entry of the part's or instance's label: {name: value}.

@@ -38,7 +38,7 @@ void check_options(const CadReadOptions& options) {
   if (options.relative && options.chord_mm > 1) refuse("a relative chord must be in (0, 1]", options.chord_mm);
 }
 
-/// A chord this far below the model's size asks for more triangles than any memory holds.
+/// A chord this far below the model's size would need more triangles than fit into memory.
 constexpr double k_least_relative_chord = 1e-6;
 constexpr double k_least_relative_edge = 1e-4;
 
