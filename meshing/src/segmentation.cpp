@@ -83,8 +83,7 @@ SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOp
   std::vector<std::uint8_t> seam = seams_of(surface, labels, {});
   std::vector<ChartOutline> charts = cut_patches(surface, weights, options, labels, count, seam, result);
   const std::size_t before = charts.size();
-  if (options.unfold)
-    charts = merge_unfolded(surface, weights, {options.seam_cost, options.grain}, seam, std::move(charts));
+  if (options.unfold) charts = merge_unfolded(surface, weights, options, seam, std::move(charts));
   result.unfolded = before - charts.size();
   result.absorbed += absorb_charts(surface, options.small_area_fraction, options.speck_area_fraction, seam);
   tell(0.9);

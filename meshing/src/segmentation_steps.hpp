@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "chart_field.hpp"
@@ -28,11 +27,6 @@ std::vector<ChartOutline> cut_patch(const SegmentedMesh& surface, const SeamWeig
 void open_patch(const SegmentedMesh& surface, const SeamWeights& weights, bool disks, std::vector<Index> triangles,
                 PieceCutter& cutter, std::vector<std::uint8_t>& seam);
 
-struct UnfoldOptions {
-  double seam_cost = 0;
-  std::function<Vec3(Vec3)> grain;
-};
-
 /// Joins charts over a common stretch of border where the union unfolds into the plane: angles add up to 2π along the
 /// stretch, or the distortion that comes in is worth the seam that goes (as in relieve()); the union's outline does
 /// not overlap itself; the stretch is a fair part of the smaller chart's border; and with a grain direction both
@@ -40,7 +34,7 @@ struct UnfoldOptions {
 /// seams, so that genus 0 stays genus 0. Small charts join by the longest stretch whatever it costs. Clears `seam`
 /// where charts were joined.
 std::vector<ChartOutline> merge_unfolded(const SegmentedMesh& surface, const SeamWeights& weights,
-                                         const UnfoldOptions& options, std::vector<std::uint8_t>& seam,
+                                         const SegmentationOptions& options, std::vector<std::uint8_t>& seam,
                                          std::vector<ChartOutline> charts);
 
 /// Lets charts of a single triangle, below `small_area_fraction` of a neighbour's area or below `speck_area_fraction`

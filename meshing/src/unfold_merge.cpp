@@ -52,7 +52,7 @@ struct Motion {
 
 class Unfolder {
  public:
-  Unfolder(const SegmentedMesh& surface, const SeamWeights& weights, const UnfoldOptions& options,
+  Unfolder(const SegmentedMesh& surface, const SeamWeights& weights, const SegmentationOptions& options,
            std::vector<std::uint8_t>& seam, std::vector<ChartOutline> charts)
       : surface_(surface),
         weights_(weights),
@@ -321,7 +321,7 @@ class Unfolder {
 
   const SegmentedMesh& surface_;
   const SeamWeights& weights_;
-  const UnfoldOptions& options_;
+  const SegmentationOptions& options_;
   std::vector<std::uint8_t>& seam_;
   PieceCutter cutter_;
   std::vector<ChartOutline> charts_;
@@ -333,7 +333,7 @@ class Unfolder {
 }  // namespace
 
 std::vector<ChartOutline> merge_unfolded(const SegmentedMesh& surface, const SeamWeights& weights,
-                                         const UnfoldOptions& options, std::vector<std::uint8_t>& seam,
+                                         const SegmentationOptions& options, std::vector<std::uint8_t>& seam,
                                          std::vector<ChartOutline> charts) {
   return Unfolder(surface, weights, options, seam, std::move(charts)).run();
 }
