@@ -6,6 +6,7 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
@@ -15,7 +16,6 @@
 #include "papilla/io/off_writer.hpp"
 #include "papilla/io/ply_reader.hpp"
 #include "papilla/io/ply_writer.hpp"
-#include "papilla/io/read_file.hpp"
 #include "papilla/io/stl_reader.hpp"
 #include "papilla/io/stl_writer.hpp"
 
