@@ -4,12 +4,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "cockpit/controls.hpp"
-#include "cockpit/dashboard.hpp"
 #include "cockpit/model.hpp"
-#include "cockpit/seat.hpp"
+#include "cockpit/parts.hpp"
 #include "cockpit/shapes.hpp"
-#include "cockpit/surroundings.hpp"
 
 namespace {
 

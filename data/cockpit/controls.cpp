@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cockpit/controls.hpp"
+#include "cockpit/parts.hpp"
 
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -8,7 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "cockpit/dashboard.hpp"
 #include "cockpit/shapes.hpp"
 
 namespace cockpit {

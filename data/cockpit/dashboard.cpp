@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cockpit/dashboard.hpp"
+#include "cockpit/parts.hpp"
 
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepOffsetAPI_MakePipeShell.hxx>
@@ -12,7 +12,6 @@
 #include <numbers>
 #include <vector>
 
-#include "cockpit/controls.hpp"
 #include "cockpit/shapes.hpp"
 #include "papilla/core/error.hpp"
 

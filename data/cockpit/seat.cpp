@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cockpit/seat.hpp"
+#include "cockpit/parts.hpp"
 
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>

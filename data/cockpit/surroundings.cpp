@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cockpit/surroundings.hpp"
+#include "cockpit/parts.hpp"
 
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>

@@ -135,7 +135,7 @@ std::set<std::size_t> levels_of_detail(const Json& nodes) {
 }
 
 void note_several(const char* extension, const std::string& name, std::vector<std::string>& not_mirrored) {
-  not_mirrored.push_back(fmt::format("{}: mesh '{}' wears several materials, the draft allows one", extension, name));
+  not_mirrored.push_back(fmt::format("{}: mesh '{}' has several materials, the draft allows one", extension, name));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A parser of our own: CGAL 5.5 and OpenMesh 9 take the memory that the counts claim, and OpenMesh runs for minutes on
 // a polygon that claims four billion corners.
-#include "papilla/io/off_reader.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/io/off_writer.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A parser of our own: CGAL 5.5 and OpenMesh 9 take the memory that a header or a list claims (a file of 100 bytes ends
 // in bad_alloc), and both drop triangle strips and texture coordinates of faces without a word.
-#include "papilla/io/ply_reader.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 #include <fmt/core.h>
 

@@ -10,14 +10,7 @@
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
-#include "papilla/io/obj_reader.hpp"
-#include "papilla/io/obj_writer.hpp"
-#include "papilla/io/off_reader.hpp"
-#include "papilla/io/off_writer.hpp"
-#include "papilla/io/ply_reader.hpp"
-#include "papilla/io/ply_writer.hpp"
-#include "papilla/io/stl_reader.hpp"
-#include "papilla/io/stl_writer.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 namespace papilla {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/io/stl_writer.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 #include <fmt/core.h>
 

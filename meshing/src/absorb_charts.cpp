@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "absorb_charts.hpp"
+#include "segmentation_steps.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "feature_patches.hpp"
 #include "seam_set.hpp"
 
 namespace papilla::detail {
@@ -15,7 +14,7 @@ constexpr int k_max_rounds = 8;
 class Absorber {
  public:
   /// @param speck per triangle: the area up to which a chart is a speck.
-  Absorber(const Surface& surface, double small_area_fraction, const std::vector<double>& speck,
+  Absorber(const SegmentedMesh& surface, double small_area_fraction, const std::vector<double>& speck,
            std::vector<std::uint8_t>& seam)
       : surface_(surface), fraction_(small_area_fraction), seam_(seam), charts_(charts_between(surface, seam)) {
     speck_.resize(charts_.count);
@@ -106,7 +105,7 @@ class Absorber {
     return best;
   }
 
-  const Surface& surface_;
+  const SegmentedMesh& surface_;
   double fraction_;
   std::vector<std::uint8_t>& seam_;
   ChartSet charts_;
@@ -118,7 +117,7 @@ class Absorber {
 
 }  // namespace
 
-std::size_t absorb_charts(const Surface& surface, double small_area_fraction, double speck_area_fraction,
+std::size_t absorb_charts(const SegmentedMesh& surface, double small_area_fraction, double speck_area_fraction,
                           std::vector<std::uint8_t>& seam) {
   const std::vector<double> speck = speck_areas(surface, speck_area_fraction);
   std::size_t joined = 0;

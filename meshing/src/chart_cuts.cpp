@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "check_charts.hpp"
-#include "cut_patch.hpp"
-#include "halve_chart.hpp"
+#include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/submesh.hpp"
+#include "piece_cuts.hpp"
 #include "seam_set.hpp"
+#include "segmentation_steps.hpp"
 
 namespace papilla {
 namespace {
@@ -22,7 +22,7 @@ constexpr double k_feature_angle_deg = 45;
 
 ChartSet open_charts(const TriangleMesh& mesh, const ChartSet& charts, bool disks) {
   check_charts(mesh, charts, "open_charts");
-  const Surface surface(mesh);
+  const SegmentedMesh surface(mesh);
   const SeamWeights weights(surface, k_feature_angle_deg);
   std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
   PieceCutter cutter(surface, seam);
@@ -33,7 +33,7 @@ ChartSet open_charts(const TriangleMesh& mesh, const ChartSet& charts, bool disk
 
 ChartSet halve_charts(const TriangleMesh& mesh, const ChartSet& charts, std::span<const std::uint32_t> numbers) {
   check_charts(mesh, charts, "halve_charts");
-  const Surface surface(mesh);
+  const SegmentedMesh surface(mesh);
   const SeamWeights weights(surface, k_feature_angle_deg);
   std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
   PieceCutter cutter(surface, seam);

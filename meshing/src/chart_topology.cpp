@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/meshing/chart_topology.hpp"
 
+#include <span>
 #include <string>
 
-#include "check_charts.hpp"
-#include "label_topology.hpp"
+#include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/union_find.hpp"
 
 namespace papilla {
-namespace detail {
+namespace {
 
+using namespace detail;
+
+/// The topology of every label's triangles, given their opposite half-edges within the labels.
 std::vector<ChartTopology> label_topologies(std::span<const Index> opposite, std::span<const std::uint32_t> labels,
                                             std::uint32_t count) {
   UnionFind fans = join_fans(opposite), loops(opposite.size()), sheets(labels.size());
@@ -43,13 +46,13 @@ std::vector<ChartTopology> label_topologies(std::span<const Index> opposite, std
   return result;
 }
 
-}  // namespace detail
+}  // namespace
 
 std::vector<ChartTopology> chart_topologies(const TriangleMesh& mesh, const ChartSet& charts) {
-  detail::check_charts(mesh, charts, "chart_topologies");
-  const detail::EdgeTable edges(mesh.triangles, mesh.positions.size());
-  const std::vector<Index> opposite = detail::opposite_within_charts(mesh, edges, charts, "chart_topologies");
-  return detail::label_topologies(opposite, charts.of_triangle, charts.count);
+  check_charts(mesh, charts, "chart_topologies");
+  const EdgeTable edges(mesh.triangles, mesh.positions.size());
+  const std::vector<Index> opposite = opposite_within_charts(mesh, edges, charts, "chart_topologies");
+  return label_topologies(opposite, charts.of_triangle, charts.count);
 }
 
 ChartTopology chart_topology(const TriangleMesh& mesh, const ChartSet& charts, std::uint32_t chart) {

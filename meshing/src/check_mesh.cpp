@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mesh_attributes.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::detail {
@@ -48,6 +49,45 @@ void check_mesh(const TriangleMesh& mesh, std::string_view function) {
   for_each_label(mesh, [&](const auto& labels) {
     if (!labels.empty() && labels.size() != count) fail(function, "label count differs from triangles", labels.size());
   });
+}
+
+void check_charts(const TriangleMesh& mesh, const ChartSet& charts, const char* function) {
+  check_mesh(mesh, function);
+  const std::string name(function);
+  if (charts.of_triangle.size() != mesh.triangles.size())
+    throw InvalidInput(name + ": " + std::to_string(charts.of_triangle.size()) + " chart numbers for " +
+                       std::to_string(mesh.triangles.size()) + " triangles");
+  for (std::size_t t = 0; t < charts.of_triangle.size(); ++t)
+    if (charts.of_triangle[t] >= charts.count)
+      throw InvalidInput(name + ": chart " + std::to_string(charts.of_triangle[t]) + " of triangle " +
+                         std::to_string(t) + " is out of range");
+}
+
+std::vector<Index> opposite_within_charts(const TriangleMesh& mesh, const EdgeTable& edges, const ChartSet& charts,
+                                          const char* function) {
+  std::vector<Index> opposite = opposite_within_labels(mesh.triangles, edges, charts.of_triangle);
+  for (const Index h : charts.cuts) {
+    if (h >= opposite.size() || opposite[h] == k_none)
+      throw InvalidInput(std::string(function) + ": cut " + std::to_string(h) + " is no edge within a chart");
+    opposite[opposite[h]] = k_none;
+    opposite[h] = k_none;
+  }
+  return opposite;
+}
+
+void check_distance_input(const TriangleMesh& mesh, std::string_view what, Bounds3& bounds) {
+  constexpr double k_largest = 1e15;
+  const auto usable = [](double x) { return std::abs(x) <= k_largest; };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const Index v : mesh.triangles[t]) {
+      if (v >= mesh.positions.size())
+        throw InvalidInput(std::string(what) + ".triangles[" + std::to_string(t) + "]: there is no position " +
+                           std::to_string(v));
+      const Vec3& p = mesh.positions[v];
+      if (!usable(p.x) || !usable(p.y) || !usable(p.z))
+        throw InvalidInput(std::string(what) + ".positions[" + std::to_string(v) + "]: not finite or beyond 1e15 mm");
+      bounds.add(p);
+    }
 }
 
 }  // namespace papilla::detail

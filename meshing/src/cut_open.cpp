@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "check_charts.hpp"
+#include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/union_find.hpp"
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "cut_patch.hpp"
+#include "segmentation_steps.hpp"
 
 #include <utility>
 
-#include "halve_chart.hpp"
-#include "open_chart.hpp"
 #include "papilla/core/union_find.hpp"
+#include "piece_cuts.hpp"
 #include "polygon_overlap.hpp"
-#include "relief_cut.hpp"
 
 namespace papilla::detail {
 namespace {
@@ -25,7 +23,7 @@ struct Work {
 
 class PatchCutter {
  public:
-  PatchCutter(const Surface& surface, const SeamWeights& weights, bool disks, PieceCutter& cutter,
+  PatchCutter(const SegmentedMesh& surface, const SeamWeights& weights, bool disks, PieceCutter& cutter,
               std::vector<std::uint8_t>& seam, PatchCuts& cuts)
       : surface_(surface), weights_(weights), disks_(disks), cutter_(cutter), seam_(seam), cuts_(cuts) {}
 
@@ -96,7 +94,7 @@ class PatchCutter {
     return true;
   }
 
-  const Surface& surface_;
+  const SegmentedMesh& surface_;
   const SeamWeights& weights_;
   bool disks_;
   PieceCutter& cutter_;
@@ -107,7 +105,7 @@ class PatchCutter {
 
 }  // namespace
 
-std::vector<ChartOutline> cut_patch(const Surface& surface, const SeamWeights& weights,
+std::vector<ChartOutline> cut_patch(const SegmentedMesh& surface, const SeamWeights& weights,
                                     const SegmentationOptions& options, std::vector<Index> triangles,
                                     PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts) {
   PatchCutter patch(surface, weights, options.disks, cutter, seam, cuts);
@@ -129,7 +127,7 @@ std::vector<ChartOutline> cut_patch(const Surface& surface, const SeamWeights& w
   return charts;
 }
 
-void open_patch(const Surface& surface, const SeamWeights& weights, bool disks, std::vector<Index> triangles,
+void open_patch(const SegmentedMesh& surface, const SeamWeights& weights, bool disks, std::vector<Index> triangles,
                 PieceCutter& cutter, std::vector<std::uint8_t>& seam) {
   PatchCuts cuts;
   PatchCutter(surface, weights, disks, cutter, seam, cuts).run(std::move(triangles), [](const Piece&, Work&) {});

@@ -8,7 +8,7 @@
 #include <queue>
 #include <utility>
 
-#include "check_distance_input.hpp"
+#include "check_mesh.hpp"
 #include "mesh_attributes.hpp"
 #include "papilla/core/bounds.hpp"
 
@@ -154,7 +154,7 @@ class Decimator {
     last_[place] = end;
   }
 
-  /// The live corners at a place; forgets the dead ones.
+  /// The corners of remaining triangles at a place; removes the others from its list.
   void corners_at(Index place, std::vector<Index>& corners) {
     corners.clear();
     Index previous = k_none;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "check_distance_input.hpp"
+#include "check_mesh.hpp"
 #include "convex_piece.hpp"
 #include "one_sided_deviation.hpp"
 #include "papilla/core/bounds.hpp"

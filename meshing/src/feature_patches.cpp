@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "feature_patches.hpp"
+#include "segmentation_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ void join_equal(std::vector<Border>& borders) {
 }
 
 /// Common borders of different charts.
-std::vector<Border> find_borders(const Surface& surface, const std::vector<std::uint32_t>& labels) {
+std::vector<Border> find_borders(const SegmentedMesh& surface, const std::vector<std::uint32_t>& labels) {
   std::vector<Border> borders;
   for (Index h = 0; h < surface.opposite.size(); ++h) {
     const Index other = surface.opposite[h];
@@ -51,7 +51,8 @@ std::uint32_t apply(UnionFind& sets, std::vector<std::uint32_t>& labels) {
   return renumber(labels);
 }
 
-std::vector<double> chart_areas(const Surface& surface, const std::vector<std::uint32_t>& labels, std::uint32_t count) {
+std::vector<double> chart_areas(const SegmentedMesh& surface, const std::vector<std::uint32_t>& labels,
+                                std::uint32_t count) {
   std::vector<double> area(count, 0);
   for (Index t = 0; t < labels.size(); ++t) area[labels[t]] += surface.area[t];
   return area;
@@ -63,7 +64,7 @@ std::uint32_t count_of(const std::vector<std::uint32_t>& labels) {
 
 }  // namespace
 
-std::vector<std::uint8_t> feature_halfedges(const Surface& surface, double feature_angle_deg) {
+std::vector<std::uint8_t> feature_halfedges(const SegmentedMesh& surface, double feature_angle_deg) {
   const double least_cosine = std::cos(feature_angle_deg * k_radians_per_degree);
   std::vector<std::uint8_t> feature(surface.opposite.size(), 1);
   for (Index h = 0; h < feature.size(); ++h) {
@@ -75,7 +76,7 @@ std::vector<std::uint8_t> feature_halfedges(const Surface& surface, double featu
   return feature;
 }
 
-std::vector<std::uint32_t> feature_patches(const Surface& surface, const std::vector<std::uint8_t>& feature,
+std::vector<std::uint32_t> feature_patches(const SegmentedMesh& surface, const std::vector<std::uint8_t>& feature,
                                            std::uint32_t& count) {
   UnionFind patches(surface.size());
   for (Index h = 0; h < feature.size(); ++h)
@@ -83,7 +84,7 @@ std::vector<std::uint32_t> feature_patches(const Surface& surface, const std::ve
   return patches.labels(count);
 }
 
-std::vector<double> speck_areas(const Surface& surface, double fraction) {
+std::vector<double> speck_areas(const SegmentedMesh& surface, double fraction) {
   std::vector<std::uint32_t> component(surface.size(), 0);
   const std::uint32_t count = split_into_components(surface.opposite, component);
   const std::vector<double> area = chart_areas(surface, component, count);
@@ -92,7 +93,7 @@ std::vector<double> speck_areas(const Surface& surface, double fraction) {
   return limit;
 }
 
-std::uint32_t absorb_small(const Surface& surface, const SegmentationOptions& options,
+std::uint32_t absorb_small(const SegmentedMesh& surface, const SegmentationOptions& options,
                            std::vector<std::uint32_t>& labels) {
   std::uint32_t count = count_of(labels);
   const std::vector<double> speck_area = speck_areas(surface, options.speck_area_fraction);

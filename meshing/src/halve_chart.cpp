@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "halve_chart.hpp"
+#include "piece_cuts.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -12,7 +12,6 @@
 #include <string>
 #include <tuple>
 
-#include "check_distance_input.hpp"
 #include "check_mesh.hpp"
 #include "exact_positions.hpp"
 #include "mesh_attributes.hpp"

@@ -216,7 +216,7 @@ class Splitter {
   }
 
  private:
-  /// Where a vertex goes that is parted from another one at `start`.
+  /// The new position of a vertex that is separated from another one at `start`.
   Vec3 place(const Vec3& start, const Vec3& step) {
     if (!(gap_ > 0)) return start;
     if (!places_) places_.emplace(mesh_.positions, places_at_bad_edges(), gap_, k_clearance * gap_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "open_chart.hpp"
+#include "piece_cuts.hpp"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>

@@ -16,7 +16,7 @@ namespace {
 
 using namespace detail;
 
-/// A range of `Traversal::order` and what orienting needs to know about it.
+/// A range of `Traversal::order` and its data for orient().
 struct Component {
   std::size_t begin = 0, end = 0;
   std::size_t turned = 0;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "surface.hpp"
+#include "segmented_mesh.hpp"
 
 namespace papilla::detail {
 
@@ -47,14 +47,14 @@ struct Piece {
 class PieceCutter {
  public:
   /// @param seam per half-edge of the surface, the same on both sides; pieces are open there.
-  PieceCutter(const Surface& surface, const std::vector<std::uint8_t>& seam)
+  PieceCutter(const SegmentedMesh& surface, const std::vector<std::uint8_t>& seam)
       : surface_(surface), seam_(seam), local_(surface.size()) {}
 
   /// @param triangles that seams and borders part from all others.
   Piece cut(std::vector<Index> triangles);
 
  private:
-  const Surface& surface_;
+  const SegmentedMesh& surface_;
   const std::vector<std::uint8_t>& seam_;
   std::vector<Index> local_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "relief_cut.hpp"
+#include "piece_cuts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,19 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <numeric>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "check_mesh.hpp"
-#include "components.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/progress.hpp"
+#include "papilla/core/union_find.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
-#include "repair_piece.hpp"
+#include "repair_steps.hpp"
 #include "scramble.hpp"
 #include "triangle_shape.hpp"
 
@@ -32,6 +33,75 @@ constexpr double k_stitched_gap = 2e-4;
 
 /// The fewest triangles that a closed surface has.
 constexpr std::size_t k_least_solid = 4;
+
+/// Triangles connected through shared vertices.
+struct Components {
+  std::vector<Index> begin;      ///< Of each one in `triangles`, and the end of the last.
+  std::vector<Index> triangles;  ///< Ascending within each; components in the order of their smallest vertices.
+
+  std::size_t size() const noexcept { return begin.size() - 1; }
+  std::span<const Index> of(std::size_t c) const noexcept {
+    return std::span(triangles).subspan(begin[c], begin[c + 1] - begin[c]);
+  }
+};
+
+Components connected_triangles(const TriangleMesh& mesh) {
+  UnionFind sets(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  Index count = 0;
+  const std::vector<Index> label = sets.labels(count);
+  Components result;
+  result.begin.assign(count + 1, 0);
+  for (const Triangle& t : mesh.triangles) ++result.begin[label[t[0]] + 1];
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  std::vector<Index> next(result.begin.begin(), result.begin.end() - 1);
+  result.triangles.resize(mesh.triangles.size());
+  for (Index t = 0; t < mesh.triangles.size(); ++t) result.triangles[next[label[mesh.triangles[t][0]]]++] = t;
+  return result;
+}
+
+/// The box around some triangles of a mesh.
+Bounds3 bounds_of(const TriangleMesh& mesh, std::span<const Index> triangles) {
+  Bounds3 bounds;
+  for (const Index t : triangles)
+    for (const Index v : mesh.triangles[t]) bounds.add(mesh.positions[v]);
+  return bounds;
+}
+
+/// Splits boxes into sets so that no box, grown by `margin`, overlaps one of another set. Where that would be more than
+/// `k_most_sets`, sets that lie apart are joined, too. Returns the numbers that came with the boxes. O(n) for n boxes.
+std::vector<std::vector<std::size_t>> parted_by_boxes(const std::vector<std::pair<std::size_t, Bounds3>>& boxes,
+                                                      double margin) {
+  constexpr std::size_t k_most_sets = 256;  // as each box is compared with that of each set
+  struct Set {
+    std::vector<std::size_t> members;
+    Bounds3 bounds;
+    void take(const Set& other) {
+      members.insert(members.end(), other.members.begin(), other.members.end());
+      bounds.add(other.bounds);
+    }
+  };
+  std::vector<Set> sets;
+  for (const auto& [number, bounds] : boxes) {
+    Set grown{{number}, bounds};
+    const auto is_near = [&](const Set& s) {
+      return sets.size() > k_most_sets || s.bounds.overlaps(grown.bounds, margin);
+    };
+    for (auto near = std::find_if(sets.begin(), sets.end(), is_near); near != sets.end();
+         near = std::find_if(sets.begin(), sets.end(), is_near)) {
+      if (near->members.size() > grown.members.size()) std::swap(*near, grown);
+      grown.take(*near);
+      sets.erase(near);
+    }
+    sets.push_back(std::move(grown));
+  }
+  std::vector<std::vector<std::size_t>> members;
+  for (Set& set : sets) members.push_back(std::move(set.members));
+  return members;
+}
 
 RepairCounts operator+(RepairCounts a, const RepairCounts& b) {
   for (std::size_t RepairCounts::*count :
@@ -56,34 +126,6 @@ void add(RepairResult& all, const RepairResult& piece) {
   all.passes = std::max(all.passes, piece.passes);
   all.settled = all.settled && piece.settled;
 }
-
-/// Tells the caller which fraction of all triangles is done, one call at a time.
-class SharedProgress {
- public:
-  SharedProgress(const ProgressCallback& progress, std::size_t all)
-      : progress_(progress), all_(static_cast<double>(all)) {}
-
-  void done(double triangles) {
-    if (!progress_ || !(triangles > 0)) return;
-    const std::lock_guard lock(mutex_);
-    done_ += triangles;
-    report_progress(progress_, "repair", std::min(1.0, done_ / all_));
-  }
-
-  /// For a piece that tells fractions of itself, several times where it takes several passes.
-  ProgressCallback of_piece(std::size_t triangles) {
-    return [this, size = static_cast<double>(triangles), reported = 0.0](const Progress& piece) mutable {
-      done((piece.fraction - reported) * size);
-      reported = std::max(reported, piece.fraction);
-      return true;
-    };
-  }
-
- private:
-  const ProgressCallback& progress_;
-  double all_, done_ = 0;
-  std::mutex mutex_;
-};
 
 /// The places of numbers in ascending order, equal ones in their own.
 std::vector<Index> order_of(std::span<const std::uint32_t> numbers) {
@@ -119,7 +161,7 @@ class SoupRepair {
       : mesh_(std::move(mesh)),
         scale_(scale),
         margin_(scale.weld.tolerance_mm + scale.stitch_mm),
-        progress_(progress, mesh_.triangles.size()),
+        progress_(progress, "repair", static_cast<double>(mesh_.triangles.size())),
         components_(connected_triangles(mesh_)) {}
 
   RepairResult run() {
@@ -147,7 +189,7 @@ class SoupRepair {
       const auto triangles = components_.of(c);
       if (triangles.size() < k_least_solid || !edges_cancel(mesh_.triangles, triangles)) return;
       pieces_[c] = repair_solid(piece(triangles), scale_);
-      if (pieces_[c]) progress_.done(static_cast<double>(triangles.size()));
+      if (pieces_[c]) progress_.add(static_cast<double>(triangles.size()));
     });
   }
 
@@ -169,13 +211,22 @@ class SoupRepair {
     return result;
   }
 
+  /// For a piece that reports fractions of itself, several times where it takes several passes.
+  ProgressCallback progress_of_piece(std::size_t triangles) {
+    return [this, size = static_cast<double>(triangles), reported = 0.0](const Progress& piece) mutable {
+      progress_.add((piece.fraction - reported) * size);
+      reported = std::max(reported, piece.fraction);
+      return true;
+    };
+  }
+
   void repair_others() {
     const std::vector<std::vector<Index>> sets = triangles_of_sets(parted_by_boxes(others(), margin_));
     const std::size_t before = pieces_.size();
     pieces_.resize(before + sets.size());
     oneapi::tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
       pieces_[before + s] =
-          std::make_unique<RepairResult>(repair_piece(piece(sets[s]), scale_, progress_.of_piece(sets[s].size())));
+          std::make_unique<RepairResult>(repair_piece(piece(sets[s]), scale_, progress_of_piece(sets[s].size())));
     });
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "repair_piece.hpp"
+#include "repair_steps.hpp"
 
 #include <algorithm>
 #include <optional>

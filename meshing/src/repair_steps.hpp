@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "edge_table.hpp"
 #include "papilla/meshing/degenerate.hpp"
 #include "papilla/meshing/duplicate.hpp"
 #include "papilla/meshing/fill_holes.hpp"
 #include "papilla/meshing/manifold.hpp"
 #include "papilla/meshing/orient.hpp"
+#include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/t_junction.hpp"
 #include "papilla/meshing/weld.hpp"
 
@@ -44,5 +47,23 @@ bool has_near_borders(const TriangleMesh& mesh, const EdgeTable& edges, const We
 bool has_duplicates(const std::vector<Triangle>& triangles, const EdgeTable& edges);
 bool has_degenerate(const TriangleMesh& mesh, double tolerance_mm);
 bool has_bad_edges(const std::vector<Triangle>& triangles, const EdgeTable& edges);
+
+/// Lengths of the whole mesh, to which repair() works on each piece of it.
+struct RepairScale {
+  double reference_mm = 0;  ///< reference_length() of the whole mesh.
+  WeldReach weld;
+  double stitch_mm = 0;
+  double fill_holes_mm = 0;
+  std::size_t max_passes = 1;
+};
+
+/// Repairs a mesh whose equal positions are one vertex. `weld_tolerance_mm` and `stitch_tolerance_mm` of the result
+/// stay 0: they are the whole mesh's.
+RepairResult repair_piece(TriangleMesh mesh, const RepairScale& scale, ProgressCallback progress);
+
+/// Repairs the mesh when it is one closed surface that nothing around it can change: every edge has two triangles that
+/// run it in opposite senses and are not each other's back, and they enclose a positive volume. Otherwise, and when the
+/// repair opens the surface, returns nothing and `mesh` is what it was.
+std::unique_ptr<RepairResult> repair_solid(const TriangleMesh& mesh, const RepairScale& scale);
 
 }  // namespace papilla::detail

@@ -7,7 +7,7 @@
 
 namespace papilla::detail {
 
-std::vector<std::uint8_t> seams_of(const Surface& surface, const std::vector<std::uint32_t>& labels,
+std::vector<std::uint8_t> seams_of(const SegmentedMesh& surface, const std::vector<std::uint32_t>& labels,
                                    const std::vector<std::uint32_t>& cuts) {
   std::vector<std::uint8_t> seam(surface.opposite.size());
   for (Index h = 0; h < seam.size(); ++h) {
@@ -21,7 +21,7 @@ std::vector<std::uint8_t> seams_of(const Surface& surface, const std::vector<std
   return seam;
 }
 
-ChartSet charts_between(const Surface& surface, const std::vector<std::uint8_t>& seam) {
+ChartSet charts_between(const SegmentedMesh& surface, const std::vector<std::uint8_t>& seam) {
   UnionFind sets(surface.size());
   for (Index h = 0; h < seam.size(); ++h)
     if (!seam[h]) sets.unite(triangle_of(h), triangle_of(surface.opposite[h]));

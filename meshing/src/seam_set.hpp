@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "papilla/meshing/chart_set.hpp"
-#include "surface.hpp"
+#include "segmented_mesh.hpp"
 
 namespace papilla::detail {
 
 /// Per half-edge: is it a border of the surface, of its label, or a cut? The same on both sides.
-std::vector<std::uint8_t> seams_of(const Surface& surface, const std::vector<std::uint32_t>& labels,
+std::vector<std::uint8_t> seams_of(const SegmentedMesh& surface, const std::vector<std::uint32_t>& labels,
                                    const std::vector<std::uint32_t>& cuts);
 
 /// The charts that seams leave.
-ChartSet charts_between(const Surface& surface, const std::vector<std::uint8_t>& seam);
+ChartSet charts_between(const SegmentedMesh& surface, const std::vector<std::uint8_t>& seam);
 
 }  // namespace papilla::detail

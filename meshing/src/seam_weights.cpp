@@ -21,7 +21,7 @@ constexpr int k_rays = 24;
 /// Sight lines end at this fraction of the surface's diagonal.
 constexpr double k_sight = 0.5;
 
-Vec3 centroid(const Surface& surface, Index t) {
+Vec3 centroid(const SegmentedMesh& surface, Index t) {
   const Triangle& c = surface.triangles[t];
   return (1.0 / 3) * (surface.positions[c[0]] + surface.positions[c[1]] + surface.positions[c[2]]);
 }
@@ -39,7 +39,7 @@ double openness(const TriangleBvh& tree, const Vec3& p, const Vec3& normal, Inde
   return static_cast<double>(open) / k_rays;
 }
 
-std::vector<Index> choose_places(const Surface& surface) {
+std::vector<Index> choose_places(const SegmentedMesh& surface) {
   double total = 0;
   for (const double a : surface.area) total += a;
   std::vector<Index> places;
@@ -51,7 +51,7 @@ std::vector<Index> choose_places(const Surface& surface) {
   return places;
 }
 
-std::vector<float> triangle_openness(const Surface& surface) {
+std::vector<float> triangle_openness(const SegmentedMesh& surface) {
   std::vector<float> open(surface.size(), -1);
   Bounds3 bounds;
   for (const Triangle& t : surface.triangles)
@@ -78,7 +78,7 @@ std::vector<float> triangle_openness(const Surface& surface) {
 
 }  // namespace
 
-SeamWeights::SeamWeights(const Surface& surface, double feature_angle_deg)
+SeamWeights::SeamWeights(const SegmentedMesh& surface, double feature_angle_deg)
     : surface_(surface), weight_(surface.opposite.size(), 1) {
   const std::vector<float> open = triangle_openness(surface);
   const double sharp = feature_angle_deg * k_radians_per_degree;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "surface.hpp"
+#include "segmented_mesh.hpp"
 
 namespace papilla::detail {
 
@@ -12,14 +12,14 @@ namespace papilla::detail {
 /// concave, and proportionally less on flatter ones.
 class SeamWeights {
  public:
-  SeamWeights(const Surface& surface, double feature_angle_deg);
+  SeamWeights(const SegmentedMesh& surface, double feature_angle_deg);
 
   double of(Index halfedge) const noexcept { return double{weight_[halfedge]}; }
   /// Length times weight.
   double cost(Index halfedge) const noexcept { return of(halfedge) * surface_.length(halfedge); }
 
  private:
-  const Surface& surface_;
+  const SegmentedMesh& surface_;
   std::vector<float> weight_;
 };
 

@@ -6,13 +6,10 @@
 #include <mutex>
 #include <string>
 
-#include "absorb_charts.hpp"
 #include "check_mesh.hpp"
-#include "cut_patch.hpp"
-#include "feature_patches.hpp"
 #include "papilla/core/error.hpp"
 #include "seam_set.hpp"
-#include "unfold_merge.hpp"
+#include "segmentation_steps.hpp"
 
 namespace papilla {
 namespace {
@@ -33,7 +30,7 @@ void check_options(const SegmentationOptions& options) {
 }
 
 /// Cuts all patches, largest first so that no thread is left with a big one; results in the order of patches.
-std::vector<ChartOutline> cut_patches(const Surface& surface, const SeamWeights& weights,
+std::vector<ChartOutline> cut_patches(const SegmentedMesh& surface, const SeamWeights& weights,
                                       const SegmentationOptions& options, const std::vector<std::uint32_t>& labels,
                                       std::uint32_t count, std::vector<std::uint8_t>& seam,
                                       SegmentationResult& result) {
@@ -71,7 +68,7 @@ SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOp
   const auto tell = [&](double fraction) { report_progress(options.progress, "charts", fraction); };
   SegmentationResult result;
   if (mesh.triangles.empty()) return result;
-  const Surface surface(mesh);
+  const SegmentedMesh surface(mesh);
   const SeamWeights weights(surface, options.feature_angle_deg);
   tell(0.2);
 
@@ -86,8 +83,7 @@ SegmentationResult segment_charts(const TriangleMesh& mesh, const SegmentationOp
   std::vector<std::uint8_t> seam = seams_of(surface, labels, {});
   std::vector<ChartOutline> charts = cut_patches(surface, weights, options, labels, count, seam, result);
   const std::size_t before = charts.size();
-  if (options.unfold)
-    charts = merge_unfolded(surface, weights, {options.seam_cost, options.grain}, seam, std::move(charts));
+  if (options.unfold) charts = merge_unfolded(surface, weights, options, seam, std::move(charts));
   result.unfolded = before - charts.size();
   result.absorbed += absorb_charts(surface, options.small_area_fraction, options.speck_area_fraction, seam);
   tell(0.9);

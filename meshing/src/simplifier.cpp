@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "check_distance_input.hpp"
 #include "check_mesh.hpp"
 #include "decimate.hpp"
 #include "one_sided_deviation.hpp"
@@ -21,7 +20,7 @@ constexpr double k_less =
     0.7;  ///< A pass that does not hold the tolerance is tried once more with this much of its error.
 constexpr int k_rounds = 5;  ///< Of keeping vertices at the worst places, a pass.
 constexpr int k_most_halvings = 5;
-/// Distances below this fraction of the tolerance are not told apart while checking.
+/// Distances below this fraction of the tolerance count as equal in the check.
 constexpr double k_settled = 0.9;
 /// When more of the triangles than this exceed the tolerance, keeping their vertices would leave less than
 /// a smaller error does.

@@ -2,6 +2,8 @@
 #include "papilla/meshing/simplify.hpp"
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "papilla/core/error.hpp"
 #include "simplifier.hpp"
@@ -25,6 +27,39 @@ SimplifyResult simplify(const TriangleMesh& mesh, const SimplifyOptions& options
   if (options.target_triangles > 0 && result.mesh.triangles.size() > options.target_triangles)
     result.stop = StopReason::iteration_limit;
   return result;
+}
+
+std::vector<SimplifyStep> simplify_ladder(const TriangleMesh& mesh, std::span<const double> tolerances_mm,
+                                          const SimplifyOptions& options) {
+  std::vector<SimplifyStep> steps;
+  for (const double tolerance : tolerances_mm) {
+    SimplifyOptions at_step = options;
+    at_step.tolerance_mm = tolerance;
+    at_step.target_triangles = 0;
+    const Stopwatch clock;
+    SimplifyResult result = simplify(mesh, at_step);
+    steps.push_back({tolerance, clock.seconds(), result.mesh.triangles.size(), result.deviation.value(),
+                     result.deviation.bound(), result.stop, std::move(result.trace)});
+  }
+  return steps;
+}
+
+std::vector<SimplifyResult> levels_of_detail(const TriangleMesh& mesh, std::span<const double> tolerances_mm,
+                                             const SimplifyOptions& options) {
+  for (std::size_t i = 0; i < tolerances_mm.size(); ++i)
+    if (!(tolerances_mm[i] > (i == 0 ? 0 : tolerances_mm[i - 1])) || !std::isfinite(tolerances_mm[i]))
+      throw InvalidInput("levels_of_detail: tolerances_mm[" + std::to_string(i) + "] does not ascend from 0");
+  const Stopwatch clock;
+  const detail::Simplifier simplifier(mesh, options, "levels_of_detail");
+  std::vector<SimplifyResult> levels;
+  std::vector<Index> indices = simplifier.all();
+  for (const double tolerance : tolerances_mm) {
+    Trace trace;
+    indices = simplifier.within(std::move(indices), tolerance, 0, clock, trace);
+    levels.push_back(simplifier.result(indices, tolerance));
+    levels.back().trace = std::move(trace);
+  }
+  return levels;
 }
 
 }  // namespace papilla

@@ -104,7 +104,7 @@ struct Extent {
   }
 };
 
-/// In how many boxes a triangle wants to lie: until a row of them is no longer wasteful.
+/// Number of boxes to cover a triangle with: as many as still reduce the empty space in them.
 std::size_t wanted_boxes(const Corners& c) noexcept {
   const Extent e(c);
   const double box = e.size(0) * e.size(1) + e.size(1) * e.size(2) + e.size(2) * e.size(0);

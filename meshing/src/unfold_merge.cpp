@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "unfold_merge.hpp"
+#include "segmentation_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ struct Motion {
 
 class Unfolder {
  public:
-  Unfolder(const Surface& surface, const SeamWeights& weights, const UnfoldOptions& options,
+  Unfolder(const SegmentedMesh& surface, const SeamWeights& weights, const SegmentationOptions& options,
            std::vector<std::uint8_t>& seam, std::vector<ChartOutline> charts)
       : surface_(surface),
         weights_(weights),
@@ -319,9 +319,9 @@ class Unfolder {
     return dot(grain[0], grain[1]) >= std::cos(k_grain_deg * k_radians_per_degree) * p * q;
   }
 
-  const Surface& surface_;
+  const SegmentedMesh& surface_;
   const SeamWeights& weights_;
-  const UnfoldOptions& options_;
+  const SegmentationOptions& options_;
   std::vector<std::uint8_t>& seam_;
   PieceCutter cutter_;
   std::vector<ChartOutline> charts_;
@@ -332,8 +332,8 @@ class Unfolder {
 
 }  // namespace
 
-std::vector<ChartOutline> merge_unfolded(const Surface& surface, const SeamWeights& weights,
-                                         const UnfoldOptions& options, std::vector<std::uint8_t>& seam,
+std::vector<ChartOutline> merge_unfolded(const SegmentedMesh& surface, const SeamWeights& weights,
+                                         const SegmentationOptions& options, std::vector<std::uint8_t>& seam,
                                          std::vector<ChartOutline> charts) {
   return Unfolder(surface, weights, options, seam, std::move(charts)).run();
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check_distance_input.hpp"
+#include "check_mesh.hpp"
 #include "edge_table.hpp"
 #include "exact_positions.hpp"
 #include "mesh_attributes.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "check_distance_input.hpp"
+#include "check_mesh.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/meshing/placed_mesh.hpp"
 #include "triangle_bvh.hpp"

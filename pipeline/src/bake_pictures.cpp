@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/bake_pictures.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 
 #include <fmt/core.h>
 

@@ -191,7 +191,7 @@ class SceneMaterials {
 
   /// Kept uv: a texture transform brings them to repeats of the grain.
   void attach_to_kept_uv(Material& material, MaterialTag& tag, const Grain& grain, double mm_per_unit) {
-    TextureTransform transform;
+    UvTransform transform;
     transform.scale = {mm_per_unit / grain.size_mm[0], mm_per_unit / grain.size_mm[1]};
     if (material.normal_texture)
       scene_.losses.push_back("material '" + material.name + "': its normal map is replaced by that of the grain");
@@ -200,7 +200,7 @@ class SceneMaterials {
     tag.height->metres_per_uv = {mm_per_unit * k_metres_per_mm, mm_per_unit * k_metres_per_mm};
   }
 
-  void attach_pictures(Material& material, const Grain& grain, std::optional<TextureTransform> transform) {
+  void attach_pictures(Material& material, const Grain& grain, std::optional<UvTransform> transform) {
     TextureReference normal;
     normal.texture = texture_of(grain.normal_png);
     normal.transform = transform;

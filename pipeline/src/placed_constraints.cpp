@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/placed_constraints.hpp"
+#include "papilla/pipeline/unwrap_method.hpp"
 
 #include <fmt/format.h>
 #include <fnmatch.h>

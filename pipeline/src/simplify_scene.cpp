@@ -3,10 +3,13 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
+#include "papilla/meshing/simplify.hpp"
 
 namespace papilla {
 namespace {
@@ -86,6 +89,121 @@ SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& opti
   result.scene = std::move(scene);
   result.seconds = clock.seconds();
   return result;
+}
+
+namespace {
+
+constexpr double k_level_factor = 4;        ///< Between the tolerances of --lod: about a quarter of the triangles.
+constexpr double k_first_tolerance = 1e-4;  ///< Of the largest part's diagonal.
+constexpr double k_picture_height_px = 2000;
+constexpr double k_most_kept = 0.9;
+
+std::vector<double> tolerances(std::span<const TriangleMesh> meshes, const LevelOptions& options, double finest_mm) {
+  std::vector<double> result = options.tolerances_mm;
+  if (options.count) {
+    double largest = 0;
+    for (const TriangleMesh& mesh : meshes) largest = std::max(largest, bounds_of(mesh).diagonal());
+    double tolerance = finest_mm > 0 ? k_level_factor * finest_mm : k_first_tolerance * largest;
+    for (int level = 0; level < *options.count && tolerance > 0; ++level, tolerance *= k_level_factor)
+      result.push_back(tolerance);
+  }
+  double last = finest_mm;
+  for (const double tolerance : result) {
+    if (!(tolerance > last))
+      throw InvalidInput(fmt::format("add_levels: tolerance {} mm does not exceed {} mm", tolerance, last));
+    last = tolerance;
+  }
+  return result;
+}
+
+/// A level, and whether it has few enough triangles to be kept.
+struct Level {
+  double tolerance_mm = 0;
+  SimplifyResult result;
+  bool kept = true;
+};
+
+std::vector<Level> coarser_levels(const TriangleMesh& mesh, std::size_t finest_triangles,
+                                  const std::vector<double>& tolerances, const SimplifyOptions& simplify) {
+  std::vector<Level> levels;
+  if (mesh.triangles.empty()) return levels;
+  std::vector<SimplifyResult> all = levels_of_detail(mesh, tolerances, simplify);
+  std::size_t last = finest_triangles;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t triangles = all[i].mesh.triangles.size();
+    const bool kept = triangles > 0 && static_cast<double>(triangles) <= k_most_kept * static_cast<double>(last);
+    if (kept) last = triangles;
+    levels.push_back({tolerances[i], std::move(all[i]), kept});
+  }
+  return levels;
+}
+
+}  // namespace
+
+std::vector<LevelReport> add_levels(Scene& scene, std::span<const TriangleMesh> originals, const LevelOptions& options,
+                                    const SimplifyOptions& simplify, double finest_mm) {
+  const std::vector<double> wanted = tolerances(originals, options, finest_mm);
+  std::vector<std::vector<Level>> levels(scene.parts.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, levels.size(), [&](std::size_t i) {
+    try {
+      levels[i] = coarser_levels(originals[i], scene.parts[i].mesh.triangles.size(), wanted, simplify);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
+    }
+  });
+  std::vector<LevelReport> reports;
+  for (std::uint32_t i = 0; i < levels.size(); ++i) {
+    Part& part = scene.parts[i];
+    const double size = bounds_of(originals[i]).diagonal();
+    part.levels.clear();
+    for (Level& level : levels[i]) {
+      LevelReport report{i,
+                         0,
+                         level.tolerance_mm,
+                         level.result.deviation.bound(),
+                         0,
+                         level.result.triangles_before,
+                         level.result.mesh.triangles.size()};
+      if (level.kept) {
+        report.screen_coverage = std::min(1.0, size / (k_picture_height_px * level.tolerance_mm));
+        part.levels.push_back({std::move(level.result.mesh), report.screen_coverage});
+        report.level = part.levels.size();
+      }
+      reports.push_back(report);
+    }
+  }
+  return reports;
+}
+
+void levels_to_nodes(Scene& scene) {
+  const std::size_t parts = scene.parts.size(), nodes = scene.nodes.size();
+  std::vector<std::vector<std::uint32_t>> of_part(parts);
+  for (std::size_t i = 0; i < parts; ++i) {
+    std::vector<PartLevel> levels = std::move(scene.parts[i].levels);
+    scene.parts[i].levels.clear();
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      Part part = scene.parts[i];
+      part.mesh = std::move(levels[level].mesh);
+      part.name += fmt::format("_LOD{}", level + 1);
+      part.id += fmt::format("_LOD{}", level + 1);
+      of_part[i].push_back(static_cast<std::uint32_t>(scene.parts.size()));
+      scene.parts.push_back(std::move(part));
+    }
+    if (!levels.empty()) of_part[i].insert(of_part[i].begin(), static_cast<std::uint32_t>(i));
+  }
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (!scene.nodes[n].part || of_part[*scene.nodes[n].part].empty()) continue;
+    const std::uint32_t shown = *scene.nodes[n].part;
+    const std::string name = scene.nodes[n].name.empty() ? scene.parts[shown].name : scene.nodes[n].name;
+    scene.nodes[n].part.reset();
+    for (std::size_t level = 0; level < of_part[shown].size(); ++level) {
+      Node child;
+      child.name = fmt::format("{}_LOD{}", name, level);
+      child.part = of_part[shown][level];
+      scene.nodes[n].children.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
+      scene.nodes.push_back(std::move(child));
+    }
+  }
 }
 
 }  // namespace papilla

@@ -33,7 +33,7 @@ int midpoint_levels(int size) {
   return levels;
 }
 
-Surface fractal_surface(const SynthesisOptions& options, FractalSynthesis method, double hurst) {
+HeightGrid fractal_surface(const SynthesisOptions& options, FractalSynthesis method, double hurst) {
   const int size = options.size_px.value_or(method == FractalSynthesis::spectral ? 256 : 257);
   if (method == FractalSynthesis::exact) return brownian_surface_exact({size, hurst, options.seed, options.progress});
   if (method == FractalSynthesis::spectral)
@@ -47,7 +47,7 @@ Surface fractal_surface(const SynthesisOptions& options, FractalSynthesis method
 }
 
 /// The surface as picture, and as relief of the size and height asked for.
-Synthesis from_surface(const SynthesisOptions& options, std::string_view method, const Surface& surface) {
+Synthesis from_surface(const SynthesisOptions& options, std::string_view method, const HeightGrid& surface) {
   Synthesis result{std::string(method), to_grey_image(surface), {}, {}, {}};
   const double pitch = options.size_mm / surface.size;
   result.picture.pitch_mm = pitch;

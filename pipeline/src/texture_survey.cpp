@@ -13,7 +13,7 @@
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/analysis_pictures.hpp"
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/texture_order.hpp"
 #include "pictures/pixel_text.hpp"
 #include "pictures/texture_plots.hpp"

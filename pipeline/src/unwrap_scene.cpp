@@ -126,12 +126,7 @@ UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const 
   result.repair_seconds = repair_clock.seconds();
   result.opposed_edges = opposed_edges(mesh);
   const Stopwatch clock;
-  FlattenedPart flattened = flatten_part(mesh, context, options.method);
-  result.flattening = std::move(flattened.flattening);
-  result.method = std::move(flattened.method);
-  result.reason = std::move(flattened.reason);
-  result.choices = std::move(flattened.choices);
-  result.segment_seconds = flattened.segment_seconds;
+  static_cast<FlattenedPart&>(result) = flatten_part(mesh, context, options.method);
   if (options.method.method != UnwrapMethod::environment) {
     AlignedPhase aligned = align_phase(mesh, result.flattening, {.tile_mm = options.tile_mm});
     result.flattening.uv = std::move(aligned.uv);

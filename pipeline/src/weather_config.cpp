@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/pipeline/weather_config.hpp"
+#include "papilla/pipeline/weather_scene.hpp"
 
 #include <fmt/core.h>
 #include <fnmatch.h>

@@ -22,8 +22,8 @@
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/roughness.hpp"
 #include "weather/atlas_uv.hpp"
-#include "weather/sky_texels.hpp"
 #include "weather/surface_atlas.hpp"
+#include "weather/surface_texels.hpp"
 
 namespace papilla {
 namespace {

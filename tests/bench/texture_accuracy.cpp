@@ -15,9 +15,9 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/best_dimension.hpp"
-#include "papilla/texture/crop.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/relief_error.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/shape_from_shading.hpp"
 #include "papilla/texture/stein_surface.hpp"
 #include "papilla/texture/symmetry.hpp"
@@ -108,7 +108,7 @@ DimensionErrors dimension_errors(int size, int seeds) {
   for (int tenth = 1; tenth <= 9; ++tenth)
     for (int seed = 1; seed <= seeds; ++seed) {
       const double dimension = 2 + tenth / 10.0;
-      const Surface surface =
+      const HeightGrid surface =
           brownian_surface_exact({size, 3 - dimension, static_cast<std::uint64_t>(100 * tenth + seed)});
       const GreyImage image = to_grey_image(surface);
       const FractalEstimate estimate = best_dimension(image).estimate;

@@ -48,7 +48,7 @@ readonly libraries=(core meshing param texture procedural haptic io pipeline)
 readonly all_cpp=("${libraries[@]}" apps tests data examples)
 
 readonly gpl_headers=' <(CGAL/|fftw3)'
-readonly heavy_headers=' [<"](CGAL/|OpenMesh/|OpenImageIO/|Eigen/|ceres/|fftw3|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
+readonly heavy_headers=' [<"](CGAL/|OpenMesh/|OpenImageIO/|Eigen/|fftw3|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
 
 check_licence_lines() {
   local file licence
@@ -149,7 +149,6 @@ readonly library_uses='
 <sha2\.h> libmd libmd-dev PkgConfig::MD
 <gtest/ GTest libgtest-dev GTest::gtest_main
 <benchmark/ benchmark libbenchmark-dev benchmark::benchmark
-<ceres/ Ceres libceres-dev Ceres::ceres
 <Eigen/ Eigen3 libeigen3-dev Eigen3::Eigen
 <OpenMesh/ OpenMesh libopenmesh-dev OpenMeshCore OpenMeshTools
 <CGAL/ CGAL libcgal-dev

@@ -73,11 +73,11 @@ write apps/papilla/a.cpp GPL-3.0-or-later 'void f() { std::cout << 1; }' && expe
 write apps/player/a.cpp MIT 'void f() { fmt::print("{}", 1); }' && expect 'prints past print_out()'
 write apps/papilla/text/a.cpp GPL-3.0-or-later 'auto a = fmt::format("{}", name);' && expect 'formats names past shown_format()'
 mkdir -p examples && echo 'int a;' >examples/a.cpp && expect 'examples/a.cpp: has no SPDX-License-Identifier'
-list cmake/PapillaDependencies.cmake 'find_package(Ceres REQUIRED)' && expect 'requires Ceres, which no source includes'
+list cmake/PapillaDependencies.cmake 'find_package(OpenMesh REQUIRED)' && expect 'requires OpenMesh, which no source includes'
 list cmake/PapillaDependencies.cmake 'pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)' &&
   expect 'requires fftw3, which no source includes'
 list cmake/PapillaDependencies.cmake 'find_package(Boost REQUIRED)' && expect 'requires Boost, of which'
-list run 'readonly build_packages=(libceres-dev)' && expect 'run: requires libceres-dev, which no source includes'
+list run 'readonly build_packages=(libopenmesh-dev)' && expect 'run: requires libopenmesh-dev, which no source includes'
 list run 'readonly docs_packages=(' '  gnuplot-nox  # plots' ')' && expect 'run: requires gnuplot-nox, which no script calls'
 write core/src/a.cpp MIT '#include <vector>' && list core/CMakeLists.txt 'papilla_module(core PRIVATE TBB::tbb)' &&
   expect 'core/CMakeLists.txt: links TBB::tbb, which no source of its folder includes'

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "cad_syntax.hpp"
 #include "fuzz_input.hpp"
-#include "iges_syntax.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace papilla;

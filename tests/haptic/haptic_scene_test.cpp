@@ -74,7 +74,7 @@ TEST(HapticScene, FollowsTheTextureTransformOfPackers) {
   }();
   Scene scene = before;
   TextureReference reference;
-  reference.transform = TextureTransform{{0, 0}, 0, {16, 16}};
+  reference.transform = UvTransform{{0, 0}, 0, {16, 16}};
   scene.materials[0].normal_texture = reference;
   const HapticScene plain = haptic_scene(before, "a.glb"), packed = haptic_scene(scene, "a.glb");
   ASSERT_EQ(packed.warnings.size(), 1U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/io/obj_reader.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 #include <gtest/gtest.h>
 

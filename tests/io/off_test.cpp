@@ -6,8 +6,7 @@
 #include "io/scene_fixtures.hpp"
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/off_reader.hpp"
-#include "papilla/io/off_writer.hpp"
+#include "papilla/io/mesh_files.hpp"
 #include "papilla/io/vertex_normals.hpp"
 
 namespace papilla {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/io/ply_writer.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include "io/scene_fixtures.hpp"
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/ply_reader.hpp"
 #include "papilla/io/vertex_normals.hpp"
 
 namespace papilla {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/io/stl_reader.hpp"
+#include "papilla/io/mesh_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/meshing/simplify_ladder.hpp"
+#include "papilla/meshing/simplify.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include <set>
 
 #include "papilla/core/error.hpp"
-#include "papilla/meshing/levels_of_detail.hpp"
 #include "papilla/meshing/statistics.hpp"
 #include "papilla_test/shapes.hpp"
 

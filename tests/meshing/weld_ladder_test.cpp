@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/meshing/weld_ladder.hpp"
+#include "papilla/meshing/weld.hpp"
 
 #include <gtest/gtest.h>
 

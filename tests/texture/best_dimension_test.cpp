@@ -24,7 +24,7 @@ Score score(int bits) {
   int runs = 0;
   for (const double dimension : {2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7, 2.8, 2.9})
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      const Surface surface = brownian_surface_exact({257, 3 - dimension, seed});
+      const HeightGrid surface = brownian_surface_exact({257, 3 - dimension, seed});
       const FractalEstimate estimate = best_dimension(to_grey_image(surface, bits)).estimate;
       result.rmse += std::pow(estimate.dimension - dimension, 2);
       result.coverage += estimate.low <= dimension && dimension <= estimate.high;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 
 #include <gtest/gtest.h>
 

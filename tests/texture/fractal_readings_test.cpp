@@ -9,7 +9,7 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/texture/box_dimension.hpp"
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/stein_surface.hpp"
 #include "texture/fixtures.hpp"
 

@@ -16,7 +16,7 @@ namespace papilla {
 namespace {
 
 TEST(LightDirection, AzimuthOfAnIsotropicRelief) {
-  const Surface surface = spectral_surface({256, 0.8, 6, 60, 4});
+  const HeightGrid surface = spectral_surface({256, 0.8, 6, 60, 4});
   const HeightMap relief = test::make_relief(256, 256, 1, [&](int x, int y) { return 0.8 * surface.at(x, y); });
   for (int k = 1; k < 8; ++k) {
     const double azimuth = -std::numbers::pi * k / 8;  // From above the picture.

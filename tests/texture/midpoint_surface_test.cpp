@@ -18,7 +18,7 @@ double mean_square(const MidpointOptions& options, int ax, int ay, int bx, int b
   for (int run = 0; run < k_runs; ++run) {
     MidpointOptions seeded = options;
     seeded.seed = static_cast<std::uint64_t>(run) + 1;
-    const Surface surface = midpoint_surface(seeded);
+    const HeightGrid surface = midpoint_surface(seeded);
     const double difference = surface.at(ax, ay) - surface.at(bx, by);
     sum += difference * difference;
   }
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Hurst, MidpointVariance, testing::Values(0.2, 0.5, 0.8)
 
 TEST(MidpointSurface, PeriodicSurfacesHaveNoSeam) {
   for (const MidpointRule rule : {MidpointRule::corrected, MidpointRule::cho}) {
-    const Surface surface = midpoint_surface({.levels = 7, .hurst = 0.6, .periodic = true, .rule = rule, .seed = 3});
+    const HeightGrid surface = midpoint_surface({.levels = 7, .hurst = 0.6, .periodic = true, .rule = rule, .seed = 3});
     EXPECT_EQ(surface.size, 128);
     EXPECT_TRUE(surface.periodic);
     double seam = 0, inside = 0;
@@ -79,7 +79,7 @@ TEST(MidpointSurface, PeriodicSurfacesHaveNoSeam) {
 TEST(MidpointSurface, ChoDisplacesByPowersOfTwo) {
   // Level 1 on a tile: every corner is X; the centre is X ± 2^−H, its final value the mean of the edges ± 2^−H.
   const double h = 0.5, step = std::pow(2, -h);
-  const Surface surface = midpoint_surface({.levels = 1, .hurst = h, .periodic = true, .rule = MidpointRule::cho});
+  const HeightGrid surface = midpoint_surface({.levels = 1, .hurst = h, .periodic = true, .rule = MidpointRule::cho});
   ASSERT_EQ(surface.size, 2);
   const double edges = (surface.at(1, 0) + surface.at(0, 1)) / 2;
   EXPECT_NEAR(std::abs(surface.at(1, 1) - edges), step, 1e-12);

@@ -17,7 +17,7 @@ namespace {
 
 /// A rough picture under light that fades to the right.
 GreyImage faded(int width, int height) {
-  const Surface surface = spectral_surface({.size = 256, .hurst = 0.3, .longest_wavelength_px = 24});
+  const HeightGrid surface = spectral_surface({.size = 256, .hurst = 0.3, .longest_wavelength_px = 24});
   return test::make_image(width, height, [&](int x, int y) {
     return 0.8 - 0.5 * x / width + 0.05 * (1 - 0.4 * x / width) * surface.at(x % 256, y % 256);
   });

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "papilla/texture/box_dimension.hpp"
-#include "papilla/texture/crop.hpp"
 #include "papilla/texture/fshot_dimension.hpp"
 #include "papilla/texture/midpoint_surface.hpp"
 #include "papilla/texture/probability_dimension.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/stein_surface.hpp"
 
 namespace papilla::test {
 namespace {
 
-void remove_best_plane(Surface& surface) {
+void remove_best_plane(HeightGrid& surface) {
   const int n = surface.size;
   const double middle = (n - 1) / 2.0;
   double mean = 0, along_x = 0, along_y = 0, square = 0;
@@ -36,7 +36,7 @@ void remove_best_plane(Surface& surface) {
 }  // namespace
 
 GreyImage dimension_picture(const DimensionCell& cell, unsigned seed) {
-  Surface surface = brownian_surface_exact({513, 3 - cell.dimension, seed});
+  HeightGrid surface = brownian_surface_exact({513, 3 - cell.dimension, seed});
   remove_best_plane(surface);
   return middle_part(to_grey_image(surface, 8), cell.side_px);
 }
@@ -60,7 +60,7 @@ FourDimensions measured_dimensions(const DimensionCell& cell) {
 SignatureRow measured_signature(double hurst) {
   SignatureRow mean{hurst, 0, 0};
   for (unsigned seed = 1; seed <= k_table_seeds; ++seed) {
-    const Surface surface = midpoint_surface({.levels = 8, .hurst = hurst, .rule = MidpointRule::cho, .seed = seed});
+    const HeightGrid surface = midpoint_surface({.levels = 8, .hurst = hurst, .rule = MidpointRule::cho, .seed = seed});
     const FshotSignature signature = fshot_dimension(to_grey_image(surface));
     mean.sta += signature.sta / k_table_seeds;
     mean.str += signature.str / k_table_seeds;

@@ -25,7 +25,7 @@ TEST(Roughness, RmsOfASine) {
 }
 
 TEST(Roughness, FractalDimensionOfAnExactSurface) {
-  const Surface surface = brownian_surface_exact({257, 0.4, 1});
+  const HeightGrid surface = brownian_surface_exact({257, 0.4, 1});
   HeightMap relief{257, 257, {surface.heights.begin(), surface.heights.end()}, 0.05, 0.05, false};
   EXPECT_NEAR(measure_roughness(relief).fractal.value().dimension, 2.6, 0.02);
 }

@@ -11,7 +11,7 @@ namespace papilla {
 namespace {
 
 TEST(SpectralSurface, HasRmsOneAndTilesSmoothly) {
-  const Surface surface = spectral_surface({128, 0.8, 8, 1e9, 3});
+  const HeightGrid surface = spectral_surface({128, 0.8, 8, 1e9, 3});
   double squares = 0, inside = 0, seam = 0;
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 128; ++x) squares += surface.at(x, y) * surface.at(x, y);
@@ -26,7 +26,7 @@ TEST(SpectralSurface, HasRmsOneAndTilesSmoothly) {
 TEST(SpectralSurface, HoldsOnlyTheWavesAskedFor) {
   // One wavelength only: the surface is an eigenfunction of the Laplacian, Δz = −k² z.
   constexpr int n = 64;
-  const Surface surface = spectral_surface({n, 0.5, 16, 16, 1});
+  const HeightGrid surface = spectral_surface({n, 0.5, 16, 16, 1});
   for (int y = 1; y + 1 < n; ++y)
     for (int x = 1; x + 1 < n; ++x) {
       // All kept waves have 4 periods along one axis (no other pair of whole numbers has length 4).

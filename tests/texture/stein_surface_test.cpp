@@ -24,7 +24,7 @@ TEST_P(SteinVariogram, IsTheOneOfFractionalBrownianMotion) {
   };
   std::vector<Pair> pairs = {{1, 0}, {0, 1}, {3, 2}, {0, 8}, {16, 16}, {32, 0}, {32, 32}};
   for (std::uint64_t seed = 1; seed <= k_surfaces; ++seed) {
-    const Surface surface = brownian_surface_exact({n, hurst, seed});
+    const HeightGrid surface = brownian_surface_exact({n, hurst, seed});
     for (Pair& pair : pairs)
       for (int y = 0; y + pair.dy < n; y += 8)
         for (int x = 0; x + pair.dx < n; x += 8) {
@@ -55,7 +55,7 @@ TEST(SteinSurface, GreyImageIsStretchedAndRounded) {
   EXPECT_EQ(*low, 0);
   EXPECT_EQ(*high, 1);
   for (const float value : image.pixels) EXPECT_NEAR(255 * value, std::round(255 * value), 1e-4);
-  EXPECT_THROW(to_grey_image(Surface{}), InvalidInput);
+  EXPECT_THROW(to_grey_image(HeightGrid{}), InvalidInput);
   EXPECT_THROW(to_grey_image(brownian_surface_exact({5, 0.5, 1}), 12), InvalidInput);
 }
 

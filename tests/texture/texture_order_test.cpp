@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "papilla/core/error.hpp"
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 #include "texture/fixtures.hpp"
 
 namespace papilla {

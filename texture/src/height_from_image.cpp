@@ -212,7 +212,7 @@ double share_across(const HeightMap& map, Vec3 light) {
 
 void list_measured_and_assumed(const HeightOptions& options, HeightResult& result) {
   const bool lit = result.method != HeightMethod::intensity;
-  result.assumed.emplace_back("depth: one picture tells shape, not scale");
+  result.assumed.emplace_back("depth: a single picture determines relief only up to scale");
   if (!lit) result.assumed.emplace_back("grey value is height: nothing in the picture says so");
   if (lit && options.albedo <= 0)
     result.assumed.emplace_back("albedo: such that the mean grey is that of level ground");

@@ -40,7 +40,7 @@ class Grid {
     }
     return heights_[texture_detail::pixel_index(x, y, size_)];
   }
-  Surface surface() && { return {size_, std::move(heights_), periodic_}; }
+  HeightGrid surface() && { return {size_, std::move(heights_), periodic_}; }
 
  private:
   int side_, size_;
@@ -148,7 +148,7 @@ void displace_cho(Grid& grid, int levels, double hurst, Random& random, const Re
 
 }  // namespace
 
-Surface midpoint_surface(const MidpointOptions& options) {
+HeightGrid midpoint_surface(const MidpointOptions& options) {
   require(options.levels, 13, options.hurst, "midpoint_surface");
   Random random(options.seed);
   Grid grid(options.levels, options.periodic);

@@ -31,7 +31,7 @@ void require(const SpectralSurfaceOptions& options) {
 
 }  // namespace
 
-Surface spectral_surface(const SpectralSurfaceOptions& options) {
+HeightGrid spectral_surface(const SpectralSurfaceOptions& options) {
   require(options);
   const int n = options.size;
   const auto gain = [&](double x, double y) {
@@ -40,7 +40,7 @@ Surface spectral_surface(const SpectralSurfaceOptions& options) {
       return 0.0;
     return std::pow(waves, -directional_hurst(options, x, y) - 1);
   };
-  Surface surface{n, texture_detail::shaped_noise(n, n, options.seed, gain, options.progress), true};
+  HeightGrid surface{n, texture_detail::shaped_noise(n, n, options.seed, gain, options.progress), true};
   if (std::all_of(surface.heights.begin(), surface.heights.end(), [](double h) { return h == 0; }))
     throw InvalidInput("spectral_surface: no wave of a " + std::to_string(n) + " pixel surface is between " +
                        std::to_string(options.shortest_wavelength_px) + " and " +
@@ -48,7 +48,7 @@ Surface spectral_surface(const SpectralSurfaceOptions& options) {
   return surface;
 }
 
-GreyImage to_grey_image(const Surface& surface, int bits) {
+GreyImage to_grey_image(const HeightGrid& surface, int bits) {
   if (surface.heights.empty()) throw InvalidInput("to_grey_image: the surface is empty");
   if (bits != 8 && bits != 16 && bits != 32)
     throw InvalidInput("to_grey_image: bits " + std::to_string(bits) + " is not 8, 16 or 32");

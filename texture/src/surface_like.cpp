@@ -42,11 +42,11 @@ SurfaceLike surface_like(const GreyImage& image, const SurfaceLikeOptions& optio
   double best = 1e300;
   for (int round = 0; round < options.rounds; ++round) {
     report_progress(options.progress, "synthesis", static_cast<double>(round) / options.rounds);
-    Surface surface = spectral_surface({.size = options.size,
-                                        .hurst = along,
-                                        .seed = options.seed,
-                                        .hurst_across = across,
-                                        .angle_deg = result.target.angle_deg});
+    HeightGrid surface = spectral_surface({.size = options.size,
+                                           .hurst = along,
+                                           .seed = options.seed,
+                                           .hurst_across = across,
+                                           .angle_deg = result.target.angle_deg});
     const FshotSignature signature = fshot_dimension(to_grey_image(surface));
     const double off_along = result.target.sta - signature.sta, off_across = major(result.target) - major(signature);
     const double distance = std::hypot(off_along, off_across);

@@ -2,7 +2,7 @@
 #include "papilla/texture/symmetry.hpp"
 
 #include "checks.hpp"
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 
 namespace papilla {
 namespace {

@@ -9,7 +9,7 @@
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/vec.hpp"
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 #include "texture_class_rules.hpp"
 
 namespace papilla {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "json/scene_json.hpp"
 
 namespace papilla::app {
 namespace {
 
-Json json_of(const MeanMax& m) { return {{"mean", m.mean}, {"max", m.max}}; }
-Json json_of(const MinMeanMax& m) { return {{"min", m.min}, {"mean", m.mean}, {"max", m.max}}; }
-Json json_of(const Percentiles& p) { return {{"p50", p.p50}, {"p90", p.p90}, {"p99", p.p99}}; }
 Json json_of(const DistortionHistogram& h) { return {{"below", h.upper_ends}, {"area_fraction", h.area_shares}}; }
 
 }  // namespace
 
-Json distortion_json(const DistortionReport& r) {
+DistortionNumbers distortion_numbers(const DistortionReport& r) {
   return {{"triangles", r.triangles},
           {"without_uv", r.without_uv},
           {"charts", r.charts},
@@ -24,24 +23,47 @@ Json distortion_json(const DistortionReport& r) {
           {"overlapping_triangles", r.overlapping_triangles},
           {"stretch_l2", r.stretch_l2},
           {"stretch_linf", r.stretch_linf},
-          {"symmetric_dirichlet", json_of(r.symmetric_dirichlet)},
-          {"conformal", json_of(r.conformal)},
-          {"area_ratio", json_of(r.area_ratio)},
-          {"angle_error_deg", json_of(r.angle_error_deg)},
+          {"symmetric_dirichlet.mean", r.symmetric_dirichlet.mean},
+          {"symmetric_dirichlet.max", r.symmetric_dirichlet.max},
+          {"conformal.mean", r.conformal.mean},
+          {"conformal.max", r.conformal.max},
+          {"area_ratio.min", r.area_ratio.min},
+          {"area_ratio.mean", r.area_ratio.mean},
+          {"area_ratio.max", r.area_ratio.max},
+          {"angle_error_deg.mean", r.angle_error_deg.mean},
+          {"angle_error_deg.max", r.angle_error_deg.max},
           {"edge_length_error", r.edge_length_error},
-          {"maillot", {{"length", r.maillot_length}, {"area", r.maillot_area}}},
-          {"levy", {{"orthogonality", r.levy_orthogonality}, {"homogeneity", r.levy_homogeneity}}},
+          {"maillot.length", r.maillot_length},
+          {"maillot.area", r.maillot_area},
+          {"levy.orthogonality", r.levy_orthogonality},
+          {"levy.homogeneity", r.levy_homogeneity},
           {"green_lagrange", r.green_lagrange},
-          {"texel_density",
-           {{"min", r.texel_density.min}, {"median", r.texel_density.median}, {"max", r.texel_density.max}}},
-          {"percentiles",
-           {{"symmetric_dirichlet", json_of(r.symmetric_dirichlet_percentiles)},
-            {"stretch_l2", json_of(r.stretch_percentiles)},
-            {"angle_error_deg", json_of(r.angle_error_percentiles)}}},
+          {"texel_density.min", r.texel_density.min},
+          {"texel_density.median", r.texel_density.median},
+          {"texel_density.max", r.texel_density.max},
+          {"percentiles.symmetric_dirichlet.p50", r.symmetric_dirichlet_percentiles.p50},
+          {"percentiles.symmetric_dirichlet.p90", r.symmetric_dirichlet_percentiles.p90},
+          {"percentiles.symmetric_dirichlet.p99", r.symmetric_dirichlet_percentiles.p99},
+          {"percentiles.stretch_l2.p50", r.stretch_percentiles.p50},
+          {"percentiles.stretch_l2.p90", r.stretch_percentiles.p90},
+          {"percentiles.stretch_l2.p99", r.stretch_percentiles.p99},
+          {"percentiles.angle_error_deg.p50", r.angle_error_percentiles.p50},
+          {"percentiles.angle_error_deg.p90", r.angle_error_percentiles.p90},
+          {"percentiles.angle_error_deg.p99", r.angle_error_percentiles.p99},
           {"seam_length_mm", r.seam_length_mm},
           {"seam_phase_jump", r.seam_phase_jump},
           {"area_mm2", r.area_mm2},
           {"uv_area", r.uv_area}};
+}
+
+Json distortion_json(const DistortionReport& report) {
+  Json result;
+  for (const auto& [name, number] : distortion_numbers(report)) {
+    std::string path = '/' + name;
+    std::replace(path.begin(), path.end(), '.', '/');
+    std::visit([&, key = Json::json_pointer(path)](auto value) { result[key] = value; }, number);
+  }
+  return result;
 }
 
 Json worst_chart_json(const Scene& scene, const SceneDistortion& distortion) {

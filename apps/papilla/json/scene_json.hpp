@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "json/json.hpp"
@@ -52,6 +55,10 @@ Json tessellation_json(const Scene& scene, const CadReport& report);
 Json repair_json(const RepairSceneResult& result);
 Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options);
 Json unwrap_json(const UnwrapResult& result, const SceneDistortion& distortion);
+
+/// The report's numbers by their key names in JSON; the keys of nested objects are joined by dots.
+using DistortionNumbers = std::vector<std::pair<std::string, std::variant<std::uint64_t, double>>>;
+DistortionNumbers distortion_numbers(const DistortionReport& report);
 
 /// The report under the key names of `measure`.
 Json distortion_json(const DistortionReport& report);

@@ -212,8 +212,9 @@ void UnwrapOption::add_to(CLI::App& verb) {
   add_choice<ChartSource>(&verb, "--charts", unwrap.method.charts,
                           {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
                           "auto (default): segment the surface; keep: each component is one chart");
-  verb.add_option("--solver", solver,
-                  "lscm: cgal, hermitian; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
+  verb.add_option(
+          "--solver", solver,
+          "lscm: hermitian (default), cgal; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
       ->type_name("NAME");
   add_method_options(verb, *this);
   verb.add_option("--feature-angle", unwrap.method.segmentation.feature_angle_deg,

@@ -80,7 +80,7 @@ Json texture_json(const Scene& scene, const std::optional<TextureReference>& ref
   if (!reference || reference->texture >= scene.textures.size()) return nullptr;
   const Texture& texture = scene.textures[reference->texture];
   if (!texture.image || *texture.image >= scene.images.size()) return nullptr;
-  const TextureTransform transform = reference->transform.value_or(TextureTransform{});
+  const UvTransform transform = reference->transform.value_or(UvTransform{});
   return {{"image", *texture.image},          {"tex_coord", reference->tex_coord},
           {"factor", reference->factor},      {"wrap", {texture.wrap_s, texture.wrap_t}},
           {"offset", pair(transform.offset)}, {"rotation", transform.rotation},

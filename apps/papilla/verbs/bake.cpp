@@ -11,7 +11,7 @@
 #include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/glb_writer.hpp"
-#include "papilla/pipeline/bake_pictures.hpp"
+#include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "scene_output.hpp"
 #include "shown_format.hpp"

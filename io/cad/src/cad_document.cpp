@@ -27,12 +27,11 @@
 #include <string_view>
 #include <vector>
 
-#include "iges_syntax.hpp"
+#include "cad_syntax.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/referenced_file.hpp"
-#include "step_syntax.hpp"
 
 namespace papilla::cad {
 namespace {
@@ -225,7 +224,7 @@ void read_brep(const std::filesystem::path& path, bool is_binary, CadDocument& r
   TopoDS_Shape shape;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": can't be opened");
-  // The library does not look whether its reads succeed: it would count to whatever a damaged number says.
+  // The library does not check that its reads succeed: it would loop as often as a damaged number says.
   file.exceptions(std::ios::failbit | std::ios::badbit);
   try {
     if (is_binary)

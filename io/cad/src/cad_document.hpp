@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "cad_metadata.hpp"
 #include "papilla/core/progress.hpp"
-#include "step_metadata.hpp"
 
 namespace papilla::cad {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cad_pmi.hpp"
+#include "cad_metadata.hpp"
 
 #include <TDF_LabelSequence.hxx>
 #include <TopExp.hxx>

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "cad_document.hpp"
-#include "cad_mesh.hpp"
 #include "cad_parallel.hpp"
 #include "cad_tessellate.hpp"
 #include "cad_tree.hpp"
@@ -39,7 +38,7 @@ void check_options(const CadReadOptions& options) {
   if (options.relative && options.chord_mm > 1) refuse("a relative chord must be in (0, 1]", options.chord_mm);
 }
 
-/// A chord this far below the model's size asks for more triangles than any memory holds.
+/// A chord this far below the model's size would need more triangles than fit into memory.
 constexpr double k_least_relative_chord = 1e-6;
 constexpr double k_least_relative_edge = 1e-4;
 

@@ -10,6 +10,7 @@
 #include "edge_net.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/io/cad_reader.hpp"
+#include "papilla/meshing/triangle_mesh.hpp"
 
 namespace papilla::cad {
 
@@ -45,5 +46,14 @@ double diagonal_of(const std::vector<TopoDS_Shape>& shapes);
 /// @return one entry per shape.
 std::vector<TessellatedShape> tessellate(const std::vector<TopoDS_Shape>& shapes, const CadReadOptions& options,
                                          const ProgressCallback& progress);
+
+struct ShapeMesh {
+  TriangleMesh mesh;
+  std::size_t dropped_triangles = 0;  ///< Corners that are one point of the CAD file.
+};
+
+/// The faces' triangles as one mesh, welded along shared edges. Empties the faces.
+/// @param face_materials slot of each CAD face, by number, or empty.
+ShapeMesh to_mesh(TessellatedShape shape, const std::vector<std::uint32_t>& face_materials);
 
 }  // namespace papilla::cad

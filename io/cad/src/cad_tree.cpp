@@ -27,7 +27,7 @@
 #include <utility>
 
 #include "cad_materials.hpp"
-#include "cad_pmi.hpp"
+#include "cad_metadata.hpp"
 #include "cad_text.hpp"
 #include "papilla/core/error.hpp"
 
@@ -319,7 +319,7 @@ class TreeBuilder {
   std::set<std::string> paths_;
 };
 
-/// What the file says as a whole.
+/// Metadata of the whole file.
 Json scene_extras(const CadDocument& document, Scene& scene) {
   Json source = {
       {"format", document.format}, {"unit", document.unit}, {"millimetres_per_unit", document.millimetres_per_unit}};

@@ -33,7 +33,7 @@ class EdgeCurve {
   std::unique_ptr<BRepAdaptor_Curve> curve_;
 };
 
-/// A side of a face that looks at the edge while it is refined.
+/// A face next to the edge that is being refined.
 struct Side {
   const FaceMesh* mesh;
   const EdgeUse* use;

@@ -65,7 +65,7 @@ class FacePatch {
   void collapse(HalfEdge h);
 
   /// All triangles, each near those before it: rings around the first of every piece. Refinement leaves them scattered,
-  /// and whoever walks over scattered triangles waits for memory.
+  /// which costs cache misses in every loop over them.
   std::vector<std::uint32_t> in_rings() const;
 
   /// Parameters of the point with barycentric coordinates w; a meaningless parameter of a singular corner is taken from

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "iges_syntax.hpp"
+#include "cad_syntax.hpp"
 
 #include <algorithm>
 #include <charconv>

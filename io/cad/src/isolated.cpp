@@ -129,7 +129,7 @@ void be_silent() {
   } catch (...) {
     code = 1;
   }
-  // Not exit(): the destructors of the caller's process are none of the child's business.
+  // Not exit(): it would run the destructors of the caller's static objects in the child.
   ::_exit(code);
 }
 

@@ -9,8 +9,8 @@
 
 namespace papilla::cad {
 
-/// Runs `work` in a child process and hands over what it returns, reports or throws. A crash, a hang or a hunger for
-/// memory of the child is thrown here as InvalidInput that names the file and how far it was.
+/// Runs `work` in a child process and hands over what it returns, reports or throws. When the child crashes,
+/// hangs or runs out of memory, throws InvalidInput that names the file and the progress made.
 ///
 /// The child may use four fifths of the machine's memory, and the processor time that it allows itself.
 Scene run_isolated(const std::filesystem::path& path, CadReport& report, const ProgressCallback& progress,

@@ -10,7 +10,7 @@ namespace papilla::cad {
 void send_scene(int pipe, const Scene& scene, const CadReport& report);
 
 /// The other end.
-/// @throws IoError when the pipe ends early or says what no scene can be.
+/// @throws IoError when the pipe ends early or its data is no valid scene.
 void receive_scene(int pipe, Scene& scene, CadReport& report);
 
 /// Raw bytes; both @throw IoError when the other end is gone.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step_metadata.hpp"
+#include "cad_metadata.hpp"
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <STEPConstruct_ValidationProps.hxx>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step_syntax.hpp"
+#include "cad_syntax.hpp"
 
 #include <algorithm>
 #include <cctype>

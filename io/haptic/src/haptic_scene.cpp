@@ -174,7 +174,7 @@ class Builder {
                                       std::vector<HapticWarning>& warnings) {
     const auto& reference = material.normal_texture ? material.normal_texture : material.base_color_texture;
     if (!tag.height || !reference || !reference->transform || reference->tex_coord != tag.height->tex_coord) return;
-    const UvTransform found{reference->transform->offset, reference->transform->rotation, reference->transform->scale};
+    const UvTransform& found = *reference->transform;
     UvTransform& known = tag.height->uv_transform;
     if (found == known || found.scale.x == 0 || found.scale.y == 0 || known.scale.x == 0 || known.scale.y == 0) return;
     // The length of a unit of uv changes with the scale.

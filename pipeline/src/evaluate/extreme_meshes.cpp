@@ -11,14 +11,14 @@ namespace {
 constexpr int k_cells = 40;
 constexpr double k_side_mm = 100;
 
-/// Samples surface(s, t) over the unit square on n × m quads of two triangles, with (s, t) as CAD parameters.
-template <class Surface>
-TriangleMesh patch(int n, int m, Surface&& surface) {
+/// Samples point(s, t) over the unit square on n × m quads of two triangles, with (s, t) as CAD parameters.
+template <class Point>
+TriangleMesh patch(int n, int m, Point&& point) {
   TriangleMesh mesh;
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) {
       const Vec2 st{static_cast<double>(i) / n, static_cast<double>(j) / m};
-      mesh.positions.push_back(surface(st.x, st.y));
+      mesh.positions.push_back(point(st.x, st.y));
       mesh.cad_uv.values.push_back(st);
     }
   const auto at = [&](int i, int j) { return static_cast<Index>(j * (n + 1) + i); };

@@ -6,7 +6,7 @@
 #include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 
 namespace papilla {
 std::vector<int> rising_sides(int shorter_side) {

@@ -9,10 +9,10 @@
 #include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/texture/crop.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/light_direction.hpp"
 #include "papilla/texture/relief_error.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/shading.hpp"
 #include "papilla/texture/tiling.hpp"
 

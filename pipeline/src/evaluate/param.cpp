@@ -85,7 +85,6 @@ Chart chart_of(TriangleMesh mesh) {
   const ChartSet components = components_as_charts(mesh);
   if (components.count == 1) {
     LscmOptions strict;
-    strict.solver = LscmSolver::hermitian;
     strict.fall_back = false;
     try {
       flatten_lscm(mesh, components, strict);

@@ -6,7 +6,7 @@
 #include "evaluate/kinds.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
-#include "papilla/meshing/simplify_ladder.hpp"
+#include "papilla/meshing/simplify.hpp"
 
 namespace papilla {
 namespace {

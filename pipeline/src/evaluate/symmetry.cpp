@@ -7,7 +7,7 @@
 
 #include "evaluate/kinds.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/texture/crop.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
 
 namespace papilla {

@@ -105,7 +105,7 @@ struct ShadedMaterial {
   double roughness = 0.8, metallic = 0;
   double opacity = 1;
   std::shared_ptr<const MipPyramid> color_map = {}, normal_map = {};
-  TextureTransform color_transform = {}, normal_transform = {};
+  UvTransform color_transform = {}, normal_transform = {};
   double normal_scale = 1;
   Vec2 mm_per_uv = {};
 };
@@ -316,13 +316,13 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
     const double depth = dot(position - camera.position, camera.forward);
     const double uv_area = t.uv_area_per_cubic_depth * depth * depth * depth;
     if (material.color_map) {
-      const TextureTransform& map = material.color_transform;
+      const UvTransform& map = material.color_transform;
       const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.color_map->texel_count();
       const Vec3 texel = material.color_map->sample(transform_uv(map, uv), texels);
       color = {color.x * texel.x, color.y * texel.y, color.z * texel.z};
     }
     if (material.normal_map && norm(t.tangent) > 0) {
-      const TextureTransform& map = material.normal_transform;
+      const UvTransform& map = material.normal_transform;
       const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.normal_map->texel_count();
       const Vec3 texel = material.normal_map->sample(transform_uv(map, uv), texels);
       const Vec3 tangent = normalized(t.tangent - dot(t.tangent, normal) * normal);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "papilla/io/scene.hpp"
+#include "papilla/meshing/sky.hpp"
 
 namespace papilla {
 
@@ -53,5 +54,12 @@ std::size_t draw(SurfaceTexels& texels, const SurfaceTriangle& triangle, double 
 
 /// Texels next to what is covered take over what their neighbour knows, ring by ring.
 void grow(SurfaceTexels& texels, int rings);
+
+/// What hides the sky in a scene: all its parts, as they stand, y up.
+SkyView sky_of(const Scene& scene, std::span<const Instance> all, int rays);
+
+/// The sky at every covered texel, 0 at the others. Rays are cast for one texel of each block of 8 x 8 and
+/// interpolated between the blocks of the window. Cost: rays / 64 sight lines a texel, all cores.
+std::vector<float> sky_texels(const SurfaceTexels& texels, const SkyView& sky);
 
 }  // namespace papilla

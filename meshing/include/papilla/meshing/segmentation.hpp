@@ -47,7 +47,7 @@ struct SegmentationResult {
 ///
 /// over the charts c of area A_c and their seams e. D is that of the conformal map with the least variation of scale:
 /// the logarithm u of the scale solves Δu = K, u = 0 on the border, so that σ1 = σ2 = e^u [Springborn, Schröder,
-/// Pinkall 2008]. w_e in [0.05, 1] tells how much a seam shows: w = o (1 - s), o the share of directions in which the
+/// Pinkall 2008]. w_e in [0.05, 1] is how visible a seam is: w = o (1 - s), o the share of directions in which the
 /// edge is open to the outside (ray casts against the mesh, at least 0.2), s = 1/2 for creases of the feature angle,
 /// 3/4 for concave ones, proportionally less for flatter edges; so seams go to creases, concave edges and places seldom
 /// seen.

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "papilla/core/trace.hpp"
 #include "papilla/meshing/deviation.hpp"
@@ -63,5 +65,29 @@ struct SimplifyResult {
 /// tolerance
 ///         is not positive, the angle is not in [0, 180], or passes are not in [1, 6].
 SimplifyResult simplify(const TriangleMesh& mesh, const SimplifyOptions& options);
+
+/// What one tolerance of simplify() gives.
+struct SimplifyStep {
+  double tolerance_mm = 0;
+  double seconds = 0;  ///< Wall time of simplify(), measuring included.
+  std::size_t triangles = 0;
+  double deviation_mm = 0, deviation_bound_mm = 0;  ///< Measured on the result.
+  StopReason stop = StopReason::converged;
+  Trace trace;  ///< SimplifyResult::trace.
+};
+
+/// Triangles and deviation over tolerance and run time of simplify(): each tolerance on the same input, in the order
+/// given. Cost: that of simplify(), per tolerance. Deterministic but for the seconds.
+/// @param options Its tolerance and target do not matter. @throws InvalidInput as simplify().
+std::vector<SimplifyStep> simplify_ladder(const TriangleMesh& mesh, std::span<const double> tolerances_mm,
+                                          const SimplifyOptions& options = {});
+
+/// A chain of ever coarser meshes, one per tolerance, each made from the one before and measured against the input, so
+/// that every level holds its own tolerance. Levels share positions: each one's vertices are a subset of the
+/// previous one's. A level may equal the one before when the tolerance allows nothing more.
+/// @param tolerances_mm Positive and finite, ascending. @param options Its tolerance and target do not matter.
+/// @throws InvalidInput as simplify(), and when the tolerances are not ascending.
+std::vector<SimplifyResult> levels_of_detail(const TriangleMesh& mesh, std::span<const double> tolerances_mm,
+                                             const SimplifyOptions& options = {});
 
 }  // namespace papilla

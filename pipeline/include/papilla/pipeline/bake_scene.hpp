@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -49,5 +50,11 @@ struct BakeResult {
 /// @throws InvalidInput, IoError, SolverFailure naming the part or picture.
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options = {},
                       const ProgressCallback& progress = {});
+
+/// Writes pictures of a bake into `folder`: the scene with its materials and with a checker, close-ups of every grain,
+/// the uv layout of the largest surfaces, and the relief of every grain.
+/// @return their names. @throws IoError when one can't be written.
+std::vector<std::string> write_bake_pictures(const BakeResult& result, const std::filesystem::path& folder,
+                                             const ProgressCallback& progress = {});
 
 }  // namespace papilla

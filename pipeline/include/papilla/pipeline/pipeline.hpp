@@ -7,7 +7,7 @@
 ///   read_scene()          CAD, mesh or glTF file -> Scene                     io/scene_file.hpp
 ///   part_statistics()     what is wrong with the meshes                       part_statistics.hpp
 ///   repair_scene()        soup -> clean, oriented, manifold parts             repair_scene.hpp
-///   simplify_scene()      fewer triangles within a measured tolerance, LODs   simplify_scene.hpp, levels.hpp
+///   simplify_scene()      fewer triangles within a measured tolerance, LODs   simplify_scene.hpp
 ///   share_identical_parts() copies -> instances of one part                   shared_parts.hpp
 ///   measure_perception()  what can be reached and seen; leave_out()           perception.hpp
 ///   unwrap_scene()        charts and uv in millimetres                        unwrap_scene.hpp, unwrap_method.hpp
@@ -21,7 +21,7 @@
 ///   synthesize_texture()  fractal surfaces and grains by formula             synthesis.hpp
 ///   write_texture_files() a recipe's channels as pictures                    texture_files.hpp, contact_sheet.hpp
 ///   evaluate()            error against run time of a method                 evaluate/evaluation.hpp, stability.hpp
-///   weather_scene()       dirt, rust, snow and wear over its materials        weather_scene.hpp, weather_config.hpp
+///   weather_scene()       dirt, rust, snow and wear over its materials        weather_scene.hpp
 ///   write_scene()         Scene -> GLB, OBJ, PLY, STL, OFF                    io/scene_file.hpp
 ///
 /// Units: millimetres, SI units in haptic tags. Errors: InvalidInput, IoError, SolverFailure, one line each that names

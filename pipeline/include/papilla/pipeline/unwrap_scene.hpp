@@ -41,15 +41,12 @@ struct UnwrapSeconds {
   double segment = 0, solve = 0, pack = 0, total = 0;
 };
 
-struct UnwrappedPart {
-  Flattening flattening;
-  std::string method, reason;        ///< What was taken for the part, and why when that was chosen.
-  std::vector<ChartChoice> choices;  ///< Of automatic, per chart.
-  SeamVisibility seams;              ///< For the tile and the grain's size.
-  double grain_continued_mm = 0;     ///< Length of the seam over which the grain goes on.
-  std::size_t opposed_edges = 0;     ///< Of two triangles that are wound against each other: charts end there.
-  std::string failure;               ///< Why the part has no uv; empty when it has.
-  double repair_seconds = 0, segment_seconds = 0, solve_seconds = 0;
+struct UnwrappedPart : FlattenedPart {
+  SeamVisibility seams;           ///< For the tile and the grain's size.
+  double grain_continued_mm = 0;  ///< Length of the seam over which the grain goes on.
+  std::size_t opposed_edges = 0;  ///< Of two triangles that are wound against each other: charts end there.
+  std::string failure;            ///< Why the part has no uv; empty when it has.
+  double repair_seconds = 0, solve_seconds = 0;
 };
 
 struct UnwrapResult {

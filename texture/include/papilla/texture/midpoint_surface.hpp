@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "papilla/core/progress.hpp"
-#include "papilla/texture/surface.hpp"
+#include "papilla/texture/height_grid.hpp"
 
 namespace papilla {
 
@@ -44,7 +44,7 @@ struct MidpointOptions {
 /// Cost: O(samples). Deterministic for a seed.
 /// @throws InvalidInput when an option is out of range.
 /// Schulze 2005, section 6.3, corrected; Saupe in The Science of Fractal Images, 1988; Cho et al. 2017.
-Surface midpoint_surface(const MidpointOptions& options);
+HeightGrid midpoint_surface(const MidpointOptions& options);
 
 /// Options of brownian_graph().
 struct BrownianGraphOptions {

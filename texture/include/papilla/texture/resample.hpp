@@ -2,6 +2,7 @@
 #pragma once
 
 #include "papilla/texture/height_map.hpp"
+#include "papilla/texture/image.hpp"
 
 namespace papilla {
 
@@ -13,5 +14,13 @@ namespace papilla {
 /// @param width,height new number of samples, 1 to 16384.
 /// @throws InvalidInput when the relief is empty or not finite or a size is out of range.
 HeightMap resample(const HeightMap& relief, int width, int height);
+
+/// The `width` × `height` pixels from (left, top) on, with pitch and bits of the picture.
+/// Cost: O(pixels of the part). @throws InvalidInput when the part is empty or not within the picture.
+GreyImage crop(const GreyImage& image, int left, int top, int width, int height);
+
+/// The middle of a picture, at most `most_side` pixels a side; the picture itself when it is no larger.
+/// @throws InvalidInput when the picture is empty or most_side below 1.
+GreyImage middle_part(const GreyImage& image, int most_side);
 
 }  // namespace papilla

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "papilla/core/progress.hpp"
-#include "papilla/texture/surface.hpp"
+#include "papilla/texture/height_grid.hpp"
 
 namespace papilla {
 
@@ -28,6 +28,6 @@ struct SpectralSurfaceOptions {
 /// Cost: two FFTs. Deterministic for a seed.
 /// @throws InvalidInput when an option is out of range or no wave lies within the two wavelengths.
 /// Saupe in The Science of Fractal Images, 1988.
-Surface spectral_surface(const SpectralSurfaceOptions& options);
+HeightGrid spectral_surface(const SpectralSurfaceOptions& options);
 
 }  // namespace papilla

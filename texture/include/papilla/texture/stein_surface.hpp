@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "papilla/core/progress.hpp"
-#include "papilla/texture/surface.hpp"
+#include "papilla/texture/height_grid.hpp"
 
 namespace papilla {
 
@@ -26,6 +26,6 @@ struct BrownianSurfaceOptions {
 /// Deterministic for a seed.
 /// @throws InvalidInput when an option is out of range; SolverFailure when the embedding is not positive definite.
 /// Stein, Fast and exact simulation of fractional Brownian surfaces, J. Comp. Graph. Stat. 11(3), 2002.
-Surface brownian_surface_exact(const BrownianSurfaceOptions& options);
+HeightGrid brownian_surface_exact(const BrownianSurfaceOptions& options);
 
 }  // namespace papilla

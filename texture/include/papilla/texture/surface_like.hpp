@@ -7,8 +7,8 @@
 #include "papilla/core/progress.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/texture/fshot_dimension.hpp"
+#include "papilla/texture/height_grid.hpp"
 #include "papilla/texture/image.hpp"
-#include "papilla/texture/surface.hpp"
 
 namespace papilla {
 
@@ -22,7 +22,7 @@ struct SurfaceLikeOptions {
 
 /// What surface_like() returns.
 struct SurfaceLike {
-  Surface surface;                     ///< Tiles; rms as the picture's grey values.
+  HeightGrid surface;                  ///< Tiles; rms as the picture's grey values.
   FshotSignature target, achieved;     ///< Of the picture and of the surface.
   double hurst = 0, hurst_across = 0;  ///< Given to spectral_surface(): along the roughest direction and across it.
   Trace trace;                         ///< Distance of (Sta, Sta/Str) from the target after each round.

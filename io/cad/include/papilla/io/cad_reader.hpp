@@ -62,7 +62,7 @@ struct CadReport {
 
 /// Reads STEP (AP203, AP214, AP242), IGES or OpenCASCADE BREP and tessellates it.
 ///
-/// The kind of file is told by its content. Units become millimetres, axes stay (Z up). The assembly tree becomes
+/// The format is found from the file's content. Units become millimetres, axes stay (Z up). The assembly tree becomes
 /// nodes; a shape used several times becomes one Part used by several nodes. A product of several solids becomes a node
 /// with one Part per solid ("product/body"), since solids may touch; what belongs to no solid is one Part more. Names
 /// are UTF-8. Per part:

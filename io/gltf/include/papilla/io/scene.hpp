@@ -37,8 +37,6 @@ struct Texture {
   std::string extras_json, extensions_json;
 };
 
-using TextureTransform = UvTransform;
-
 struct TextureReference {
   std::uint32_t texture = 0;  ///< Index into Scene::textures.
   int tex_coord = 0;

@@ -9,7 +9,7 @@
 namespace papilla {
 
 /// Heights over a square grid, row by row, in units of the grid's pitch.
-struct Surface {
+struct HeightGrid {
   int size = 0;
   std::vector<double> heights;  ///< size * size values.
   bool periodic = false;
@@ -21,6 +21,6 @@ struct Surface {
 
 /// The surface as a grey picture stretched to [0, 1], rounded to `bits` = 8 or 16, or not at all with 32.
 /// A flat surface is all 0. @throws InvalidInput for other bits or an empty surface.
-GreyImage to_grey_image(const Surface& surface, int bits = 32);
+GreyImage to_grey_image(const HeightGrid& surface, int bits = 32);
 
 }  // namespace papilla

@@ -7,9 +7,9 @@
 
 namespace papilla::detail {
 
-/// What the segmentation asks of a mesh, computed once.
-struct Surface {
-  explicit Surface(const TriangleMesh& mesh);
+/// A mesh with what segmentation reads of it: edges, opposite half-edges, normals and areas.
+struct SegmentedMesh {
+  explicit SegmentedMesh(const TriangleMesh& mesh);
 
   const std::vector<Vec3>& positions;
   const std::vector<Triangle>& triangles;

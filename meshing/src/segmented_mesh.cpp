@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surface.hpp"
+#include "segmented_mesh.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace papilla::detail {
 
-Surface::Surface(const TriangleMesh& mesh)
+SegmentedMesh::SegmentedMesh(const TriangleMesh& mesh)
     : positions(mesh.positions),
       triangles(mesh.triangles),
       edges(mesh.triangles, mesh.positions.size()),
