@@ -6,6 +6,7 @@
 #include <new>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/file_guard.hpp"
 #include "papilla/core/one_line.hpp"
 
 namespace papilla::app {
@@ -22,11 +23,14 @@ class UsageError : public Error {
 /// Prints the exception in flight as one line on stderr and returns its exit code. Call it in a catch block.
 inline int report_exception(const char* program) {
   const auto print = [program](const char* what) {
-    std::fprintf(stderr, "%s: error: %s\n", program, one_line(what).c_str());
+    std::fprintf(stderr, "%s: error: %s\n", program, shown(what).c_str());
   };
   try {
     throw;
   } catch (const UsageError& error) {
+    print(error.what());
+    return k_exit_usage;
+  } catch (const OverwriteRefused& error) {
     print(error.what());
     return k_exit_usage;
   } catch (const SolverFailure& error) {

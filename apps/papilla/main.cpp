@@ -3,13 +3,13 @@
 
 #include <csignal>
 #include <exception>
-#include <iostream>
 #include <new>
 
+#include "command_line.hpp"
 #include "exit_code.hpp"
-#include "number_check.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/file_guard.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -26,6 +26,8 @@ void end_on_signal(int signal) {
 
 int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, end_on_signal);
+
+  papilla::start_file_guard();
 
   CLI::App program("papilla: CAD interiors that can be seen and felt", "papilla");
   program.set_version_flag("--version", std::string("papilla ") + papilla::version());
@@ -55,11 +57,12 @@ int main(int argc, char** argv) {
 
   program.parse_complete_callback([&] { refuse_no_numbers(program); });
   try {
-    program.parse(argc, argv);
-    return verb_exit_code();
-  } catch (const CLI::ParseError& error) {
-    if (program.exit(error) != 0) return k_exit_usage;
-    return std::cout.flush() ? k_exit_done : k_exit_input;
+    try {
+      program.parse(argc, argv);
+      return verb_exit_code();
+    } catch (const CLI::ParseError& error) {
+      return report_parse_error(program, error);
+    }
   } catch (...) {
     return report_exception("papilla");
   }

@@ -5,13 +5,14 @@
 #include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
-#include <iostream>
 #include <memory>
 #include <optional>
 
+#include "file_options.hpp"
 #include "papilla/core/atomic_file.hpp"
-#include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/core/trace.hpp"
+#include "standard_output.hpp"
 
 namespace papilla::app {
 namespace {
@@ -45,14 +46,15 @@ class ProgressPrinter {
     const double now = total_.seconds();
     if (as_json_) {
       if (now - last_ < 0.1 && fraction < 1) return;
-      std::cerr << Json{{"stage", stage}, {"fraction", fraction}, {"seconds", now}}.dump() << '\n';
+      const Json line{{"stage", stage}, {"fraction", fraction}, {"seconds", now}};
+      fmt::print(stderr, "{}\n", shown(line.dump(-1, ' ', false, Json::error_handler_t::replace)));
       last_ = now;
       return;
     }
     if (now < 1 || now - last_ < 0.1) return;
     last_ = now;
     const double spent = stage_clock_.seconds();
-    std::string line = fmt::format("{} {:3.0f} %", stage, 100 * fraction);
+    std::string line = fmt::format("{} {:3.0f} %", shown(stage), 100 * fraction);
     if (fraction > 0.01 && fraction < 1)
       line += fmt::format("  {:.2g} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3),
                           spent * (1 - fraction) / fraction);
@@ -87,28 +89,24 @@ void run_verb(const CommonOptions& common, const VerbBody& body) {
   const Json result = body(context);
   context.progress = {};
   printer.reset();
-  if (!common.json.empty()) {
-    const std::string text = result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    if (json_on_stdout)
-      std::cout << text << std::flush;
-    else
-      write_atomically(common.json, text);
-  }
-  if (!std::cout.flush()) throw IoError("standard output: cannot be written");
+  if (json_on_stdout)
+    print_out(json_text(result));
+  else if (!common.json.empty())
+    write_atomically(common.json, json_text(result));
   g_exit_code = context.exit_code;
 }
 
 }  // namespace
 
 void Console::print(const std::string& text) const {
-  if (!silent_) std::cout << text << std::flush;  // Whoever waits at the other end of a pipe gets it now.
+  if (!silent_) print_out(text);
 }
 
 CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
   CLI::App* verb = program.add_subcommand(info.name, info.summary);
   verb->footer("Example:\n  " + info.example);
   auto common = std::make_shared<CommonOptions>();
-  verb->add_option("--json", common->json, "Write the machine-readable result to FILE, or to stdout with -")
+  writes(verb->add_option("--json", common->json, "Write the machine-readable result to FILE, or to stdout with -"))
       ->type_name("FILE|-")
       ->group("Common");
   verb->add_flag("-q,--quiet", common->quiet, "Print nothing but errors")->group("Common");
@@ -124,7 +122,10 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->check(CLI::IsMember({"auto", "json", "none"}))
       ->capture_default_str()
       ->group("Common");
-  verb->callback([common, body = std::move(body)] { run_verb(*common, body); });
+  verb->callback([verb, common, body = std::move(body)] {
+    declare_files(*verb);
+    run_verb(*common, body);
+  });
   return verb;
 }
 

@@ -6,6 +6,7 @@
 #include "exit_code.hpp"
 #include "papilla/haptic/force_protocol.hpp"
 #include "papilla/haptic/hid_device.hpp"
+#include "shown_format.hpp"
 
 namespace papilla::player {
 namespace {
@@ -75,13 +76,13 @@ std::string device_list_text(const Json& list) {
   std::string text = "connected:\n";
   if (list["connected"].empty()) text += "  none\n";
   for (const Json& d : list["connected"])
-    text += fmt::format("  {}  {}  {}\n", d["device"].get<std::string>(), d["name"].get<std::string>(),
-                        d.contains("protocol") ? d["protocol"].get<std::string>()
-                                               : "can't be used: " + d["unusable"].get<std::string>());
+    text += app::shown_format("  {}  {}  {}\n", d["device"].get<std::string>(), d["name"].get<std::string>(),
+                              d.contains("protocol") ? d["protocol"].get<std::string>()
+                                                     : "can't be used: " + d["unusable"].get<std::string>());
   text += "simulated:\n";
   for (const Json& d : list["simulated"])
-    text += fmt::format("  {:<14} {}, {} N\n", d["device"].get<std::string>(), d["name"].get<std::string>(),
-                        d["max_force_n"].get<double>());
+    text += app::shown_format("  {:<14} {}, {} N\n", d["device"].get<std::string>(), d["name"].get<std::string>(),
+                              d["max_force_n"].get<double>());
   return text;
 }
 

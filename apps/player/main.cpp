@@ -13,25 +13,28 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "command_line.hpp"
 #include "device_choice.hpp"
 #include "exit_code.hpp"
+#include "file_options.hpp"
+#include "json_text.hpp"
 #include "live_publisher.hpp"
 #include "live_socket.hpp"
-#include "number_check.hpp"
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/file_guard.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stroke.hpp"
 #include "papilla/io/gltf_reader.hpp"
-#include "papilla/io/read_file.hpp"
 #include "report.hpp"
+#include "standard_output.hpp"
 
 namespace {
 
@@ -125,20 +128,11 @@ std::string live_greeting(const RunReport& report, const Options& options) {
   return greeting.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-/// Outputs must differ from the inputs and from each other.
-void check_output_paths(const Options& options) {
-  const auto canonical = [](const std::string& file) {
-    std::error_code ignored;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
-  };
-  const auto same = [&](const std::string& a, const std::string& b) {
-    return !a.empty() && !b.empty() && canonical(a) == canonical(b);
-  };
-  for (const std::string& out : {options.record, options.json == "-" ? std::string() : options.json})
-    for (const std::string& in : {options.file, options.trajectory})
-      if (same(out, in)) throw app::UsageError(out + ": would be written over what is read");
-  if (options.json != "-" && same(options.record, options.json))
-    throw app::UsageError(options.json + ": named by --record and by --json");
+void write_json(const Options& options, const nlohmann::ordered_json& json) {
+  if (options.json == "-")
+    app::print_out(app::json_text(json));
+  else if (!options.json.empty())
+    write_atomically(options.json, app::json_text(json));
 }
 
 /// Identity and state of a file.
@@ -177,7 +171,6 @@ void print_status(const LoopStatus& s) {
 }
 
 int run(const Options& options) {
-  check_output_paths(options);
   const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
   RunReport report;
@@ -264,16 +257,8 @@ int run(const Options& options) {
   } catch (const Error&) {
     unwritten = std::current_exception();
   }
-  if (!options.quiet && options.json != "-") std::cout << summary(report);
-  if (!options.json.empty()) {
-    const std::string text =
-        to_json(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-    if (options.json == "-")
-      std::cout << text;
-    else
-      write_atomically(options.json, text);
-  }
-  if (!std::cout.flush()) throw IoError("standard output: cannot be written");
+  if (!options.quiet && options.json != "-") app::print_out(summary(report));
+  write_json(options, to_json(report));
   if (unwritten) std::rethrow_exception(unwritten);
   if (report.loop.device_lost) throw DeviceError(report.device + ": the device was lost");
   if (report.loop.fault == ForceGuard::Fault::stale_input)
@@ -288,13 +273,8 @@ int run(const Options& options) {
 
 int list_devices(const Options& options) {
   const auto list = device_list();
-  if (options.json != "-" && !options.quiet) std::cout << device_list_text(list);
-  const std::string text = list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  if (options.json == "-")
-    std::cout << text;
-  else if (!options.json.empty())
-    write_atomically(options.json, text);
-  if (!std::cout.flush()) throw IoError("standard output: cannot be written");
+  if (options.json != "-" && !options.quiet) app::print_out(device_list_text(list));
+  write_json(options, list);
   return app::k_exit_done;
 }
 
@@ -313,10 +293,12 @@ int main(int argc, char** argv) {
       g_stop = true;
     });
 
+  start_file_guard();
+
   Options options;
   CLI::App program("papilla-player: feel the materials of a glTF file with a force device", "papilla-player");
   program.set_version_flag("--version", std::string("papilla-player ") + version());
-  auto* const file = program.add_option("file", options.file, "The .glb or .gltf file")->type_name("FILE");
+  auto* const file = app::reads(program.add_option("file", options.file, "The .glb or .gltf file"))->type_name("FILE");
   program.add_flag("--list-devices", options.list, "List force devices, connected and simulated, and end");
   program
       .add_option(
@@ -338,10 +320,9 @@ int main(int argc, char** argv) {
   program.add_option("--seconds", options.seconds, "Length of the run; default: of the trajectory, or 2")
       ->type_name("S")
       ->check(CLI::Range(1e-3, k_longest_seconds));
-  program
-      .add_option("--trajectory", options.trajectory,
-                  "The hand as CSV: t,x,y,z in seconds and metres; default: press 1 mm "
-                  "into the largest tagged surface and move there")
+  app::reads(program.add_option("--trajectory", options.trajectory,
+                                "The hand as CSV: t,x,y,z in seconds and metres; default: press 1 mm "
+                                "into the largest tagged surface and move there"))
       ->type_name("T.csv");
   program.add_option("--motion", options.motion, "How the hand moves without a trajectory")
       ->check(CLI::IsMember({"stroke", "circle", "slide", "tap"}))
@@ -360,9 +341,8 @@ int main(int argc, char** argv) {
                   "Load only what is this near to the trajectory or to --origin; default: all, or 150 around --origin")
       ->type_name("MM")
       ->check(CLI::Range(1.0, 1e5));
-  program
-      .add_option("--record", options.record,
-                  "Write hand, probe, proxy and force of every tick; can be played again as T.csv")
+  app::writes(program.add_option("--record", options.record,
+                                 "Write hand, probe, proxy and force of every tick; can be played again as T.csv"))
       ->type_name("R.csv");
   program.add_option("--probe-radius", options.probe_radius_mm, "Radius of the probe; 0 is a point")
       ->type_name("MM")
@@ -374,28 +354,30 @@ int main(int argc, char** argv) {
       ->type_name("MS")
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
-  auto* const live = program
-                         .add_option("--live", options.live,
-                                     "Tell what happens over a local socket, for papilla view --follow; default: "
-                                     "$XDG_RUNTIME_DIR/papilla-player.sock, or one in /tmp")
+  auto* const live = app::writes(program.add_option("--live", options.live,
+                                                    "Tell what happens over a local socket, for papilla view --follow; "
+                                                    "default: $XDG_RUNTIME_DIR/papilla-player.sock, or one in /tmp"))
                          ->type_name("[SOCKET]")
                          ->expected(0, 1);
-  program.add_option("--json", options.json, "Write the machine-readable result to FILE, or to stdout with -")
+  app::writes(
+      program.add_option("--json", options.json, "Write the machine-readable result to FILE, or to stdout with -"))
       ->type_name("FILE|-");
   program.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
   program.footer(
       "Example:\n  papilla-player cockpit.glb --device sim:touch --seconds 2 --json -\n"
       "Exit codes: 0 done, 2 usage, 3 input, 5 device.");
   try {
-    program.parse(argc, argv);
-    app::refuse_no_numbers(program);
+    try {
+      program.parse(argc, argv);
+      app::refuse_no_numbers(program);
+    } catch (const CLI::ParseError& error) {
+      return app::report_parse_error(program, error);
+    }
+    app::declare_files(program);
     if (options.list) return list_devices(options);
     if (!live->empty() && options.live.value_or("").empty()) options.live = app::default_live_socket();
     if (file->empty()) throw app::UsageError("a FILE is required");
     return run(options);
-  } catch (const CLI::ParseError& error) {
-    if (program.exit(error) != 0) return app::k_exit_usage;
-    return std::cout.flush() ? app::k_exit_done : app::k_exit_input;
   } catch (...) {
     return app::report_exception("papilla-player");
   }

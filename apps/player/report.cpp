@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "report.hpp"
 
-#include <fmt/core.h>
 #include <sys/resource.h>
 
 #include <cmath>
+
+#include "shown_format.hpp"
 
 namespace papilla::player {
 namespace {
@@ -16,8 +17,8 @@ Json quantiles(const Histogram& h) {
 }
 
 std::string quantile_line(const char* what, const Histogram& h) {
-  return fmt::format("  {:<10} median {:.1f} us, 99 % {:.1f}, 99.9 % {:.1f}, worst {:.1f}\n", what, h.quantile(0.5),
-                     h.quantile(0.99), h.quantile(0.999), h.max());
+  return app::shown_format("  {:<10} median {:.1f} us, 99 % {:.1f}, 99.9 % {:.1f}, worst {:.1f}\n", what,
+                           h.quantile(0.5), h.quantile(0.99), h.quantile(0.999), h.max());
 }
 
 /// Largest resident memory of the process so far.
@@ -28,9 +29,10 @@ double peak_rss_mib() {
 }
 
 std::string clamp_line(const StabilityClamp& clamp, const std::string& name) {
-  std::string line = fmt::format("  {}: stiffness {:.0f} -> {:.0f} N/m", name, clamp.stiffness_wanted, clamp.stiffness);
+  std::string line =
+      app::shown_format("  {}: stiffness {:.0f} -> {:.0f} N/m", name, clamp.stiffness_wanted, clamp.stiffness);
   if (clamp.damping < clamp.damping_wanted)
-    line += fmt::format(", damping {:.3g} -> {:.3g} N s/m", clamp.damping_wanted, clamp.damping);
+    line += app::shown_format(", damping {:.3g} -> {:.3g} N s/m", clamp.damping_wanted, clamp.damping);
   return line + ", so that the device stays stable\n";
 }
 
@@ -77,18 +79,19 @@ Json to_json(const RunReport& r) {
 
 std::string summary(const RunReport& r) {
   const LoopResult& loop = r.loop;
-  std::string text = fmt::format("{} on {} at {:.0f} Hz\n", r.file, r.device, r.rate_hz);
-  text += fmt::format("  {} triangles to feel, {} height maps ({} missing), loaded in {:.2f} s\n", r.triangles,
-                      r.maps_loaded, r.maps_missing, r.load_seconds);
+  std::string text = app::shown_format("{} on {} at {:.0f} Hz\n", r.file, r.device, r.rate_hz);
+  text += app::shown_format("  {} triangles to feel, {} height maps ({} missing), loaded in {:.2f} s\n", r.triangles,
+                            r.maps_loaded, r.maps_missing, r.load_seconds);
   for (const StabilityClamp& clamp : r.clamps) text += clamp_line(clamp, r.material_names[clamp.material]);
   for (const MaterialWarning& w : r.warnings)
-    text += fmt::format("  warning {}: {}{}{}\n", w.warning.code, w.material, w.material.empty() ? "" : ": ",
-                        w.warning.message);
-  if (!loop.realtime_note.empty()) text += fmt::format("  no guarantees of time: {}\n", loop.realtime_note);
-  text += fmt::format("  {} ticks in {:.2f} s, {} missed deadlines\n", loop.ticks, loop.seconds, loop.missed_deadlines);
+    text += app::shown_format("  warning {}: {}{}{}\n", w.warning.code, w.material, w.material.empty() ? "" : ": ",
+                              w.warning.message);
+  if (!loop.realtime_note.empty()) text += app::shown_format("  no guarantees of time: {}\n", loop.realtime_note);
+  text += app::shown_format("  {} ticks in {:.2f} s, {} missed deadlines\n", loop.ticks, loop.seconds,
+                            loop.missed_deadlines);
   text += quantile_line("tick", loop.tick_us) + quantile_line("wake-up", loop.wakeup_us);
-  text += fmt::format("  contact on {} ticks, lost on {}, largest force {:.2f} N, stiffness limit {:.0f} N/m\n",
-                      loop.contact_ticks, loop.lost_contact_ticks, loop.max_force_n, r.stiffness_limit);
+  text += app::shown_format("  contact on {} ticks, lost on {}, largest force {:.2f} N, stiffness limit {:.0f} N/m\n",
+                            loop.contact_ticks, loop.lost_contact_ticks, loop.max_force_n, r.stiffness_limit);
   return text;
 }
 

@@ -2,29 +2,87 @@
 #include "papilla/core/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <mutex>
+#include <ostream>
+#include <set>
+#include <streambuf>
+#include <string>
 #include <system_error>
+#include <vector>
 
+#include "descriptor.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/file_guard.hpp"
 
 namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path temporary_name(const fs::path& path) {
-  static std::atomic<unsigned> counter{0};
-  fs::path name = ".";
-  name += path.stem();
-  name += "." + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  name += path.extension();
-  return path.parent_path() / name;
+[[noreturn]] void fail(const fs::path& path, int reason) {
+  throw IoError(path.string() + ": " + std::generic_category().message(reason));
+}
+
+/// Writes to a descriptor; throws IoError with the system's reason.
+class FileBuffer final : public std::streambuf {
+ public:
+  FileBuffer(int file, const fs::path& path) : file_(file), path_(path), block_(k_block) { clear(); }
+
+  void flush() {
+    const std::size_t count = static_cast<std::size_t>(pptr() - pbase());
+    clear();
+    send(block_.data(), count);
+  }
+
+ protected:
+  int_type overflow(int_type c) override {
+    flush();
+    return traits_type::eq_int_type(c, traits_type::eof()) ? traits_type::not_eof(c)
+                                                           : sputc(traits_type::to_char_type(c));
+  }
+  std::streamsize xsputn(const char* text, std::streamsize count) override {
+    if (count < epptr() - pptr()) return std::streambuf::xsputn(text, count);
+    flush();
+    send(text, static_cast<std::size_t>(count));
+    return count;
+  }
+  int sync() override { return flush(), 0; }
+
+ private:
+  static constexpr std::size_t k_block = std::size_t{1} << 16;
+
+  void clear() { setp(block_.data(), block_.data() + block_.size()); }
+
+  void send(const char* bytes, std::size_t count) const {
+    while (count > 0) {
+      const ssize_t sent = ::write(file_, bytes, count);
+      if (sent < 0 && errno == EINTR) continue;
+      if (sent < 0) fail(path_, errno);
+      bytes += sent;
+      count -= static_cast<std::size_t>(sent);
+    }
+  }
+
+  int file_;
+  const fs::path& path_;
+  std::vector<char> block_;
+};
+
+void fill(int file, const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  FileBuffer buffer(file, path);
+  std::ostream out(&buffer);
+  out.exceptions(std::ios::badbit | std::ios::failbit);  // So that what the buffer throws passes through.
+  write(out);
+  buffer.flush();
 }
 
 /// Names of the temporary files in use, in storage that a signal handler may read.
@@ -61,54 +119,182 @@ class Registration {
   Slot* slot_ = nullptr;
 };
 
-/// Forces the data to the disk, so that the rename can't overtake it.
-void synchronize(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw IoError(path.string() + ": was not written");
-  const int result = ::fsync(descriptor);
-  const int reason = errno;
-  ::close(descriptor);
-  if (result != 0 && reason != EINVAL) throw IoError(path.string() + ": " + std::generic_category().message(reason));
+// A temporary file is ".papilla-" + 32 hexadecimal digits + ".tmp". As long as its process lives it is locked (flock),
+// whatever the container or machine it runs in; the system drops the lock when the process dies.
+constexpr std::string_view k_prefix = ".papilla-", k_suffix = ".tmp", k_hex = "0123456789abcdef";
+constexpr std::size_t k_random_bytes = 16;
+
+std::string temporary_name(const fs::path& path) {
+  std::array<unsigned char, k_random_bytes> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) fail(path, errno);
+  std::string name(k_prefix);
+  for (const unsigned char byte : bytes) (name += k_hex[byte >> 4U]) += k_hex[byte & 0xfU];
+  return name.append(k_suffix);
+}
+
+bool is_temporary_name(std::string_view name) {
+  if (name.size() != k_prefix.size() + 2 * k_random_bytes + k_suffix.size()) return false;
+  return name.starts_with(k_prefix) && name.ends_with(k_suffix) &&
+         name.substr(k_prefix.size(), 2 * k_random_bytes).find_first_not_of(k_hex) == std::string_view::npos;
+}
+
+/// Removes a temporary file of this user whose process is dead.
+void remove_if_dead(int folder, const char* name) {
+  const int opened = ::openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (opened < 0) return;
+  const Descriptor file(opened);
+  struct stat status {};
+  const bool ours = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid();
+  if (ours && ::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlinkat(folder, name, 0);
+}
+
+/// Once a process and folder.
+void remove_dead_temporaries(int folder, const fs::path& path) {
+  static std::mutex mutex;
+  static std::set<fs::path> cleaned;
+  std::error_code error;
+  {
+    const fs::path canonical = fs::canonical(path, error);
+    const std::scoped_lock lock(mutex);
+    if (error || !cleaned.insert(canonical).second) return;
+  }
+  fs::directory_iterator entry(path, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (const fs::path name = entry->path().filename(); is_temporary_name(name.native()))
+      remove_if_dead(folder, name.c_str());
+}
+
+/// A new temporary file in a folder; it is removed with the object unless it was renamed.
+class Temporary {
+ public:
+  /// @param path  the file that it will become.
+  Temporary(int folder, const fs::path& path, mode_t mode) : folder_(folder), path_(path) {
+    for (int attempt = 0; attempt < k_attempts; ++attempt) {
+      name_ = temporary_name(path);
+      file_ = ::openat(folder, name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+      if (file_ < 0 && errno == EEXIST) continue;
+      if (file_ < 0) fail(path, errno);
+      if (is_locked()) return;
+      remove();
+    }
+    throw IoError(path.string() + ": no temporary file can be made beside it");
+  }
+  ~Temporary() { remove(); }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  int file() const noexcept { return file_; }
+  const std::string& name() const noexcept { return name_; }
+
+  /// Takes over mode bits and, where permitted, the owner of the file that is replaced.
+  void adopt(const struct stat& old) const {
+    mode_t mode = old.st_mode & 07777;
+    const bool is_owned = ::fchown(file_, old.st_uid, old.st_gid) == 0;
+    if (!is_owned && ::fchown(file_, static_cast<uid_t>(-1), old.st_gid) != 0)
+      mode = (mode & ~static_cast<mode_t>(070)) | (mode & 07) << 3;  // Another group gets what everyone has.
+    if (!is_owned) mode &= 0777;
+    if (::fchmod(file_, mode) != 0) fail(path_, errno);
+  }
+
+  void rename() {
+    // Forces the data to the disk, so that the rename can't overtake it.
+    if (::fsync(file_) != 0 && errno != EINVAL) fail(path_, errno);
+    if (::renameat(folder_, name_.c_str(), folder_, path_.filename().c_str()) != 0) fail(path_, errno);
+    name_.clear();
+  }
+
+ private:
+  static constexpr int k_attempts = 100;
+
+  /// False when another process took it for that of a dead one, between opening and locking.
+  bool is_locked() const {
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;  // Some file systems know no locks.
+    struct stat status {};
+    return ::fstat(file_, &status) == 0 && status.st_nlink > 0;
+  }
+
+  void remove() noexcept {
+    if (!name_.empty()) ::unlinkat(folder_, name_.c_str(), 0);
+    if (file_ >= 0) ::close(file_);
+    name_.clear();
+    file_ = -1;
+  }
+
+  int folder_;
+  const fs::path& path_;
+  std::string name_;
+  int file_ = -1;
+};
+
+fs::path folder_of(const fs::path& path) { return path.parent_path().empty() ? fs::path(".") : path.parent_path(); }
+
+/// Where a chain of symbolic links ends. In a folder like /tmp anyone can make a link to any file; there only one's own
+/// and the folder's owner's are followed, as the kernel does with fs.protected_symlinks.
+fs::path link_target(const fs::path& path) {
+  constexpr int k_most_links = 40;
+  fs::path target = path;
+  for (int i = 0; i < k_most_links; ++i) {
+    struct stat link {
+    }, folder{};
+    if (::lstat(target.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return target;
+    if (::stat(folder_of(target).c_str(), &folder) != 0) fail(path, errno);
+    if ((folder.st_mode & S_ISVTX) != 0 && (folder.st_mode & S_IWOTH) != 0 && link.st_uid != ::geteuid() &&
+        link.st_uid != folder.st_uid)
+      throw IoError(path.string() + ": is another user's symbolic link in a folder that everyone may write to");
+    std::error_code error;
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) throw IoError(path.string() + ": " + error.message());
+    target = target.parent_path() / next;
+  }
+  fail(path, ELOOP);
 }
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   if (path.filename().empty()) throw IoError("'" + path.string() + "': is not the name of a file");
+  const fs::path target = link_target(path);
   std::error_code error;
-  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, error))
     throw IoError(path.string() + ": the folder " + folder.string() + " does not exist");
-  if (fs::is_directory(path, error)) throw IoError(path.string() + ": is a directory");
+  struct stat old {};
+  const bool is_there = ::stat(target.c_str(), &old) == 0;
+  if (is_there && S_ISDIR(old.st_mode)) throw IoError(path.string() + ": is a directory");
+  note_output(path);
   // A device or a pipe (/dev/stdout, /dev/null) can't be replaced by renaming.
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return write(path);
-  const fs::path temporary = temporary_name(path);
-  const Registration registration(temporary);
-  try {
-    write(temporary);
-    synchronize(temporary);
-    fs::rename(temporary, path, error);
-    if (error) throw IoError(path.string() + ": " + error.message());
-  } catch (...) {
-    fs::remove(temporary, error);
-    throw;
+  if (is_there && !S_ISREG(old.st_mode)) {
+    const int opened = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    if (opened < 0) fail(path, errno);
+    const Descriptor device(opened);
+    return fill(device, path, write);
   }
+  const int opened = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) fail(path, errno);
+  const Descriptor directory(opened);
+  remove_dead_temporaries(directory, folder);
+  Temporary temporary(directory, target, is_there ? 0600 : 0666);  // A new file gets what umask leaves.
+  const Registration registration(folder / temporary.name());
+  fill(temporary.file(), path, write);
+  if (is_there) temporary.adopt(old);
+  temporary.rename();
 }
 
 void write_atomically(const fs::path& path, std::string_view content) {
-  write_atomically(path, [&](const fs::path& temporary) {
-    errno = 0;
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.close();
-    const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
-    if (!out) throw IoError(path.string() + ": cannot be written" + reason);
-  });
+  write_atomically(path,
+                   [&](std::ostream& out) { out.write(content.data(), static_cast<std::streamsize>(content.size())); });
 }
 
 void remove_temporaries() noexcept {
   for (const Slot& slot : g_slots)
     if (slot.named) ::unlink(slot.name);
+}
+
+bool make_folder(const fs::path& path) {
+  std::error_code error;
+  const bool is_new = fs::create_directories(path, error);
+  if (error) throw IoError(path.string() + ": cannot be made a folder: " + error.message());
+  return is_new;
 }
 
 }  // namespace papilla

@@ -23,6 +23,8 @@
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
+#include "papilla/core/temporary_folder.hpp"
 
 namespace cockpit {
 namespace {
@@ -116,10 +118,10 @@ void Model::write(const std::filesystem::path& path) {
   if (!writer.Transfer(document_, STEPControl_AsIs)) throw papilla::IoError(path.string() + ": can't be converted");
   sort_styles(writer.ChangeWriter().Model());
   fill_header(writer.ChangeWriter().Model());
-  papilla::write_atomically(path, [&](const std::filesystem::path& temporary) {
-    if (writer.Write(temporary.c_str()) != IFSelect_RetDone)
-      throw papilla::IoError(path.string() + ": can't be written");
-  });
+  const papilla::TemporaryFolder folder("papilla-cockpit");  // The library writes to names only.
+  const std::filesystem::path file = folder / "cockpit.step";
+  if (writer.Write(file.c_str()) != IFSelect_RetDone) throw papilla::IoError(path.string() + ": can't be written");
+  papilla::write_atomically(path, papilla::read_file(file));
 }
 
 }  // namespace cockpit

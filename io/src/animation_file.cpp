@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/animation_file.hpp"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cmath>
@@ -39,17 +40,17 @@ void write_animation(const fs::path& path, std::span<const ColorImage> frames, d
   spec.attribute("FramesPerSecond", OIIO::TypeRational, rate);
   spec.attribute("gif:LoopCount", 0);
   const std::vector<OIIO::ImageSpec> specs(frames.size() + k_held, spec);
-  write_atomically(path, [&](const fs::path& temporary) {
-    const auto out = OIIO::ImageOutput::create(temporary.string());
-    bool good = out && out->open(temporary.string(), static_cast<int>(specs.size()), specs.data());
-    for (std::size_t k = 0; good && k < specs.size(); ++k) {
-      if (k > 0) good = out->open(temporary.string(), specs[k], OIIO::ImageOutput::AppendSubimage);
-      good = good && out->write_image(OIIO::TypeDesc::UINT8, frames[std::min(k, frames.size() - 1)].pixels.data());
-    }
-    if (good && out->close()) return;
-    const std::string reason = first_line(out ? out->geterror() : OIIO::geterror());
-    throw IoError(path.string() + ": cannot be written" + (reason.empty() ? "" : ": " + reason));
-  });
+  OIIO::Filesystem::IOVecOutput memory;
+  const auto out = OIIO::ImageOutput::create(path.string());
+  bool good =
+      out && out->set_ioproxy(&memory) && out->open(path.string(), static_cast<int>(specs.size()), specs.data());
+  for (std::size_t k = 0; good && k < specs.size(); ++k) {
+    if (k > 0) good = out->open(path.string(), specs[k], OIIO::ImageOutput::AppendSubimage);
+    good = good && out->write_image(OIIO::TypeDesc::UINT8, frames[std::min(k, frames.size() - 1)].pixels.data());
+  }
+  if (!good || !out->close())
+    throw IoError(path.string() + ": cannot be encoded: " + first_line(out ? out->geterror() : OIIO::geterror()));
+  write_atomically(path, {reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size()});
 }
 
 }  // namespace papilla

@@ -7,8 +7,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <limits>
+#include <ostream>
 #include <set>
 
 #include "glb_document.hpp"
@@ -246,12 +246,7 @@ std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::pa
   collect_extensions(gltf, extensions);
   if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
   const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    write_container(out, json, buffer);
-    out.close();
-    if (!out) throw IoError(path.string() + ": cannot be written");
-  });
+  write_atomically(path, [&](std::ostream& out) { write_container(out, json, buffer); });
   FormatKeeps keeps;
   keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
   keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;

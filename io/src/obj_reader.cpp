@@ -16,8 +16,9 @@
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/core/read_file.hpp"
+#include "papilla/core/referenced_file.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/io/read_file.hpp"
 #include "papilla/io/scene.hpp"
 #include "polygon_triangulation.hpp"
 #include "scene_pictures.hpp"
@@ -52,7 +53,7 @@ bool looks_like_normal_map(const ColorImage& image) {
 class MtlReader {
  public:
   MtlReader(const fs::path& path, Scene& scene)
-      : path_(path), text_(read_file(path)), scene_(scene), pictures_(path.parent_path(), scene) {}
+      : path_(path), text_(read_file(path)), scene_(scene), pictures_(path, scene) {}
 
   void read() {
     std::string_view rest = text_;
@@ -62,6 +63,7 @@ class MtlReader {
       read_line(rest.substr(0, end));
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
+    if (!open_ && !unused_.empty()) fail("no newmtl stands in the file; is it a material library?");
     for (const std::string& keyword : unused_)
       scene_.losses.push_back(path_.filename().string() + ": " + printable(keyword));
   }
@@ -138,14 +140,14 @@ class MtlReader {
     Material& material = current();
     if (name.empty()) fail(fmt::format("{} names no file", keyword));
     if (keyword == "map_Kd") {
-      if (const auto texture = pictures_.add_texture(name, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, line_, options.clamp))
         material.base_color_texture = TextureReference{*texture, 0, 1, to_texture_transform(options)};
     } else if (keyword == "map_Ke") {
-      if (const auto texture = pictures_.add_texture(name, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, line_, options.clamp))
         material.emissive_texture = TextureReference{*texture, 0, 1, to_texture_transform(options)};
     } else if (keyword == "norm" || keyword == "bump" || keyword == "map_Bump" || keyword == "map_bump") {
       if (keyword != "norm" && !is_normal_map(name)) return;
-      if (const auto texture = pictures_.add_texture(name, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, line_, options.clamp))
         material.normal_texture = TextureReference{*texture, 0, options.bump_factor, to_texture_transform(options)};
     } else {
       unused_.insert(std::string(keyword));
@@ -194,13 +196,13 @@ class MtlReader {
   }
 
   bool is_normal_map(const std::string& name) {
-    const fs::path file = pictures_.locate(name);
+    const fs::path file = pictures_.locate(name, line_);
     if (file.empty()) return false;
     try {
       if (looks_like_normal_map(read_color_image(file))) return true;
-      scene_.losses.push_back("bump map '" + one_line(name) + "' (it is no normal map)");
-    } catch (const Error& error) {
-      scene_.warnings.push_back(one_line(error.what()));
+      scene_.losses.push_back("bump map '" + shown(name) + "' (it is no normal map)");
+    } catch (const InvalidInput& error) {
+      pictures_.note_undecoded(file, line_, error.what());
     }
     return false;
   }
@@ -216,8 +218,8 @@ class MtlReader {
 
 /// Adds the materials of an MTL file, with textures and encoded pictures, to a scene. Kd and d become the base colour,
 /// Pr or else Ns the roughness (1 − sqrt(Ns / 1000)), Pm the metalness, Ke the emission, map_Kd the base colour
-/// texture, norm, and map_Bump when it shows a normal map, the normal texture. A picture that is missing or no
-/// picture is a warning; what glTF has no place for is a loss. PNG and JPEG stay as they are, others become PNG.
+/// texture, norm, and map_Bump when it shows a normal map, the normal texture. Pictures are those of ScenePictures;
+/// what glTF has no place for is a loss.
 /// @throws IoError when the file can't be read; InvalidInput naming file and line.
 void read_mtl(const fs::path& path, Scene& scene) { MtlReader(path, scene).read(); }
 
@@ -250,6 +252,12 @@ class NameTable {
   std::vector<std::string> names_;
 };
 
+/// A mtllib statement.
+struct Library {
+  std::string names;
+  std::size_t line;
+};
+
 /// The content of the lines, from which parts are assembled.
 struct ObjContent {
   std::vector<Vec3> positions, normals;
@@ -258,7 +266,7 @@ struct ObjContent {
   std::vector<Corner> corners;
   std::vector<Face> faces;
   NameTable objects, groups, materials;
-  std::vector<std::string> libraries;
+  std::vector<Library> libraries;
 };
 
 class ObjParser {
@@ -338,7 +346,7 @@ class ObjParser {
     else if (keyword == "usemtl")
       material_ = content_.materials.number(trimmed(line));
     else if (keyword == "mtllib")
-      content_.libraries.emplace_back(trimmed(line));
+      content_.libraries.push_back({std::string(trimmed(line)), line_});
     else if (is_unsupported(keyword))
       losses_.insert(std::string(keyword));
     else if (keyword != "s")
@@ -476,15 +484,15 @@ void check_indices(const ObjContent& content, const std::string& file) {
 /// Materials of the libraries by name; an unknown name becomes a material with default values.
 class MaterialTable {
  public:
-  MaterialTable(const ObjContent& content, const std::filesystem::path& folder, Scene& scene) : scene_(scene) {
-    for (const std::string& library : content.libraries) read_library(library, folder);
+  MaterialTable(const ObjContent& content, const std::filesystem::path& obj, Scene& scene) : scene_(scene) {
+    for (const Library& library : content.libraries) read_library(library, obj);
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) by_name_.try_emplace(scene.materials[i].name, i);
   }
 
   std::uint32_t number(const std::string& name) {
     const auto found = by_name_.find(name);
     if (found != by_name_.end()) return found->second;
-    if (!name.empty()) scene_.warnings.push_back("material '" + one_line(name) + "' is not defined");
+    if (!name.empty()) scene_.warnings.push_back("material '" + shown(name) + "' is not defined");
     Material material;
     material.name = name.empty() ? "default" : name;
     scene_.materials.push_back(std::move(material));
@@ -493,15 +501,18 @@ class MaterialTable {
 
  private:
   /// The whole rest of the line is a name with spaces, or else a list of names.
-  void read_library(const std::string& names, const std::filesystem::path& folder) {
-    std::error_code error;  // A name that no file can have is a missing file.
-    if (std::filesystem::is_regular_file(folder / names, error)) return read_mtl(folder / names, scene_);
-    std::string_view rest = names;
+  void read_library(const Library& library, const std::filesystem::path& obj) {
+    const std::string place = fmt::format("{}: line {}", obj.string(), library.line);
+    const auto find = [&](std::string_view name) {
+      return resolve_reference({obj.parent_path(), place, std::string(name)});
+    };
+    if (const auto file = find(library.names)) return read_mtl(*file, scene_);
+    std::string_view rest = library.names;
     for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest)) {
-      if (std::filesystem::is_regular_file(folder / name, error))
-        read_mtl(folder / name, scene_);
+      if (const auto file = find(name))
+        read_mtl(*file, scene_);
       else
-        scene_.warnings.push_back("material library '" + one_line(name) + "' is missing");
+        scene_.warnings.push_back("material library '" + shown(name) + "' is missing");
     }
   }
 
@@ -659,7 +670,7 @@ void assemble_parts(ObjContent content, const std::filesystem::path& path, const
   std::vector<std::vector<const Face*>> faces(names.size());
   for (const Face& face : content.faces) faces[by_object ? face.object : face.group].push_back(&face);
 
-  MaterialTable materials(content, path.parent_path(), scene);
+  MaterialTable materials(content, path, scene);
   const bool has_materials = content.materials.names().size() > 1;
   PartAssembler assembler(content, file, unit);
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -17,7 +17,7 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/read_file.hpp"
+#include "papilla/core/read_file.hpp"
 #include "polygon_mesh.hpp"
 #include "text_scanner.hpp"
 

@@ -13,9 +13,9 @@
 #include <functional>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/io/read_file.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla::io_detail {

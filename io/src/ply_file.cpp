@@ -122,7 +122,7 @@ class HeaderParser {
   }
 
   void add_comment(std::string_view line) {
-    if (next_word(line) == "TextureFile") header_.texture_files.emplace_back(trimmed(line));
+    if (next_word(line) == "TextureFile") header_.texture_files.push_back({std::string(trimmed(line)), line_});
   }
 
   /// Refuses counts that the file's bytes could not hold.

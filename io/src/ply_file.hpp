@@ -29,11 +29,17 @@ struct PlyElement {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
+/// MeshLab's "comment TextureFile NAME".
+struct PlyTextureFile {
+  std::string name;
+  std::size_t line;
+};
+
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  std::vector<std::string> texture_files;  ///< Of MeshLab's "comment TextureFile NAME".
-  std::size_t size = 0;                    ///< Bytes up to the first element.
+  std::vector<PlyTextureFile> texture_files;
+  std::size_t size = 0;  ///< Bytes up to the first element.
 };
 
 /// Reads the header and checks its counts against the bytes that follow it.

@@ -18,7 +18,7 @@
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
-#include "papilla/io/read_file.hpp"
+#include "papilla/core/read_file.hpp"
 #include "ply_file.hpp"
 #include "polygon_mesh.hpp"
 #include "scene_pictures.hpp"
@@ -307,11 +307,11 @@ class PlyReader {
   }
 
   void add_materials(Part& part) {
-    ScenePictures pictures(path_.parent_path(), scene_);
-    for (const std::string& name : header_.texture_files) {
+    ScenePictures pictures(path_, scene_);
+    for (const auto& [name, line] : header_.texture_files) {
       Material material;
       material.name = one_line(name);
-      if (const auto texture = pictures.add_texture(name, false))
+      if (const auto texture = pictures.add_texture(name, line, false))
         material.base_color_texture = TextureReference{*texture, 0, 1, {}};
       part.materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
       scene_.materials.push_back(std::move(material));

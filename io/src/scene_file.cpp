@@ -6,11 +6,11 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/mesh_files.hpp"
-#include "papilla/io/read_file.hpp"
 
 namespace papilla {
 namespace {

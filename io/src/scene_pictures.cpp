@@ -6,8 +6,9 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/core/read_file.hpp"
+#include "papilla/core/referenced_file.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/io/read_file.hpp"
 #include "text_scanner.hpp"
 
 namespace papilla {
@@ -22,20 +23,29 @@ std::vector<std::byte> to_bytes(const std::string& text) {
 
 }  // namespace
 
-fs::path ScenePictures::locate(const std::string& name) {
+fs::path ScenePictures::locate(const std::string& name, std::size_t line) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
-  std::error_code error;  // A name that no file can have is a missing file.
-  for (const fs::path& candidate : {folder_ / name, folder_ / slashed, folder_ / fs::path(slashed).filename()})
-    if (fs::is_regular_file(candidate, error)) return candidate;
-  if (missing_.insert(name).second) scene_.warnings.push_back("texture '" + one_line(name) + "' is missing");
+  std::string refusal;
+  for (const std::string& candidate : {name, slashed, fs::path(slashed).filename().string()}) try {
+      if (const auto file = resolve_reference({file_.parent_path(), place(line), candidate})) return *file;
+    } catch (const InvalidInput& error) {
+      if (refusal.empty()) refusal = error.what();
+    }
+  if (!refusal.empty()) throw InvalidInput(refusal);
+  if (missing_.insert(name).second) scene_.warnings.push_back("texture '" + shown(name) + "' is missing");
   return {};
 }
 
-std::optional<std::uint32_t> ScenePictures::add_texture(const std::string& name, bool clamp) {
+void ScenePictures::note_undecoded(const fs::path& picture, std::size_t line, const std::string& reason) {
+  if (picture_mime_type(read_file(picture)).empty()) throw InvalidInput(place(line) + ": " + reason);
+  scene_.warnings.push_back(shown(reason));
+}
+
+std::optional<std::uint32_t> ScenePictures::add_texture(const std::string& name, std::size_t line, bool clamp) {
   const auto key = std::make_pair(name, clamp);
   if (const auto known = textures_.find(key); known != textures_.end()) return known->second;
-  const auto image = add_image(name);
+  const auto image = add_image(name, line);
   if (!image) return std::nullopt;
   Texture texture;
   texture.image = image;
@@ -45,33 +55,32 @@ std::optional<std::uint32_t> ScenePictures::add_texture(const std::string& name,
   return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
 }
 
-std::optional<std::uint32_t> ScenePictures::add_image(const std::string& name) {
+std::optional<std::uint32_t> ScenePictures::add_image(const std::string& name, std::size_t line) {
   if (const auto known = images_.find(name); known != images_.end()) return known->second;
-  const fs::path file = locate(name);
-  if (file.empty()) return std::nullopt;
+  const fs::path picture = locate(name, line);
+  if (picture.empty()) return std::nullopt;
   try {
-    scene_.images.push_back(load_image(file));
-  } catch (const Error& error) {
-    scene_.warnings.push_back(one_line(error.what()));
+    scene_.images.push_back(load_image(picture));
+  } catch (const InvalidInput& error) {
+    note_undecoded(picture, line, error.what());
     return std::nullopt;
   }
   return images_[name] = static_cast<std::uint32_t>(scene_.images.size() - 1);
 }
 
-EncodedImage ScenePictures::load_image(const fs::path& file) const {
+EncodedImage ScenePictures::load_image(const fs::path& picture) const {
+  std::error_code error;
   EncodedImage image;
-  image.name = file.stem().string();
-  image.uri = file.lexically_relative(folder_).generic_string();
-  const std::string bytes = read_file(file);
-  if (bytes.starts_with("\x89PNG")) {
-    image.mime_type = "image/png";
-    image.bytes = to_bytes(bytes);
-  } else if (bytes.starts_with("\xff\xd8\xff")) {
-    image.mime_type = "image/jpeg";
+  image.name = picture.stem().string();
+  image.uri = picture.lexically_relative(fs::weakly_canonical(fs::absolute(file_, error).parent_path(), error))
+                  .generic_string();
+  const std::string bytes = read_file(picture);
+  image.mime_type = picture_mime_type(bytes);
+  if (image.mime_type == "image/png" || image.mime_type == "image/jpeg") {
     image.bytes = to_bytes(bytes);
   } else {
     image.mime_type = "image/png";
-    image.bytes = encode_png(read_color_image(file));
+    image.bytes = encode_png(read_color_image(picture));
   }
   return image;
 }

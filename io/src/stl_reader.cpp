@@ -14,7 +14,7 @@
 
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/read_file.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/io/vertex_welder.hpp"
 #include "text_scanner.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <limits>
+#include <ostream>
 #include <string>
 
 #include "papilla/core/atomic_file.hpp"
@@ -77,14 +77,11 @@ std::vector<std::string> write_stl(const Scene& scene, const std::filesystem::pa
   for (const Instance& instance : shown) count += scene.parts[instance.part].mesh.triangles.size();
   if (count > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(fmt::format("write_stl: {} triangles are more than STL can hold", count));
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
+  write_atomically(path, [&](std::ostream& out) {
     out << header(static_cast<std::uint32_t>(count));
     RecordWriter records(out);
     for (const Instance& instance : shown) records.write(place(scene, instance));
     records.flush();
-    out.close();
-    if (!out) throw IoError(path.string() + ": cannot be written");
   });
   return scene_losses(scene, {});
 }

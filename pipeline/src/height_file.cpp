@@ -32,9 +32,7 @@ std::vector<DeeperRelief> write_deeper(const fs::path& output, const HeightMap& 
 }
 
 std::vector<ReliefPicture> draw_pictures(const fs::path& folder, HeightMap map) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) throw IoError(folder.string() + ": " + failure.message());
+  make_folder(folder);
   const std::string section = (folder / "section.svg").string();
   const bool has_section = write_plot(section, section_plot(map));
   const double pitch_mm = map.pitch_mm_x;

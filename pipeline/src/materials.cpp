@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
+#include "papilla/core/read_file.hpp"
 
 namespace papilla {
 namespace {
@@ -37,10 +38,8 @@ class Value {
       : json_(json), file_(std::move(file)), pointer_(std::move(pointer)) {}
 
   [[noreturn]] void fail(const std::string& reason) const {
-    std::string message = file_ + ": at " + (pointer_.empty() ? "the top level" : pointer_) + ": " + reason;
-    for (char& c : message)
-      if (c >= 0 && c < ' ') c = '?';  // Keys may hold anything, a message is one line.
-    throw InvalidInput(message);
+    // Keys may hold anything, a message is one line.
+    throw InvalidInput(shown(file_ + ": at " + (pointer_.empty() ? "the top level" : pointer_) + ": " + reason));
   }
   const Json& json() const { return json_; }
 
@@ -186,14 +185,9 @@ bool matches(const std::string& pattern, std::string_view name) {
 }  // namespace
 
 Materials read_materials(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw IoError(path.string() + (std::filesystem::exists(path, error) ? ": is not a file" : ": does not exist"));
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw IoError(path.string() + ": cannot be opened");
   Json json;
   try {
-    json = Json::parse(in);
+    json = Json::parse(read_file(path));
   } catch (const Json::parse_error& parse_error) {
     throw InvalidInput(path.string() + ": byte " + std::to_string(parse_error.byte) + ": is no valid JSON");
   } catch (const Json::out_of_range&) {

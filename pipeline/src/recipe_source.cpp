@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
+#include "papilla/core/referenced_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/procedural/reference.hpp"
 
@@ -18,7 +21,9 @@ RecipeLibrary load_recipes(const std::vector<std::string>& files) {
 CompileOptions recipe_options(const std::filesystem::path& folder) {
   CompileOptions options;
   options.read_picture = [folder](const std::string& path) {
-    const ColorImage image = read_color_image(folder / path);
+    const auto file = resolve_reference({folder, "picture", path});
+    if (!file) throw InvalidInput("'" + shown(path) + "' does not exist");
+    const ColorImage image = read_color_image(*file);
     RecipePicture picture{image.width, image.height, {}};
     picture.rgb.reserve(image.pixels.size());
     for (const unsigned char byte : image.pixels) picture.rgb.push_back(static_cast<float>(byte) / 255.0F);

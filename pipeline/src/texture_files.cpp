@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/animation_file.hpp"
 #include "papilla/io/image_file.hpp"
@@ -61,7 +62,7 @@ std::string write_normal_map(const RenderedTexture& rendered, const std::string&
 
 TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary& library,
                                  const std::filesystem::path& folder, const TextureFileOptions& options) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   TextureFiles files;
   files.recipe = options.mutation > 0
                      ? mutate_recipe(recipe, library, static_cast<unsigned>(options.seed), options.mutation)

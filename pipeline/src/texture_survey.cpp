@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
@@ -150,9 +151,7 @@ SymmetryGroups groups_of(const TextureSurvey& survey, SymmetryPattern pattern) {
 }
 
 std::vector<SurveyPicture> draw_survey(const TextureSurvey& survey, const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw IoError(folder.string() + ": " + failure.message());
+  make_folder(folder);
   const auto file = [&](const char* name) { return (folder / name).string(); };
   std::vector<std::string> captions = {"picture", "feature matrix", "no lattice", "", ""};
   if (survey.symmetry->part) captions = {"lattice", "feature matrix", "primitive", "synthesis", "rest"};

@@ -5,10 +5,10 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 
 namespace papilla {
 namespace {
@@ -22,12 +22,11 @@ using Json = nlohmann::ordered_json;
 }  // namespace
 
 WeatherConfig read_weather_config(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw IoError(path.string() + ": cannot be opened");
-  const Json json = Json::parse(in, nullptr, false);
+  const Json json = Json::parse(read_file(path), nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw InvalidInput(path.string() + ": is no JSON object");
   WeatherConfig config;
   config.folder = path.parent_path();
+  config.source = path.string();
   const auto number = [&](const Json& value, const std::string& key, double low, double high) {
     if (!value.is_number() || !(value.get<double>() >= low && value.get<double>() <= high))
       refuse(path, key, "must be a number from " + std::to_string(low) + " to " + std::to_string(high));

@@ -403,7 +403,8 @@ WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, dou
   RecipeLibrary library = RecipeLibrary::builtin();
   const auto note_files = [&] { cache.state().files.insert(library.files().begin(), library.files().end()); };
   try {
-    for (const std::string& file : config.libraries) library.read_file(config.folder / file);
+    for (std::size_t i = 0; i < config.libraries.size(); ++i)
+      library.include(config.libraries[i], fmt::format("{}: at /libraries/{}", config.source, i), config.folder);
   } catch (const Error&) {
     note_files();
     throw;

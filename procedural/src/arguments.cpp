@@ -267,7 +267,9 @@ RecipePicture Arguments::picture(const std::string& path) const {
   RecipePicture picture;
   try {
     picture = compiler_.options().read_picture(path);
-  } catch (const Error& error) {
+  } catch (const InvalidInput& error) {
+    refuse("picpath", error.what());
+  } catch (const IoError& error) {
     refuse("picpath", error.what());
   }
   if (picture.width < 1 || picture.height < 1 ||

@@ -2,11 +2,12 @@
 #include "papilla/procedural/library.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
+#include "papilla/core/read_file.hpp"
+#include "papilla/core/referenced_file.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "syntax.hpp"
 
@@ -184,24 +185,22 @@ const std::string* RecipeLibrary::find_colours(std::string_view name) const {
   return it == colours_.end() ? nullptr : &it->second;
 }
 
-void RecipeLibrary::read_file(const std::filesystem::path& path) {
+void RecipeLibrary::read_file(const std::filesystem::path& path) { read_file(path, Quotes::yes); }
+
+void RecipeLibrary::read_file(const std::filesystem::path& path, Quotes quotes) {
   std::error_code error;
   files_.push_back(path);
-  if (!std::filesystem::is_regular_file(path, error))
-    throw IoError(path.string() + (std::filesystem::exists(path, error) ? ": is not a file" : ": does not exist"));
+  require_file(path);
   if (const auto size = std::filesystem::file_size(path, error); error || size > k_most_file)
     throw InvalidInput(path.string() + ": a library of recipes has at most 16 MiB");
   const auto whole = std::filesystem::weakly_canonical(path, error);
   if (std::find(open_files_.begin(), open_files_.end(), whole) != open_files_.end())
     throw InvalidInput(path.string() + ": is included by itself");
   if (open_files_.size() >= k_most_open) throw InvalidInput(path.string() + ": more than 32 files include each other");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw IoError(path.string() + ": cannot be read");
+  const std::string text = papilla::read_file(path);
   open_files_.push_back(whole);
   try {
-    read_text(text.str(), path.string(), path.parent_path());
+    read_text(text, path.string(), path.parent_path(), quotes);
   } catch (...) {
     open_files_.pop_back();
     throw;
@@ -209,26 +208,42 @@ void RecipeLibrary::read_file(const std::filesystem::path& path) {
   open_files_.pop_back();
 }
 
+void RecipeLibrary::include(const std::string& name, const std::string& place, const std::filesystem::path& folder) {
+  const auto file = resolve_reference({folder, place, name});
+  if (!file) {
+    files_.push_back(folder / name);
+    throw IoError(place + ": '" + shown(name) + "' does not exist");
+  }
+  read_file(*file, Quotes::no);
+}
+
 void RecipeLibrary::read_text(std::string_view text, const std::string& source, const std::filesystem::path& folder) {
+  read_text(text, source, folder, Quotes::yes);
+}
+
+void RecipeLibrary::read_text(std::string_view text, const std::string& source, const std::filesystem::path& folder,
+                              Quotes quotes) {
   for (const Entry& entry : entries_of(text)) {
-    const std::string place = source + ": line " + std::to_string(entry.line) + ": ";
+    const std::string place = source + ": line " + std::to_string(entry.line);
     const std::size_t blank = entry.text.find_first_of(" \t");
     if (blank == std::string::npos)
-      throw InvalidInput(place + "expected a name, a blank and a recipe, found " + in_quotes(entry.text));
+      throw InvalidInput(place + ": expected a name, a blank and a recipe" +
+                         (quotes == Quotes::yes ? ", found " + in_quotes(entry.text) : ""));
     const std::string name = entry.text.substr(0, blank),
                       rest(trimmed({std::string_view(entry.text).substr(blank), 0}).text);
     if (name == "include") {
-      read_file(folder / rest);
+      include(rest, place, folder);
     } else if (name == "colour" || name == "color") {
       const std::size_t equals = rest.find('=');
       const std::string colour(trimmed({std::string_view(rest).substr(0, equals), 0}).text);
-      if (equals == std::string::npos || !is_name(colour)) throw InvalidInput(place + "expected colour NAME = COLOURS");
+      if (equals == std::string::npos || !is_name(colour))
+        throw InvalidInput(place + ": expected colour NAME = COLOURS");
       add_colours(colour, std::string(trimmed({std::string_view(rest).substr(equals + 1), 0}).text));
     } else {
       try {
         add(name, rest);
       } catch (const InvalidInput& refusal) {
-        throw InvalidInput(place + refusal.what());
+        throw InvalidInput(place + ": " + (quotes == Quotes::yes ? refusal.what() : "expected a name and a recipe"));
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 
 namespace papilla::procedural_detail {
 namespace {
@@ -102,9 +103,7 @@ Piece trimmed(Piece piece) {
 }
 
 std::string in_quotes(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text.substr(0, 40)) out += c >= 0 && c < ' ' ? '?' : c;
-  return out + (text.size() > 40 ? "...'" : "'");
+  return "'" + shown(text.substr(0, 40)) + (text.size() > 40 ? "...'" : "'");
 }
 
 bool is_name(std::string_view text) {

@@ -58,6 +58,6 @@ done
 expect 3 'random.stl' "$papilla" evaluate weld random.stl -o evaluated
 [[ -e evaluated ]] && { echo "FAILED: an evaluation that ended with an error left its folder"; failures=$((failures + 1)); }
 [[ -e out.glb ]] && { echo "FAILED: a bake that ended with an error left out.glb"; failures=$((failures + 1)); }
-find . -name '.*.[0-9]*-*' | grep . && { echo "FAILED: temporary files are left"; failures=$((failures + 1)); }
+find . -name '.papilla-*' | grep . && { echo "FAILED: temporary files are left"; failures=$((failures + 1)); }
 ((failures == 0)) && echo "all as expected"
 exit $((failures > 0))

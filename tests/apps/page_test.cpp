@@ -8,7 +8,7 @@
 #include "page/page_scene.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/read_file.hpp"
+#include "papilla/core/read_file.hpp"
 
 namespace papilla::app {
 namespace {

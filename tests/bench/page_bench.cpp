@@ -12,8 +12,8 @@
 #include "bench/bench_json.hpp"
 #include "bench/whole_process.hpp"
 #include "live_socket.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/io/glb_writer.hpp"
-#include "papilla/io/read_file.hpp"
 #include "support/formula_meshes.hpp"
 
 namespace {

@@ -125,6 +125,17 @@ check_pipeline() {
     grep ' <nlohmann/')
 }
 
+# Everything is written by write_atomically(), printed by print_out(), and what is printed has no names that steer a
+# terminal: shown_format().
+check_outputs() {
+  breach_each "writes past write_atomically()" < <(cpp_sources "${libraries[@]}" apps |
+    xargs -r grep -lE 'std::ofstream|[^a-z]fopen\(')
+  breach_each "prints past print_out() or shown_format()" < <(cpp_sources apps | grep -v apps/standard_output.hpp |
+    xargs -r grep -lE 'std::cout|fmt::print\("|(^|[^a-z])printf\(|console\.print\(fmt::')
+  breach_each "formats names past shown_format()" < <(cpp_sources apps/papilla/text apps/player/report.cpp |
+    xargs -r grep -lE 'fmt::format\(')
+}
+
 # What shows that a library is used: a pattern of includes, then its names in CMake and as a Debian package.
 readonly library_uses='
 <(thread|mutex|atomic)> Threads Threads::Threads
@@ -238,6 +249,7 @@ check_public_headers
 check_directions
 check_private_headers
 check_pipeline
+check_outputs
 check_packages
 check_format
 ((breaches == 0))

@@ -68,6 +68,10 @@ write pipeline/src/a.cpp MIT '#include <CLI/CLI.hpp>' && expect 'pipeline must n
 write pipeline/src/a.cpp MIT '#include <iostream>' && expect 'pipeline must not include <iostream>'
 write pipeline/src/a.cpp MIT '#include "verb.hpp"' && expect 'must not include "verb.hpp", which is no header of its library'
 write pipeline/src/a.cpp Apache-2.0 && expect 'unknown licence'
+write io/src/a.cpp MIT 'std::ofstream out(name);' && expect 'io/src/a.cpp: writes past write_atomically()'
+write apps/papilla/a.cpp GPL-3.0-or-later 'void f() { std::cout << 1; }' && expect 'prints past print_out()'
+write apps/player/a.cpp MIT 'void f() { fmt::print("{}", 1); }' && expect 'prints past print_out()'
+write apps/papilla/text/a.cpp GPL-3.0-or-later 'auto a = fmt::format("{}", name);' && expect 'formats names past shown_format()'
 mkdir -p examples && echo 'int a;' >examples/a.cpp && expect 'examples/a.cpp: has no SPDX-License-Identifier'
 list cmake/PapillaDependencies.cmake 'find_package(OpenMesh REQUIRED)' && expect 'requires OpenMesh, which no source includes'
 list cmake/PapillaDependencies.cmake 'pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)' &&

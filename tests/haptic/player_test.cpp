@@ -165,10 +165,22 @@ TEST_F(Player, ReadsNoMapOutsideTheFolderOfItsFile) {
                                      std::string("./a/../../map.png"), (folder_ / "map.png").string()}) {
     data["height"]["uri"] = address;
     const std::string glb = write("inside/p.glb", testing::plate_glb({{"haptic", data}}, ""));
-    const Json report = play("'" + glb + "' --seconds 0.1 --json -").json();
-    EXPECT_EQ(report["height_maps"]["loaded"], 0) << address;
-    expect_warning(report, "height_file");
+    const Outcome outcome = play("'" + glb + "' --seconds 0.1 --json -");
+    expect_refusal(outcome, 3);
+    EXPECT_NE(outcome.error.find("p.glb: at /materials/0/extras/haptic/height/uri: '"), std::string::npos) << address;
   }
+  fs::create_symlink("../map.png", inside / "link.png");
+  write("inside/text.png", "root:x:0:0");
+  for (const auto& [address, reason] : {std::pair("link.png", "leads out of the folder"),
+                                        std::pair("text.png", "is no PNG picture"), std::pair(".", "leads out")}) {
+    data["height"]["uri"] = address;
+    const Outcome outcome = play("'" + write("inside/p.glb", testing::plate_glb({{"haptic", data}}, "")) + "'");
+    expect_refusal(outcome, 3);
+    EXPECT_NE(outcome.error.find(reason), std::string::npos) << outcome.error;
+  }
+  data["height"]["uri"] = "missing.png";
+  const std::string glb = write("inside/p.glb", testing::plate_glb({{"haptic", data}}, ""));
+  expect_warning(play("'" + glb + "' --seconds 0.1 --json -").json(), "height_file");
 }
 
 TEST_F(Player, OddTagsGiveWarningsOrAreRefused) {

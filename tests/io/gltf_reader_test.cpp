@@ -312,6 +312,59 @@ TEST_F(GltfReader, ExternalFilesWithSpacesAndUmlauts) {
   EXPECT_EQ(scene.images.at(0).uri, "missing.png");
 }
 
+/// A triangle in a file of its own, and a picture beside it.
+std::string gltf_with_files(const std::string& buffer, const std::string& image) {
+  return R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":")" + buffer + R"("}],
+      "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,
+      "type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],
+      "images":[{"uri":"data:image/png;base64,iVBORw0KGgo="},{"uri":")" +
+         image + "\"}]}";
+}
+
+TEST_F(GltfReader, NamesFilesInItsFolderOnly) {
+  const std::vector<float> points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string bytes(reinterpret_cast<const char*>(points.data()), 36), png = "\x89PNG\r\n\x1a\n";
+  const std::filesystem::path inside = folder_ / "inside";
+  std::filesystem::create_directory(inside);
+  folder_.write("secret.bin", bytes);
+  folder_.write("secret.png", png);
+  folder_.write("inside/b+1.bin", bytes + "padding");
+  folder_.write("inside/a.png", png);
+  std::filesystem::create_symlink("../secret.png", inside / "link.png");
+  std::filesystem::create_symlink("../secret.bin", inside / "link.bin");
+  const auto read_files = [&](const std::string& buffer, const std::string& image) {
+    return read_gltf(folder_.write("inside/a.gltf", gltf_with_files(buffer, image)));
+  };
+  const Scene scene = read_files("b+1.bin", "a.png");
+  EXPECT_EQ(scene.parts.at(0).mesh.corner(0, 1), (Vec3{1000, 0, 0}));
+  EXPECT_EQ(scene.images.at(1).bytes.size(), png.size());
+  EXPECT_EQ(scene.images[1].uri, "a.png");
+  for (const std::string& uri : {std::string("../secret"), std::string("%2e%2e/secret"), std::string("..%2Fsecret"),
+                                 (folder_ / "secret").string(), std::string("link")}) {
+    const std::string image = message_of<InvalidInput>([&] { read_files("b+1.bin", uri + ".png"); });
+    EXPECT_NE(image.find("inside/a.gltf: at /images/1/uri: '"), std::string::npos) << uri << ": " << image;
+    EXPECT_NE(image.find("leads out of the folder"), std::string::npos) << uri << ": " << image;
+    const std::string buffer = message_of<InvalidInput>([&] { read_files(uri + ".bin", "a.png"); });
+    EXPECT_NE(buffer.find("inside/a.gltf: at /buffers/0/uri: '"), std::string::npos) << uri << ": " << buffer;
+    EXPECT_NE(buffer.find("leads out of the folder"), std::string::npos) << uri << ": " << buffer;
+  }
+}
+
+TEST_F(GltfReader, FilesThatItNamesHoldWhatTheyShould) {
+  const std::vector<float> points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder_.write("b.bin", {reinterpret_cast<const char*>(points.data()), 36});
+  folder_.write("short.bin", "short");
+  folder_.write("passwd", "root:x:0:0");
+  const auto refused = [&](const std::string& buffer, const std::string& image) {
+    return message_of<InvalidInput>([&] { read_gltf(folder_.write("a.gltf", gltf_with_files(buffer, image))); });
+  };
+  EXPECT_NE(refused("b.bin", "passwd").find("a.gltf: at /images/1/uri: 'passwd' is no picture"), std::string::npos);
+  EXPECT_NE(refused("short.bin", "a.png").find("at /buffers/0/uri: 'short.bin' has 5 bytes, byteLength is 36"),
+            std::string::npos);
+  EXPECT_NE(refused("none.bin", "a.png").find("at /buffers/0/uri: 'none.bin' does not exist"), std::string::npos);
+  EXPECT_NE(refused(".", "a.png").find("at /buffers/0/uri: '.'"), std::string::npos);
+}
+
 TEST_F(GltfReader, ListsWhatIsLost) {
   const Scene scene = read(triangle_glb(R"(},"mode":1},{"attributes":{"POSITION":0)",
                                         R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)"));

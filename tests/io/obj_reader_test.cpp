@@ -146,6 +146,49 @@ TEST_F(ObjReader, MtlErrorsNameTheLine) {
   EXPECT_NE(refusal("mtllib bad.mtl\n" + k_square + "usemtl a\nf 1 2 3\n").find("bad.mtl: line 1"), std::string::npos);
 }
 
+TEST_F(ObjReader, LibrariesAndMapsLieInTheFolderOfTheFileThatNamesThem) {
+  std::filesystem::create_directory(folder_ / "inside");
+  folder_.write("outside.mtl", "newmtl a\nKd 1 0 0\n");
+  write_png("outside.png");
+  write_png("inside/known.png");
+  std::filesystem::create_symlink("../outside.png", folder_ / "inside/link.png");
+  const auto read_inside = [&](const std::string& library, const std::string& map) {
+    folder_.write("inside/a.mtl", "newmtl a\nKd 1 1 1\nmap_Kd " + map + "\n");
+    return read_obj(folder_.write("inside/a.obj", "mtllib " + library + "\n" + k_square + "usemtl a\nf 1 2 3\n"));
+  };
+  for (const std::string& library : {std::string("../outside.mtl"), (folder_ / "outside.mtl").string()}) {
+    const std::string message = message_of<InvalidInput>([&] { read_inside(library, "known.png"); });
+    EXPECT_NE(message.find("inside/a.obj: line 1: '" + library + "' leads out of the folder"), std::string::npos);
+  }
+  for (const std::string& map : {std::string("../outside.png"), std::string("..\\outside.png"),
+                                 (folder_ / "outside.png").string(), std::string("link.png")}) {
+    const std::string message = message_of<InvalidInput>([&] { read_inside("a.mtl", map); });
+    EXPECT_NE(message.find("inside/a.mtl: line 3: '"), std::string::npos) << map << ": " << message;
+    EXPECT_NE(message.find("leads out of the folder"), std::string::npos) << map << ": " << message;
+  }
+  // The paths of the machine that wrote the file: the picture lies beside it.
+  for (const std::string& map : {std::string("/home/artist/known.png"), std::string("..\\textures\\known.png")}) {
+    const Scene scene = read_inside("a.mtl", map);
+    EXPECT_EQ(scene.images.size(), 1U) << map;
+    EXPECT_TRUE(scene.warnings.empty()) << map;
+  }
+}
+
+TEST_F(ObjReader, TextIsNoPictureAndNoLibrary) {
+  folder_.write("passwd", "root:x:0:0:root\nuser words\n");
+  folder_.write("a.mtl", "newmtl a\nmap_Kd passwd\n");
+  const std::string obj = k_square + "usemtl a\nf 1 2 3\n";
+  const std::string picture = refusal("mtllib a.mtl\n" + obj);
+  EXPECT_NE(picture.find("a.mtl: line 2: "), std::string::npos) << picture;
+  EXPECT_NE(picture.find("no picture"), std::string::npos) << picture;
+  const std::string library = refusal("mtllib passwd\n" + obj);
+  EXPECT_NE(library.find("is it a material library?"), std::string::npos) << library;
+  EXPECT_EQ((picture + library).find("root:"), std::string::npos);
+  folder_.write("a.webp", "RIFF\x04\0\0\0WEBPVP8L");
+  folder_.write("a.mtl", "newmtl a\nmap_Kd a.webp\n");
+  EXPECT_EQ(read("mtllib a.mtl\n" + obj).warnings.size(), 1U) << "a picture of a known format that can't be decoded";
+}
+
 TEST_F(ObjReader, EveryPrefixThrowsOrSucceeds) {
   const std::string whole = k_square + "vt 0 0\nvn 0 0 1\no part\nusemtl m\nf 1/1/1 2/1/1 3/1/1 4/1/1\n";
   for (std::size_t length = 0; length < whole.size(); ++length) {

@@ -115,6 +115,16 @@ TEST_F(PlyReader, TextureCoordinatesColoursAndPicturesOfFaces) {
   EXPECT_EQ(scene.warnings.size(), 1U) << "the missing picture";
 }
 
+TEST_F(PlyReader, PicturesLieInTheFolderOfTheFile) {
+  std::filesystem::create_directory(folder_ / "inside");
+  folder_.write("p.png", {reinterpret_cast<const char*>(test::k_grey8_png), sizeof test::k_grey8_png});
+  const std::string message = message_of<InvalidInput>([&] {
+    read_ply(folder_.write("inside/a.ply", header("ascii", "comment TextureFile ../p.png\n" + k_vertices + k_faces) +
+                                               k_corners + "3 0 1 2\n"));
+  });
+  EXPECT_NE(message.find("inside/a.ply: line 3: '../p.png' leads out of the folder"), std::string::npos) << message;
+}
+
 TEST_F(PlyReader, TriangleStripsTurnAndRestart) {
   EXPECT_EQ(mesh(header("ascii", k_vertices + "element tristrips 1\nproperty list int int vertex_indices\n") +
                  k_corners + "9 0 1 3 2 2 -1 1 2 3\n")

@@ -2,6 +2,7 @@
 #include "papilla/pipeline/bake_scene.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -9,12 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/io/read_file.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla_test/shapes.hpp"
 
@@ -230,6 +231,19 @@ TEST_F(BakeTest, CancelEndsTheWork) {
   int calls = 0;
   EXPECT_THROW(bake_scene(scene_of({square("dash")}), rules_, {}, [&](const Progress&) { return ++calls < 2; }),
                Cancelled);
+}
+
+TEST_F(BakeTest, PicturesOfTheRulesMayLieAnywhereButAreFiles) {
+  std::filesystem::create_directory(folder_ / "elsewhere");
+  std::filesystem::rename(folder_ / "grain.png", folder_ / "elsewhere" / "grain.png");
+  std::filesystem::create_directory(folder_ / "rules");
+  rules_.materials.at("grain").texture = folder_ / "rules" / "../elsewhere/grain.png";
+  EXPECT_FALSE(run(scene_of({square("dash")})).grains.empty());
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+  for (const char* name : {"pipe.png", "rules"}) {
+    rules_.materials.at("grain").texture = folder_ / name;
+    EXPECT_THROW(run(scene_of({square("dash")})), IoError) << name;
+  }
 }
 
 TEST_F(BakeTest, NamesThePictureThatIsNone) {

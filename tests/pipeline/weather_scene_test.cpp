@@ -308,6 +308,28 @@ TEST(Weather, KnowsTheFilesItRestsOnAndPaintsAnewWhenAPictureChanges) {
   EXPECT_TRUE(cache.files().contains(folder.path() / "missing.recipes"));
 }
 
+TEST(Weather, FilesThatItsRecipesNameLieInTheFolderOfTheConfiguration) {
+  const papilla::TemporaryFolder folder("papilla-weather");
+  std::filesystem::create_directory(folder / "inside");
+  std::ofstream(folder / "out.recipes") << "dots image|picpath=out.png\n";
+  write_color_image(folder / "out.png", {1, 1, {9, 9, 9}});
+  WeatherConfig config;
+  config.size = 16, config.folder = folder / "inside", config.source = "c.json";
+  const auto refusal = [&] {
+    try {
+      weather_scene(two_sides(), config, 1);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  config.layers = {{"image|picpath=../out.png", {"*"}}};
+  EXPECT_NE(refusal().find("'../out.png' leads out of the folder"), std::string::npos) << refusal();
+  config.layers = {{"dots", {"*"}}};
+  config.libraries = {"../out.recipes"};
+  EXPECT_NE(refusal().find("c.json: at /libraries/0: '../out.recipes' leads out"), std::string::npos) << refusal();
+}
+
 TEST(Weather, LeavesAloneWhatNoLayerFits) {
   WeatherConfig config;
   config.layers.push_back({"dust", {"wood*"}});

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/temporary_folder.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "papilla/procedural/texture.hpp"
 
@@ -143,6 +144,39 @@ TEST(Library, ReadsCommentsContinuationsColoursAndIncludes) {
   EXPECT_TRUE(has(refusal([&] { library.add("fbm", "noise"); }), "taken"));
   EXPECT_THROW(library.read_file(folder / "none"), IoError);
   std::filesystem::remove_all(folder);
+}
+
+TEST(Library, IncludesLieInTheFolderAndAreNotQuoted) {
+  const TemporaryFolder folder("papilla-recipes");
+  std::filesystem::create_directories(folder / "inside" / "more");
+  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  write("secret", "root:x:0:0:root:/root:/bin/bash\n");
+  write("secret2", "root secret words\n9root:x more words\n");
+  write("inside/secret", "root:x:0:0:root:/root:/bin/bash\n");
+  write("inside/secret2", "9root:x more words\n");
+  write("inside/more/good.recipes", "one fbm\n");
+  std::filesystem::create_symlink("../secret", folder / "inside/link");
+  const auto message = [&](const std::string& name) {
+    write("inside/main.recipes", "# first\ninclude " + name + "\n");
+    RecipeLibrary library;
+    return refusal([&] { library.read_file(folder / "inside/main.recipes"); });
+  };
+  EXPECT_EQ(message("more/good.recipes"), "nothing was refused");
+  for (const std::string& name : {std::string("../secret"), std::string("link"), (folder / "secret2").string()})
+    EXPECT_TRUE(has(message(name), "main.recipes: line 2: '" + name + "' leads out of the folder")) << message(name);
+  for (const char* name : {"secret", "secret2"}) {
+    const std::string inside = message(name);
+    EXPECT_TRUE(has(inside, std::string(name) + ": line 1: expected a name")) << inside;
+    EXPECT_FALSE(has(inside, "root")) << inside;
+  }
+  EXPECT_TRUE(has(refusal([&] {
+                    RecipeLibrary library;
+                    library.read_file(folder / "inside/secret");
+                  }),
+                  "found 'root:x:0:0:root"))
+      << "a file that the user names is quoted";
+  write("inside/main.recipes", "include none\n");
+  EXPECT_THROW(RecipeLibrary().read_file(folder / "inside/main.recipes"), IoError);
 }
 
 TEST(Library, AllBuiltInRecipesCompileAtBothEndsOfTime) {

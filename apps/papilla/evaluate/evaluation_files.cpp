@@ -4,15 +4,12 @@
 #include <fmt/format.h>
 
 #include "papilla/core/atomic_file.hpp"
-#include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
+#include "shown_format.hpp"
 
 namespace papilla::app {
 EvaluationFolder::EvaluationFolder(const std::string& path, const std::string& kind)
-    : stem_(std::filesystem::path(path) / ("evaluate-" + kind)) {
-  std::error_code error;
-  is_new_ = std::filesystem::create_directories(path, error);
-  if (!std::filesystem::is_directory(path)) throw IoError(path + ": cannot be made a folder");
-}
+    : stem_(std::filesystem::path(path) / ("evaluate-" + kind)), is_new_(make_folder(path)) {}
 
 EvaluationFolder::~EvaluationFolder() {
   std::error_code not_empty;
@@ -25,7 +22,8 @@ void EvaluationFolder::write(const std::string& ending, const std::string& conte
   files_.push_back(file);
 }
 
-std::string csv_field(const std::string& field) {
+std::string csv_field(const std::string& name) {
+  const std::string field = shown(name);
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
   std::string out = "\"";
   for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -49,13 +47,13 @@ std::string runs_csv(const std::vector<EvaluationRun>& runs) {
 std::string runs_summary(const std::vector<EvaluationRun>& runs, const std::vector<EvaluationGroup>& groups) {
   std::string text;
   for (const EvaluationRun& run : runs) {
-    text += fmt::format("{}, {}: {}{}\n", run.name(), run.input, run.error_name, run.valid ? "" : " (not valid)");
+    text += shown_format("{}, {}: {}{}\n", run.name(), run.input, run.error_name, run.valid ? "" : " (not valid)");
     for (const TraceSample& s : run.trace) text += fmt::format("  {:>10.4f} s  {:.6g}\n", s.seconds, s.error);
     if (run.trace.empty()) text += "  " + run.stop + "\n";
   }
   for (const EvaluationGroup& group : groups)
-    text += fmt::format("on the Pareto front of {}, {}: {}\n", group.input, group.error_name,
-                        fmt::join(group.on_front, ", "));
+    text += shown_format("on the Pareto front of {}, {}: {}\n", group.input, group.error_name,
+                         fmt::format("{}", fmt::join(group.on_front, ", ")));
   return text;
 }
 

@@ -29,8 +29,8 @@ class EvaluationFolder {
   std::vector<std::string> files_;
 };
 
-/// A field of a CSV line, quoted where RFC 4180 requires it.
-std::string csv_field(const std::string& field);
+/// A name as shown() makes it, as a field of a CSV line: quoted where RFC 4180 requires it.
+std::string csv_field(const std::string& name);
 
 /// method,solver,input,error_name,repeat,seconds,error: a line a sample. Repeat 0 is the curve of median times.
 std::string runs_csv(const std::vector<EvaluationRun>& runs);

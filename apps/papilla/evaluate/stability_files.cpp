@@ -6,6 +6,7 @@
 
 #include "evaluate/evaluation_files.hpp"
 #include "html_text.hpp"
+#include "shown_format.hpp"
 
 namespace papilla::app {
 namespace {
@@ -145,10 +146,10 @@ std::string stability_html(const std::vector<StabilitySuite>& suites) {
 std::string stability_summary(const std::vector<StabilitySuite>& suites) {
   std::string text;
   for (const StabilitySuite& suite : suites) {
-    text += fmt::format("{:<28} {}\n", suite.title, counts_of(suite));
+    text += shown_format("{:<28} {}\n", suite.title, counts_of(suite));
     for (const StabilityCell& cell : suite.cells)
       if (cell.outcome == Outcome::breaks)
-        text += fmt::format("  breaks: {} on {}: {}\n", cell.method, cell.input, cell.note);
+        text += shown_format("  breaks: {} on {}: {}\n", cell.method, cell.input, cell.note);
   }
   return text;
 }

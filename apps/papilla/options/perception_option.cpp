@@ -9,8 +9,9 @@
 #include <span>
 
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/read_file.hpp"
+#include "papilla/core/read_file.hpp"
 
 namespace papilla::app {
 namespace {
@@ -114,10 +115,13 @@ std::vector<Volume> parse_volumes(const std::string& option, const std::string& 
 }  // namespace
 
 void PerceptionOption::add_to(CLI::App& verb, bool can_leave_out) {
-  verb.add_option("--reach", reach, "Where hands can be, mm in the scene's frame: X,Y,Z,R, X,Y,Z,X,Y,Z or a JSON file")
+  reads(verb.add_option("--reach", reach,
+                        "Where hands can be, mm in the scene's frame: X,Y,Z,R, X,Y,Z,X,Y,Z or a JSON file"))
       ->type_name("VOLUME")
       ->group("Leave out");
-  verb.add_option("--view", view, "Where eyes can be, given like --reach")->type_name("VOLUME")->group("Leave out");
+  reads(verb.add_option("--view", view, "Where eyes can be, given like --reach"))
+      ->type_name("VOLUME")
+      ->group("Leave out");
   verb.add_option("--view-samples", samples, "Points looked at on every use of a part")
       ->type_name("N")
       ->check(CLI::Range(1, 1'000'000))

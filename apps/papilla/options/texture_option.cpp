@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "options/vector_option.hpp"
 
 namespace papilla::app {
@@ -28,7 +29,7 @@ std::vector<Channel> channels_named(const std::string& list) {
 }  // namespace
 
 void HeightOption::add_to(CLI::App& verb) {
-  verb.add_option("--normal", normal_, "Write the glTF normal map of the relief too")->type_name("FILE");
+  writes(verb.add_option("--normal", normal_, "Write the glTF normal map of the relief too"))->type_name("FILE");
   verb.add_option("--pitch", options_.height.pitch_mm, "Millimetres per pixel; default from the file's resolution")
       ->type_name("MM")
       ->check(CLI::PositiveNumber);
@@ -66,7 +67,9 @@ void HeightOption::add_to(CLI::App& verb) {
   verb.add_flag("--alternative", options_.opposite,
                 "Write the relief that the opposite light would make of the same picture too");
   verb.add_flag("--variants", options_.deeper, "Write the relief twice and four times as deep too");
-  verb.add_option("--pictures", pictures_, "Write the lit relief, its opposite and the cross-section into DIR")
+  writes_into(
+      verb.add_option("--pictures", pictures_, "Write the lit relief, its opposite and the cross-section into DIR"),
+      {"relief.png", "relief-opposite.png", "section.svg"})
       ->type_name("DIR");
 }
 
@@ -97,7 +100,7 @@ HeightFileOptions HeightOption::options(std::uint64_t seed, const ProgressCallba
 
 void TextureOption::add_to(CLI::App& verb) {
   verb.add_option("recipe", recipe, "Recipe: type|parameter=value|..., or the name of one")->type_name("RECIPE");
-  verb.add_option("-o,--output", output, "Folder of the pictures")->type_name("DIR");
+  writes_into(verb.add_option("-o,--output", output, "Folder of the pictures"))->type_name("DIR");
   verb.add_option("--size", size_, "Texels a side, or width and height")
       ->expected(1, 2)
       ->delimiter('x')
@@ -128,7 +131,8 @@ void TextureOption::add_to(CLI::App& verb) {
                            ->type_name("N");
   verb.add_flag("--video", files.video, "The series as an animated GIF, lit, too")->needs(steps);
   verb.add_flag("--seamless", files.seamless, "The pictures tile");
-  verb.add_option("--library", libraries, "Files of named recipes, on top of the built-in ones")->type_name("FILE");
+  reads(verb.add_option("--library", libraries, "Files of named recipes, on top of the built-in ones"))
+      ->type_name("FILE");
   verb.add_option("--sheet", sheet, "A contact sheet: of all types, or of the library")
       ->check(CLI::IsMember({"types", "library"}));
   verb.add_option("--tile", tile_px, "Texels a side of a picture on the sheet")

@@ -90,14 +90,14 @@ Json texture_json(const Scene& scene, const std::optional<TextureReference>& ref
 /// Materials, and the height maps that their tags name.
 class PageMaterials {
  public:
-  PageMaterials(const Scene& scene, const std::filesystem::path& file) : scene_(scene), folder_(file.parent_path()) {
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) add(scene.materials[i]);
+  PageMaterials(const Scene& scene, const std::filesystem::path& file) : scene_(scene), file_(file) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) add(scene.materials[i], i);
   }
 
   Json materials = Json::array(), heights = Json::array();
 
  private:
-  void add(const Material& material) {
+  void add(const Material& material, std::size_t number) {
     Json json = {{"name", material.name},
                  {"color", material.base_color},
                  {"metallic", material.metallic},
@@ -115,7 +115,7 @@ class PageMaterials {
       MaterialTag shown = *tag;  // The map itself travels with the heights.
       if (shown.height) {
         shown.height->uri.clear();
-        json["height"] = height(*tag->height, warnings);
+        json["height"] = height(*tag->height, number, warnings);
       }
       json["haptic"] = Json::parse(to_json(shown));
     }
@@ -124,8 +124,8 @@ class PageMaterials {
     materials.push_back(std::move(json));
   }
 
-  Json height(const HeightTag& tag, std::vector<HapticWarning>& warnings) {
-    const auto bytes = find_height_bytes(tag, scene_, folder_, warnings);
+  Json height(const HeightTag& tag, std::size_t material, std::vector<HapticWarning>& warnings) {
+    const auto bytes = find_height_bytes(tag, scene_, file_, material, warnings);
     if (!bytes) return nullptr;
     const auto [place, added] = number_.try_emplace(*bytes, heights.size());
     if (!added) return place->second;
@@ -143,7 +143,7 @@ class PageMaterials {
   }
 
   const Scene& scene_;
-  std::filesystem::path folder_;
+  std::filesystem::path file_;
   std::map<std::string, std::size_t> number_;
 };
 

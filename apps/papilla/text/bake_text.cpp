@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 
 namespace papilla::app {
@@ -15,7 +14,7 @@ std::string plan_table(const std::vector<PartSurface>& surfaces) {
     material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
   }
   std::string out =
-      fmt::format("{:<{}}  {:<{}}  {:>9}  stages\n", "part", width, "material", material_width, "triangles");
+      shown_format("{:<{}}  {:<{}}  {:>9}  stages\n", "part", width, "material", material_width, "triangles");
   for (const PartSurface& surface : surfaces) {
     std::string stages;
     std::map<std::string_view, std::string> skipped;
@@ -27,11 +26,11 @@ std::string plan_table(const std::vector<PartSurface>& surfaces) {
       std::string& names = skipped[surface.plan[i].reason];
       names += (names.empty() ? "" : ", ") + std::string(k_stages[i].name);
     }
-    out += fmt::format("{:<{}}  {:<{}}  {:>9}  {}\n", surface.label, width,
-                       surface.material.empty() ? "-" : surface.material, material_width, surface.triangles.size(),
-                       stages.empty() ? "nothing to do" : stages);
+    out += shown_format("{:<{}}  {:<{}}  {:>9}  {}\n", surface.label, width,
+                        surface.material.empty() ? "-" : surface.material, material_width, surface.triangles.size(),
+                        stages.empty() ? "nothing to do" : stages);
     for (const auto& [reason, names] : skipped)
-      out += fmt::format("{:<{}}  without {}: {}\n", "", width, names, reason);
+      out += shown_format("{:<{}}  without {}: {}\n", "", width, names, reason);
   }
   return out;
 }
@@ -43,11 +42,11 @@ std::string left_out_table(const Scene& scene, const ScenePerception& perception
     if (part.instances_left_out == 0) continue;
     const std::string uses = part.instances_left_out == part.instances
                                  ? ""
-                                 : fmt::format(" ({} of {} uses)", part.instances_left_out, part.instances);
+                                 : shown_format(" ({} of {} uses)", part.instances_left_out, part.instances);
     std::string_view reason = part.left_out;
     for (std::size_t i = 0; reason.empty() && i < perception.uses.size(); ++i)
       if (perception.uses[i].part == p) reason = perception.of_use[i].left_out;
-    table += fmt::format("left out: {}{}: {}\n", scene.parts[p].name, uses, reason);
+    table += shown_format("left out: {}{}: {}\n", scene.parts[p].name, uses, reason);
   }
   return table;
 }
@@ -58,16 +57,17 @@ std::string bake_table(const BakeResult& result) {
     width = std::clamp(surface.label.size(), width, std::size_t{40});
     material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
   }
-  std::string out = fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
-                                material_width, "unwrap", "charts", "triangles", "sym.D", "angle°", "flipped");
+  std::string out =
+      shown_format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
+                   material_width, "unwrap", "charts", "triangles", "sym.D", "angle°", "flipped");
   for (const BakedSurface& surface : result.surfaces) {
-    out += fmt::format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
-                       surface.material, material_width, surface.method, surface.distortion.charts,
-                       surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
-                       surface.distortion.angle_error_deg.mean, surface.distortion.flipped);
+    out += shown_format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
+                        surface.material, material_width, surface.method, surface.distortion.charts,
+                        surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
+                        surface.distortion.angle_error_deg.mean, surface.distortion.flipped);
     if (!surface.notes.empty())
-      out += fmt::format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(),
-                         surface.notes.front());
+      out += shown_format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(),
+                          surface.notes.front());
   }
   if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
   return out;

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <iterator>
 
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 
 namespace papilla::app {
 
 std::string distortion_text(const Scene& scene, const SceneDistortion& distortion) {
   const DistortionReport& r = distortion.report;
-  std::string text = fmt::format(
+  std::string text = shown_format(
       "{} triangles in {} charts, seams {:.1f} mm\n"
       "flipped {}, mirrored charts {}, degenerate {} in space and {} in uv\n"
       "overlap {:.4g} of the uv area, {:.4g} within charts\n"
@@ -23,8 +24,8 @@ std::string distortion_text(const Scene& scene, const SceneDistortion& distortio
       r.stretch_l2, r.stretch_linf, r.angle_error_deg.mean, r.angle_error_deg.max, r.area_ratio.min, r.area_ratio.max,
       r.edge_length_error);
   if (const auto worst = worst_chart(distortion))
-    text += fmt::format("most of it in chart {} of part '{}': {:.3g} % of the distortion, at triangle {} {:.4g}\n",
-                        worst->chart, scene.parts[worst->part].name, 100 * worst->share, worst->triangle, worst->max);
+    text += shown_format("most of it in chart {} of part '{}': {:.3g} % of the distortion, at triangle {} {:.4g}\n",
+                         worst->chart, scene.parts[worst->part].name, 100 * worst->share, worst->triangle, worst->max);
   return text;
 }
 
@@ -51,8 +52,8 @@ std::string histogram_text(const DistortionReport& report) {
   for (std::size_t i = 0; i < histogram.area_shares.size(); ++i) {
     const bool last = i == histogram.upper_ends.size();
     const double share = histogram.area_shares[i];
-    text += fmt::format("  {} {:<8} {:6.2f} % {}\n", last ? "above" : "up to", histogram.upper_ends[last ? i - 1 : i],
-                        100 * share, std::string(static_cast<std::size_t>(std::lround(40 * share)), '#'));
+    text += shown_format("  {} {:<8} {:6.2f} % {}\n", last ? "above" : "up to", histogram.upper_ends[last ? i - 1 : i],
+                         100 * share, std::string(static_cast<std::size_t>(std::lround(40 * share)), '#'));
   }
   return text;
 }

@@ -1,58 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
-
 #include "json/scene_json.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 
 namespace papilla::app {
 namespace {
 
 std::string perception_text(const Scene& scene, const ScenePerception& perception) {
-  std::string text = fmt::format("\n{:>9} {:>8} {:>7} {:>9}  part\n", "instances", "in reach", "seen", "area seen");
+  std::string text = shown_format("\n{:>9} {:>8} {:>7} {:>9}  part\n", "instances", "in reach", "seen", "area seen");
   for (std::size_t p = 0; p < perception.parts.size(); ++p) {
     const PartPerception& part = perception.parts[p];
     const auto cell = [](bool known, std::size_t count) { return known ? std::to_string(count) : std::string("-"); };
-    text += fmt::format(
+    text += shown_format(
         "{:>9} {:>8} {:>7} {:>9}  {}\n", part.instances, cell(part.in_reach.has_value(), part.instances_in_reach),
         cell(part.visible_fraction.has_value(), part.instances_seen),
-        part.visible_fraction ? fmt::format("{:.1f} %", 100 * *part.visible_fraction) : "-", scene.parts[p].name);
+        part.visible_fraction ? shown_format("{:.1f} %", 100 * *part.visible_fraction) : "-", scene.parts[p].name);
   }
   return text;
 }
 
 std::string simplified_row(std::size_t before, std::size_t after, double deviation, const std::string& name) {
-  return fmt::format("{:>10} {:>10} {:>12.4g}  {}\n", before, after, deviation, name);
+  return shown_format("{:>10} {:>10} {:>12.4g}  {}\n", before, after, deviation, name);
 }
 
 }  // namespace
 
 std::string header_row() {
-  return fmt::format("{:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>3}  part\n", "triangles",
-                     "vertices", "comp", "loops", "genus", "nonman", "degen", "dupl", "flipped", "T-junc", "aspect",
-                     "uv");
+  return shown_format("{:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9} {:>3}  part\n", "triangles",
+                      "vertices", "comp", "loops", "genus", "nonman", "degen", "dupl", "flipped", "T-junc", "aspect",
+                      "uv");
 }
 
 std::string counters_row(const std::string& name, const MeshStatistics& s) {
-  return fmt::format("{:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9.4g} {:>3}  {}\n", s.triangles,
-                     s.vertices, s.components, s.boundary_loops, s.genus, s.nonmanifold_edges, s.degenerate_triangles,
-                     s.duplicate_triangles, s.flipped_edges, s.t_junctions, s.aspect_max, s.has_uv ? "yes" : "no",
-                     name);
+  return shown_format("{:>9} {:>9} {:>5} {:>6} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9.4g} {:>3}  {}\n", s.triangles,
+                      s.vertices, s.components, s.boundary_loops, s.genus, s.nonmanifold_edges, s.degenerate_triangles,
+                      s.duplicate_triangles, s.flipped_edges, s.t_junctions, s.aspect_max, s.has_uv ? "yes" : "no",
+                      name);
 }
 
 std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& statistics,
                          const std::optional<ScenePerception>& perception) {
   const Vec3 size = scene_bounds(scene).size();
-  std::string text = fmt::format("{}, units {}, {} parts, {:.4g} x {:.4g} x {:.4g} mm\n\n", scene.format, scene.unit,
-                                 scene.parts.size(), size.x, size.y, size.z);
+  std::string text = shown_format("{}, units {}, {} parts, {:.4g} x {:.4g} x {:.4g} mm\n\n", scene.format, scene.unit,
+                                  scene.parts.size(), size.x, size.y, size.z);
   text += header_row();
   for (std::size_t i = 0; i < statistics.size(); ++i) text += counters_row(scene.parts[i].name, statistics[i]);
   if (statistics.size() > 1) text += counters_row("all parts", total_statistics(statistics));
-  if (!scene.materials.empty()) text += fmt::format("\n{} materials\n", scene.materials.size());
+  if (!scene.materials.empty()) text += shown_format("\n{} materials\n", scene.materials.size());
   for (const Material& material : scene.materials) {
-    text += "  " + material.name + "  base colour";
-    for (const double value : material.base_color) text += fmt::format(" {:.3g}", value);
-    for (const auto& [use, name] : texture_names(scene, material)) text += fmt::format("  {}: {}", use, name);
+    text += shown_format("  {}  base colour", material.name);
+    for (const double value : material.base_color) text += shown_format(" {:.3g}", value);
+    for (const auto& [use, name] : texture_names(scene, material)) text += shown_format("  {}: {}", use, name);
     text += "\n";
   }
   if (perception) text += perception_text(scene, *perception);
@@ -61,28 +60,28 @@ std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& 
 
 std::string tessellation_text(const Scene& scene, const CadReport& report) {
   const std::vector<std::size_t> uses = uses_of_parts(scene);
-  std::string text = fmt::format("{:>10} {:>9}  part\n", "triangles", "instances");
+  std::string text = shown_format("{:>10} {:>9}  part\n", "triangles", "instances");
   for (std::size_t i = 0; i < scene.parts.size(); ++i)
-    text += fmt::format("{:>10} {:>9}  {}\n", scene.parts[i].mesh.triangles.size(), uses[i], scene.parts[i].name);
-  text += fmt::format("{} triangles in {} parts, {} of {} CAD faces failed, largest deviation {:.3g} mm\n",
-                      report.triangles, scene.parts.size(), report.failed_faces.size(), report.faces,
-                      report.max_deviation_mm);
+    text += shown_format("{:>10} {:>9}  {}\n", scene.parts[i].mesh.triangles.size(), uses[i], scene.parts[i].name);
+  text += shown_format("{} triangles in {} parts, {} of {} CAD faces failed, largest deviation {:.3g} mm\n",
+                       report.triangles, scene.parts.size(), report.failed_faces.size(), report.faces,
+                       report.max_deviation_mm);
   for (const CadFaceNote& note : report.off_faces)
-    text += fmt::format("face {} of '{}' {}\n", note.face, note.part, note.reason);
+    text += shown_format("face {} of '{}' {}\n", note.face, note.part, note.reason);
   return text;
 }
 
 std::string repair_text(const RepairSceneResult& result) {
   std::string text = header_row() + counters_row("before", result.before) + counters_row("after", result.after);
-  text += fmt::format("largest deviation {:.3g} mm, weld tolerance {:.3g} mm\n", result.max_deviation_mm,
-                      result.weld_tolerance_mm);
+  text += shown_format("largest deviation {:.3g} mm, weld tolerance {:.3g} mm\n", result.max_deviation_mm,
+                       result.weld_tolerance_mm);
   if (result.measured_deviation_mm) {
     bool walls = false;
     for (const RepairResult& part : result.parts) walls |= part.counts.walls > 0;
-    text += fmt::format("measured deviation at most {:.3g} mm, both ways{}\n", *result.measured_deviation_mm,
-                        walls ? ", with the walls between solids that were dropped" : "");
+    text += shown_format("measured deviation at most {:.3g} mm, both ways{}\n", *result.measured_deviation_mm,
+                         walls ? ", with the walls between solids that were dropped" : "");
   }
-  for (const std::string& name : result.unsettled) text += "not settled: " + name + "\n";
+  for (const std::string& name : result.unsettled) text += shown_format("not settled: {}\n", name);
   return text;
 }
 
@@ -91,10 +90,10 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
   std::string text;
   if (result.perception) text += left_out_table(scene, *result.perception);
   if (result.budget && !result.budget->reached)
-    text +=
-        fmt::format("the budget of {} triangles can't be reached: borders, seams and features allow no fewer than {}\n",
-                    *options.budget, result.budget->triangles);
-  text += fmt::format("{:>10} {:>10} {:>12}  part\n", "before", "after", "deviation mm");
+    text += shown_format(
+        "the budget of {} triangles can't be reached: borders, seams and features allow no fewer than {}\n",
+        *options.budget, result.budget->triangles);
+  text += shown_format("{:>10} {:>10} {:>12}  part\n", "before", "after", "deviation mm");
   for (std::size_t i = 0; i < result.parts.size(); ++i)
     if (const SimplifyResult& part = result.parts[i]; part.triangles_before > 0)
       text += simplified_row(part.triangles_before, result.triangles[i], part.deviation.bound(), scene.parts[i].name);
@@ -102,10 +101,10 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
     const std::string& name = scene.parts[level.part].name;
     if (level.level > 0)
       text += simplified_row(level.triangles_before, level.triangles, level.max_deviation_mm,
-                             fmt::format("{} level {}", name, level.level));
+                             shown_format("{} level {}", name, level.level));
     else
-      text += fmt::format("{:>10} {:>10} {:>12}  {}: no level within {:.4g} mm, it would not have a tenth less\n",
-                          level.triangles_before, level.triangles, "-", name, level.tolerance_mm);
+      text += shown_format("{:>10} {:>10} {:>12}  {}: no level within {:.4g} mm, it would not have a tenth less\n",
+                           level.triangles_before, level.triangles, "-", name, level.tolerance_mm);
   }
   return text +
          simplified_row(result.triangles_before, result.triangles_after, result.max_deviation_mm, "drawn in all");
@@ -116,15 +115,15 @@ std::string unwrap_remarks(const UnwrapResult& result) {
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
     const UnwrappedPart& part = result.parts[p];
     if (part.opposed_edges > 0)
-      text += fmt::format(
+      text += shown_format(
           "part '{}': charts end at {} edges of triangles that are wound against each other; papilla repair turns "
           "them\n",
           result.scene.parts[p].name, part.opposed_edges);
-    if (!part.reason.empty() && part.failure.empty()) text += part.method + ": " + part.reason + "\n";
-    if (!part.failure.empty()) text += "not unwrapped: " + part.failure + "\n";
+    if (!part.reason.empty() && part.failure.empty()) text += shown_format("{}: {}\n", part.method, part.reason);
+    if (!part.failure.empty()) text += shown_format("not unwrapped: {}\n", part.failure);
     if (!part.flattening.notes.empty())
-      text += fmt::format("{} charts did not take the method, the first: {}\n", part.flattening.notes.size(),
-                          part.flattening.notes.front().reason);
+      text += shown_format("{} charts did not take the method, the first: {}\n", part.flattening.notes.size(),
+                           part.flattening.notes.front().reason);
   }
   return text;
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/texture_text.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <iterator>
+
+#include "shown_format.hpp"
 
 namespace papilla::app {
 namespace {
@@ -13,8 +12,8 @@ namespace {
 class Lines {
  public:
   template <class... Values>
-  void add(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+  void add(fmt::format_string<ShownValue<Values>...> format, const Values&... values) {
+    text_ += shown_format(format, values...);
   }
   std::string take() { return std::move(text_); }
 
@@ -78,7 +77,7 @@ void add_numbers(Lines& lines, const char* when, const PictureNumbers& n) {
 std::string survey_text(const std::string& image, const TextureSurvey& survey) {
   Lines lines;
   lines.add("{}: {} x {} pixels, {} bit, pitch {}\n", image, survey.width, survey.height, survey.bits,
-            survey.pitch_mm > 0 ? fmt::format("{:.4f} mm", survey.pitch_mm)
+            survey.pitch_mm > 0 ? shown_format("{:.4f} mm", survey.pitch_mm)
                                 : "unknown (no resolution in the file, no --pitch)");
   if (survey.pieces) {
     const auto& [columns, rows, lattice] = *survey.pieces;
@@ -129,7 +128,7 @@ std::string height_text(const std::string& image, const std::string& output, con
   for (const ReliefPicture& picture : files.pictures)
     if (picture.exaggeration)
       lines.add("written    {}, heights times {:.3g}{}\n", picture.file, *picture.exaggeration,
-                picture.scale_bar_mm > 0 ? fmt::format(", the bar is {:g} mm", picture.scale_bar_mm) : "");
+                picture.scale_bar_mm > 0 ? shown_format(", the bar is {:g} mm", picture.scale_bar_mm) : "");
     else
       add_written(lines, picture.file, picture.drawn);
   return lines.take();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/texture_json.hpp"
 #include "text/texture_text.hpp"
 #include "verb.hpp"
@@ -45,7 +46,7 @@ void add_analyze(CLI::App& program) {
                {"analyze", "Measures the roughness, symmetry and class of a texture",
                 "papilla synthesize grain --kind quads6 -o quads.png && papilla analyze quads.png --pictures pictures"},
                [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("image", options->image, "Picture")->required()->type_name("IMAGE");
+  reads(verb->add_option("image", options->image, "Picture"))->required()->type_name("IMAGE");
   verb->add_option("--pitch", options->survey.pitch_mm, "Millimetres per pixel; default from the file's resolution")
       ->type_name("MM")
       ->check(CLI::PositiveNumber);
@@ -53,8 +54,9 @@ void add_analyze(CLI::App& program) {
       ->delimiter(',')
       ->check(CLI::IsMember({"fractal", "symmetry", "class"}))
       ->capture_default_str();
-  verb->add_option("--pictures", options->pictures,
-                   "Write the strip of the symmetry, the log-log plot and the polar Hurst plot into DIR")
+  writes_into(verb->add_option("--pictures", options->pictures,
+                               "Write the strip of the symmetry, the log-log plot and the polar Hurst plot into DIR"),
+              {"symmetry.png"})
       ->type_name("DIR");
   verb->add_option("--lattice", options->lattice, "How minima become a lattice")
       ->check(CLI::IsMember({"best", "projection"}))

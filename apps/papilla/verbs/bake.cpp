@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
@@ -15,6 +14,7 @@
 #include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
 
@@ -39,13 +39,6 @@ struct Options {
   }
 };
 
-/// Makes the report's folder before the work, so that a wrong path is known at once.
-void prepare_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) throw IoError(folder.string() + ": cannot be made a folder");
-}
-
 /// The page, report.json, and pictures if they are wanted; what they are and took is added to the JSON.
 void write_report(const Options& options, const BakeResult& result, const VerbContext& context, const Stopwatch& total,
                   Json& json) {
@@ -61,9 +54,9 @@ void write_report(const Options& options, const BakeResult& result, const VerbCo
   json["seconds"]["page"] = clock.seconds();
   json["seconds"]["total"] = total.seconds();
   write_atomically(folder / "report.json", json_text(json));
-  context.console.print((folder / "report.json").string() + ": plan, distortion, times" +
-                        (options.pictures ? "; pictures beside it\n" : "\n") + (folder / "index.html").string() +
-                        ": the same to look at and to touch\n");
+  context.console.print(shown_format("{}: plan, distortion, times{}\n{}: the same to look at and to touch\n",
+                                     (folder / "report.json").string(), options.pictures ? "; pictures beside it" : "",
+                                     (folder / "index.html").string()));
 }
 
 Json run(const Options& options, VerbContext& context) {
@@ -71,7 +64,7 @@ Json run(const Options& options, VerbContext& context) {
     throw UsageError("--output: '" + options.output + "' must end in .glb");
   BakeOptions bake = options.bake;
   bake.plan.perception = options.perception.options();
-  if (!options.report.empty()) prepare_folder(options.report);
+  if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
   const Stopwatch total;
   const Materials rules = read_materials(options.materials);
   bake.library = load_recipes(options.libraries);
@@ -90,13 +83,13 @@ Json run(const Options& options, VerbContext& context) {
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
   context.console.print(left_out_table(result.scene, result.plan.perception));
   if (const auto& budget = result.plan.budget)
-    context.console.print(fmt::format("budget of {} triangles: {} within {:.3g} mm{}\n", *bake.plan.budget,
-                                      budget->triangles, budget->tolerance_mm,
-                                      budget->reached ? "" : "; borders, seams and features allow no fewer"));
+    context.console.print(shown_format("budget of {} triangles: {} within {:.3g} mm{}\n", *bake.plan.budget,
+                                       budget->triangles, budget->tolerance_mm,
+                                       budget->reached ? "" : "; borders, seams and features allow no fewer"));
   context.console.print(bake_table(result));
   print_notes(result.scene, context.console);
   context.console.print(
-      fmt::format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
+      shown_format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
   if (!options.report.empty()) write_report(options, result, context, total, json);
   return json;
 }
@@ -109,11 +102,12 @@ void add_bake(CLI::App& program) {
                             {"bake", "The main job: grain and touch onto a scene, as one GLB.",
                              "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
                             [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
-  verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like")
+  reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
+  reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))
+      ->type_name("FILE")
       ->required();
-  verb->add_option("-o,--output", options->output, "GLB to write")->required();
-  verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones")
+  writes(verb->add_option("-o,--output", options->output, "GLB to write"))->type_name("OUT")->required();
+  reads(verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
   verb->add_option("--budget", options->bake.plan.budget,
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
@@ -124,9 +118,10 @@ void add_bake(CLI::App& program) {
           "Repeat what the haptic tags say in drafts of others' extensions, as far as they have a place for it")
       ->type_name("NAME")
       ->check(CLI::IsMember({k_mpeg, k_khr}));
-  auto* const report =
-      verb->add_option("--report", options->report, "Folder for a page to look at (index.html) and report.json")
-          ->type_name("DIR");
+  auto* const report = writes_into(verb->add_option("--report", options->report,
+                                                    "Folder for a page to look at (index.html) and report.json"),
+                                   {"index.html", "report.json"})
+                           ->type_name("DIR");
   verb->add_flag("--pictures", options->pictures,
                  "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")
       ->needs(report);

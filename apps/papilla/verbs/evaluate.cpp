@@ -7,6 +7,7 @@
 
 #include "evaluate/evaluation_files.hpp"
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "json/evaluation_json.hpp"
 #include "options/scene_option.hpp"
 #include "verb.hpp"
@@ -82,10 +83,12 @@ void add_evaluate(CLI::App& program) {
   names.emplace_back(k_stability);
   help += " stability (every method on input made to break it; takes no file)";
   verb->add_option("kind", options->evaluate.kind, help)->type_name("KIND")->check(CLI::IsMember(names))->required();
-  verb->add_option("file", options->evaluate.files,
-                   "Files to read; without, inputs of its own: disks, solids, fractal surfaces, lattices, reliefs")
+  reads(
+      verb->add_option("file", options->evaluate.files,
+                       "Files to read; without, inputs of its own: disks, solids, fractal surfaces, lattices, reliefs"))
       ->type_name("FILE");
-  verb->add_option("-o,--output", options->folder, "Folder for evaluate-KIND.json, .csv, .html and pictures")
+  writes_into(
+      verb->add_option("-o,--output", options->folder, "Folder for evaluate-KIND.json, .csv, .html and pictures"))
       ->type_name("DIR")
       ->required();
   verb->add_option("--repeats", options->evaluate.repeats,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/texture_json.hpp"
 #include "options/texture_option.hpp"
 #include "text/texture_text.hpp"
@@ -31,8 +32,8 @@ void add_height(CLI::App& program) {
                {"height", "Turns a picture of a surface into a height map in millimetres",
                 "papilla synthesize grain --kind spheres8 -o grain.png && papilla height grain.png -o height.png"},
                [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("image", options->image, "Picture")->required()->type_name("IMAGE");
-  verb->add_option("-o,--output", options->output, "Height map: 16-bit .png, or .exr or .tif in millimetres")
+  reads(verb->add_option("image", options->image, "Picture"))->required()->type_name("IMAGE");
+  writes(verb->add_option("-o,--output", options->output, "Height map: 16-bit .png, or .exr or .tif in millimetres"))
       ->required()
       ->type_name("FILE");
   options->height.add_to(*verb);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
@@ -8,6 +9,7 @@
 #include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/pipeline/pictures/scene_render.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
 
@@ -33,7 +35,7 @@ Json run(const Options& options, VerbContext& context) {
   if (!options.picture.empty()) {
     write_color_image(options.picture, render_scene(scene, {.mode = RenderMode::triangles}));
     json["picture"] = options.picture;
-    context.console.print("written " + options.picture + "\n");
+    context.console.print(shown_format("written {}\n", options.picture));
   }
   return json;
 }
@@ -46,8 +48,9 @@ void add_inspect(CLI::App& program) {
                             {"inspect", "Show what a file holds: parts, materials, and what is wrong with the meshes.",
                              "papilla inspect seat.obj --json -"},
                             [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("FILE")->required();
-  verb->add_option("--picture", options->picture, "Picture of the scene with its triangles; red: edges of one triangle")
+  reads(verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB or glTF file"))->type_name("FILE")->required();
+  writes(verb->add_option("--picture", options->picture,
+                          "Picture of the scene with its triangles; red: edges of one triangle"))
       ->type_name("PNG");
   options->perception.add_to(*verb, false);
   options->read.add_to(*verb);

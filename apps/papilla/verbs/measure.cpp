@@ -6,12 +6,14 @@
 #include <memory>
 
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/scene_option.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -58,7 +60,7 @@ Json check_gates(const std::vector<Gate>& gates, const DistortionReport& distort
     const double value = gated_value(distortion, gate.name);
     if (value <= gate.limit) continue;
     context.exit_code = k_exit_gate;
-    context.console.print(fmt::format("FAILED: {} is {:.6g}, above {:.6g}\n", gate.name, value, gate.limit));
+    context.console.print(shown_format("FAILED: {} is {:.6g}, above {:.6g}\n", gate.name, value, gate.limit));
     failed.push_back({{"name", gate.name}, {"value", value}, {"limit", gate.limit}});
   }
   return failed;
@@ -119,17 +121,17 @@ void add_measure(CLI::App& program) {
                {"measure", "Measure the distortion of a file's texture coordinates, whoever made them.",
                 "papilla measure part.obj --picture part.png --fail-above flipped=0 symmetric_dirichlet.mean=4.1"},
                [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("IN", options->input, "Mesh or glTF file")->required();
-  verb->add_option("--picture", options->picture, "Draw the layout, coloured by symmetric Dirichlet distortion")
+  reads(verb->add_option("IN", options->input, "Mesh or glTF file"))->type_name("IN")->required();
+  writes(verb->add_option("--picture", options->picture, "Draw the layout, coloured by symmetric Dirichlet distortion"))
       ->type_name("PNG");
-  verb->add_option("--colored", options->colored,
-                   "Write the mesh, every triangle in the colour of its distortion: .glb, .ply, .obj")
+  writes(verb->add_option("--colored", options->colored,
+                          "Write the mesh, every triangle in the colour of its distortion: .glb, .ply, .obj"))
       ->type_name("FILE");
   verb->add_flag("--histogram", options->histogram, "Print how the area is spread over distortion");
   verb->add_option("--worst", options->worst, "Symmetric Dirichlet distortion at the end of the colours")
       ->check(CLI::Range(4.0001, 1e6))
       ->capture_default_str();
-  verb->add_option("--csv", options->csv, "Write a line per triangle")->type_name("FILE");
+  writes(verb->add_option("--csv", options->csv, "Write a line per triangle"))->type_name("FILE");
   verb->add_option("--fail-above", options->gates, "Exit with 1 when the number NAME of the report exceeds VALUE")
       ->type_name("NAME=VALUE");
   verb->add_option("--texture-px", options->texture_px, "Side of the texture in texels, for the texel density")

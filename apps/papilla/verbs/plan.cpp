@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
@@ -40,8 +41,8 @@ void add_plan(CLI::App& program) {
                             {"plan", "Show what bake would do, surface by surface, and why; writes nothing.",
                              "papilla plan data/cockpit.step -m data/cockpit.materials.json"},
                             [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("SCENE", options->input, "CAD, mesh or glTF file")->required();
-  verb->add_option("-m,--materials", options->materials, "MATERIALS.json")->required();
+  reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
+  reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json"))->type_name("FILE")->required();
   options->perception.add_to(*verb);
   options->scene.add_to(*verb);
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/texture_json.hpp"
 #include "text/texture_text.hpp"
 #include "verb.hpp"
@@ -38,8 +39,8 @@ void add_prepare(CLI::App& program) {
                {"prepare", "Makes a scanned or photographed surface even, clear and tileable",
                 "papilla synthesize fractal --hurst 0.3 -o rough.png && papilla prepare rough.png -o even.png"},
                [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("image", options->image, "Picture")->required()->type_name("IMAGE");
-  verb->add_option("-o,--output", options->output, "Prepared picture, 16 bit")->required()->type_name("FILE");
+  reads(verb->add_option("image", options->image, "Picture"))->required()->type_name("IMAGE");
+  writes(verb->add_option("-o,--output", options->output, "Prepared picture, 16 bit"))->required()->type_name("FILE");
   verb->add_option("--borders", options->borders, "How borders are matched")
       ->check(CLI::IsMember({"auto", "none", "cut", "mirror"}))
       ->capture_default_str();

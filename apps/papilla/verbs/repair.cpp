@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/scene_option.hpp"
 #include "scene_output.hpp"
@@ -35,8 +36,8 @@ void add_repair(CLI::App& program) {
                             {"repair", "Make clean, oriented, manifold parts of whatever a file holds.",
                              "papilla repair scan.stl -o clean.glb"},
                             [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB or glTF file")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")
+  reads(verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB or glTF file"))->type_name("IN")->required();
+  writes(verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write"))
       ->type_name("OUT")
       ->required();
   verb->add_option("--weld", options->repair.repair.weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")

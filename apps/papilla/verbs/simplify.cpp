@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
@@ -94,8 +95,8 @@ void add_simplify(CLI::App& program) {
                             {"simplify", "Leave out triangles within a tolerance that is measured, both ways.",
                              "papilla simplify dash.glb -o light.glb --tolerance 0.1"},
                             [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("in", options->in, "File to read")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")
+  reads(verb->add_option("in", options->in, "File to read"))->type_name("IN")->required();
+  writes(verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write"))
       ->type_name("OUT")
       ->required();
   add_goals(*verb, *options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/texture_json.hpp"
 #include "options/vector_option.hpp"
 #include "papilla/io/image_file.hpp"
@@ -42,10 +43,11 @@ void add_synthesize(CLI::App& program) {
   std::vector<std::string> kinds;
   for (const std::string_view name : grain_names()) kinds.emplace_back(name);
   verb->add_option("what", options->what, "grain or fractal")->required()->check(CLI::IsMember({"grain", "fractal"}));
-  verb->add_option("-o,--output", options->output, "Picture: the lit grain, or the fractal surface as grey values")
+  writes(
+      verb->add_option("-o,--output", options->output, "Picture: the lit grain, or the fractal surface as grey values"))
       ->required()
       ->type_name("FILE");
-  verb->add_option("--relief", options->relief, "True relief: 16-bit .png, or .exr or .tif in millimetres")
+  writes(verb->add_option("--relief", options->relief, "True relief: 16-bit .png, or .exr or .tif in millimetres"))
       ->type_name("FILE");
   verb->add_option("--size", options->synthesis.size_px,
                    "Pixels a side; 512 for grain, 256 for spectral and --like, 1025 for a graph, else 257")
@@ -73,7 +75,7 @@ void add_synthesize(CLI::App& program) {
   verb->add_option("--dimension", options->synthesis.dimension, "Fractal: dimension in place of H, of a graph 2 - H")
       ->type_name("D")
       ->excludes(hurst);
-  verb->add_option("--like", options->like, "Fractal: with the roughness and direction of this picture")
+  reads(verb->add_option("--like", options->like, "Fractal: with the roughness and direction of this picture"))
       ->type_name("IMAGE");
   verb->add_flag("--tile", options->synthesis.tile, "Fractal: the result shall tile");
 }

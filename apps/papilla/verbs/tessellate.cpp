@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/scene_option.hpp"
 #include "papilla/core/error.hpp"
@@ -55,8 +56,8 @@ void add_tessellate(CLI::App& program) {
                {"tessellate", "Turn the surfaces of a CAD file into triangles, with part names, colours and CAD (u,v).",
                 "papilla tessellate data/cockpit.step -o cockpit.glb --chord 0.2"},
                [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("in", options->in, "STEP, IGES or BREP file")->type_name("IN")->required();
-  verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write")
+  reads(verb->add_option("in", options->in, "STEP, IGES or BREP file"))->type_name("IN")->required();
+  writes(verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write"))
       ->type_name("OUT")
       ->required();
   verb->add_flag("--relative", options->relative, "The chord is a fraction of each part's diagonal");

@@ -12,6 +12,7 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/reference.hpp"
+#include "shown_format.hpp"
 #include "text/texture_text.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -22,7 +23,7 @@ namespace {
 Json write_sheet(const TextureOption& options, const RecipeLibrary& library, VerbContext& context) {
   const bool shows_types = options.sheet == "types";
   const std::filesystem::path folder = options.output;
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   CompileOptions compile = recipe_options(".");
   compile.time = options.files.time > 0 || shows_types ? options.files.time : 0.7;  // Ageing recipes show nothing at 0.
   compile.seamless = options.files.seamless;
@@ -31,15 +32,15 @@ Json write_sheet(const TextureOption& options, const RecipeLibrary& library, Ver
   write_color_image(folder / "sheet.png", sheet.picture);
   write_atomically(folder / "sheet.html", sheet_page(sheet, "sheet.png"));
   for (const SheetEntry& entry : sheet.entries)
-    if (!entry.error.empty()) context.console.print(entry.name + ": " + entry.error + "\n");
-  context.console.print(fmt::format("{} recipes on {}/sheet.html\n", sheet.entries.size(), options.output));
+    if (!entry.error.empty()) context.console.print(shown_format("{}: {}\n", entry.name, entry.error));
+  context.console.print(shown_format("{} recipes on {}/sheet.html\n", sheet.entries.size(), options.output));
   return sheet_json(sheet);
 }
 
 Json print_list(const std::string& what, const RecipeLibrary& library, const Console& console) {
   Json json{{what, Json::array()}};
   const auto add = [&](std::string_view name, std::string_view note) {
-    console.print(fmt::format("{:<20} {}\n", name, note));
+    console.print(shown_format("{:<20} {}\n", name, note));
     json[what].push_back({{"name", name}, {"note", note}});
   };
   if (what == "categories") {
@@ -67,7 +68,7 @@ Json run(const TextureOption& options, VerbContext& context) {
   if (!options.list.empty()) return print_list(options.list, library, context.console);
   if (!options.suggest.empty()) {
     const std::vector<std::string> names = suggest_recipes(options.suggest, library);
-    for (const std::string& name : names) context.console.print(name + "\n");
+    for (const std::string& name : names) context.console.print(shown_format("{}\n", name));
     return {{"suggestions", names}};
   }
   if (options.output.empty()) throw InvalidInput("texture: -o DIR is missing");

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/scene_option.hpp"
 #include "options/unwrap_option.hpp"
@@ -12,6 +13,7 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
 
@@ -46,7 +48,7 @@ Json run(const Options& options, VerbContext& context) {
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
   const std::string method = unwrap_method_name(unwrap.method.method);
-  context.console.print(fmt::format("{}: {} charts in {:.3f} s\n", method, result.charts, result.seconds.total) +
+  context.console.print(shown_format("{}: {} charts in {:.3f} s\n", method, result.charts, result.seconds.total) +
                         distortion_text(result.scene, distortion) + unwrap_remarks(result));
   Json json{{"method", method}};
   json.update(unwrap_json(result, distortion));
@@ -61,11 +63,14 @@ void add_unwrap(CLI::App& program) {
                             {"unwrap", "Make charts and texture coordinates in millimetres.",
                              "papilla unwrap part.stl -o part.glb --picture part.png"},
                             [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("IN", options->input, "Mesh, CAD or glTF file")->required();
-  verb->add_option("-o,--output", options->output, "File with texture coordinates: .glb, .obj")->required();
+  reads(verb->add_option("IN", options->input, "Mesh, CAD or glTF file"))->type_name("IN")->required();
+  writes(verb->add_option("-o,--output", options->output, "File with texture coordinates: .glb, .obj"))
+      ->type_name("OUT")
+      ->required();
   options->unwrap.add_to(*verb);
-  verb->add_option("--trace", options->trace, "Write error over run time as CSV: seconds,error")->type_name("FILE");
-  verb->add_option("--picture", options->picture, "Draw the layout, coloured by distortion")->type_name("PNG");
+  writes(verb->add_option("--trace", options->trace, "Write error over run time as CSV: seconds,error"))
+      ->type_name("FILE");
+  writes(verb->add_option("--picture", options->picture, "Draw the layout, coloured by distortion"))->type_name("PNG");
   options->scene.add_to(*verb);
 }
 

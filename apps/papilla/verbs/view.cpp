@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/core.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,11 +7,13 @@
 #include <optional>
 
 #include "exit_code.hpp"
+#include "file_options.hpp"
 #include "live/follow.hpp"
 #include "options/scene_option.hpp"
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
 #include "papilla/io/scene_file.hpp"
+#include "shown_format.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
 
@@ -80,8 +81,8 @@ Json run(const Options& options, VerbContext& context) {
       options.output.empty() ? fs::path(options.input).replace_extension(".html") : fs::path(options.output);
   PageScene scene = scene_of(options.input, options, context);
   const std::size_t bytes = write_page(content_of(options.input, std::move(scene.json)), page);
-  context.console.print(fmt::format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(), scene.triangles_shown,
-                                    scene.triangles, static_cast<double>(bytes) / 1e6));
+  context.console.print(shown_format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(), scene.triangles_shown,
+                                     scene.triangles, static_cast<double>(bytes) / 1e6));
   const bool opened = open_if_wanted(fs::absolute(page).string(), options, context);
   return {{"page", page.string()},
           {"triangles", scene.triangles},
@@ -100,11 +101,12 @@ void add_view(CLI::App& program) {
                {"view", "Write a page that shows a scene, its uv and how it feels, and open it in the browser.",
                 "papilla view cockpit.glb -o cockpit.html --no-open"},
                [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("FILE", options->input,
-                   "GLB of any producer, or another file that is read; with --follow what the player plays, "
-                   "and known from it when not given");
+  reads(verb->add_option("FILE", options->input,
+                         "GLB of any producer, or another file that is read; with --follow what the player plays, "
+                         "and known from it when not given"));
   auto* const output =
-      verb->add_option("-o,--output", options->output, "Page to write; beside FILE when not given")->type_name("HTML");
+      writes(verb->add_option("-o,--output", options->output, "Page to write; beside FILE when not given"))
+          ->type_name("HTML");
   verb->add_flag("--no-open", options->no_open, "Don't start a browser");
   auto* const follow =
       verb->add_option("--follow", options->follow,

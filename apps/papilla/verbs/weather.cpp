@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/core.h>
-
 #include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <memory>
 
+#include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/scene_option.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/file_guard.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
 #include "verbs.hpp"
 #include "weather/follow_files.hpp"
 #include "weather/weather_build.hpp"
@@ -39,10 +40,11 @@ void rebuild_on_change(const Options& options, WeatherBuilder& builder, const Ve
   };
   const auto again = [&] {
     try {
+      forget_written_outputs();
       build = builder.build(options.build, true, context);
-      context.console.print(fmt::format("{} painted anew in {:.2f} s\n", build.painted, build.seconds));
+      context.console.print(shown_format("{} painted anew in {:.2f} s\n", build.painted, build.seconds));
     } catch (const Error& error) {
-      context.console.print(std::string(error.what()) + "\n");
+      context.console.print(shown_format("{}\n", error.what()));
     }
   };
   context.console.print("waiting for changes; Ctrl-C ends\n");
@@ -64,17 +66,18 @@ void add_weather(CLI::App& program) {
                             {"weather", "Ages a scene: layers of dirt, rust, snow and wear over its materials",
                              "papilla weather house.glb -c weather.json -o old-house.glb"},
                             [options](VerbContext& context) { return run(*options, context); });
-  verb->add_option("scene", options->scene, "Scene with uv")->required()->type_name("SCENE");
-  verb->add_option("-c,--layers", options->build.config,
-                   "Which recipes lie on which materials, at what size and time (JSON)")
+  reads(verb->add_option("scene", options->scene, "Scene with uv"))->required()->type_name("SCENE");
+  reads(verb->add_option("-c,--layers", options->build.config,
+                         "Which recipes lie on which materials, at what size and time (JSON)"))
       ->required()
       ->type_name("CONFIG");
-  verb->add_option("-o,--output", options->build.output, "GLB or OBJ file to write; a series is numbered")
+  writes(verb->add_option("-o,--output", options->build.output, "GLB or OBJ file to write; a series is numbered"))
       ->required()
       ->type_name("OUT");
-  auto* report =
-      verb->add_option("--report", options->build.report, "Folder for a page: before, after, a slider over the times")
-          ->type_name("DIR");
+  auto* report = writes_into(verb->add_option("--report", options->build.report,
+                                              "Folder for a page: before, after, a slider over the times"),
+                             {"index.html"})
+                     ->type_name("DIR");
   verb->add_flag("--pictures", options->build.pictures, "The page's pictures as PNG files in its folder, too")
       ->needs(report);
   verb->add_flag("--video", options->build.video, "The series as an animated GIF in the page's folder, too")

@@ -5,11 +5,12 @@
 
 #include "json/scene_json.hpp"
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/animation_file.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/io/read_file.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
 #include "weather/weather_page.hpp"
 
 namespace papilla::app {
@@ -30,7 +31,7 @@ std::string file_of(const std::string& output, std::size_t step, std::size_t ste
 void write_report(const WeatherBuildOptions& options, const std::string& scene_file, const ColorImage& before,
                   const std::vector<WeatherView>& views, bool live, WeatherBuild& build) {
   const fs::path folder = options.report;
-  fs::create_directories(folder);
+  make_folder(folder);
   build.page = (folder / "index.html").string();
   write_atomically(build.page, weather_page(fs::path(scene_file).filename().string(), before, views, build.materials,
                                             read_file(options.config), live));
@@ -61,8 +62,8 @@ WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live
     WeatherResult result = weather_scene(scene_, config, config.times[step], cache_, context.progress);
     const std::string file = file_of(options.output, step, config.times.size());
     write_output(result.scene, file, context.console);
-    context.console.print(fmt::format("{}: time {:.2f}, {} maps, {} of them alike\n", file, config.times[step],
-                                      result.images, result.duplicates_removed));
+    context.console.print(shown_format("{}: time {:.2f}, {} maps, {} of them alike\n", file, config.times[step],
+                                       result.images, result.duplicates_removed));
     if (!options.report.empty()) views.push_back({config.times[step], view_of(result.scene)});
     build.materials = std::move(result.materials);
     build.images += result.images;

@@ -10,21 +10,28 @@
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Reader.hxx>
+#include <STEPConstruct_ExternRefs.hxx>
+#include <STEPControl_Reader.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Shape.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "cad_syntax.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
+#include "papilla/core/referenced_file.hpp"
 
 namespace papilla::cad {
 namespace {
@@ -140,6 +147,33 @@ LengthUnit length_unit(std::string name) {
   return {name.empty() ? "mm" : name, 1};
 }
 
+/// OpenCASCADE reads the files that a STEP file names (AP214's external references), and those that they name: all must
+/// lie in the folder of the file that names them, or below it.
+/// @param chain  the files on the way here; the last one is the session's.
+/// @param seen   files that were looked at.
+/// @throws InvalidInput as resolve_reference(), and when files name each other in a circle.
+void check_external_references(std::vector<std::filesystem::path>& chain, std::set<std::filesystem::path>& seen,
+                               const Handle(XSControl_WorkSession) & session) {
+  STEPConstruct_ExternRefs references(session);
+  references.LoadExternRefs();
+  for (int i = 1; i <= references.NbExternRefs(); ++i) {
+    const char* const name = references.FileName(i);
+    if (name == nullptr) continue;
+    const std::filesystem::path naming = chain.back();
+    const std::string place = naming.string() + ": external reference " + std::to_string(i);
+    const auto file = resolve_reference({naming.parent_path(), place, name});
+    if (!file) continue;
+    if (std::find(chain.begin(), chain.end(), *file) != chain.end())
+      throw InvalidInput(place + ": '" + shown(name) + "' names itself or a file that names it");
+    if (!seen.insert(*file).second) continue;
+    STEPControl_Reader reader(new XSControl_WorkSession, Standard_False);
+    if (reader.ReadFile(file->c_str()) != IFSelect_RetDone) continue;  // Files of other kinds stay unread.
+    chain.push_back(*file);
+    check_external_references(chain, seen, reader.WS());
+    chain.pop_back();
+  }
+}
+
 void read_step(const std::filesystem::path& path, CadDocument& result, const ProgressCallback& progress) {
   STEPCAFControl_Reader reader;
   reader.SetNameMode(true);
@@ -152,6 +186,9 @@ void read_step(const std::filesystem::path& path, CadDocument& result, const Pro
   check_step_syntax(path);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw InvalidInput(path.string() + ": STEP file is damaged (its entities can't be parsed)");
+  std::vector<std::filesystem::path> chain{std::filesystem::canonical(path)};
+  std::set<std::filesystem::path> seen;
+  check_external_references(chain, seen, reader.ChangeReader().WS());
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   if (!lengths.IsEmpty()) {

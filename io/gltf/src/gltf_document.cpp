@@ -17,7 +17,8 @@
 #include "meshopt_view.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
-#include "papilla/io/read_file.hpp"
+#include "papilla/core/read_file.hpp"
+#include "papilla/core/referenced_file.hpp"
 
 namespace papilla::gltf {
 namespace {
@@ -235,6 +236,64 @@ Json parse_header(std::string_view text, const std::string& file) {
   return json;
 }
 
+constexpr const char* k_one_byte = "data:application/octet-stream;base64,AA==";
+
+/// A file that a buffer or an image names.
+struct ReferencedFile {
+  std::size_t number;  ///< Of the buffer or image.
+  std::string uri, bytes;
+};
+
+/// The entries of "buffers" or "images" that name files.
+std::vector<std::size_t> entries_with_file(const Json& json, const char* list) {
+  std::vector<std::size_t> numbers;
+  if (const auto entries = json.find(list); entries != json.end() && entries->is_array())
+    for (std::size_t i = 0; i < entries->size(); ++i)
+      if (const Json& entry = (*entries)[i]; entry.is_object() && entry.contains("uri") && entry["uri"].is_string() &&
+                                             !entry["uri"].get_ref<const std::string&>().starts_with("data:"))
+        numbers.push_back(i);
+  return numbers;
+}
+
+Reference reference_of(const std::string& uri, const char* list, std::size_t number,
+                       const std::filesystem::path& path) {
+  return {path.parent_path(), path.string() + ": at /" + list + "/" + std::to_string(number) + "/uri",
+          percent_decoded(uri)};
+}
+
+/// Reads the files that buffers name and gives the buffers a byte in the text instead.
+/// @throws InvalidInput, IoError as read_reference(); InvalidInput for a file that is missing or too short.
+std::vector<ReferencedFile> detach_buffers(Json& json, const std::filesystem::path& path) {
+  std::vector<ReferencedFile> files;
+  for (const std::size_t i : entries_with_file(json, "buffers")) {
+    Json& buffer = json["buffers"][i];
+    const std::string uri = std::exchange(buffer["uri"], k_one_byte).get<std::string>();
+    if (!buffer.contains("byteLength") || !is_index(buffer["byteLength"])) continue;  // tinygltf refuses it.
+    const auto length = std::exchange(buffer["byteLength"], 1).get<std::uint64_t>();
+    const Reference reference = reference_of(uri, "buffers", i, path);
+    auto bytes = read_reference(reference, ReferenceContent::any);
+    const std::string file = reference.place + ": '" + shown(reference.value) + "' ";
+    if (!bytes) throw InvalidInput(file + "does not exist");
+    if (bytes->size() < length)
+      throw InvalidInput(file + "has " + std::to_string(bytes->size()) + " bytes, byteLength is " +
+                         std::to_string(length));
+    bytes->resize(static_cast<std::size_t>(length));
+    files.push_back({i, uri, *std::move(bytes)});
+  }
+  return files;
+}
+
+/// The same for images, of which files may be missing.
+std::vector<ReferencedFile> detach_images(Json& json, const std::filesystem::path& path) {
+  std::vector<ReferencedFile> files;
+  for (const std::size_t i : entries_with_file(json, "images")) {
+    const std::string uri = std::exchange(json["images"][i]["uri"], k_one_byte).get<std::string>();
+    auto bytes = read_reference(reference_of(uri, "images", i, path), ReferenceContent::picture);
+    files.push_back({i, uri, std::move(bytes).value_or("")});
+  }
+  return files;
+}
+
 /// glTF lets buffers have no data, for extensions that bring their own; tinygltf refuses them. Gives them a byte.
 /// @returns the numbers of those buffers.
 std::set<int> fill_empty_buffers(Json& json, bool binary) {
@@ -244,7 +303,7 @@ std::set<int> fill_empty_buffers(Json& json, bool binary) {
   for (std::size_t i = binary ? 1 : 0; i < buffers->size(); ++i) {
     Json& buffer = (*buffers)[i];
     if (!buffer.is_object() || buffer.contains("uri")) continue;
-    buffer = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+    buffer = {{"byteLength", 1}, {"uri", k_one_byte}};
     filled.insert(static_cast<int>(i));
   }
   return filled;
@@ -320,32 +379,14 @@ bool keep_encoded(tinygltf::Image* image, int, std::string*, std::string*, int, 
   return true;
 }
 
-bool file_exists(const std::string& path, void*) {
-  std::error_code error;  // A name that no file can have is a missing file.
-  return std::filesystem::is_regular_file(path, error);
-}
-
-std::string same_path(const std::string& path, void*) { return path; }
-
-bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path, void*) {
-  try {
-    const std::string bytes = read_file(path);
-    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-      throw IoError(path + ": is larger than 2 GiB");
-    out->assign(bytes.begin(), bytes.end());
-    return true;
-  } catch (const Error& failure) {
-    *error = failure.what();
-    return false;
-  }
-}
-
-bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
-
+/// tinygltf opens no files: those that a document names are read before.
 tinygltf::TinyGLTF make_loader() {
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_encoded, nullptr);
-  loader.SetFsCallbacks({file_exists, same_path, read_whole_file, write_nothing, nullptr});
+  loader.SetFsCallbacks(
+      {[](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
+       [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
+       [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, nullptr});
   loader.SetStoreOriginalJSONForExtrasAndExtensions(true);
   return loader;
 }
@@ -380,18 +421,18 @@ Document load_document(const std::filesystem::path& path) {
   const auto primitives = count_primitives(json);
   document.empty_buffers = fill_empty_buffers(json, document.binary);
   const std::vector<Indices> detached = detach_indices(json);
-  if (!document.empty_buffers.empty() || !detached.empty())
+  std::vector<ReferencedFile> buffers = detach_buffers(json, path), images = detach_images(json, path);
+  if (!document.empty_buffers.empty() || !detached.empty() || !buffers.empty() || !images.empty())
     bytes = with_json(bytes, document.binary, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 
   tinygltf::TinyGLTF loader = make_loader();
   std::string error, warning;
   const auto size = static_cast<unsigned>(bytes.size());
-  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
   bool good = false;
   try {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    good = document.binary ? loader.LoadBinaryFromMemory(&document.model, &error, &warning, data, size, folder)
-                           : loader.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, folder);
+    good = document.binary ? loader.LoadBinaryFromMemory(&document.model, &error, &warning, data, size, "")
+                           : loader.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, "");
   } catch (const std::exception& failure) {
     error = failure.what();
   }
@@ -399,6 +440,13 @@ Document load_document(const std::filesystem::path& path) {
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     if (document.model.meshes[m].primitives.size() != primitives.at(m))
       throw InvalidInput(document.file + ": " + reason(json, "mesh " + std::to_string(m) + ": " + error));
+  for (const ReferencedFile& file : buffers)
+    document.model.buffers[file.number].data.assign(file.bytes.begin(), file.bytes.end());
+  for (ReferencedFile& file : images) {
+    tinygltf::Image& image = document.model.images[file.number];
+    image.image.assign(file.bytes.begin(), file.bytes.end());
+    image.uri = std::move(file.uri);
+  }
   for (const Indices& indices : detached)
     document.model.meshes[indices.mesh].primitives[indices.primitive].indices = indices.accessor;
   add_warnings(error, document.warnings);

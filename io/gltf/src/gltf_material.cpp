@@ -7,37 +7,10 @@
 #include <string_view>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/referenced_file.hpp"
 
 namespace papilla::gltf {
 namespace {
-
-/// "image/png" and the like by the first bytes; the declared type when they are of no known format.
-std::string mime_type_of(const std::vector<std::byte>& bytes, const std::string& declared) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("\x89PNG")) return "image/png";
-  if (text.starts_with("\xff\xd8\xff")) return "image/jpeg";
-  if (text.starts_with("RIFF") && text.size() > 12 && text.substr(8, 4) == "WEBP") return "image/webp";
-  if (text.starts_with("\xabKTX 20\xbb")) return "image/ktx2";
-  return declared;
-}
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-/// Resolves %20 and the like.
-std::string percent_decoded(const std::string& uri) {
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool escape = uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 && hex_digit(uri[i + 2]) >= 0;
-    path += escape ? static_cast<char>(16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2])) : uri[i];
-    if (escape) i += 2;
-  }
-  return path;
-}
 
 EncodedImage read_image(const tinygltf::Image& source, std::size_t number, AccessorReader& reader, Scene& scene) {
   EncodedImage image;
@@ -48,7 +21,8 @@ EncodedImage read_image(const tinygltf::Image& source, std::size_t number, Acces
   const auto bytes =
       source.bufferView >= 0 ? reader.view(source.bufferView, where) : std::span<const unsigned char>(source.image);
   image.bytes.assign(std::as_bytes(bytes).begin(), std::as_bytes(bytes).end());
-  image.mime_type = mime_type_of(image.bytes, source.mimeType);
+  image.mime_type = picture_mime_type({reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
+  if (image.mime_type.empty()) image.mime_type = source.mimeType;  // Embedded, and of no known format.
   if (image.bytes.empty()) scene.warnings.push_back(where + " '" + image.uri + "' is missing");
   return image;
 }

@@ -21,7 +21,7 @@ namespace {
 class Builder {
  public:
   Builder(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options)
-      : scene_(scene), folder_(path.parent_path()), options_(options) {}
+      : scene_(scene), file_(path), options_(options) {}
 
   /// Which materials have triangles.
   std::vector<bool> used_materials() const {
@@ -150,7 +150,7 @@ class Builder {
   std::optional<std::uint32_t> add_relief(const MaterialTag& tag, std::size_t material,
                                           std::vector<HapticWarning>& warnings) {
     if (!tag.height) return std::nullopt;
-    std::optional<HeightField> field = find_height_map(*tag.height, scene_, folder_, warnings);
+    std::optional<HeightField> field = find_height_map(*tag.height, scene_, file_, material, warnings);
     ++(field ? result.maps_loaded : result.maps_missing);
     if (!field && tag.roughness && tag.roughness->rms_height_m > 0) {
       warnings.push_back({"height_from_roughness", "the height map is lost, the relief is made up from the roughness"});
@@ -217,7 +217,7 @@ class Builder {
   }
 
   const Scene& scene_;
-  std::filesystem::path folder_;
+  std::filesystem::path file_;
   HapticSceneOptions options_;
   std::vector<std::optional<std::uint32_t>> tagged_;  // Index in result.materials of a scene material with a tag.
   std::vector<int> tex_coord_;

@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/height_source.hpp"
 
-#include <algorithm>
 #include <span>
 #include <string>
 
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/core/referenced_file.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/decode_grey16.hpp"
-#include "papilla/io/read_file.hpp"
 
 namespace papilla {
 namespace {
-
-int hex_value(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
-/// Decodes the percent encoding of a URI.
-std::string decode_percent(std::string_view uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool escape = uri[i] == '%' && i + 2 < uri.size() && hex_value(uri[i + 1]) >= 0 && hex_value(uri[i + 2]) >= 0;
-    text += escape ? static_cast<char>(hex_value(uri[i + 1]) * 16 + hex_value(uri[i + 2])) : uri[i];
-    if (escape) i += 2;
-  }
-  return text;
-}
 
 std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text.data(), text.size()));
@@ -46,25 +28,19 @@ class Finder {
     return false;
   }
 
-  std::optional<std::string> from_uri(const std::filesystem::path& folder) const {
+  std::optional<std::string> from_uri(const std::filesystem::path& file, std::size_t material) const {
     if (tag_.uri.empty()) return std::nullopt;
     if (tag_.uri.starts_with("data:")) {
       auto bytes = decode_data_uri(tag_.uri);
       if (!bytes) warnings_.push_back({"height_data_uri", "the data: URI of the height map is not base64"});
       return bytes && matches(bytes_of(*bytes), "data: URI") ? bytes : std::nullopt;
     }
-    const std::filesystem::path file = decode_percent(tag_.uri);
-    if (file.has_root_path() || std::find(file.begin(), file.end(), "..") != file.end()) {
-      warnings_.push_back({"height_file", one_line(tag_.uri) + ": is no file in the folder of the glTF file"});
-      return std::nullopt;
-    }
-    try {
-      std::string bytes = read_file(folder / file);
-      return matches(bytes_of(bytes), tag_.uri) ? std::optional(std::move(bytes)) : std::nullopt;
-    } catch (const Error& error) {
-      warnings_.push_back({"height_file", error.what()});
-      return std::nullopt;
-    }
+    const Reference reference{
+        file.parent_path(), file.string() + ": at /materials/" + std::to_string(material) + "/extras/haptic/height/uri",
+        percent_decoded(tag_.uri)};
+    auto bytes = read_reference(reference, ReferenceContent::png);
+    if (!bytes) warnings_.push_back({"height_file", "'" + shown(reference.value) + "' is missing"});
+    return bytes && matches(bytes_of(*bytes), "'" + shown(reference.value) + "'") ? bytes : std::nullopt;
   }
 
   const EncodedImage* from_image(const Scene& scene) const {
@@ -100,24 +76,25 @@ class Finder {
 }  // namespace
 
 std::optional<std::string> find_height_bytes(const HeightTag& tag, const Scene& scene,
-                                             const std::filesystem::path& folder,
+                                             const std::filesystem::path& file, std::size_t material,
                                              std::vector<HapticWarning>& warnings) {
   const Finder finder(tag, warnings);
-  if (auto bytes = finder.from_uri(folder)) return bytes;
+  if (auto bytes = finder.from_uri(file, material)) return bytes;
   const EncodedImage* image = finder.from_image(scene);
   if (!image) return std::nullopt;
   return std::string(reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size());
 }
 
-std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene,
-                                           const std::filesystem::path& folder, std::vector<HapticWarning>& warnings) {
+std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene, const std::filesystem::path& file,
+                                           std::size_t material, std::vector<HapticWarning>& warnings) {
+  const auto bytes = find_height_bytes(tag, scene, file, material, warnings);
+  if (!bytes) return std::nullopt;
   try {
-    if (const auto bytes = find_height_bytes(tag, scene, folder, warnings))
-      return Finder(tag, warnings).decode(bytes_of(*bytes));
+    return Finder(tag, warnings).decode(bytes_of(*bytes));
   } catch (const Error& error) {
     warnings.push_back({"height_image", error.what()});
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 }  // namespace papilla

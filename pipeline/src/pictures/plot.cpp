@@ -14,8 +14,8 @@
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/core/temporary_folder.hpp"
-#include "papilla/io/read_file.hpp"
 
 extern char** environ;
 

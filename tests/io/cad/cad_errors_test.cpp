@@ -43,6 +43,37 @@ class CadErrors : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(CadErrors, PartFilesLieInTheFolderOfTheFileThatNamesThem) {
+  namespace fs = std::filesystem;
+  fs::create_directory(folder_ / "inside");
+  CadFile file;
+  const TDF_Label assembly = file.add_assembly("assembly");
+  file.place(assembly, file.add("block", BRepPrimAPI_MakeBox(1, 2, 3).Shape()), gp_Trsf(), "one");
+  file.write_step_with_part_files(folder_ / "inside/main.step");
+  const std::string name = "inside/main.step", text = read_text(folder_ / name);
+  const std::size_t at = text.find("'file_"), end = text.find('\'', at + 1);
+  ASSERT_NE(at, std::string::npos) << "the file names no other one";
+  const std::string part = text.substr(at + 1, end - at - 1);
+  ASSERT_TRUE(fs::exists(folder_ / "inside" / part)) << part;
+  EXPECT_EQ(read_cad(folder_ / name).parts.size(), 1U) << "a part file beside it is read";
+  const auto with_name = [&](const std::string& other) {
+    std::string changed = text;
+    for (std::size_t i = 0; (i = changed.find("'" + part + "'", i)) != std::string::npos; i += other.size())
+      changed.replace(i + 1, part.size(), other);
+    folder_.write(name, changed);
+  };
+  fs::rename(folder_ / "inside" / part, folder_ / "outside.step");
+  fs::create_symlink("../outside.step", folder_ / "inside/link.step");
+  for (const std::string& other : {std::string("../outside.step"), (folder_ / "outside.step").string(),
+                                   std::string("link.step"), std::string("/etc/passwd")}) {
+    with_name(other);
+    const std::string message = refusal(name);
+    EXPECT_NE(message.find("main.step: external reference 1: '" + other + "' leads out"), std::string::npos) << message;
+  }
+  with_name("main.step");
+  EXPECT_NE(refusal(name).find("names itself"), std::string::npos) << refusal(name);
+}
+
 TEST_F(CadErrors, MissingFileAndFolderAreIoErrors) {
   EXPECT_THROW(read_cad(folder_ / "missing.step"), IoError);
   EXPECT_THROW(read_cad(folder_ / "."), IoError);

@@ -139,6 +139,15 @@ void CadFile::write_step(const std::filesystem::path& path, const std::string& s
   require(writer.Write(path.c_str()) == IFSelect_RetDone, path);
 }
 
+void CadFile::write_step_with_part_files(const std::filesystem::path& path) {
+  XCAFDoc_DocumentTool::ShapeTool(document_->Main())->UpdateAssemblies();
+  Interface_Static::SetCVal("write.step.schema", "AP214IS");
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  STEPCAFControl_Writer writer;
+  require(writer.Transfer(document_, STEPControl_AsIs, "file_"), path);
+  require(writer.Write(path.c_str()) == IFSelect_RetDone, path);
+}
+
 void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const std::string& schema) {
   CadFile file;
   file.add("shape", shape);

@@ -32,6 +32,9 @@ class CadFile {
   void write_step(const std::filesystem::path& path, const std::string& schema = "AP214IS",
                   const std::string& unit = "MM");
 
+  /// Every part in a file of its own, which the one at `path` names; both lie in one folder.
+  void write_step_with_part_files(const std::filesystem::path& path);
+
  private:
   Handle(TDocStd_Document) document_;
 };

@@ -10,12 +10,15 @@ namespace papilla {
 
 /// Lets `write` fill a temporary file in the folder of `path` and renames it to `path` when that
 /// succeeded, so that a crash, an exception or a full disk neither leaves half a file nor destroys
-/// the old one. The temporary file keeps the extension of `path`, for writers that choose
-/// the format by it.
-/// @throws IoError when the folder is missing, or the file can't be written, flushed or renamed;
+/// the old one. A file that is replaced keeps its mode bits, and its owner and group where that is permitted. A
+/// symbolic link is followed: its target is replaced and the link stays, except another user's link in a folder that
+/// everyone may write to. Devices and pipes are written to as they are.
+/// The temporary file has an unpredictable name, is new, and is locked until it is renamed. Temporary files that a
+/// killed process of the same user left in the folder are removed by the next process that writes there.
+/// The stream throws when the system refuses a byte; it can't be positioned.
+/// @throws IoError naming `path` and the system's reason; OverwriteRefused as note_output() of file_guard.hpp;
 ///         whatever `write` throws passes through after the temporary file is removed.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path& temporary)>& write);
+void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream& out)>& write);
 
 /// The same for content that fits into memory.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
@@ -23,5 +26,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 /// Removes the temporary files of writes under way; may be called from a signal handler, after which
 /// the process must end.
 void remove_temporaries() noexcept;
+
+/// Makes a folder, and those above it that are missing. @returns whether it is new.
+/// @throws IoError naming it and the system's reason.
+bool make_folder(const std::filesystem::path& path);
 
 }  // namespace papilla

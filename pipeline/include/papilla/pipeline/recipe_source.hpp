@@ -13,7 +13,7 @@ namespace papilla {
 /// The built-in recipes and those of the given files.
 RecipeLibrary load_recipes(const std::vector<std::string>& files);
 
-/// Options with which recipes may name pictures of any format that read_color_image() takes, relative to `folder`.
+/// Options with which recipes may name pictures of any format that read_color_image() takes, in `folder` or below it.
 CompileOptions recipe_options(const std::filesystem::path& folder);
 
 /// Whether a text names a recipe rather than a file: a known type or recipe, alone or before a bar.

@@ -51,7 +51,7 @@ struct TextureFiles {
 };
 
 /// Renders a recipe and writes its channels into a folder, which is made when it is missing. Pictures that the recipe
-/// names are read relative to the current folder.
+/// names lie in the current folder or below it.
 /// @throws InvalidInput as compile_texture() and render_texture(); IoError when writing fails.
 TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary& library,
                                  const std::filesystem::path& folder, const TextureFileOptions& options = {});

@@ -26,9 +26,10 @@ struct WeatherConfig {
   std::vector<double> times{1};        ///< A scene for each.
   double depth_mm = 0.3;               ///< Relief of a height of 1.
   int sky_rays = 64;                   ///< A sample of the sky.
-  std::vector<std::string> libraries;  ///< Files of recipes.
+  std::vector<std::string> libraries;  ///< Files of recipes in the folder or below it.
   std::vector<WeatherLayer> layers;    ///< From the lowest to the highest.
   std::filesystem::path folder;        ///< Where the names within are looked for.
+  std::string source = "weather";      ///< The configuration's name in messages.
 };
 
 /// @throws IoError, InvalidInput naming file and key.

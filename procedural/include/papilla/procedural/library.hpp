@@ -32,13 +32,19 @@ class RecipeLibrary {
   /// @throws InvalidInput when the name is none.
   void add_colours(const std::string& name, const std::string& colours);
 
-  /// Reads a library file and what it includes, relative to its own folder.
+  /// Reads a library file and what it includes.
   /// @throws IoError; InvalidInput naming file and line for a line that is no entry, a file over 16 MiB, and files that
-  ///         include each other.
+  ///         include each other; InvalidInput as include().
   void read_file(const std::filesystem::path& path);
 
   /// The same for text; `source` names it in messages, `folder` is where includes are looked for.
   void read_text(std::string_view text, const std::string& source, const std::filesystem::path& folder);
+
+  /// Reads a library file that another file names: one in the folder of that file or below it. What it holds may be
+  /// no library at all, so messages do not quote it.
+  /// @param place  in the other file, as messages begin.
+  /// @throws InvalidInput as resolve_reference(); IoError when there is no such file; as read_file().
+  void include(const std::string& name, const std::string& place, const std::filesystem::path& folder);
 
   const std::string* find(std::string_view name) const;
   const std::string* find_colours(std::string_view name) const;
@@ -47,6 +53,11 @@ class RecipeLibrary {
   const std::map<std::string, std::string, std::less<>>& recipes() const noexcept { return recipes_; }
 
  private:
+  /// Whether messages quote the text.
+  enum class Quotes { no, yes };
+  void read_file(const std::filesystem::path& path, Quotes quotes);
+  void read_text(std::string_view text, const std::string& source, const std::filesystem::path& folder, Quotes quotes);
+
   std::map<std::string, std::string, std::less<>> recipes_, colours_;
   std::vector<std::filesystem::path> files_, open_files_;
 };

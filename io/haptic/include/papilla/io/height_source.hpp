@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,11 +16,16 @@ namespace papilla {
 /// The bytes of a tag's height map: of its data: URI or of the file next to the glTF, else of the image of that name.
 /// Only bytes with the tag's SHA-256 are accepted. Failures become warnings (height_data_uri, height_file,
 /// height_sha256, height_image).
+/// @param file      the glTF file.
+/// @param material  number of the tag's material in it.
+/// @throws InvalidInput, IoError as read_reference(): a URI that leads out of the file's folder or to no PNG picture.
 std::optional<std::string> find_height_bytes(const HeightTag& tag, const Scene& scene,
-                                             const std::filesystem::path& folder, std::vector<HapticWarning>& warnings);
+                                             const std::filesystem::path& file, std::size_t material,
+                                             std::vector<HapticWarning>& warnings);
 
 /// The decoded map; further warnings: height_bits, height_size, and height_image when the bytes are no picture.
-std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene,
-                                           const std::filesystem::path& folder, std::vector<HapticWarning>& warnings);
+/// @throws InvalidInput, IoError as find_height_bytes().
+std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene, const std::filesystem::path& file,
+                                           std::size_t material, std::vector<HapticWarning>& warnings);
 
 }  // namespace papilla

@@ -3,8 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <sstream>
 #include <string>
+
+#include "exit_code.hpp"
+#include "papilla/core/one_line.hpp"
+#include "standard_output.hpp"
 
 namespace papilla::app {
 
@@ -19,6 +25,16 @@ inline void refuse_no_numbers(const CLI::App& app) {
         throw CLI::ValidationError(option->get_name(), value + " is no number");
     }
   for (const CLI::App* verb : app.get_subcommands()) refuse_no_numbers(*verb);
+}
+
+/// Prints what CLI11 throws in place of a result, help included. @returns the exit code.
+/// @throws IoError as print_out().
+inline int report_parse_error(const CLI::App& program, const CLI::ParseError& error) {
+  std::ostringstream out, complaint;
+  const bool is_wrong = program.exit(error, out, complaint) != 0;
+  print_out(out.str());
+  std::fputs(shown_lines(complaint.str()).c_str(), stderr);
+  return is_wrong ? k_exit_usage : k_exit_done;
 }
 
 }  // namespace papilla::app

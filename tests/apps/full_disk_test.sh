@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A full disk: exit code 3 and one line with the system's reason, whatever is written.
+# usage: full_disk_test.sh PAPILLA PLAYER FOLDER
+set -u
+papilla=$1 player=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
+failures=0
+fail() {
+  echo "FAILED: $*" >&2
+  failures=$((failures + 1))
+}
+
+# full OUTPUT COMMAND...
+full() {
+  local output=$1 got
+  shift
+  "$@" 2>err.txt </dev/null
+  got=$?
+  if [[ $got != 3 || $(wc -l <err.txt) != 1 ]] || ! grep -q "$output.*: No space left on device" err.txt; then
+    fail "exit $got: $*: $(cat err.txt)"
+  fi
+}
+
+printf 'v 0 0 0\nv 10 0 0\nv 0 10 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n' >one.obj
+"$papilla" synthesize grain --kind leather --size 64 -o grain.png -q || fail "no picture"
+printf '{"materials": {"g": {"stiffness": 300}}, "assign": [{"part": "*", "material": "g"}]}' >rules.json
+"$papilla" bake one.obj -m rules.json -o tagged.glb -q || fail "nothing baked"
+
+for arguments in 'inspect one.obj' 'inspect one.obj --json -' 'texture --list reference' '--help' '--version' 'inspect --help'; do
+  # shellcheck disable=SC2086
+  full 'standard output' "$papilla" $arguments >/dev/full
+done
+full 'standard output' "$player" tagged.glb --seconds 0.05 >/dev/full
+full 'standard output' "$player" tagged.glb --seconds 0.05 --json - >/dev/full
+full 'standard output' "$player" --help >/dev/full
+full 'standard output' "$player" --list-devices >/dev/full
+full /dev/full "$papilla" inspect one.obj --json /dev/full -q
+full /dev/full "$player" tagged.glb --seconds 0.05 --record /dev/full -q
+
+mkdir disk
+if mount -t tmpfs -o size=16k none disk 2>/dev/null; then
+  trap 'umount "$folder/disk"' EXIT
+  mkdir disk/folder
+  head -c 100000 /dev/zero >disk/rest 2>/dev/null
+  for command in "$papilla repair one.obj -o disk/a.glb" "$papilla repair one.obj -o disk/a.stl" "$papilla repair one.obj -o disk/a.ply" \
+    "$papilla repair one.obj -o disk/a.off" "$papilla repair one.obj -o disk/a.obj" "$papilla inspect one.obj --picture disk/a.png" \
+    "$papilla measure one.obj --csv disk/a.csv" "$papilla measure one.obj --json disk/a.json" "$papilla view one.obj -o disk/a.html --no-open" \
+    "$papilla bake one.obj -m rules.json -o disk/a.glb" "$papilla synthesize grain --size 64 -o disk/a.png" \
+    "$papilla synthesize grain --size 64 -o disk/a.tif" "$papilla height grain.png -o disk/a.exr" \
+    "$papilla texture noise --size 64 --steps 2 --video -o disk/folder" "$papilla unwrap one.obj -o a.glb --trace disk/a.csv" \
+    "$player tagged.glb --seconds 0.5 --record disk/a.csv"; do
+    # shellcheck disable=SC2086
+    full disk/ $command -q
+    [[ -z $(find disk -name '.papilla-*' -o -name 'a.*') ]] || fail "$command left $(find disk -type f)"
+  done
+else
+  echo "no right to mount a small disk: only /dev/full was tried"
+fi
+echo "$failures failures"
+exit $((failures > 0))
