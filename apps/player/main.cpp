@@ -32,6 +32,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stroke.hpp"
+#include "papilla/haptic/tag_limits.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "report.hpp"
 #include "standard_output.hpp"
@@ -48,7 +49,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler
 struct Options {
   std::string file, device = "sim", trajectory, record, json;
   std::optional<std::string> live;
-  double rate_hz = 1000, seconds = 0, probe_radius_mm = 0, watchdog_ms = 10;
+  double rate_hz = 1000, seconds = 0, watchdog_ms = 10;
+  std::optional<double> probe_radius_mm;
   double reach_mm = 0, speed = 0.1;
   std::string motion = "stroke";
   std::uint64_t seed = 1;
@@ -65,9 +67,21 @@ constexpr double k_clearance_m = 0.01;      // Default distance of a workspace's
 const std::map<std::string, Motion> k_motions = {
     {"stroke", Motion::stroke}, {"circle", Motion::circle}, {"slide", Motion::slide}, {"tap", Motion::tap}};
 
+/// As asked for, else that of the device.
+double probe_radius_m(const Options& options, const DeviceChoice& choice) {
+  if (options.probe_radius_mm) return 1e-3 * *options.probe_radius_mm;
+  return choice.preset != nullptr ? choice.preset->caps().probe_radius_m : k_default_probe_radius_m;
+}
+
+/// Holds the stimuli back to what the device can do in a tick, with a warning each.
+void limit_amplitudes(ContactSurface& surface, double max_force_n, RunReport& report) {
+  for (const AmplitudeClamp& clamp : clamp_amplitudes(surface, max_force_n))
+    report.warnings.push_back({report.material_names[clamp.material], to_warning(clamp, max_force_n)});
+}
+
 HapticSceneOptions scene_options(const Options& options, const DeviceChoice& choice) {
   HapticSceneOptions scene;
-  scene.probe_radius_m = 1e-3 * options.probe_radius_mm;
+  scene.probe_radius_m = probe_radius_m(options, choice);
   scene.shortest_wave_m = 2 * options.speed / options.rate_hz;
   if (!options.origin.empty() && choice.preset == nullptr) {
     scene.reach_around = {{options.origin[0], options.origin[1], options.origin[2]}};
@@ -186,7 +200,7 @@ int run(const Options& options) {
   }
   ContactSurface surface = [&] {
     try {
-      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), 1e-3 * options.probe_radius_mm);
+      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m);
     } catch (const InvalidInput& error) {
       throw InvalidInput(options.file + ": " + error.what());
     }
@@ -196,6 +210,7 @@ int run(const Options& options) {
   const Vec3 origin = choice.preset != nullptr ? Vec3{} : workspace_origin(options, scene, surface);
   scene.mesh = {};
   report.load_seconds = clock.seconds();
+  report.probe_radius_m = surface.probe_radius_m();
   report.triangles = surface.triangles();
   report.contact_bytes = surface.bytes();
   report.maps_loaded = scene.maps_loaded;
@@ -221,6 +236,7 @@ int run(const Options& options) {
   report.device = device.caps().name;
   report.stiffness_limit = stiffness_limit(device.caps().dynamics, period, 0);
   report.clamps = clamp_to_stable(surface, device.caps().dynamics, period);
+  limit_amplitudes(surface, device.caps().max_force_n, report);
 
   std::vector<RecordRow> rows;
   LoopOptions loop;
@@ -344,10 +360,11 @@ int main(int argc, char** argv) {
   app::writes(program.add_option("--record", options.record,
                                  "Write hand, probe, proxy and force of every tick; can be played again as T.csv"))
       ->type_name("R.csv");
-  program.add_option("--probe-radius", options.probe_radius_mm, "Radius of the probe; 0 is a point")
+  program
+      .add_option("--probe-radius", options.probe_radius_mm,
+                  "Radius of the probe, default: the device's, 0.5; 0: a point")
       ->type_name("MM")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+      ->check(CLI::Range(0.0, 100.0));
   program.add_flag("--passivity-control", options.passivity,
                    "Soften a contact that gives energy to the hand, beside the limit of stiffness");
   program.add_option("--watchdog", options.watchdog_ms, "Age of a position from which on there is no force")

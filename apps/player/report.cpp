@@ -36,6 +36,12 @@ std::string clamp_line(const StabilityClamp& clamp, const std::string& name) {
   return line + ", so that the device stays stable\n";
 }
 
+std::string pause_line(const LoopResult& loop) {
+  if (loop.pauses == 0) return "";
+  return app::shown_format("  stood still {} times, {:.3g} s at most; the force faded in again from zero each time\n",
+                           loop.pauses, loop.longest_pause_s);
+}
+
 }  // namespace
 
 Json to_json(const RunReport& r) {
@@ -53,10 +59,12 @@ Json to_json(const RunReport& r) {
   const LoopResult& loop = r.loop;
   return {{"file", r.file},
           {"device", r.device},
+          {"probe_radius_mm", 1e3 * r.probe_radius_m},
           {"rate_hz", r.rate_hz},
           {"achieved_rate_hz", loop.seconds > 0 ? static_cast<double>(loop.ticks) / loop.seconds : 0},
           {"ticks", loop.ticks},
           {"missed_deadlines", loop.missed_deadlines},
+          {"pauses", {{"count", loop.pauses}, {"longest_s", loop.longest_pause_s}}},
           {"wakeup_us", quantiles(loop.wakeup_us)},
           {"tick_us", quantiles(loop.tick_us)},
           {"contact_ticks", loop.contact_ticks},
@@ -89,6 +97,7 @@ std::string summary(const RunReport& r) {
   if (!loop.realtime_note.empty()) text += app::shown_format("  no guarantees of time: {}\n", loop.realtime_note);
   text += app::shown_format("  {} ticks in {:.2f} s, {} missed deadlines\n", loop.ticks, loop.seconds,
                             loop.missed_deadlines);
+  text += pause_line(loop);
   text += quantile_line("tick", loop.tick_us) + quantile_line("wake-up", loop.wakeup_us);
   text += app::shown_format("  contact on {} ticks, lost on {}, largest force {:.2f} N, stiffness limit {:.0f} N/m\n",
                             loop.contact_ticks, loop.lost_contact_ticks, loop.max_force_n, r.stiffness_limit);

@@ -25,54 +25,55 @@ constexpr std::uint64_t k_longest_recording = 20'000'000;
 constexpr double k_longest_frame_s = 0.05;    // The guard reports a device that is silent for longer.
 constexpr double k_largest_lag_periods = 10;  // After a longer stall the schedule is moved instead of caught up.
 // Wake-up before a tick, as a share of the period and at most; the rest is spun.
-constexpr double k_early_share = 0.05, k_longest_spin_ns = 5e4;
+constexpr double k_early_share = 0.05, k_longest_spin_s = 5e-5;
 
-double clock_seconds(clockid_t clock) noexcept {
+double thread_cpu_seconds() noexcept {
   timespec t{};
-  clock_gettime(clock, &t);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Schedule of the ticks in nanoseconds of the monotonic clock.
+/// Schedule of the ticks.
 class Pacer {
  public:
-  explicit Pacer(double period_s) noexcept
-      : period_ns_(period_s * 1e9),
-        early_ns_(std::min(k_early_share * period_ns_, k_longest_spin_ns)),
-        start_ns_(now_ns()) {}
+  Pacer(LoopClock& clock, double period_s) noexcept
+      : clock_(clock),
+        period_s_(period_s),
+        early_s_(std::min(k_early_share * period_s, k_longest_spin_s)),
+        start_s_(clock.now_s()) {}
 
   /// Sleeps until just before tick `i` and spins until it is due. @returns the lateness in microseconds; nothing when
   /// the tick is overdue already, so that one stall counts once, as in cyclictest.
   std::optional<double> wait(std::uint64_t i) noexcept {
-    const double due = due_ns(i);
-    if (now_ns() >= due) return std::nullopt;
-    timespec t{};
-    const double wake = due - early_ns_;
-    t.tv_sec = static_cast<time_t>(wake / 1e9);
-    t.tv_nsec = static_cast<long>(wake - 1e9 * static_cast<double>(t.tv_sec));
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
-    }
-    double now = now_ns();
-    while (now < due) now = now_ns();
-    return (now - due) * 1e-3;
+    const double due = due_s(i);
+    if (clock_.now_s() >= due) return std::nullopt;
+    clock_.sleep_until(due - early_s_);
+    double now = clock_.now_s();
+    while (now < due) now = clock_.now_s();
+    return (now - due) * 1e6;
   }
 
-  /// Whether tick i + 1 is overdue. After a long stall the later ticks are moved.
-  bool missed(std::uint64_t i) noexcept {
-    const double late = now_ns() - due_ns(i + 1);
-    if (late > k_largest_lag_periods * period_ns_) start_ns_ += late;
-    return late > 0;
+  /// After tick `i` - 1: how many ticks have missed their deadline since, 1 when tick `i` is overdue. After a long
+  /// stall the later ticks are moved, and those that fall out count.
+  std::uint64_t missed_before(std::uint64_t i) noexcept {
+    const double late = clock_.now_s() - due_s(i);
+    if (!(late > 0)) return 0;
+    return late > k_largest_lag_periods * period_s_ ? 1 + skip_overdue(i) : 1;
+  }
+
+  /// Moves the schedule by whole periods, so that tick `i` was due less than a period ago.
+  /// @returns by how many: the ticks that fall out.
+  std::uint64_t skip_overdue(std::uint64_t i) noexcept {
+    const double periods = std::max(0.0, std::floor((clock_.now_s() - due_s(i)) / period_s_));
+    start_s_ += periods * period_s_;
+    return static_cast<std::uint64_t>(periods);
   }
 
  private:
-  static double now_ns() noexcept {
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-  }
-  double due_ns(std::uint64_t i) const noexcept { return start_ns_ + period_ns_ * static_cast<double>(i + 1); }
+  double due_s(std::uint64_t i) const noexcept { return start_s_ + period_s_ * static_cast<double>(i + 1); }
 
-  double period_ns_, early_ns_, start_ns_;
+  LoopClock& clock_;
+  double period_s_, early_s_, start_s_;
 };
 
 /// Fixed priority and locked memory for its lifetime, where the system grants them.
@@ -167,8 +168,12 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
   const StopAtEnd stop_at_end(device);
   {
     const Realtime realtime(result);
-    const double begin = clock_seconds(CLOCK_MONOTONIC);
-    Pacer pacer(period);
+    LoopClock system;
+    LoopClock& clock = options.clock ? *options.clock : system;
+    const bool timed = device.is_clock() || options.paced;
+    const double begin = clock.now_s();
+    double awake = begin;  // When the last tick began.
+    Pacer pacer(clock, period);
     while (result.ticks < options.ticks && !(options.stop && options.stop->load(std::memory_order_relaxed))) {
       const std::uint64_t i = result.ticks;
       std::optional<double> late_us;
@@ -177,18 +182,32 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       else if (options.paced)
         late_us = pacer.wait(i);
       if (late_us) result.wakeup_us.add(*late_us);
-      const double awake = clock_seconds(CLOCK_MONOTONIC), before = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+      const double stood_s = clock.now_s() - awake - period;
+      const bool stood_still = timed && i > 0 && stood_s > options.watchdog_s;
+      if (stood_still) {
+        ++result.pauses;
+        result.longest_pause_s = std::max(result.longest_pause_s, stood_s);
+        result.missed_deadlines +=
+            device.is_clock() ? static_cast<std::uint64_t>(stood_s / period) : pacer.skip_overdue(i);
+        if (device.is_clock()) device.wait(k_longest_frame_s);  // What was queued in the meantime is old.
+      }
+      awake = clock.now_s();
+      const double before = thread_cpu_seconds();
       DeviceState state;
       result.device_lost = !device.read(state);
       if (result.device_lost) break;
-      const Vec3 force = tick(state);
+      if (stood_still) tick.reset(state.position);
+      Vec3 force = tick(state);
+      if (timed && clock.now_s() - awake > options.watchdog_s) force = {};  // Stopped since the read: it is old.
       result.device_lost = !device.write(force);
-      const double tick_us = (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - before) * 1e6;
+      const double tick_us = (thread_cpu_seconds() - before) * 1e6;
       result.tick_us.add(tick_us);
 
       ++result.ticks;
-      if (device.is_clock() ? clock_seconds(CLOCK_MONOTONIC) - awake > period : options.paced && pacer.missed(i))
-        ++result.missed_deadlines;
+      if (device.is_clock())
+        result.missed_deadlines += clock.now_s() - awake > period;
+      else if (options.paced)
+        result.missed_deadlines += pacer.missed_before(i + 1);
       if (tick.proxy().in_contact) ++result.contact_ticks;
       if (tick.lost()) ++result.lost_contact_ticks;
       result.max_force_n = std::max(result.max_force_n, norm(force));
@@ -207,7 +226,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       result.fault = tick.guard().fault();
       if (result.device_lost || result.fault != ForceGuard::Fault::none) break;
     }
-    result.seconds = clock_seconds(CLOCK_MONOTONIC) - begin;
+    result.seconds = clock.now_s() - begin;
     result.passivity_interventions = tick.passivity_interventions();
   }
   if (options.record) options.record->resize(result.ticks);

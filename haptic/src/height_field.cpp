@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "papilla/core/error.hpp"
 
@@ -41,6 +42,55 @@ void cubic_weights(double f, double* w, double* d) noexcept {
 double texel_coordinate(double value) noexcept {
   return std::isfinite(value) ? std::clamp(value, -k_largest_texel, k_largest_texel) : 0;
 }
+
+/// Envelope of parabolas of apex radius R over the samples of a line.
+class Envelope {
+ public:
+  Envelope(double pitch_m, double radius_m, double reach_m, int samples)
+      : bend_(pitch_m * pitch_m / (2 * radius_m)),
+        margin_(std::min(static_cast<long>(reach_m / pitch_m) + 1, long{2} * samples)),
+        samples_(samples) {}
+
+  /// Replaces h(a) by min over b of h(b) + (a − b)²·pitch²/2R, b beyond the ends by `wrap`.
+  void lower(double* line, long stride, Wrap wrap) const {
+    const long n = samples_ + 2 * margin_;
+    std::vector<double> h(static_cast<std::size_t>(n));
+    for (long i = 0; i < n; ++i) h[static_cast<std::size_t>(i)] = line[stride * wrapped(i - margin_, samples_, wrap)];
+    // The parabolas that are lowest somewhere, and from where on each is.
+    struct Lowest {
+      long at;
+      double from;
+    };
+    std::vector<Lowest> lowest;
+    for (long i = 0; i < n; ++i) {
+      double from = -std::numeric_limits<double>::infinity();
+      for (; !lowest.empty(); lowest.pop_back()) {
+        from = crossing(h, lowest.back().at, i);
+        if (from > lowest.back().from) break;
+        from = -std::numeric_limits<double>::infinity();
+      }
+      lowest.push_back({i, from});
+    }
+    std::size_t k = 0;
+    for (long i = 0; i < samples_; ++i) {
+      const auto x = static_cast<double>(i + margin_);
+      while (k + 1 < lowest.size() && lowest[k + 1].from <= x) ++k;
+      const double way = x - static_cast<double>(lowest[k].at);
+      line[stride * i] = h[static_cast<std::size_t>(lowest[k].at)] + bend_ * way * way;
+    }
+  }
+
+ private:
+  /// Where the parabola of `right` becomes lower than that of `left`.
+  double crossing(const std::vector<double>& h, long left, long right) const {
+    const auto a = static_cast<double>(left), b = static_cast<double>(right);
+    const double rise = h[static_cast<std::size_t>(right)] - h[static_cast<std::size_t>(left)];
+    return 0.5 * (a + b) + rise / (2 * bend_ * (b - a));
+  }
+
+  double bend_;
+  long margin_, samples_;
+};
 
 }  // namespace
 
@@ -206,19 +256,34 @@ HeightField HeightField::halved() const {
   return HeightField(width_ / 2, height_ / 2, std::move(result), options_);
 }
 
+std::optional<HeightField::Steps> HeightField::steps(Vec2 metres_per_uv) const {
+  if (!(metres_per_uv.x > 0) || !(metres_per_uv.y > 0)) throw InvalidInput("HeightField: metres per uv must be > 0");
+  // The inverse of A, scaled to metres.
+  const double det = a_[0][0] * a_[1][1] - a_[0][1] * a_[1][0];
+  if (det == 0) return std::nullopt;
+  return Steps{{a_[1][1] / det * metres_per_uv.x, -a_[1][0] / det * metres_per_uv.y},
+               {-a_[0][1] / det * metres_per_uv.x, a_[0][0] / det * metres_per_uv.y}};
+}
+
+std::vector<std::uint16_t> HeightField::quantised(const std::vector<double>& heights_m) const {
+  std::vector<std::uint16_t> result;
+  result.reserve(heights_m.size());
+  for (const double h : heights_m) {
+    const double v = metres_per_step_ != 0 ? (h - base_m_) / metres_per_step_ : 0;
+    result.push_back(static_cast<std::uint16_t>(std::clamp(std::lround(v), 0L, 65535L)));
+  }
+  return result;
+}
+
 HeightField HeightField::dilated(double radius_m, Vec2 metres_per_uv) const {
-  if (!(radius_m >= 0) || !(metres_per_uv.x > 0) || !(metres_per_uv.y > 0))
-    throw InvalidInput("HeightField::dilated: needs radius >= 0 and metres per uv > 0");
+  if (!(radius_m >= 0)) throw InvalidInput("HeightField::dilated: needs radius >= 0");
+  const auto step = steps(metres_per_uv);
   const double range = max_m_ - min_m_;
   const double reach = range >= radius_m ? radius_m : std::sqrt(range * (2 * radius_m - range));
-  // One texel in metres along both picture axes: the inverse of A, scaled to metres.
-  const double det = a_[0][0] * a_[1][1] - a_[0][1] * a_[1][0];
-  if (reach == 0 || det == 0) return *this;
-  const Vec2 step_x{a_[1][1] / det * metres_per_uv.x, -a_[1][0] / det * metres_per_uv.y};
-  const Vec2 step_y{-a_[0][1] / det * metres_per_uv.x, a_[0][0] / det * metres_per_uv.y};
+  if (reach == 0 || !step) return *this;
   // The height of the texel's parallelogram bounds the offsets within reach.
-  const double area = std::abs(cross(step_x, step_y));
-  const double columns = reach * norm(step_y) / area, rows = reach * norm(step_x) / area;
+  const double area = std::abs(cross(step->x, step->y));
+  const double columns = reach * norm(step->y) / area, rows = reach * norm(step->x) / area;
   if (!(columns <= 64 && rows <= 64))
     throw InvalidInput("HeightField::dilated: a probe of radius " + std::to_string(radius_m * 1e3) +
                        " mm spans more than 64 texels of the map");
@@ -230,14 +295,15 @@ HeightField HeightField::dilated(double radius_m, Vec2 metres_per_uv) const {
   std::vector<Tap> taps;
   for (long j = -static_cast<long>(rows); j <= static_cast<long>(rows); ++j)
     for (long i = -static_cast<long>(columns); i <= static_cast<long>(columns); ++i) {
-      const double distance = norm(static_cast<double>(i) * step_x + static_cast<double>(j) * step_y);
+      const double distance = norm(static_cast<double>(i) * step->x + static_cast<double>(j) * step->y);
       if (distance <= reach) taps.push_back({i, j, std::sqrt(radius_m * radius_m - distance * distance) - radius_m});
     }
   std::sort(taps.begin(), taps.end(), [](const Tap& a, const Tap& b) {
     return a.cap != b.cap ? a.cap > b.cap : (a.y != b.y ? a.y < b.y : a.x < b.x);
   });
 
-  std::vector<std::uint16_t> result(samples_.size());
+  std::vector<double> result;
+  result.reserve(samples_.size());
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       double best = min_m_;
@@ -245,11 +311,46 @@ HeightField HeightField::dilated(double radius_m, Vec2 metres_per_uv) const {
         if (max_m_ + tap.cap <= best) break;
         best = std::max(best, base_m_ + metres_per_step_ * texel(x + tap.x, y + tap.y) + tap.cap);
       }
-      const double v = metres_per_step_ != 0 ? (best - base_m_) / metres_per_step_ : 0;
-      result[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
-          static_cast<std::uint16_t>(std::clamp(std::lround(v), 0L, 65535L));
+      result.push_back(best);
     }
-  return HeightField(width_, height_, std::move(result), options_);
+  return HeightField(width_, height_, quantised(result), options_);
+}
+
+HeightField HeightField::rounded(double radius_m, Vec2 metres_per_uv) const {
+  if (!(radius_m >= 0) || !std::isfinite(radius_m)) throw InvalidInput("HeightField::rounded: needs radius >= 0");
+  const auto step = steps(metres_per_uv);
+  const double range = max_m_ - min_m_;
+  if (radius_m == 0 || range == 0 || !step) return *this;
+  // Farther samples are higher than the range on every parabola.
+  const double reach = std::sqrt(2 * radius_m * range);
+  const Envelope across(norm(step->x), radius_m, reach, width_), down(norm(step->y), radius_m, reach, height_);
+  std::vector<double> heights;
+  heights.reserve(samples_.size());
+  for (const std::uint16_t v : samples_) heights.push_back(base_m_ + metres_per_step_ * v);
+  for (const double sign : {1.0, -1.0}) {
+    for (double& h : heights) h *= sign;
+    for (long y = 0; y < height_; ++y)
+      across.lower(&heights[static_cast<std::size_t>(y * width_)], 1, options_.wrap[0]);
+    for (long x = 0; x < width_; ++x) down.lower(&heights[static_cast<std::size_t>(x)], width_, options_.wrap[1]);
+    for (double& h : heights) h *= sign;
+  }
+  return HeightField(width_, height_, quantised(heights), options_);
+}
+
+double HeightField::share_steeper(double slope, Vec2 metres_per_uv) const {
+  const auto step = steps(metres_per_uv);
+  if (!step) return 0;
+  const double area = cross(step->x, step->y), rounding = 1e-3 * slope;
+  std::size_t steeper = 0;
+  for (long y = 0; y < height_; ++y)
+    for (long x = 0; x < width_; ++x) {
+      const double here = texel(x, y);
+      const double dx = metres_per_step_ * (texel(x + 1, y) - here), dy = metres_per_step_ * (texel(x, y + 1) - here);
+      // The g with g·step.x = dx and g·step.y = dy.
+      const Vec2 g{(dx * step->y.y - dy * step->x.y) / area, (dy * step->x.x - dx * step->y.x) / area};
+      steeper += norm(g) > slope + rounding;
+    }
+  return static_cast<double>(steeper) / static_cast<double>(samples_.size());
 }
 
 }  // namespace papilla

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/haptic/hid_device.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "papilla/core/error.hpp"
+#include "papilla/haptic/loop_clock.hpp"
 
 namespace papilla {
 namespace {
@@ -15,11 +14,7 @@ static_assert(std::atomic<double>::is_always_lock_free, "the slot must not lock"
 
 constexpr int k_most_drained = 64;  // More than a device queues; bounds the time of a flood.
 
-double now_s() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double now_s() noexcept { return LoopClock().now_s(); }
 
 void send_all(HidTransport& transport, const std::vector<HidReport>& reports) noexcept {
   for (const HidReport& report : reports) transport.write(report);

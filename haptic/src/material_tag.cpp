@@ -12,6 +12,7 @@
 #include "papilla/haptic/friction.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/haptic/stimulus.hpp"
+#include "papilla/haptic/tag_limits.hpp"
 #include "papilla/texture/height_map.hpp"
 
 namespace papilla {
@@ -300,6 +301,7 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
     tag.symmetry = read_symmetry(*symmetry, place + ".symmetry", warnings);
   if (const Json* provenance = in.object("provenance", "tag_provenance"))
     tag.provenance = read_provenance(*provenance, place + ".provenance", warnings);
+  limit_relief(tag, warnings);
   Json other = json;
   for (const char* known : k_members) other.erase(known);
   if (!other.empty()) tag.other_json = other.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -9,7 +9,7 @@ SafetyLimits safety_limits(double max_force_n) noexcept {
   return {.max_force_n = max_force_n, .slew_n_per_s = max_force_n / 2e-3};
 }
 
-Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s) noexcept {
+Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s, const ContactStep& contact) noexcept {
   if (!is_finite(force_n) || !std::isfinite(norm(force_n)))
     fault_ = Fault::not_finite;
   else if (!(age_s <= limits_.watchdog_s) && fault_ == Fault::none)
@@ -22,15 +22,19 @@ Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s) noexcept {
   }
   const double size = norm(force_n);
   if (size > limits_.max_force_n) force_n = (limits_.max_force_n / size) * force_n;
+  const bool goes_on = contact.in_contact && contact_s_ >= limits_.new_contact_s;
+  contact_s_ = contact.in_contact ? contact_s_ + period_s : 0;
+  double most = limits_.slew_n_per_s * period_s;
+  if (goes_on) most = std::min(most, std::max(limits_.steady_share * most, contact.spring_n));
   const Vec3 change = force_n - last_;
-  const double most = limits_.slew_n_per_s * period_s, wanted = norm(change);
+  const double wanted = norm(change);
   last_ = wanted > most ? last_ + (most / wanted) * change : force_n;
   return last_;
 }
 
 void ForceGuard::resume() noexcept {
   fault_ = Fault::none;
-  faded_in_s_ = 0;
+  faded_in_s_ = contact_s_ = 0;
   last_ = {};
 }
 

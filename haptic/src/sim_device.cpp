@@ -28,7 +28,8 @@ constexpr DevicePreset preset(std::string_view name, std::string_view title, dou
           {damping_for(stiffness), k_from_limit},
           {friction, k_assumed},
           {step, k_assumed},
-          {k_delay, "assumed: one full-speed USB frame"}};
+          {k_delay, "assumed: one full-speed USB frame"},
+          {k_default_probe_radius_m, "assumed: a blunt pen tip"}};
 }
 
 constexpr DevicePreset k_presets[] = {
@@ -51,7 +52,8 @@ DeviceCaps DevicePreset::caps() const {
   return {"sim:" + std::string(name),
           max_force_n.value,
           workspace_radius_m.value,
-          {mass_kg.value, damping.value, friction_n.value, encoder_step_m.value, delay_s.value}};
+          {mass_kg.value, damping.value, friction_n.value, encoder_step_m.value, delay_s.value},
+          probe_radius_m.value};
 }
 
 std::span<const DevicePreset> device_presets() noexcept { return k_presets; }

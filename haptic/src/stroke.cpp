@@ -48,8 +48,9 @@ Trajectory press_and_stroke(const ContactSurface& surface, std::uint32_t materia
   const double step = std::min(k_step_m, extent / 100);
   SurfacePoint here = *start;
   Vec3 direction = any_tangent(here.face_normal);
-  const auto pressed = [&](const SurfacePoint& p) { return p.point - options.depth_m * p.face_normal; };
-  std::vector<Trajectory::Sample> samples{{0, here.point + options.approach_m * here.face_normal},
+  const double radius = surface.probe_radius_m();
+  const auto pressed = [&](const SurfacePoint& p) { return p.point + (radius - options.depth_m) * p.face_normal; };
+  std::vector<Trajectory::Sample> samples{{0, here.point + (radius + options.approach_m) * here.face_normal},
                                           {options.press_s, pressed(here)}};
   if (options.motion == Motion::tap) {
     const double half = 0.5 / options.taps_per_s;

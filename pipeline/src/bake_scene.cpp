@@ -355,6 +355,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   leave_out(result.scene, result.plan.perception);
   result.grains = make_grains(result.plan, rules, options.library, progress);
   for (const auto& [name, grain] : result.grains) {
+    for (const std::string& warning : grain.warnings) result.scene.warnings.push_back(warning);
     result.seconds["analyze"] += grain.analyze_seconds;
     result.seconds["height"] += grain.height_seconds;
     result.seconds["normal_map"] += grain.normal_map_seconds;

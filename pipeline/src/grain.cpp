@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/grain.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/haptic/tag_limits.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/texture.hpp"
@@ -65,13 +69,11 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const La
   if (relief.width > k_most_samples || relief.height > k_most_samples)
     relief = resample(relief, std::min(relief.width, k_most_samples), std::min(relief.height, k_most_samples));
   for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
-  grain.height = {std::string(to_string(result.method)),
-                  result.reason,
-                  result.light,
-                  result.light_estimated,
-                  result.depth_mm * rule.height.scale,
-                  result.rms_mm * rule.height.scale,
-                  result.stop};
+  grain.height = {.method = std::string(to_string(result.method)),
+                  .reason = result.reason,
+                  .light = result.light,
+                  .light_estimated = result.light_estimated,
+                  .stop = result.stop};
   return relief;
 }
 
@@ -125,14 +127,51 @@ HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain&
                    grain.size_mm[1] / source.grey.height,
                    true};
   for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
-  grain.height = {"recipe",
-                  "the height channel of the recipe",
-                  {},
-                  false,
-                  depth * rule.height.scale,
-                  rms_height_mm(relief),
-                  StopReason::direct};
+  grain.height = {.method = "recipe", .reason = "the height channel of the recipe"};
   return relief;
+}
+
+/// Keeps the relief within what a tag may have.
+void limit_heights(const MaterialRule& rule, Grain& grain) {
+  const auto [lowest, highest] = std::minmax_element(grain.relief.mm.begin(), grain.relief.mm.end());
+  const double low = k_metres_per_mm * static_cast<double>(*lowest),
+               high = k_metres_per_mm * static_cast<double>(*highest);
+  const double shift = relief_shift_m(low, high), share = relief_share(low + shift, high + shift);
+  if (shift != 0)
+    grain.warnings.push_back(
+        fmt::format("material '{}': height: its lowest place is {:.4g} mm off the mesh, more than its relief of {:.4g} "
+                    "mm; moved by "
+                    "{:.4g} mm",
+                    rule.name, 1e3 * low, 1e3 * (high - low), 1e3 * shift));
+  if (share != 1)
+    grain.warnings.push_back(
+        fmt::format("material '{}': height: {:.4g} mm are beyond the limit of {:.4g} mm; shrunk to {:.4g}", rule.name,
+                    1e3 * (high + shift), 1e3 * k_highest_relief_m, 1e3 * share * (high + shift)));
+  if (shift == 0 && share == 1) return;
+  for (float& h : grain.relief.mm) h = static_cast<float>(share * (static_cast<double>(h) + shift / k_metres_per_mm));
+}
+
+double range_mm(const HeightMap& relief) {
+  const auto [low, high] = std::minmax_element(relief.mm.begin(), relief.mm.end());
+  return static_cast<double>(*high) - static_cast<double>(*low);
+}
+
+/// Limits the slopes to what the rule says, or to what its friction allows.
+void limit_slopes(const MaterialRule& rule, Grain& grain) {
+  MaterialTag constants = grain.tag;
+  apply_constants(rule, constants);
+  GrainHeight& height = grain.height;
+  height.max_slope = rule.height.max_slope.value_or(default_max_slope(constants.static_friction));
+  height.unlimited_depth_mm = range_mm(grain.relief);
+  height.slopes = limit_slope(grain.relief, {.max_slope = height.max_slope});
+  grain.relief = std::exchange(height.slopes.relief, {});
+  height.depth_mm = range_mm(grain.relief);
+  height.rms_mm = rms_height_mm(grain.relief);
+  if (height.slopes.stop == StopReason::iteration_limit)
+    grain.warnings.push_back(
+        fmt::format("material '{}': height: after {} steps {:.3g} % of the relief is still steeper "
+                    "than {:.3g}",
+                    rule.name, height.slopes.iterations, 100 * height.slopes.share_after, height.max_slope));
 }
 
 void describe_relief(Grain& grain) {
@@ -171,6 +210,11 @@ Lattice analyze(const MaterialRule& rule, const Source& source, Grain& grain) {
 
 }  // namespace
 
+double default_max_slope(double static_friction) {
+  constexpr double k_share = 1.0 / 3, k_most = 1;
+  return static_friction > 0 ? std::min(k_most, k_share / static_friction) : k_most;
+}
+
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   Grain grain;
   const Stopwatch analyze_clock;
@@ -187,6 +231,8 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
 
   const Stopwatch height_clock;
   grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, lattice, grain);
+  limit_heights(rule, grain);
+  limit_slopes(rule, grain);
   describe_relief(grain);
   const EncodedHeight encoded = encode_height_png16(grain.relief);
   grain.tag.height = make_height_tag(grain.relief, {.png = encoded.png,

@@ -145,6 +145,39 @@ TEST(ForceGuard, LimitsTheChange) {
   EXPECT_NEAR(guard.apply({0, 0, -5}, 1e-3, 0).z, 1.5 - 0.1, 1e-12);
 }
 
+/// 2 % of the largest force a millisecond while a contact goes on; a new or a lost one is free to change in 2 ms.
+TEST(ForceGuard, StepsAreSmallWhileAContactGoesOn) {
+  SafetyLimits limits = safety_limits(3);
+  limits.soft_start_s = 0;
+  for (const double period : {1e-3, 2.5e-4}) {
+    ForceGuard guard(limits);
+    const auto ms = static_cast<int>(1e-3 / period + 0.5);
+    const auto out = [&](double force, bool contact, double spring = 0) {
+      return guard.apply({0, 0, force}, period, 0, {contact, spring}).z;
+    };
+    double last = 0;
+    for (int i = 0; i < 2 * ms; ++i) last = out(1, true);
+    EXPECT_EQ(last, 1);
+    for (int i = 0; i < 5 * ms; ++i) {
+      const double now = out(3, true);
+      EXPECT_NEAR(now - last, 0.06 / ms, 1e-12);
+      last = now;
+    }
+    for (int i = 0; i < 5 * ms; ++i) {
+      const double now = out(-3, true);
+      EXPECT_NEAR(last - now, 0.06 / ms, 1e-12);
+      last = now;
+    }
+    // The hand itself goes in: the spring may follow.
+    EXPECT_NEAR(out(1.5, true, 0.5), 1.5, 1e-12);
+    EXPECT_NEAR(out(3, true, 0.5), 2, 1e-12);
+    last = 2;
+    for (int i = 0; i < 2 * ms; ++i) last = out(0, false);
+    EXPECT_EQ(last, 0);
+    EXPECT_NEAR(out(1, true), std::min(1.0, 1.5 / ms), 1e-12);
+  }
+}
+
 TEST(ForceGuard, FadesInTheFirstForceAndAfterAResume) {
   SafetyLimits limits = sharp();
   limits.soft_start_s = 0.01;

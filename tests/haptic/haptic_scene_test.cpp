@@ -76,7 +76,8 @@ TEST(HapticScene, FollowsTheTextureTransformOfPackers) {
   TextureReference reference;
   reference.transform = UvTransform{{0, 0}, 0, {16, 16}};
   scene.materials[0].normal_texture = reference;
-  const HapticScene plain = haptic_scene(before, "a.glb"), packed = haptic_scene(scene, "a.glb");
+  const HapticSceneOptions raw{.probe_radius_m = 0, .felt_depth_m = 0};
+  const HapticScene plain = haptic_scene(before, "a.glb", raw), packed = haptic_scene(scene, "a.glb", raw);
   ASSERT_EQ(packed.warnings.size(), 1U);
   EXPECT_EQ(packed.warnings[0].warning.code, "uv_transform");
   for (const Vec2 uv : {Vec2{0.3, 0.2}, Vec2{1.7, -0.4}})
@@ -87,6 +88,7 @@ TEST(CInterface, FeelsAPlate) {
   const File file(testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
   papilla_haptic_options options{};
   options.device = "touch";
+  options.probe_radius_m = -1;
   papilla_haptic* const haptic = papilla_haptic_open(file.path.c_str(), &options, nullptr, 0);
   ASSERT_NE(haptic, nullptr);
   EXPECT_EQ(papilla_haptic_triangles(haptic), 200U);
@@ -109,6 +111,28 @@ TEST(CInterface, FeelsAPlate) {
   papilla_haptic_reset(haptic, above);
   EXPECT_EQ(papilla_haptic_tick(haptic, above, 0, force), 0);
   papilla_haptic_close(haptic);
+}
+
+/// Half a millimetre, the device's, when nothing is said.
+TEST(CInterface, ProbeIsABallUnlessAskedForAPoint) {
+  const File file(testing::plate_glb({{"haptic", {{"version", 1}, {"stiffness", 300}}}}, ""));
+  const auto height_at_rest = [&](double radius, const char* device) {
+    papilla_haptic_options options{};
+    options.device = device;
+    options.probe_radius_m = radius;
+    papilla_haptic* const haptic = papilla_haptic_open(file.path.c_str(), &options, nullptr, 0);
+    double force[3], proxy[3];
+    const double above[3] = {0.05, 0.005, -0.05}, below[3] = {0.05, -0.001, -0.05};
+    papilla_haptic_reset(haptic, above);
+    papilla_haptic_tick(haptic, below, 0, force);
+    papilla_haptic_proxy(haptic, proxy, nullptr);
+    papilla_haptic_close(haptic);
+    return proxy[1];
+  };
+  EXPECT_NEAR(height_at_rest(0, "touch"), 5.2e-4, 2e-6);
+  EXPECT_NEAR(height_at_rest(0, nullptr), 5.2e-4, 2e-6);
+  EXPECT_NEAR(height_at_rest(2e-3, "touch"), 2.02e-3, 2e-6);
+  EXPECT_NEAR(height_at_rest(-1, "touch"), 2e-5, 2e-6);
 }
 
 TEST(CInterface, RefusesWithOneLine) {

@@ -176,6 +176,67 @@ TEST(HeightField, DilationOfAPlaneIsThePlaneAndNeverLowers) {
   for (double u = 0; u < 1; u += 0.05) EXPECT_GE(wide.sample({u, u}).height_m, rough.sample({u, u}).height_m - 1e-8);
 }
 
+/// Parabolas of a sharper and of a blunter peak than asked for, beside a groove.
+TEST(HeightField, RoundedPeaksHaveTheRadiusAndValleysStay) {
+  constexpr int n = 256;
+  constexpr double side = 8e-3, pitch = side / n, range = 4e-4, radius = 1e-3;
+  const auto relief = [&](double x) {
+    const auto peak = [&](double at, double r) { return range - (x - at) * (x - at) / (2 * r); };
+    return std::clamp(std::max(peak(2e-3, 2e-4), peak(6e-3, 4e-3)), 0.0, range);
+  };
+  std::vector<std::uint16_t> samples;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
+      samples.push_back(static_cast<std::uint16_t>(std::lround(65535 * relief((x + 0.5) * pitch) / range)));
+  HeightFieldOptions o;
+  o.scale_m = range;
+  o.interpolation = Interpolation::bilinear;
+  const HeightField sharp(n, n, samples, o), round = sharp.rounded(radius, {side, side});
+  const auto at = [&](const HeightField& field, int x, int y) {
+    return field.sample({(x + 0.5) / n, (y + 0.5) / n}).height_m;
+  };
+  const double step = range / 65535;
+  for (int y = 0; y < n; y += 37)
+    for (int x = 1; x + 1 < n; ++x) {
+      EXPECT_LE(at(round, x, y), at(sharp, x, y) + step);
+      const double bend = (at(round, x - 1, y) - 2 * at(round, x, y) + at(round, x + 1, y)) / (pitch * pitch);
+      EXPECT_GE(bend, -1 / radius - 4 * step / (pitch * pitch)) << x;
+      // The blunt peak and the level ground are as they were.
+      if (x > 90) EXPECT_NEAR(at(round, x, y), at(sharp, x, y), step) << x;
+    }
+  // A parabola of the radius that hangs between the flanks of the sharp peak: it touches the corner at the foot.
+  const double foot = std::sqrt(2 * 2e-4 * range);
+  EXPECT_NEAR(at(round, 64, 9), foot * foot / (2 * radius), 2e-5);
+}
+
+TEST(HeightField, RoundingIsIdempotentAndPeriodic) {
+  const HeightField rough(64, 64, noise(64, 64, 4), options(Interpolation::bilinear));
+  const HeightField once = rough.rounded(1e-3, {0.005, 0.005}), twice = once.rounded(1e-3, {0.005, 0.005});
+  for (double u = 0.003; u < 1; u += 0.07)
+    for (double v = 0.005; v < 1; v += 0.09) {
+      EXPECT_NEAR(twice.sample({u, v}).height_m, once.sample({u, v}).height_m, 2e-4 / 65535 * 3);
+      EXPECT_NEAR(once.sample({u + 1, v}).height_m, once.sample({u, v}).height_m, 1e-15);
+      EXPECT_LE(once.sample({u, v}).height_m, rough.sample({u, v}).height_m + 2e-4 / 65535);
+    }
+  EXPECT_THROW(rough.rounded(-1, {1, 1}), InvalidInput);
+  EXPECT_THROW(rough.rounded(1e-3, {0, 1}), InvalidInput);
+}
+
+/// A saw: three texels up, one down.
+TEST(HeightField, ShareSteeperThanASlope) {
+  std::vector<std::uint16_t> samples;
+  for (int i = 0; i < 64 * 64; ++i) samples.push_back(static_cast<std::uint16_t>(i % 4 * 20000));
+  HeightFieldOptions o;
+  o.scale_m = 65535e-8;  // A step of 20000 is 0.2 mm.
+  const HeightField saw(64, 64, samples, o);
+  const Vec2 side{0.064, 0.064};  // A texel is 1 mm: slopes of 0.2 and 0.6.
+  EXPECT_EQ(saw.share_steeper(0.7, side), 0);
+  EXPECT_EQ(saw.share_steeper(0.6, side), 0);
+  EXPECT_EQ(saw.share_steeper(0.5, side), 0.25);
+  EXPECT_EQ(saw.share_steeper(0.1, side), 1);
+  EXPECT_EQ(saw.share_steeper(0.5, {0.0064, 1}), 1);
+}
+
 TEST(RoughnessField, HasTheHeightAskedForAndRepeats) {
   const RoughnessTag tag{2.3, 2e-5, {2e-4, 1e-2}};
   const HeightField field = roughness_field(tag, {0.04, 0.04}, 7);

@@ -139,6 +139,138 @@ TEST(HapticLoop, StopEndsItAndLeavesNoForce) {
   EXPECT_EQ(lost.stops, 1);
 }
 
+/// Every look takes a microsecond, sleeping takes what it should.
+class FakeClock final : public LoopClock {
+ public:
+  double now_s() noexcept override { return now_s_ += 1e-6; }
+  void sleep_until(double time_s) noexcept override { now_s_ = std::max(now_s_, time_s); }
+  void jump(double seconds) noexcept { now_s_ += seconds; }
+
+ private:
+  double now_s_ = 5;
+};
+
+/// Presses a millimetre into the plate, and stands still for `pause_s` while tick `pause_at` is read or written. After
+/// that the hand is somewhere else: it lifts for 20 ticks and presses again.
+class PausingDevice final : public HapticDevice {
+ public:
+  PausingDevice(FakeClock& clock, int pause_at, double pause_s, bool in_write, bool is_clock)
+      : clock_(clock), pause_at_(pause_at), pause_s_(pause_s), in_write_(in_write), is_clock_(is_clock) {}
+  const DeviceCaps& caps() const noexcept override { return caps_; }
+  bool is_clock() const noexcept override { return is_clock_; }
+  double wait(double) noexcept override {
+    clock_.jump(1e-3);
+    ++waits;
+    return 0;
+  }
+  bool read(DeviceState& state) noexcept override {
+    const int tick = static_cast<int>(forces.size());
+    const bool lifted = tick < 5 || (tick > pause_at_ && tick <= pause_at_ + 20);
+    state.position = {0.05, 0.05, lifted ? 0.01 : -0.001};
+    if (tick == pause_at_ && !in_write_) clock_.jump(pause_s_);
+    return true;
+  }
+  bool write(Vec3 force) noexcept override {
+    if (static_cast<int>(forces.size()) == pause_at_ && in_write_) clock_.jump(pause_s_);
+    if (forces.size() < forces.capacity()) forces.push_back(force);
+    return true;
+  }
+  void stop() noexcept override {}
+  std::vector<Vec3> forces;
+  int waits = 0;
+
+ private:
+  FakeClock& clock_;
+  DeviceCaps caps_{"pausing", 3, 0.1, {}};
+  int pause_at_;
+  double pause_s_;
+  bool in_write_, is_clock_;
+};
+
+struct PausedRun {
+  LoopResult result;
+  std::vector<Vec3> forces;
+  std::vector<RecordRow> rows;
+};
+
+constexpr int k_pause_at = 200, k_paused_ticks = 400;
+
+PausedRun play_with_pause(double pause_s, bool in_write, bool is_clock) {
+  const ContactSurface surface = stable_plate();
+  FakeClock clock;
+  PausingDevice device(clock, k_pause_at, pause_s, in_write, is_clock);
+  device.forces.reserve(k_paused_ticks);
+  PausedRun run;
+  LoopOptions options;
+  options.ticks = k_paused_ticks;
+  options.clock = &clock;
+  options.record = &run.rows;
+  run.result = run_haptic_loop(device, surface, options);
+  run.forces = device.forces;
+  return run;
+}
+
+/// The force on the wall at full depth is 0.4 N.
+TEST(HapticLoop, ForceFadesInAgainAfterAPause) {
+  for (const bool in_write : {false, true})
+    for (const bool is_clock : {false, true}) {
+      const PausedRun run = play_with_pause(3, in_write, is_clock);
+      const auto force = [&](int tick) { return norm(run.forces[static_cast<std::size_t>(tick)]); };
+      EXPECT_EQ(run.result.pauses, 1U);
+      EXPECT_NEAR(run.result.longest_pause_s, 3, 2e-3);
+      EXPECT_NEAR(static_cast<double>(run.result.missed_deadlines), 3000, 2);
+      EXPECT_NEAR(force(k_pause_at - 1), 0.4, 1e-3);
+      // Stopped between read and write: the force is old.
+      EXPECT_NEAR(force(k_pause_at), in_write ? 0.4 : 0, 1e-3);
+      const RecordRow& after = run.rows[k_pause_at + 1];
+      EXPECT_EQ(after.proxy, after.probe);
+      EXPECT_FALSE(after.in_contact);
+      EXPECT_EQ(force(k_pause_at + 1), 0);
+      for (int k = 1; k <= 50; ++k) EXPECT_LE(force(k_pause_at + 20 + k), 0.4 * k / 50 + 1e-3) << k;
+      EXPECT_NEAR(force(k_pause_at + 80), 0.4, 1e-3);
+    }
+}
+
+/// A probe that is inside after a pause stays free until it leaves: no force pushes it out of a wall that it is in.
+TEST(HapticLoop, ProxyIsPutToTheProbeAfterAPause) {
+  const ContactSurface surface(testing::box({0, 0, 0}, {0.1, 0.1, 0.1}), {ContactMaterial{}}, {}, 0);
+  class Inside final : public HapticDevice {
+   public:
+    explicit Inside(FakeClock& clock) : clock_(clock) {}
+    const DeviceCaps& caps() const noexcept override { return caps_; }
+    bool read(DeviceState& state) noexcept override {
+      state.position = {0.05, 0.05, tick_ < 5 ? 0.11 : 0.098};
+      if (++tick_ == 100) clock_.jump(0.02);
+      return true;
+    }
+    bool write(Vec3) noexcept override { return true; }
+    void stop() noexcept override {}
+
+   private:
+    FakeClock& clock_;
+    DeviceCaps caps_{"inside", 3, 0.1, {}};
+    int tick_ = 0;
+  };
+  FakeClock clock;
+  Inside device(clock);
+  std::vector<RecordRow> rows;
+  LoopOptions options;
+  options.ticks = 200;
+  options.clock = &clock;
+  options.record = &rows;
+  EXPECT_EQ(run_haptic_loop(device, surface, options).pauses, 1U);
+  EXPECT_TRUE(rows[98].in_contact);
+  for (std::size_t i = 100; i < rows.size(); ++i) EXPECT_EQ(rows[i].force, Vec3{}) << i;
+}
+
+TEST(HapticLoop, ShortPausesChangeNothingAndCount) {
+  const PausedRun still = play_with_pause(0, false, false), late = play_with_pause(8e-3, false, false);
+  EXPECT_EQ(late.result.pauses, 0U);
+  EXPECT_EQ(still.result.missed_deadlines, 0U);
+  EXPECT_NEAR(static_cast<double>(late.result.missed_deadlines), 8, 1);
+  EXPECT_EQ(late.forces, still.forces);
+}
+
 TEST(HapticLoop, RefusesImpossibleRates) {
   const ContactSurface surface = stable_plate();
   const Trajectory hand(std::vector<Trajectory::Sample>{{0, {}}});

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -12,8 +13,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
+#include <vector>
 
 #include "haptic/tagged_glb.hpp"
+#include "papilla/core/vec.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "player/sentinel.hpp"
 
@@ -69,23 +72,34 @@ class Player : public ::testing::Test {
   Outcome play_glb(const Json& extras, const std::string& image, const std::string& more = "") const {
     return play("'" + write("a b.glb", testing::plate_glb(extras, image)) + "' --seconds 0.6 --json - " + more);
   }
-  /// Starts a long run and calls `act` with its process after half a second. @returns the exit code.
-  int play_while(const std::string& glb, const std::function<void(pid_t)>& act) const {
+  /// Starts the player, calls `act` with its process after half a second, and waits for it. The report is in r.json.
+  /// @returns the exit code.
+  int play_and(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& act) const {
     const std::string json = (folder_ / "r.json").string(), error = (folder_ / "error").string();
+    std::vector<std::string> all = {PAPILLA_PLAYER, "-q", "--json", json};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& argument : all) argv.push_back(argument.data());
+    argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child == 0) {
       if (std::freopen(error.c_str(), "w", stderr) == nullptr) ::_exit(126);
-      ::execl(PAPILLA_PLAYER, PAPILLA_PLAYER, glb.c_str(), "-q", "--seconds", "100", "--json", json.c_str(), nullptr);
+      ::execv(PAPILLA_PLAYER, argv.data());
       ::_exit(127);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     act(child);
     int status = 0;
     EXPECT_EQ(::waitpid(child, &status, 0), child);
-    const Json report = Json::parse(slurp(json));
-    EXPECT_GT(report["ticks"], 10);
-    EXPECT_LT(report["ticks"], 50000);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  Json last_report() const { return Json::parse(slurp(folder_ / "r.json")); }
+  /// The same with a long run that `act` ends.
+  int play_while(const std::string& glb, const std::function<void(pid_t)>& act) const {
+    const int code = play_and({glb, "--seconds", "100"}, act);
+    EXPECT_GT(last_report()["ticks"], 10);
+    EXPECT_LT(last_report()["ticks"], 50000);
+    return code;
   }
   static void expect_warning(const Json& report, const std::string& code) {
     bool found = false;
@@ -218,11 +232,12 @@ TEST_F(Player, RubbishIsOneLineAndAnExitCode) {
 TEST_F(Player, RecordingPlayedAgainGivesTheSameFile) {
   const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
   const fs::path first = folder_ / "1.csv", second = folder_ / "2.csv";
-  ASSERT_EQ(play("'" + glb + "' -q --rate 2000 --seconds 0.5 --record '" + first.string() + "'").code, 0);
-  ASSERT_EQ(
-      play("'" + glb + "' -q --rate 2000 --trajectory '" + first.string() + "' --record '" + second.string() + "'")
-          .code,
-      0);
+  ASSERT_EQ(play("'" + glb + "' -q --watchdog 1000 --rate 2000 --seconds 0.5 --record '" + first.string() + "'").code,
+            0);
+  ASSERT_EQ(play("'" + glb + "' -q --watchdog 1000 --rate 2000 --trajectory '" + first.string() + "' --record '" +
+                 second.string() + "'")
+                .code,
+            0);
   EXPECT_GT(slurp(first).size(), 100000U);
   EXPECT_EQ(slurp(first), slurp(second));
 }
@@ -245,6 +260,124 @@ TEST_F(Player, WritesOverNothingThatItReads) {
 TEST_F(Player, SignalEndsItWithAReport) {
   const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
   EXPECT_EQ(play_while(glb, [](pid_t child) { ::kill(child, SIGTERM); }), 5);
+}
+
+struct RecordedTick {
+  Vec3 probe, proxy, force;
+  bool contact = false;
+  friend bool operator==(const RecordedTick&, const RecordedTick&) = default;
+};
+
+std::vector<RecordedTick> recorded(const std::string& csv) {
+  std::vector<RecordedTick> ticks;
+  std::istringstream lines(csv);
+  std::string line;
+  for (std::getline(lines, line); std::getline(lines, line);) {
+    std::vector<double> v;
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) v.push_back(std::stod(field));
+    ticks.push_back({{v[4], v[5], v[6]}, {v[7], v[8], v[9]}, {v[10], v[11], v[12]}, v[13] != 0});
+  }
+  return ticks;
+}
+
+/// A hand that presses a millimetre into the plate twice a second, in a run that is stopped and continued, beside the
+/// same run without that. What the machine itself holds up by more than a watchdog of 300 ms is no part of the test.
+TEST_F(Player, ForceFadesInAgainAfterASigstop) {
+  const std::string glb = write("p.glb", testing::plate_glb({{"haptic", tag()}}, testing::sine_png()));
+  std::string hand = "t,x,y,z\n";
+  for (int i = 0; i < 12; ++i) {
+    const std::string x = "0.05,", z = ",-0.05\n";
+    hand += std::to_string(0.5 * i) + "," + x + "0.004" + z + std::to_string(0.5 * i + 0.05) + "," + x + "-0.001" + z +
+            std::to_string(0.5 * i + 0.4) + "," + x + "-0.001" + z;
+  }
+  const std::string path = write("t.csv", hand);
+  const auto play_with = [&](const std::string& record, const std::function<void(pid_t)>& act) {
+    EXPECT_EQ(play_and({glb, "--trajectory", path, "--seconds", "3", "--watchdog", "300", "--record", record}, act), 0);
+    return recorded(slurp(record));
+  };
+  const std::vector<RecordedTick> whole = play_with((folder_ / "1.csv").string(), [](pid_t) {});
+  const Json calm = last_report();
+  const std::vector<RecordedTick> paused = play_with((folder_ / "2.csv").string(), [](pid_t child) {
+    ::kill(child, SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(900));
+    ::kill(child, SIGCONT);
+  });
+  const Json report = last_report();
+  ASSERT_EQ(calm["pauses"]["count"], 0);
+  ASSERT_EQ(report["pauses"]["count"], 1);
+  EXPECT_GE(report["pauses"]["longest_s"], 0.85);
+  EXPECT_GE(report["missed_deadlines"].get<int>(), calm["missed_deadlines"].get<int>() + 800);
+  EXPECT_EQ(report["ticks"], 3000);
+  ASSERT_EQ(paused.size(), whole.size());
+  const auto differs = std::mismatch(whole.begin(), whole.end(), paused.begin());
+  ASSERT_NE(differs.first, whole.end());
+  // Forces begin at zero with the proxy at the probe, and take 50 ms from the next contact on.
+  auto i = static_cast<std::size_t>(differs.first - whole.begin());
+  ASSERT_LT(i + 600, paused.size());
+  if (whole[i].contact) {
+    EXPECT_EQ(paused[i].force, Vec3{});
+    EXPECT_EQ(paused[i].proxy, paused[i].probe);
+    while (!paused[i].contact) ++i;
+  }
+  const double full = 0.5;  // N, at most: 400 N/m and the hand's 1000 N/m share 1.5 mm.
+  for (int k = 0; k < 50; ++k) EXPECT_LE(norm(paused[i + static_cast<std::size_t>(k)].force), full * (k + 1) / 50) << k;
+  EXPECT_GT(norm(paused[i + 200].force), 0.1);
+}
+
+/// Tags that ask for more than a device can do.
+TEST_F(Player, HostileTagsAreHeldBackWithAWarning) {
+  const auto expect_limited = [&](const Json& hostile, const std::string& code, const std::string& field,
+                                  const std::string& value, const std::string& limit) {
+    const fs::path record = folder_ / "r.csv";
+    const Outcome outcome =
+        play_glb({{"haptic", hostile}}, testing::sine_png(), "--watchdog 1000 --record '" + record.string() + "'");
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    bool found = false;
+    for (const Json& warning : outcome.json()["warnings"]) {
+      const std::string message = warning["message"];
+      found = found ||
+              (warning["code"] == code && warning["material"] == "grain" &&
+               message.find(field + " = " + value) != std::string::npos && message.find(limit) != std::string::npos);
+    }
+    EXPECT_TRUE(found) << code << " in " << outcome.json()["warnings"];
+    // 2 % of the device's 3.3 N a tick, but for the first two of a contact.
+    const std::vector<RecordedTick> ticks = recorded(slurp(record));
+    for (std::size_t i = 3; i < ticks.size(); ++i) {
+      EXPECT_LE(norm(ticks[i].force), 3.3 * (1 + 1e-9));
+      const bool goes_on = ticks[i].contact && ticks[i - 1].contact && ticks[i - 2].contact && ticks[i - 3].contact;
+      if (goes_on && i > 300) EXPECT_LE(norm(ticks[i].force - ticks[i - 1].force), 0.066 * (1 + 1e-9)) << i;
+    }
+  };
+  Json high = tag();
+  high["height"]["scale"] = 1.0;
+  high["height"]["offset"] = -0.5;
+  expect_limited(high, "tag_height_limit", "haptic.height.scale", "1:", "0.02 m");
+  Json moved = tag();
+  moved["height"]["offset"] = 0.015;
+  expect_limited(moved, "tag_offset_limit", "haptic.height.offset", "0.015:", "0.0002 is used");
+  for (const char* model : {"orthogonal", "lateral", "lateral-isotropic", "graph-orthogonal", "graph-lateral"}) {
+    Json strong = tag();
+    strong["forceModel"] = {{"name", model}, {"amplitude", 100}};
+    const bool both = std::string(model) == "lateral-isotropic";
+    expect_limited(strong, "tag_amplitude_limit", "haptic.forceModel.amplitude",
+                   "100:", both ? "0.00911505" : "0.0128906");
+  }
+  Json rough = tag();
+  rough["height"].erase("image");
+  rough["roughness"] = {{"fractalDimension", 2.9}, {"rmsHeight", 0.1}, {"wavelengthRange", {5e-4, 1e-2}}};
+  expect_limited(rough, "tag_roughness_limit", "haptic.roughness.rmsHeight", "0.1:", "0.005");
+  Json steep = tag();
+  steep["height"]["scale"] = 5e-3;
+  steep["height"]["offset"] = 0;
+  const Json report = play_glb({{"haptic", steep}}, testing::sine_png()).json();
+  expect_warning(report, "relief_steep");
+}
+
+TEST_F(Player, ProbeIsTheDevicesUnlessAskedOtherwise) {
+  const Outcome plain = play_glb({{"haptic", tag()}}, testing::sine_png());
+  EXPECT_EQ(plain.json()["probe_radius_mm"], 0.5);
+  EXPECT_EQ(play_glb({{"haptic", tag()}}, testing::sine_png(), "--probe-radius 0").json()["probe_radius_mm"], 0);
 }
 
 TEST_F(Player, FileThatChangesUnderItEndsItWithAReport) {

@@ -144,6 +144,44 @@ TEST_F(BakeTest, TheTagDecodesToTheReliefThatTheNormalMapShows) {
   EXPECT_EQ(normals.height, grain.relief.height);
 }
 
+/// The default is a third of what the friction holds; what was steeper is in the report.
+TEST_F(BakeTest, SlopesAreLimitedByFrictionAndTheMeanHeightStays) {
+  MaterialRule& rule = rules_.materials.at("grain");
+  rule.static_friction = 0.8;
+  rule.dynamic_friction = 0.7;
+  const auto mean = [](const HeightMap& relief) {
+    double sum = 0;
+    for (const float h : relief.mm) sum += static_cast<double>(h);
+    return sum / static_cast<double>(relief.mm.size());
+  };
+  const BakeResult limited = run(scene_of({square("dash")}));
+  rule.height.max_slope = 1000;
+  const BakeResult steep = run(scene_of({square("dash")}));
+  const Grain &grain = limited.grains.at("grain"), &before = steep.grains.at("grain");
+  EXPECT_NEAR(grain.height.max_slope, 1 / 2.4, 1e-12);
+  EXPECT_EQ(grain.height.slopes.stop, StopReason::converged);
+  EXPECT_GT(grain.height.slopes.share_before, 0.01);
+  EXPECT_EQ(grain.height.slopes.share_after, 0);
+  EXPECT_EQ(grain.height.slopes.steepest_before, before.height.slopes.steepest_before);
+  EXPECT_EQ(before.height.slopes.share_before, 0);
+  EXPECT_LT(grain.height.depth_mm, before.height.depth_mm);
+  EXPECT_EQ(grain.height.unlimited_depth_mm, before.height.depth_mm);
+  EXPECT_NEAR(mean(grain.relief), mean(before.relief), 1e-6);
+  EXPECT_NEAR(limited.scene.materials.at(0).haptic->height->scale_m, 1e-3 * grain.height.depth_mm, 1e-9);
+  EXPECT_TRUE(limited.scene.warnings.empty());
+}
+
+TEST_F(BakeTest, HeightsBeyondWhatATagMayHaveAreShrunkWithAWarning) {
+  rules_.materials.at("grain").height.depth_mm = 50;
+  const BakeResult result = run(scene_of({square("dash")}));
+  EXPECT_LE(result.scene.materials.at(0).haptic->height->scale_m, 0.02 * (1 + 1e-6));
+  ASSERT_EQ(result.scene.warnings.size(), 1U);
+  EXPECT_EQ(result.scene.warnings[0], "material 'grain': height: 100 mm are beyond the limit of 20 mm; shrunk to 20");
+  std::vector<HapticWarning> warnings;
+  parse_material_tag(to_json(*result.scene.materials[0].haptic), warnings);
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST_F(BakeTest, UsableUvStaysAndTheTextureTransformGivesTheScale) {
   Part part = square("dash");
   part.mesh.uv.values = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

@@ -41,7 +41,8 @@ class MaterialsTest : public testing::Test {
 TEST_F(MaterialsTest, ReadsTheDocumentedExample) {
   const Materials file = read(R"({"materials": {
       "grain": {"texture": "grain.png", "size_mm": [40, 30], "stiffness": 900, "damping": 0.4, "staticFriction": 0.45,
-                "dynamicFriction": 0.35, "height": {"method": "auto", "depth_mm": 0.3, "scale": 2}, "unwrap": "auto"},
+                "dynamicFriction": 0.35, "height": {"method": "auto", "depth_mm": 0.3, "scale": 2, "max_slope": 0.8},
+                "unwrap": "auto"},
       "chrome": {"stiffness": 2000}},
     "assign": [{"part": "dash*", "material": "grain"}, {"cad_colour": "#20FFa0", "material": "grain"},
                {"gltf_material": "Leather", "material": null}]})");
@@ -52,6 +53,7 @@ TEST_F(MaterialsTest, ReadsTheDocumentedExample) {
   EXPECT_EQ(grain.stiffness, 900);
   EXPECT_EQ(grain.height.depth_mm, 0.3);
   EXPECT_EQ(grain.height.scale, 2);
+  EXPECT_EQ(grain.height.max_slope, 0.8);
   EXPECT_TRUE(file.materials.at("chrome").texture.empty());
   ASSERT_EQ(file.assign.size(), 3U);
   EXPECT_EQ(file.assign[1].cad_colour, "#20ffa0");

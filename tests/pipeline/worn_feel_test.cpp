@@ -44,14 +44,14 @@ Felt stroke(const std::string& recipe, double time, const RecipeLibrary& library
   felt.tag = baked.scene.materials.back().haptic.value();
 
   const HapticScene haptic = haptic_scene(baked.scene, ".");
-  const ContactSurface surface(haptic.mesh, haptic.materials, haptic.heights, 0);
+  const ContactSurface surface(haptic.mesh, haptic.materials, haptic.heights, haptic.probe_radius_m);
   HapticTick tick(surface, safety_limits(3.3), 1e-3);
   DeviceState device;
   device.position = {0.02, 0.05, 0.01};
   tick.reset(device.position);
   constexpr int ticks = 1000;
   for (int i = 0; i < ticks; ++i) {
-    device.position = {0.02 + 6e-5 * i, 0.05, -0.0005};
+    device.position = {0.02 + 6e-5 * i, 0.05, haptic.probe_radius_m - 0.0005};
     const Vec3 force = tick(device);
     if (i < 200) continue;
     felt.along_n -= force.x / (ticks - 200);

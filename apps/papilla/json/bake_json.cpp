@@ -4,6 +4,23 @@
 namespace papilla::app {
 namespace {
 
+/// What limiting the slopes did, and its error (largest slope over the limit, less 1) over run time.
+Json slope_json(const GrainHeight& height) {
+  const SlopeLimitResult& slopes = height.slopes;
+  Json json = {{"max_slope", height.max_slope},
+               {"steepest", {{"before", slopes.steepest_before}, {"after", slopes.steepest_after}}},
+               {"steeper_share", {{"before", slopes.share_before}, {"after", slopes.share_after}}},
+               {"depth_mm", {{"before", height.unlimited_depth_mm}, {"after", height.depth_mm}}},
+               {"rms_change_mm", slopes.rms_change_mm},
+               {"largest_change_mm", slopes.largest_change_mm},
+               {"iterations", slopes.iterations},
+               {"stop", to_string(slopes.stop)},
+               {"trace", Json::array()}};
+  for (const TraceSample& sample : slopes.trace)
+    json["trace"].push_back({{"seconds", sample.seconds}, {"error", sample.error}});
+  return json;
+}
+
 Json grain_json(const std::string& name, const Grain& grain) {
   const GrainHeight& h = grain.height;
   Json height = {{"method", h.method}, {"reason", h.reason}};
@@ -13,6 +30,7 @@ Json grain_json(const std::string& name, const Grain& grain) {
   }
   height.update({{"depth_mm", h.depth_mm}, {"rms_mm", h.rms_mm}, {"periodic", grain.relief.periodic}});
   if (h.light) height["stop"] = to_string(h.stop);
+  height["slope"] = slope_json(h);
   Json json = {{"name", name},
                {"picture",
                 {{"file", grain.source},

@@ -51,6 +51,21 @@ std::string left_out_table(const Scene& scene, const ScenePerception& perception
   return table;
 }
 
+namespace {
+
+/// Empty when nothing of the relief was too steep.
+std::string slope_line(const std::string& material, const GrainHeight& height) {
+  const SlopeLimitResult& slopes = height.slopes;
+  if (slopes.share_before == 0) return "";
+  return fmt::format(
+      "{}: slopes limited to {:.3g}: {:.3g} % of the relief was steeper, up to {:.3g}; now {:.3g} %; {:.3g} mm high "
+      "instead of {:.3g}\n",
+      material, height.max_slope, 100 * slopes.share_before, slopes.steepest_before, 100 * slopes.share_after,
+      height.depth_mm, height.unlimited_depth_mm);
+}
+
+}  // namespace
+
 std::string bake_table(const BakeResult& result) {
   std::size_t width = 4, material_width = 8;
   for (const BakedSurface& surface : result.surfaces) {
@@ -69,6 +84,7 @@ std::string bake_table(const BakeResult& result) {
       out += shown_format("{:<{}}  {} of its charts fell back: {}\n", "", width, surface.notes.size(),
                           surface.notes.front());
   }
+  for (const auto& [name, grain] : result.grains) out += slope_line(name, grain.height);
   if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
 #include <optional>
@@ -160,13 +161,47 @@ class Builder {
       return std::nullopt;
     }
     *field = coarsened(std::move(*field), tag.height->metres_per_uv);
+    if (!displaces(tag)) {
+      result.heights.push_back(std::move(*field));
+      return static_cast<std::uint32_t>(result.heights.size() - 1);
+    }
+    const double steep = steep_share(*field, tag);
+    *field = felt(std::move(*field), tag.height->metres_per_uv, warnings);
+    if (steep > 0) warnings.push_back(steep_warning(tag, steep, steep_share(*field, tag)));
+    result.heights.push_back(std::move(*field));
+    return static_cast<std::uint32_t>(result.heights.size() - 1);
+  }
+
+  static bool displaces(const MaterialTag& tag) {
+    return !tag.force_model ||
+           force_model(tag.force_model->name).value_or(ForceModel::heightfield) == ForceModel::heightfield;
+  }
+
+  /// Share of the map that is steeper than the cone of friction.
+  static double steep_share(const HeightField& field, const MaterialTag& tag) {
+    return tag.static_friction > 0 ? field.share_steeper(1 / tag.static_friction, tag.height->metres_per_uv) : 0;
+  }
+
+  HapticWarning steep_warning(const MaterialTag& tag, double share, double felt_share) const {
+    char text[256];
+    std::snprintf(
+        text, sizeof text,
+        "haptic.height: %.3g %% of the map is steeper than %.3g, the limit of friction %.3g: a point does not "
+        "slide there; as a ball of %.3g mm feels it, %.3g %% is",
+        100 * share, 1 / tag.static_friction, tag.static_friction, 1e3 * options_.probe_radius_m, 100 * felt_share);
+    return {"relief_steep", text};
+  }
+
+  /// The relief as the probe feels it.
+  HeightField felt(HeightField field, Vec2 metres_per_uv, std::vector<HapticWarning>& warnings) const {
+    if (const double peak = options_.felt_depth_m - options_.probe_radius_m; peak > 0)
+      field = field.rounded(peak, metres_per_uv);
     if (options_.probe_radius_m > 0) try {
-        field = field->dilated(options_.probe_radius_m, tag.height->metres_per_uv);
+        field = field.dilated(options_.probe_radius_m, metres_per_uv);
       } catch (const InvalidInput& error) {
         warnings.push_back({"probe_dilation", std::string(error.what()) + ", the relief is felt as by a point"});
       }
-    result.heights.push_back(std::move(*field));
-    return static_cast<std::uint32_t>(result.heights.size() - 1);
+    return field;
   }
 
   /// Tools that change texture coordinates update the transform of the textures, not the tag.
@@ -230,6 +265,7 @@ class Builder {
 
 HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options) {
   Builder builder(scene, path, options);
+  builder.result.probe_radius_m = options.probe_radius_m;
   builder.add_materials();
   if (builder.result.materials.empty()) {
     std::string reason = path.string() + ": no material has a usable haptic tag";

@@ -11,6 +11,7 @@
 #include "papilla/haptic/haptic_tick.hpp"
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stability.hpp"
+#include "papilla/haptic/tag_limits.hpp"
 #include "papilla/io/haptic_scene.hpp"
 
 struct papilla_haptic {
@@ -23,13 +24,17 @@ struct papilla_haptic {
 
   papilla_haptic(papilla::HapticScene from, const papilla_haptic_options& options)
       : scene(std::move(from)),
-        surface(scene.mesh, scene.materials, std::move(scene.heights), options.probe_radius_m),
+        surface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m),
         limits(papilla::safety_limits(options.max_force_n)),
         period_s(1 / options.rate_hz),
         tick(surface, limits, period_s) {
     scene.mesh = {};
     for (const papilla::MaterialWarning& w : scene.warnings)
       warnings.push_back(w.warning.code + ": " + w.material + (w.material.empty() ? "" : ": ") + w.warning.message);
+    for (const papilla::AmplitudeClamp& clamp : papilla::clamp_amplitudes(surface, limits.max_force_n)) {
+      const papilla::HapticWarning w = papilla::to_warning(clamp, limits.max_force_n);
+      warnings.push_back(w.code + ": " + scene.names[clamp.material] + ": " + w.message);
+    }
     if (options.device == nullptr) return;
     const auto dynamics = papilla::device_preset(options.device).caps().dynamics;
     for (const papilla::StabilityClamp& clamp : papilla::clamp_to_stable(surface, dynamics, period_s))
@@ -65,6 +70,11 @@ papilla_haptic_options with_defaults(const papilla_haptic_options* given) {
   if (given != nullptr) options = *given;
   if (options.rate_hz == 0) options.rate_hz = 1000;
   if (options.max_force_n == 0) options.max_force_n = 3.3;
+  if (options.probe_radius_m == 0)
+    options.probe_radius_m = options.device != nullptr ? papilla::device_preset(options.device).caps().probe_radius_m
+                                                       : papilla::k_default_probe_radius_m;
+  else if (options.probe_radius_m < 0)
+    options.probe_radius_m = 0;
   if (!(options.rate_hz >= 1 && options.rate_hz <= 1e5) || !(options.max_force_n > 0 && options.max_force_n < 1e3) ||
       !(options.probe_radius_m >= 0 && options.probe_radius_m < 1))
     throw papilla::InvalidInput("papilla_haptic_open: rate, force or radius is out of range");

@@ -22,7 +22,7 @@ constexpr double k_reference_hz = 64000;
 /// Shortest wavelengths left in the relief.
 constexpr std::array k_waves_mm = {4.0, 2.0, 1.0, 0.5, 0.2, 0.1};
 constexpr const char* k_rate_error = "rms force error against the same stroke at 64 kHz [N]";
-constexpr double k_seconds = 1, k_ball_m = 1e-3, k_growth = 2;
+constexpr double k_seconds = 1, k_ball_m = k_default_probe_radius_m, k_growth = 2;
 
 struct StrokeForces {
   std::vector<Vec3> at_base_rate;  ///< At k_base_hz, N.

@@ -17,11 +17,16 @@ struct DeviceDynamics {
   double delay_s = 0;         ///< t_d, from writing a force to its effect, without the hold of the loop.
 };
 
+/// Radius of the probe of a device that states none, and where there is no device. A fingertip is no point, and a point
+/// is held by a relief wherever its slope is above 1/μ.
+inline constexpr double k_default_probe_radius_m = 5e-4;
+
 struct DeviceCaps {
   std::string name;
   double max_force_n = 0;
   double workspace_radius_m = 0;
   DeviceDynamics dynamics;
+  double probe_radius_m = k_default_probe_radius_m;
 };
 
 struct DeviceState {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -47,7 +48,7 @@ class HapticTick {
     Vec3 force = heightfield_force(*surface_, state, probe, velocity_) + bristle_force(state, moved);
     if (stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
     if (passivity_) force = passivity_->apply(force, moved, period_);
-    return guard_.apply(force, period_, device.age_s);
+    return guard_.apply(force, period_, device.age_s, contact_step(state, moved));
   }
 
   /// Puts the probe to `position` without contact on the way; clears a fault, and forces fade in again.
@@ -67,6 +68,11 @@ class HapticTick {
   ForceGuard& guard() noexcept { return guard_; }
 
  private:
+  ContactStep contact_step(const ProxyState& state, Vec3 moved) const noexcept {
+    if (!state.in_contact) return {};
+    return {true, surface_->material(state.material).stiffness * std::abs(dot(state.normal, moved))};
+  }
+
   /// Bristle friction where the material has it; Coulomb's is in the proxy.
   Vec3 bristle_force(const ProxyState& state, Vec3 moved) noexcept {
     if (!state.in_contact || surface_->material(state.material).friction != FrictionModel::bristle) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "papilla/core/uv_transform.hpp"
@@ -56,6 +57,21 @@ class HeightField {
   /// @throws InvalidInput when a texel is below ρ/64.
   HeightField dilated(double radius_m, Vec2 metres_per_uv) const;
 
+  /// The relief with peaks no sharper than the radius R: the largest function below it whose second derivatives are at
+  /// least −1/R, the proximal hull [Rockafellar and Wets, Variational Analysis, 1998, example 1.44]
+  ///     O(a) = max over b of (E(b) − |a − b|²/2R),   E(b) = min over c of (h(c) + |b − c|²/2R)
+  /// Valleys stay as sharp as they are. A probe that is less than R below has one closest point, not several to choose
+  /// from: below a smooth surface that is so as far as the smallest radius of its peaks [Federer, Curvature measures,
+  /// 1959]. Exact on the samples where their rows and columns are orthogonal on the surface; quantised to 16 bits of
+  /// the old range. By parabola envelopes [Felzenszwalb and Huttenlocher, Distance transforms of sampled functions,
+  /// 2012]. Cost: about 0.3 µs a sample.
+  /// @param metres_per_uv as for dilated().
+  HeightField rounded(double radius_m, Vec2 metres_per_uv) const;
+
+  /// Share of the samples at which the relief is steeper than `slope`, by differences to the next sample of row and
+  /// column. @param metres_per_uv as for dilated().
+  double share_steeper(double slope, Vec2 metres_per_uv) const;
+
   /// The relief with half the samples in each direction, each the mean of four. Wavelengths below four old texels are
   /// lost.
   /// @throws InvalidInput when a size is odd.
@@ -87,7 +103,14 @@ class HeightField {
     Vec2 steepest;
   };
 
+  /// What a step of one texel along x and y is on the surface, in metres.
+  struct Steps {
+    Vec2 x, y;
+  };
+
   std::uint16_t texel(long x, long y) const noexcept;
+  std::optional<Steps> steps(Vec2 metres_per_uv) const;
+  std::vector<std::uint16_t> quantised(const std::vector<double>& heights_m) const;
   template <std::size_t k_taps>
   Weighted weighted(long x, long y, const Weights& along_x, const Weights& along_y) const noexcept;
   Extremes extremes() const;

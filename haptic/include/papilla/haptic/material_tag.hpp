@@ -111,7 +111,7 @@ HeightTag make_height_tag(const HeightMap& relief, const EncodedRelief& encoded)
 /// Reads one tag. Unknown members are kept in other_json. A value of the wrong type or range is reported and replaced
 /// by its default: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (no relief when its scale
 /// or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_force_model,
-/// tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance.
+/// tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance. Then limit_relief() applies (tag_limits.hpp).
 /// @param json the object itself, not the extras around it.
 /// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);

@@ -7,16 +7,30 @@ namespace papilla {
 
 struct SafetyLimits {
   double max_force_n = 3.3;
-  double slew_n_per_s = 1650;  ///< Largest rate of change of the force.
-  double soft_start_s = 0.05;  ///< Duration of the fade-in of the first force.
-  double watchdog_s = 0.01;    ///< Largest age of a position; older ones stop all force.
+  double slew_n_per_s = 1650;   ///< Largest rate of change of the force.
+  double steady_share = 0.04;   ///< Of that rate: the largest while a contact goes on.
+  double new_contact_s = 2e-3;  ///< For so long a contact is new.
+  double soft_start_s = 0.05;   ///< Duration of the fade-in of the first force.
+  double watchdog_s = 0.01;     ///< Largest age of a position; older ones stop all force.
 };
 
-/// Limits for a device: its largest force, reached from zero in 2 ms at the fastest.
+/// Limits for a device: its largest force, reached from zero in 2 ms at the fastest; while a contact goes on, 2 % of it
+/// a millisecond.
 SafetyLimits safety_limits(double max_force_n) noexcept;
 
-/// The last stage before a device. For every input the output is finite, at most max_force_n long, changes by at most
-/// slew_n_per_s, and is exactly zero after a fault.
+/// What the guard knows of the contact behind a force.
+struct ContactStep {
+  bool in_contact = false;
+  double spring_n = 0;  ///< k·|n·Δx|, by which a spring along n changes with the hand's own way in this tick.
+};
+
+/// The last stage before a device. For every input the output is finite, at most max_force_n long, and exactly zero
+/// after a fault. In a tick of length T it changes by at most
+///     slew·T                                  without a contact, or while it is younger than new_contact_s
+///     max(steady_share·slew·T, spring_n)      while a contact goes on, at most slew·T
+/// so that no relief, edge or stimulus makes a jolt, while a wall is as stiff as it was: to hold back the force of a
+/// hand that goes in or out faster than steady_share·slew/k (165 mm/s for 400 N/m on a device of 3.3 N) would give it
+/// energy.
 class ForceGuard {
  public:
   enum class Fault { none, not_finite, stale_input };
@@ -25,7 +39,7 @@ class ForceGuard {
 
   /// @param age_s age of the position from which the force was computed.
   /// @returns the force to write; zero, without a ramp, from a fault until resume().
-  Vec3 apply(Vec3 force_n, double period_s, double age_s) noexcept;
+  Vec3 apply(Vec3 force_n, double period_s, double age_s, const ContactStep& contact = {}) noexcept;
 
   Fault fault() const noexcept { return fault_; }
   /// Clears a fault; forces fade in again.
@@ -34,7 +48,7 @@ class ForceGuard {
  private:
   SafetyLimits limits_;
   Vec3 last_;
-  double faded_in_s_ = 0;
+  double faded_in_s_ = 0, contact_s_ = 0;
   Fault fault_ = Fault::none;
 };
 

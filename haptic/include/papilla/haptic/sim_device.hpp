@@ -19,7 +19,7 @@ struct Sourced {
 /// One simulated device.
 struct DevicePreset {
   std::string_view name, title;
-  Sourced max_force_n, workspace_radius_m, mass_kg, damping, friction_n, encoder_step_m, delay_s;
+  Sourced max_force_n, workspace_radius_m, mass_kg, damping, friction_n, encoder_step_m, delay_s, probe_radius_m;
   DeviceCaps caps() const;
 };
 

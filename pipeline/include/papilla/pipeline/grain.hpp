@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "papilla/core/trace.hpp"
 #include "papilla/haptic/material_tag.hpp"
@@ -13,17 +14,21 @@
 #include "papilla/texture/height_map.hpp"
 #include "papilla/texture/image.hpp"
 #include "papilla/texture/roughness.hpp"
+#include "papilla/texture/slope_limit.hpp"
 #include "papilla/texture/texture_class.hpp"
 
 namespace papilla {
 
 /// How a grain's relief was found.
 struct GrainHeight {
-  std::string method, reason;  ///< A HeightMethod's name, or "recipe".
-  std::optional<Vec3> light;   ///< Of shape from shading; nothing for recipes.
+  std::string method, reason;      ///< A HeightMethod's name, or "recipe".
+  std::optional<Vec3> light = {};  ///< Of shape from shading; nothing for recipes.
   bool light_estimated = false;
-  double depth_mm = 0, rms_mm = 0;  ///< Peak to valley; root mean square about the mean.
+  double depth_mm = 0, rms_mm = 0;  ///< Peak to valley; root mean square about the mean; of the relief as it is baked.
   StopReason stop = StopReason::direct;
+  double unlimited_depth_mm = 0;  ///< Peak to valley before its slopes were limited.
+  double max_slope = 0;           ///< The limit of the slopes, mm per mm.
+  SlopeLimitResult slopes = {};   ///< What limiting them changed; its relief is the grain's.
 };
 
 /// The lattice of a grain that repeats.
@@ -43,16 +48,24 @@ struct Grain {
   std::optional<GrainLattice> lattice;
   GrainHeight height;
   Roughness roughness;                  ///< Of the relief.
-  HeightMap relief;                     ///< Scaled by the rule's height.scale.
+  HeightMap relief;                     ///< Scaled by the rule's height.scale, within the limits of height and slope.
   EncodedImage height_png;              ///< 16-bit grey; decoded by MaterialTag::height.
   EncodedImage normal_png;              ///< From the same relief.
   std::optional<EncodedImage> picture;  ///< The base colour, when the picture is to be shown.
   MaterialTag tag;                      ///< Height, roughness, symmetry, provenance; constants come from the rule.
   double stiffness_factor = 1;          ///< Mean of a recipe's stiffness channel.
+  std::vector<std::string> warnings;    ///< What of the rule could not be done.
   double analyze_seconds = 0, height_seconds = 0, normal_map_seconds = 0;
 };
 
-/// Analyses the rule's picture and turns it into relief; a recipe is computed at the rule's time.
+/// Largest slope of a relief for a material of static friction μ: 1/(3μ), at most 1. A relief holds a point without
+/// sliding where its slope is 1/μ, and a probe that is pushed up a slope s with friction μ feels
+/// (s + μ)/(1 − s·μ) of the normal force along the surface: at s = 1/(3μ) that is 1.5·μ + 1/(2μ).
+double default_max_slope(double static_friction);
+
+/// Analyses the rule's picture and turns it into relief; a recipe is computed at the rule's time. Heights beyond what a
+/// tag may have (tag_limits.hpp) are shrunk or moved with a warning, slopes beyond the rule's are limited by
+/// limit_slope().
 /// @param library  what recipes may name.
 /// @throws IoError, InvalidInput naming the picture or the place in the recipe.
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "papilla/haptic/contact_mesh.hpp"
+#include "papilla/haptic/device.hpp"
 #include "papilla/haptic/height_field.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/scene.hpp"
@@ -18,10 +19,14 @@ struct MaterialWarning {
   HapticWarning warning;
 };
 
+/// Depth below a relief as far as the force has no choice between several closest points; see HeightField::rounded().
+inline constexpr double k_felt_depth_m = 2e-3;
+
 /// Limits of the device; what it cannot reach or carry is left out.
 struct HapticSceneOptions {
-  double probe_radius_m = 0;
-  double shortest_wave_m = 0;  ///< Shortest wavelength of a relief, 2·speed/rate; 0 keeps all.
+  double probe_radius_m = k_default_probe_radius_m;
+  double felt_depth_m = k_felt_depth_m;  ///< 0: peaks stay as sharp as they are.
+  double shortest_wave_m = 0;            ///< Shortest wavelength of a relief, 2·speed/rate; 0 keeps all.
   /// Triangles farther than reach_m from every one of these points are left out. Empty: none.
   std::vector<Vec3> reach_around = {};
   double reach_m = 0;
@@ -33,14 +38,22 @@ struct HapticScene {
   std::vector<ContactMaterial> materials;
   std::vector<std::string> names;  ///< Of the materials.
   std::vector<HeightField> heights;
+  double probe_radius_m = 0;  ///< By which the reliefs are dilated; that of the ContactSurface must be the same.
   int maps_loaded = 0, maps_missing = 0, maps_coarsened = 0;
   std::size_t triangles_out_of_reach = 0;
   std::vector<MaterialWarning> warnings;
 };
 
 /// Reads the tags and height maps, synthesises reliefs from `roughness` where a map is missing (warning
-/// height_from_roughness; height_lost when there is no roughness), dilates them by the probe, and collects the
-/// triangles. Maps of materials that no triangle uses are not read; maps are halved while they stay fine enough for the
+/// height_from_roughness; height_lost when there is no roughness), and collects the triangles.
+///
+/// A relief is felt as a ball of radius r feels it that is pressed as deep as D, the felt depth: its peaks are rounded
+/// to a radius of D − r, and it is dilated by r. So up to that depth there is one closest point, and the force along a
+/// stroke is as steady as the relief; on sharper peaks a difference of a micrometre decides where the probe slips off.
+/// Reliefs of stimuli displace nothing and stay as they are. Where a map is steeper than 1/μ, μ the static friction, a
+/// point does not slide; such a map is reported with the share of its area (warning relief_steep).
+///
+/// Maps of materials that no triangle uses are not read; maps are halved while they stay fine enough for the
 /// shortest wavelength. A KHR_texture_transform of the normal texture (without one: of the base colour) that differs
 /// from the tag's, as packers that quantise coordinates write it, replaces the tag's (warning uv_transform). Other
 /// codes: those of the tag, uv_missing, uv_degenerate, probe_dilation.

@@ -19,7 +19,7 @@ typedef struct papilla_haptic papilla_haptic;
 typedef struct papilla_haptic_options {
   double rate_hz;        /* Calls of papilla_haptic_tick() per second; 0: 1000. */
   double max_force_n;    /* Limit of the force; 0: 3.3. */
-  double probe_radius_m; /* 0: a point. */
+  double probe_radius_m; /* 0: the device's, 0.0005 without one; below 0: a point. */
   /* Name of a device preset ("touch"), to which stiffness and damping are limited; null: no limit. */
   const char* device;
 } papilla_haptic_options;
