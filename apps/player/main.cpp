@@ -43,7 +43,7 @@ std::atomic<int> g_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 struct Options {
-  std::string file, device = "sim", trajectory, record, json;
+  std::string file, tags, device = "sim", trajectory, record, json;
   std::optional<std::string> live;
   double rate_hz = 1000, seconds = 0, probe_radius_mm = 0, watchdog_ms = 10;
   double reach_mm = 0, speed = 0.1;
@@ -135,7 +135,7 @@ void check_output_paths(const Options& options) {
     return !a.empty() && !b.empty() && canonical(a) == canonical(b);
   };
   for (const std::string& out : {options.record, options.json == "-" ? std::string() : options.json})
-    for (const std::string& in : {options.file, options.trajectory})
+    for (const std::string& in : {options.file, options.tags, options.trajectory})
       if (same(out, in)) throw app::UsageError(out + ": would be written over what is read");
   if (options.json != "-" && same(options.record, options.json))
     throw app::UsageError(options.json + ": named by --record and by --json");
@@ -188,8 +188,9 @@ int run(const Options& options) {
   const FileStamp stamp = stamp_of(options.file);
   HapticScene scene;
   {
-    const Scene read = read_gltf(options.file);
+    const Scene read = read_gltf(options.file, {.tags = options.tags});
     scene = haptic_scene(read, options.file, scene_options(options, choice));
+    report.tags = read.tags;
   }
   ContactSurface surface = [&] {
     try {
@@ -380,6 +381,10 @@ int main(int argc, char** argv) {
                                      "$XDG_RUNTIME_DIR/papilla-player.sock, or one in /tmp")
                          ->type_name("[SOCKET]")
                          ->expected(0, 1);
+  program
+      .add_option("--tags", options.tags,
+                  "The file as it was before another program changed it: tags that are missing are taken from there")
+      ->type_name("FILE");
   program.add_option("--json", options.json, "Write the machine-readable result to FILE, or to stdout with -")
       ->type_name("FILE|-");
   program.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
