@@ -187,12 +187,12 @@ void check_depth(std::string_view json, const std::string& file) {
 
 /// Extensions that a file may require: they are read, or known to leave the geometry as it is.
 bool is_supported(const std::string& extension) {
-  static constexpr std::array<std::string_view, 5> k_supported = {"KHR_mesh_quantization", "KHR_texture_transform",
-                                                                  "KHR_lights_punctual", "KHR_xmp_json_ld",
-                                                                  "EXT_mesh_gpu_instancing"};
+  static constexpr std::array<std::string_view, 5> k_supported = {
+      "KHR_mesh_quantization", "KHR_lights_punctual", "KHR_xmp_json_ld", "EXT_mesh_gpu_instancing", "MSFT_texture_dds"};
   if (extension == "KHR_draco_mesh_compression") return has_draco();
   if (extension == "EXT_meshopt_compression" || extension == "KHR_meshopt_compression") return has_meshopt();
-  return extension.starts_with("KHR_materials_") ||
+  return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
+         extension.starts_with("EXT_texture_") ||
          std::find(k_supported.begin(), k_supported.end(), extension) != k_supported.end();
 }
 
@@ -211,14 +211,14 @@ bool uses_extension(const Json& json, const std::string& extension) {
 
 /// Whether an unknown extension may change the geometry: it stands there, or nowhere, as KHR_mesh_quantization does.
 bool may_touch_geometry(const Json& json, const std::string& extension) {
-  static constexpr std::array k_looks = {"materials", "textures", "images", "samplers", "cameras"};
-  bool elsewhere =
-      json.contains("extensions") && json["extensions"].is_object() && json["extensions"].contains(extension);
+  static constexpr std::array<std::string_view, 8> k_others = {"materials", "textures",   "images", "samplers",
+                                                               "cameras",   "animations", "asset",  "extensions"};
+  bool elsewhere = false;
   for (const auto& [key, value] : json.items()) {
-    if (!value.is_array()) continue;
-    const bool is_look = std::find(k_looks.begin(), k_looks.end(), key) != k_looks.end();
-    if (!uses_extension(value, extension)) continue;
-    if (!is_look) return true;
+    const bool stands_here = key == "extensions" ? value.is_object() && value.contains(extension)
+                                                 : value.is_structured() && uses_extension(value, extension);
+    if (!stands_here) continue;
+    if (std::find(k_others.begin(), k_others.end(), key) == k_others.end()) return true;
     elsewhere = true;
   }
   return !elsewhere;

@@ -16,12 +16,15 @@ struct WeatherLayer {
 /// CONFIG of the verb weather.
 struct WeatherConfig {
   int size = 512;                      ///< Texels a side of one repeat of a material's maps.
+  int atlas = 0;                       ///< Texels a side of an atlas at most; 0: four times `size`.
   std::vector<double> times{1};        ///< A scene for each.
   double depth_mm = 0.3;               ///< Relief of a height of 1.
   int sky_rays = 64;                   ///< A sample of the sky.
   std::vector<std::string> libraries;  ///< Files of recipes.
   std::vector<WeatherLayer> layers;    ///< From the lowest to the highest.
   std::filesystem::path folder;        ///< Where the names within are looked for.
+
+  int atlas_side() const { return atlas > 0 ? atlas : 4 * size; }
 };
 
 /// @throws IoError, InvalidInput naming file and key.

@@ -24,8 +24,8 @@ struct GltfReadOptions {
 /// heavy library, so that the player can use it.
 ///
 /// Pictures stay encoded, so that those in WebP, AVIF, KTX2 or DDS stop nothing. A required extension that is unknown
-/// is refused where it touches geometry: meshes, nodes, buffers, or nothing that shows what it touches. One that only
-/// stands at materials, textures, pictures or the root is a warning.
+/// is refused where it may touch geometry: it stands at meshes, nodes, accessors or buffers, or nowhere. One that only
+/// stands at materials, textures, pictures, cameras, animations or the root is a warning.
 ///
 /// Guarantees: finite numbers, indices in range, a forest of nodes, whatever the file says. Every count is checked
 /// against the bytes present before memory is allocated for it; the elements of all uses of all accessors together are
