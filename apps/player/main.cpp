@@ -47,7 +47,7 @@ std::atomic<int> g_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 struct Options {
-  std::string file, device = "sim", trajectory, record, json;
+  std::string file, tags, device = "sim", trajectory, record, json;
   std::optional<std::string> live;
   double rate_hz = 1000, seconds = 0, watchdog_ms = 10;
   std::optional<double> probe_radius_mm;
@@ -195,8 +195,9 @@ int run(const Options& options) {
   const FileStamp stamp = stamp_of(options.file);
   HapticScene scene;
   {
-    const Scene read = read_gltf(options.file);
+    const Scene read = read_gltf(options.file, {.tags = options.tags});
     scene = haptic_scene(read, options.file, scene_options(options, choice));
+    report.tags = read.tags;
   }
   ContactSurface surface = [&] {
     try {
@@ -376,6 +377,10 @@ int main(int argc, char** argv) {
                                                     "default: $XDG_RUNTIME_DIR/papilla-player.sock, or one in /tmp"))
                          ->type_name("[SOCKET]")
                          ->expected(0, 1);
+  app::reads(program.add_option("--tags", options.tags,
+                                "The file as it was before another program changed it: tags that are missing are "
+                                "taken from there"))
+      ->type_name("FILE");
   app::writes(
       program.add_option("--json", options.json, "Write the machine-readable result to FILE, or to stdout with -"))
       ->type_name("FILE|-");

@@ -20,6 +20,7 @@ struct RunReport {
   std::size_t triangles_out_of_reach = 0;
   std::vector<StabilityClamp> clamps;
   std::vector<std::string> material_names;
+  TagSurvival tags;
   std::vector<MaterialWarning> warnings;
   LoopResult loop;
 };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -74,10 +75,14 @@ class MaterialWriter {
   /// One per material, after write().
   const std::vector<MaterialNeeds>& needs() const noexcept { return needs_; }
 
+  /// Extensions without which a texture has no picture.
+  const std::set<std::string>& required() const noexcept { return required_; }
+
  private:
   using Json = GlbBuffer::Json;
   void write_images(Json& gltf);
   void write_textures(Json& gltf);
+  void write_sources(const Texture& texture, Json& json);
   Json material(std::size_t number);
   bool is_usable(const TextureReference& reference) const;
   Json reference(const TextureReference& reference, const char* factor_name, MaterialNeeds& needs) const;
@@ -86,6 +91,7 @@ class MaterialWriter {
   GlbBuffer& buffer_;
   std::vector<std::optional<std::size_t>> image_number_;
   std::vector<MaterialNeeds> needs_;
+  std::set<std::string> required_;
 };
 
 /// The glTF mesh of a part: one primitive per material slot that has triangles. Null when the part has no triangles.

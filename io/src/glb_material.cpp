@@ -43,6 +43,12 @@ Json numbers(const std::array<double, N>& values, const std::string& where) {
   return array;
 }
 
+constexpr double k_unseen_emission = 1.01e-4;  // A third of the first step of 8-bit sRGB, and some rounding.
+
+/// Red light that a tagged material gives off so that no two of them look exactly alike: programs that merge materials
+/// by their look would drop tags.
+double distinct_emission(std::size_t material) { return 1e-7 * static_cast<double>(1 + material % 1000); }
+
 Json texture_transform(const UvTransform& transform) {
   Json json = Json::object();
   if (!(transform.offset == Vec2{0, 0})) json["offset"] = {transform.offset.x, transform.offset.y};
@@ -89,12 +95,27 @@ void MaterialWriter::write_textures(Json& gltf) {
     if (texture.image && *texture.image >= scene_.images.size())
       throw InvalidInput(
           fmt::format("write_glb: {} names image {} of {}", where, *texture.image, scene_.images.size()));
-    if (texture.image && image_number_[*texture.image]) json["source"] = *image_number_[*texture.image];
     add_name_and_extras(json, texture.name, texture.extras_json, where);
     if (!texture.extensions_json.empty())
       json["extensions"] = parse_scene_json(texture.extensions_json, where + ".extensions");
+    write_sources(texture, json);
     gltf["textures"].push_back(std::move(json));
   }
+}
+
+void MaterialWriter::write_sources(const Texture& texture, Json& json) {
+  bool core = texture.image.has_value();  // PNG or JPEG, for which glTF needs no extension
+  for (const OtherImage& other : texture.others) {
+    core = core && other.image != *texture.image;
+    if (other.image >= scene_.images.size())
+      throw InvalidInput(
+          fmt::format("write_glb: texture '{}' names image {} of {}", texture.name, other.image, scene_.images.size()));
+    if (const auto& number = image_number_[other.image]) json["extensions"][other.extension]["source"] = *number;
+  }
+  if (core && image_number_[*texture.image])
+    json["source"] = *image_number_[*texture.image];
+  else if (!texture.others.empty())
+    required_.insert(texture.others.front().extension);
 }
 
 bool MaterialWriter::is_usable(const TextureReference& reference) const {
@@ -149,7 +170,9 @@ Json MaterialWriter::material(std::size_t number) {
   add_texture(json, "normalTexture", source.normal_texture, "scale");
   add_texture(json, "occlusionTexture", source.occlusion_texture, "strength");
   add_texture(json, "emissiveTexture", source.emissive_texture, "");
-  if (source.emissive != std::array<double, 3>{0, 0, 0}) json["emissiveFactor"] = numbers(source.emissive, where);
+  std::array<double, 3> emissive = source.emissive;
+  if (source.haptic && emissive[0] <= k_unseen_emission) emissive[0] = distinct_emission(number);
+  if (emissive != std::array<double, 3>{0, 0, 0}) json["emissiveFactor"] = numbers(emissive, where);
   if (source.alpha_mode != "OPAQUE") json["alphaMode"] = source.alpha_mode;
   if (source.alpha_mode == "MASK") json["alphaCutoff"] = std::max(source.alpha_cutoff, 0.0);
   if (source.double_sided) json["doubleSided"] = true;

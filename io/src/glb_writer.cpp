@@ -15,6 +15,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/io/tag_manifest.hpp"
 #include "scene_losses.hpp"
 #include "trs.hpp"
 
@@ -25,13 +26,23 @@ static_assert(std::endian::native == std::endian::little, "glTF buffers are writ
 
 using Json = GlbBuffer::Json;
 
-Json asset_of(const Scene& scene) {
-  return {{"version", "2.0"},
-          {"generator", std::string("papilla ") + version()},
-          {"extras",
-           {{"sourceFormat", scene.format},
-            {"sourceUnit", scene.unit},
-            {"millimetresPerUnit", scene.millimetres_per_unit}}}};
+/// @param extras_json  of the asset: what the scene carries on, and the list of its haptic tags.
+Json asset_of(const Scene& scene, const std::string& extras_json) {
+  const std::string generator = std::string("papilla ") + version();
+  Json asset = {{"version", "2.0"}, {"generator", generator}};
+  if (!scene.asset.copyright.empty()) asset["copyright"] = scene.asset.copyright;
+  Json& extras = asset["extras"];
+  extras = extras_json.empty() ? Json::object() : parse_scene_json(extras_json, "asset.extras");
+  if (!extras.is_object()) throw InvalidInput("write_glb: asset.extras are no JSON object");
+  std::vector<std::string> generators = scene.asset.generators;
+  if (!generators.empty() && generators.back() != generator) generators.push_back(generator);
+  if (generators.size() > 1) extras["generators"] = generators;
+  extras["sourceFormat"] = scene.format;
+  extras["sourceUnit"] = scene.unit;
+  extras["millimetresPerUnit"] = scene.millimetres_per_unit;
+  if (!scene.asset.xmp_reference_json.empty())
+    asset["extensions"]["KHR_xmp_json_ld"] = parse_scene_json(scene.asset.xmp_reference_json, "asset.extensions");
+  return asset;
 }
 
 /// Adds translation, rotation and scale where they are not neutral.
@@ -51,9 +62,12 @@ class NodeWriter {
  public:
   NodeWriter(const Scene& scene, const GlbWriteOptions& options, const std::vector<MaterialNeeds>& needs,
              GlbBuffer& buffer, Json& gltf)
-      : scene_(scene), options_(options), needs_(needs), buffer_(buffer), gltf_(gltf) {}
+      : scene_(scene), options_(options), needs_(needs), buffer_(buffer), gltf_(gltf) {
+    for (const Node& node : scene.nodes) node_extras_.push_back(node.extras_json);
+  }
 
-  void write() {
+  /// @param asset_extras_json  gets the list of the haptic tags.
+  void write(std::string& asset_extras_json) {
     const std::vector<Instance> used = instances(scene_);
     mesh_of_part_.resize(scene_.parts.size());
     levels_of_part_.resize(scene_.parts.size());
@@ -61,6 +75,7 @@ class NodeWriter {
     for (const Instance& instance : used) parts.insert(instance.part);
     for (const std::uint32_t part : parts) mesh_of_part_[part] = write_mesh(scene_.parts[part]);
     for (const std::uint32_t part : parts) write_levels(part);
+    add_tag_manifest(scene_, asset_extras_json, node_extras_);
     number_nodes();
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i)
       if (node_number_[i]) gltf_["nodes"].push_back(node(i));
@@ -155,7 +170,7 @@ class NodeWriter {
     add_transform(source.local, where, json);
     if (source.part && mesh_of_part_[*source.part]) json["mesh"] = *mesh_of_part_[*source.part];
     for (const std::uint32_t child : source.children) json["children"].push_back(*node_number_[child]);
-    if (!source.extras_json.empty()) json["extras"] = parse_scene_json(source.extras_json, where + ".extras");
+    if (!node_extras_[number].empty()) json["extras"] = parse_scene_json(node_extras_[number], where + ".extras");
     return json;
   }
 
@@ -179,6 +194,7 @@ class NodeWriter {
   const Scene& scene_;
   const GlbWriteOptions& options_;
   const std::vector<MaterialNeeds>& needs_;
+  std::vector<std::string> node_extras_;  ///< JSON or empty.
   GlbBuffer& buffer_;
   Json& gltf_;
   std::vector<std::optional<std::size_t>> mesh_of_part_, node_number_;
@@ -229,11 +245,15 @@ void write_container(std::ostream& out, const std::string& json, const GlbBuffer
 
 std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
                                    const GlbWriteOptions& options) {
-  Json gltf = {{"asset", asset_of(scene)}};
+  Json gltf = {{"asset", Json()}};
   GlbBuffer buffer;
   MaterialWriter materials(scene, buffer);
   materials.write(gltf);
-  NodeWriter(scene, options, materials.needs(), buffer, gltf).write();
+  std::string asset_extras = scene.asset.extras_json;
+  NodeWriter(scene, options, materials.needs(), buffer, gltf).write(asset_extras);
+  gltf["asset"] = asset_of(scene, asset_extras);
+  if (!scene.asset.xmp_packets_json.empty())
+    gltf["extensions"]["KHR_xmp_json_ld"] = parse_scene_json(scene.asset.xmp_packets_json, "extensions");
   std::vector<std::string> not_mirrored;
   if (options.mirror_mpeg_haptics) not_mirrored = mirror_mpeg_haptics(gltf, buffer);
   if (options.mirror_khr_physics) mirror_khr_physics(gltf, not_mirrored);
@@ -245,6 +265,7 @@ std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::pa
   std::set<std::string> extensions;
   collect_extensions(gltf, extensions);
   if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
+  if (!materials.required().empty()) gltf["extensionsRequired"] = materials.required();
   const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
   write_atomically(path, [&](std::ostream& out) { write_container(out, json, buffer); });
   FormatKeeps keeps;

@@ -49,7 +49,7 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   if (extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off")
     return read_mesh_scene(extension, path, options);
   if (extension == ".glb" || extension == ".gltf") {
-    Scene scene = read_gltf(path);
+    Scene scene = read_gltf(path, {.tags = options.tags});
     scene.up = options.up.value_or(scene.up);
     return scene;
   }

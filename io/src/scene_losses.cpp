@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "papilla/core/one_line.hpp"
+
 namespace papilla {
 namespace {
 
@@ -79,6 +81,8 @@ class Losses {
     note(keeps_.extras, static_cast<std::size_t>(nodes), "nodes' extras");
     note(keeps_.extras, parts_with([](const Part& p) { return !p.extras_json.empty(); }), "parts' extras");
     note(keeps_.extras, scene_.extras_json.empty() ? 0 : 1, "scene's extras");
+    if (!keeps_.extras && !scene_.asset.copyright.empty())
+      losses_.push_back("copyright notice: " + one_line(scene_.asset.copyright));
   }
 
   const Scene& scene_;

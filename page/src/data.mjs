@@ -12,6 +12,15 @@ export function bytesOf(base64) {
   return bytes;
 }
 
+/** Channel 1 where something lies on it, else the channel that is shown. */
+function decodeUv1(mesh, uv) {
+  if (!mesh.uv1_stream) return uv;
+  const codes = new Uint16Array(2 * mesh.vertices), out = new Float32Array(2 * mesh.vertices);
+  MeshoptDecoder.decodeVertexBuffer(new Uint8Array(codes.buffer), mesh.vertices, 4, bytesOf(mesh.uv1_stream));
+  for (let i = 0; i < out.length; ++i) out[i] = mesh.uv1_low[i % 2] + (mesh.uv1_high[i % 2] - mesh.uv1_low[i % 2]) * codes[i] / 65535;
+  return out;
+}
+
 /** The arrays of one mesh of a part: positions in mm, uv with v downwards, stretch, angle (degrees), uv units per mm. */
 function decodeMesh(mesh) {
   const packed = new Uint8Array(24 * mesh.vertices);
@@ -35,6 +44,7 @@ function decodeMesh(mesh) {
     out.measured[3 * i + 1] = angle === NO_VALUE ? -1 : angle * 180 / 65534;
     out.measured[3 * i + 2] = fromLog(u16[12 * i + 10]);
   }
+  out.uv1 = decodeUv1(mesh, out.uv);
   return out;
 }
 
@@ -59,6 +69,7 @@ export async function load() {
     for (const mesh of part.meshes) {
       mesh.data = decodeMesh(mesh);
       delete mesh.vertex_stream;
+      delete mesh.uv1_stream;
       delete mesh.index_stream;
       delete mesh.coarse_stream;
     }

@@ -13,11 +13,12 @@ const SLOW_MS = 30;
 const REST_MS = 250, LONGEST_REST_MS = 3000;
 
 export function geometryOf(mesh) {
-  const { positions, normals, uv, measured, indices, coarse } = mesh.data;
+  const { positions, normals, uv, uv1, measured, indices, coarse } = mesh.data;
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
   geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
   geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
+  geometry.setAttribute('uv1', new THREE.BufferAttribute(uv1, 2));
   geometry.setAttribute('measured', new THREE.BufferAttribute(measured, 3));
   const both = new Uint32Array(indices.length + coarse.length);
   both.set(indices);
@@ -30,12 +31,15 @@ export function geometryOf(mesh) {
 async function textureOf(scene, reference, isColour) {
   const image = reference && scene.images[reference.image];
   if (!image) return null;
-  const bitmap = await createImageBitmap(new Blob([bytesOf(image.bytes)], { type: image.type }), { colorSpaceConversion: 'none' });
+  const bitmap = await createImageBitmap(new Blob([bytesOf(image.bytes)], { type: image.type }), { colorSpaceConversion: 'none' })
+    .catch(() => null);  // A format that this browser does not know, or a damaged picture: drawn without it.
+  if (!bitmap) return null;
   const texture = new THREE.Texture(bitmap);
   texture.flipY = false;
   texture.colorSpace = isColour ? THREE.SRGBColorSpace : THREE.NoColorSpace;
   [texture.wrapS, texture.wrapT] = reference.wrap.map((w) => GL_WRAP[w] ?? THREE.RepeatWrapping);
   texture.anisotropy = 4;
+  texture.channel = reference.tex_coord;
   texture.matrixAutoUpdate = false;
   texture.matrix.copy(uvMatrix(reference));
   texture.needsUpdate = true;
@@ -46,10 +50,13 @@ function standardMaterial(material) {
   if (!material) return new THREE.MeshStandardMaterial({ color: 0x9aa3ad, roughness: 0.8, side: THREE.DoubleSide });
   const [r, g, b, a] = material.color;
   const blend = material.alpha_mode === 'BLEND';
-  return new THREE.MeshStandardMaterial({
-    color: new THREE.Color(r, g, b), roughness: material.roughness, metalness: material.metallic,
-    emissive: new THREE.Color(...material.emissive), side: THREE.DoubleSide, transparent: blend, opacity: blend ? a : 1,
+  const common = {
+    color: new THREE.Color(r, g, b), side: THREE.DoubleSide, transparent: blend, opacity: blend ? a : 1,
     depthWrite: !blend, alphaTest: material.alpha_mode === 'MASK' ? material.alpha_cutoff : 0,
+  };
+  if (material.unlit) return new THREE.MeshBasicMaterial({ ...common, toneMapped: false });
+  return new THREE.MeshStandardMaterial({
+    ...common, roughness: material.roughness, metalness: material.metallic, emissive: new THREE.Color(...material.emissive),
   });
 }
 
@@ -143,8 +150,11 @@ export class SceneView {
     const { materials } = this.data;
     for (const [i, material] of materials.entries()) {
       const standard = this.standard[i];
-      [standard.map, standard.normalMap] = await Promise.all([textureOf(this.data, material.base_map, true), textureOf(this.data, material.normal_map, false)]);
-      if (material.normal_map) standard.normalScale.setScalar(material.normal_map.factor);
+      standard.map = await textureOf(this.data, material.base_map, true);
+      if (!material.unlit) {
+        standard.normalMap = await textureOf(this.data, material.normal_map, false);
+        if (material.normal_map) standard.normalScale.setScalar(material.normal_map.factor);
+      }
       standard.needsUpdate = true;
     }
     this.canvas.dataset.textures = 'loaded';

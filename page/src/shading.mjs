@@ -34,17 +34,17 @@ export function uvMatrix(transform) {
 }
 
 const vertexShader = `
-attribute vec3 measured;
-varying vec3 vMeasured; varying vec3 vNormal; varying vec2 vUv;
-uniform bool flat_;
+attribute vec3 measured; attribute vec2 uv1;
+varying vec3 vMeasured; varying vec3 vNormal; varying vec2 vUv, vHeightUv;
+uniform bool flat_, heightOnUv1;
 void main() {
-  vMeasured = measured; vUv = uv; vNormal = normalMatrix * normal;
+  vMeasured = measured; vUv = uv; vHeightUv = heightOnUv1 ? uv1 : uv; vNormal = normalMatrix * normal;
   vec4 place = flat_ ? vec4(uv.x, -uv.y, 0.0, 1.0) : vec4(position, 1.0);
   gl_Position = projectionMatrix * modelViewMatrix * place;
 }`;
 
 const fragmentShader = `
-varying vec3 vMeasured; varying vec3 vNormal; varying vec2 vUv;
+varying vec3 vMeasured; varying vec3 vNormal; varying vec2 vUv, vHeightUv;
 uniform bool flat_, hasUv, hasHeight, isLog;
 uniform int kind; uniform float constant, texturePx; uniform vec2 range, cells;
 uniform sampler2D ramp, heights; uniform mat3 heightMatrix;
@@ -61,7 +61,7 @@ void main() {
     if (kind == 2) { value = vMeasured.x; has = value >= 0.0; }
     if (kind == 3) { value = vMeasured.y; has = value >= 0.0; }
     if (kind == 4) { value = vMeasured.z * texturePx; has = value >= 0.0; }
-    if (kind == 6) { value = texture2D(heights, (heightMatrix * vec3(vUv, 1.0)).xy).r; has = hasHeight && hasUv; }
+    if (kind == 6) { value = texture2D(heights, (heightMatrix * vec3(vHeightUv, 1.0)).xy).r; has = hasHeight && hasUv; }
     float t = isLog ? log(max(value, 1e-9) / range.x) / log(range.y / range.x) : (value - range.x) / max(range.y - range.x, 1e-9);
     colour = texture2D(ramp, vec2(clamp(t, 0.002, 0.998), 0.5)).rgb;
     if (kind >= 2 && kind <= 4) {
@@ -83,6 +83,7 @@ export function shadingOf(material, mesh, flat) {
       kind: { value: 0 }, constant: { value: -1 }, texturePx: { value: texturePx(material) }, range: { value: new THREE.Vector2(0, 1) },
       cells: { value: new THREE.Vector2(perUv ? perUv[0] / 10 : 8, perUv ? perUv[1] / 10 : 8) },
       ramp: { value: ramp }, heights: { value: material?.relief ? heightTexture(material) : noHeight },
+      heightOnUv1: { value: material?.haptic?.height?.texCoord === 1 },
       heightMatrix: { value: uvMatrix(material?.haptic?.height?.uvTransform) },
     },
   });

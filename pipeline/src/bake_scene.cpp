@@ -284,19 +284,21 @@ void drop_unused_textures(Scene& scene) {
   std::vector<std::optional<std::uint32_t>> new_texture(scene.textures.size()), new_image(scene.images.size());
   std::vector<Texture> textures;
   std::vector<EncodedImage> images;
+  const auto moved_image = [&](std::uint32_t number) {
+    auto& image = new_image[number];
+    if (!image) {
+      image = static_cast<std::uint32_t>(images.size());
+      images.push_back(std::move(scene.images[number]));
+    }
+    return *image;
+  };
   const auto move_texture = [&](std::optional<TextureReference>& reference) {
     if (!reference) return;
     auto& number = new_texture[reference->texture];
     if (!number) {
       Texture& texture = scene.textures[reference->texture];
-      if (texture.image) {
-        auto& image = new_image[*texture.image];
-        if (!image) {
-          image = static_cast<std::uint32_t>(images.size());
-          images.push_back(std::move(scene.images[*texture.image]));
-        }
-        texture.image = image;
-      }
+      if (texture.image) texture.image = moved_image(*texture.image);
+      for (OtherImage& other : texture.others) other.image = moved_image(other.image);
       number = static_cast<std::uint32_t>(textures.size());
       textures.push_back(std::move(texture));
     }

@@ -35,6 +35,20 @@ std::vector<std::size_t> uses_of_parts(const Scene& scene) {
   return uses;
 }
 
+std::vector<std::size_t> triangles_of_materials(const Scene& scene) {
+  std::vector<std::size_t> triangles(scene.materials.size(), 0);
+  const std::vector<std::size_t> uses = uses_of_parts(scene);
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    const Part& part = scene.parts[i];
+    for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
+      const std::uint32_t slot = part.mesh.material.empty() ? 0 : part.mesh.material[t];
+      if (slot < part.materials.size() && part.materials[slot] < triangles.size())
+        triangles[part.materials[slot]] += uses[i];
+    }
+  }
+  return triangles;
+}
+
 std::vector<std::pair<std::string, std::string>> texture_names(const Scene& scene, const Material& material) {
   std::vector<std::pair<std::string, std::string>> names;
   const auto add = [&](const char* use, const std::optional<TextureReference>& reference) {

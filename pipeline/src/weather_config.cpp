@@ -40,6 +40,8 @@ WeatherConfig read_weather_config(const std::filesystem::path& path) {
   for (const auto& [key, value] : json.items()) {
     if (key == "size")
       config.size = static_cast<int>(number(value, key, 16, 8192));
+    else if (key == "atlas")
+      config.atlas = static_cast<int>(number(value, key, 64, 8192));
     else if (key == "sky_rays")
       config.sky_rays = static_cast<int>(number(value, key, 1, 4096));
     else if (key == "depth_mm")
@@ -64,7 +66,8 @@ WeatherConfig read_weather_config(const std::filesystem::path& path) {
         config.layers.push_back(std::move(layer));
       }
     } else if (key != "$comment")
-      refuse(path, key, "unknown key or wrong type; known are size, time, depth_mm, sky_rays, libraries, layers");
+      refuse(path, key,
+             "unknown key or wrong type; known are size, atlas, time, depth_mm, sky_rays, libraries, layers");
   }
   if (config.layers.empty()) refuse(path, "layers", "at least one layer is needed");
   return config;

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 /// A material as it was painted.
 struct PaintedMaterial {
-  std::vector<std::byte> color_png, normal_png;  ///< Empty when nothing was painted.
+  std::vector<std::byte> color_png, normal_png;  ///< Empty when not painted.
   std::vector<NewUv> uv;                         ///< Empty when it keeps its coordinates.
   std::optional<HeightTag> height;               ///< Of tagged materials.
   WeatheredMaterial report;
@@ -62,9 +62,19 @@ struct Job {
   const RecipeLibrary& library;
   double time;
   WeatherCache::State& cache;
+  const ProgressCallback& progress;
   std::vector<Instance> all;
   std::optional<SkyView> sky;  ///< Made when the first recipe asks for it.
+  std::uint32_t material = 0;  ///< That is being weathered.
 };
+
+/// @param done  of the material, in [0, 1].
+void report_material(const Job& job, double done) {
+  report_progress(job.progress, "weather", (job.material + done) / static_cast<double>(job.scene.materials.size()));
+}
+
+/// Shares of a material's time at which its surface is laid out, and its maps are painted.
+constexpr double k_laid_out = 0.3, k_painted = 0.8;
 
 /// Adds pictures to a scene, the same bytes once.
 class Pictures {
@@ -202,13 +212,17 @@ void copy_tile(const Painted& tile, std::pair<int, int> corner, Painted& picture
   }
 }
 
-Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, ChannelSums& sums, PaintedMaterial& material) {
+/// @param report  called with the share of the tiles that are painted.
+Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, ChannelSums& sums, PaintedMaterial& material,
+                    const std::function<void(double)>& report) {
   const SurfaceAtlas& atlas = shown.atlas;
   const std::vector<SurfaceTriangle>& surface = shown.triangles;
   std::vector<Painted> painted, distinct;
-  for (const AtlasTile& tile : atlas.tiles)
+  for (const AtlasTile& tile : atlas.tiles) {
     painted.push_back(
         paint(job, tile.texels, tile.sky, atlas.texels_per_repeat, static_cast<double>(tile.charts), sums));
+    report(static_cast<double>(painted.size()) / static_cast<double>(atlas.tiles.size()));
+  }
   const std::vector<std::uint32_t> number = distinct_tiles(std::move(painted), distinct);
   std::vector<std::pair<int, int>> sizes;
   for (const Painted& p : distinct) sizes.emplace_back(p.width, p.height);
@@ -258,8 +272,9 @@ void assign_relief(Material& material, HeightTag height) {
 /// Everything that a material's look depends on apart from the scene.
 std::string key_of(const Job& job, std::uint32_t index, const std::string& recipe, const ProceduralTexture& texture,
                    const std::vector<fs::path>& pictures) {
-  std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", index, job.config.size, job.config.depth_mm,
-                                job.config.sky_rays, texture.depends_on_time() ? job.time : 0, recipe);
+  std::string key =
+      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", index, job.config.size, job.config.atlas_side(), job.config.depth_mm,
+                  job.config.sky_rays, texture.depends_on_time() ? job.time : 0, recipe);
   for (const std::string& name : texture.recipes_used()) key += '\n' + name + ' ' + *job.library.find(name);
   for (const fs::path& picture : pictures) {
     std::error_code error;
@@ -271,12 +286,12 @@ std::string key_of(const Job& job, std::uint32_t index, const std::string& recip
 
 /// The material's surface, from the cache if it was laid out for such a reading before.
 std::shared_ptr<const MaterialSurface> surface_for(Job& job, std::uint32_t index, const SurfaceReading& reading) {
-  std::string key = fmt::format("{} {} {} {} {}", index, job.config.size, reading.position, reading.sky,
-                                reading.sky ? job.config.sky_rays : 0);
+  std::string key = fmt::format("{} {} {} {} {} {}", index, job.config.size, job.config.atlas_side(), reading.position,
+                                reading.sky, reading.sky ? job.config.sky_rays : 0);
   for (const auto& d : reading.directions) key += fmt::format(" {} {} {}", d[0], d[1], d[2]);
   if (const auto it = job.cache.surfaces.find(key); it != job.cache.surfaces.end()) return it->second;
   const auto surface = std::make_shared<const MaterialSurface>(
-      lay_out(job.scene, job.all, index, job.config.size, reading, [&]() -> const SkyView& {
+      lay_out(job.scene, job.all, index, job.config.size, job.config.atlas_side(), reading, [&]() -> const SkyView& {
         if (!job.sky) job.sky = sky_of(job.scene, job.all, job.config.sky_rays);
         return *job.sky;
       }));
@@ -296,6 +311,7 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
   WeatheredMaterial& report = material.report;
   const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), texture.depends_on_sky()};
   const auto surface = surface_for(job, index, reading);
+  report_material(job, k_laid_out);
   if (!(surface->mm_per_repeat > 0)) {
     report.skipped = "no surface with uv shows it";
     return material;
@@ -310,21 +326,25 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
                     1, means);
   } else {
     scale = surface->atlas.texels_per_repeat;
-    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm}, means, material);
+    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm}, means, material,
+                          [&](double done) { report_material(job, k_laid_out + done * (k_painted - k_laid_out)); });
   }
   const double pitch = surface->mm_per_repeat / scale;
-  HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
-  // A height of 1/2 is the surface as it was.
-  for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
-  if (tag && (!tag->height || surface->own->has_relief())) {
-    const EncodedHeight encoded = encode_height_png16(relief);
-    material.height = make_height_tag(relief, {.png = encoded.png,
-                                               .scale_mm = encoded.scale_mm,
-                                               .offset_mm = encoded.offset_mm,
-                                               .rms_mm = rms_height_mm(relief)});
+  report.keeps_relief = surface->keeps_relief;
+  if (!report.keeps_relief) {
+    HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
+    // A height of 1/2 is the surface as it was.
+    for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
+    if (tag && (!tag->height || surface->own->has_relief())) {
+      const EncodedHeight encoded = encode_height_png16(relief);
+      material.height = make_height_tag(relief, {.png = encoded.png,
+                                                 .scale_mm = encoded.scale_mm,
+                                                 .offset_mm = encoded.offset_mm,
+                                                 .rms_mm = rms_height_mm(relief)});
+    }
+    material.normal_png = encode_png(normal_map(relief));
   }
   material.color_png = encode_png({picture.width, picture.height, std::move(picture.rgb)});
-  material.normal_png = encode_png(normal_map(relief));
   report.friction = means.friction / means.texels, report.stiffness = means.stiffness / means.texels;
   report.depends_on_normal = texture.depends_on_normal(), report.depends_on_position = reading.position;
   report.depends_on_sky = reading.sky, report.depends_on_neighbours = texture.depends_on_neighbours();
@@ -340,6 +360,7 @@ void apply(const PaintedMaterial& painted, Material& material, Pictures& picture
   if (const TextureReference* own = own_place(material); painted.uv.empty() && own) place = *own;
   for (auto* reference : {&material.base_color_texture, &material.normal_texture}) {
     const bool colour = reference == &material.base_color_texture;
+    if (!colour && painted.report.keeps_relief) continue;
     *reference =
         pictures.add((colour ? "color." : "normal.") + material.name, colour ? painted.color_png : painted.normal_png);
     (*reference)->transform = place.transform, (*reference)->tex_coord = place.tex_coord;
@@ -350,7 +371,7 @@ void apply(const PaintedMaterial& painted, Material& material, Pictures& picture
 
 /// Weathers one material. @return what is reported of it.
 WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures,
-                                   std::vector<NewUv>& uv, std::vector<std::uint32_t>& with_atlas,
+                                   std::vector<NewUv>& uv, std::vector<AtlasMaterial>& with_atlas,
                                    std::vector<std::optional<HeightTag>>& heights) {
   const Material& before = job.scene.materials[index];
   const std::optional<MaterialTag>& tag = before.haptic;
@@ -383,7 +404,11 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
   if (!report.painted()) return report;
   apply(painted, result.scene.materials[index], pictures);
   uv.insert(uv.end(), painted.uv.begin(), painted.uv.end());
-  if (!painted.uv.empty()) with_atlas.push_back(index);
+  if (!painted.uv.empty()) with_atlas.push_back({index, report.keeps_relief});
+  if (report.keeps_relief)
+    result.scene.losses.push_back(fmt::format(
+        "material '{}': the relief of the layers; its atlas of {:.2g} mm a texel would blur its own, which stays",
+        before.name, report.mm_per_texel));
   heights[index] = painted.height;
   return report;
 }
@@ -413,12 +438,13 @@ WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, dou
   WeatherResult result;
   result.scene = scene;
   Pictures pictures(result);
-  Job job{scene, config, library, time, cache.state(), instances(scene), {}};
+  Job job{scene, config, library, time, cache.state(), progress, instances(scene), {}};
   std::vector<NewUv> uv;
-  std::vector<std::uint32_t> with_atlas;
+  std::vector<AtlasMaterial> with_atlas;
   std::vector<std::optional<HeightTag>> heights(scene.materials.size());
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
-    report_progress(progress, "weather", static_cast<double>(m) / static_cast<double>(scene.materials.size()));
+    job.material = m;
+    report_material(job, 0);
     result.materials.push_back(weather_material(result, m, job, pictures, uv, with_atlas, heights));
   }
   if (!with_atlas.empty()) set_atlas_uv(result.scene, job.all, std::move(uv), with_atlas);

@@ -43,7 +43,7 @@ TEST(Base64, KnownAnswers) {
 
 TEST(PageMesh, KeepsEverythingWhenAsked) {
   const TriangleMesh mesh = grid(20, 2);
-  const auto meshes = page_meshes(mesh, mesh.uv, measure_distortion(mesh, mesh.uv), 1);
+  const auto meshes = page_meshes(mesh, mesh.uv, {}, measure_distortion(mesh, mesh.uv), 1);
   ASSERT_EQ(meshes.size(), 1U);
   EXPECT_EQ(meshes[0].shown, 800U);
   EXPECT_GT(meshes[0].coarse, 0U);
@@ -57,7 +57,7 @@ TEST(PageMesh, KeepsEverythingWhenAsked) {
 
 TEST(PageMesh, SimplifiesAPlaneWithoutMovingIt) {
   const TriangleMesh mesh = grid(60, 1);
-  const auto meshes = page_meshes(mesh, mesh.uv, {}, 0.1);
+  const auto meshes = page_meshes(mesh, mesh.uv, {}, {}, 0.1);
   EXPECT_LE(meshes[0].shown, 1080U);
   EXPECT_LT(meshes[0].error_mm, 1e-3);
   EXPECT_EQ(meshes[0].high, (Vec3{60, 60, 0}));
@@ -67,10 +67,52 @@ TEST(PageMesh, SplitsByMaterial) {
   TriangleMesh mesh = grid(4, 1);
   mesh.material.assign(mesh.triangles.size(), 1);
   mesh.material[0] = 0;
-  const auto meshes = page_meshes(mesh, mesh.uv, {}, 1);
+  const auto meshes = page_meshes(mesh, mesh.uv, {}, {}, 1);
   ASSERT_EQ(meshes.size(), 2U);
   EXPECT_EQ(meshes[0].shown, 1U);
   EXPECT_EQ(meshes[1].shown, 31U);
+}
+
+TEST(PageMesh, KeepsTheSecondChannelWhereItIsNeeded) {
+  TriangleMesh mesh = grid(4, 1);
+  mesh.uv1 = mesh.uv;
+  for (Vec2& value : mesh.uv1.values) value = {0.5 * value.x, 1 - 0.25 * value.y};
+  EXPECT_TRUE(page_meshes(mesh, mesh.uv, {false}, {}, 1)[0].uv1_stream.empty());
+  const auto meshes = page_meshes(mesh, mesh.uv, {true}, {}, 1);
+  EXPECT_FALSE(meshes[0].uv1_stream.empty());
+  EXPECT_EQ(meshes[0].uv1_low, (Vec2{0, 0}));
+  EXPECT_EQ(meshes[0].uv1_high, (Vec2{2, 1}));
+}
+
+TEST(PageScene, TellsWhatLiesOnTheSecondChannelAndWhatBrowsersDoNotShow) {
+  Part part;
+  part.mesh = grid(2, 1);
+  part.mesh.uv1 = part.mesh.uv;
+  part.materials = {0};
+  Scene scene = single_part_scene(std::move(part), "test");
+  Material material;
+  material.base_color_texture = TextureReference{0, 1, 1, {}};
+  material.normal_texture = TextureReference{1, 0, 1, {}};
+  material.extensions_json = R"({"KHR_materials_unlit":{}})";
+  scene.materials = {material};
+  for (const char* type : {"image/webp", "image/ktx2"}) {
+    Texture texture;
+    texture.image = static_cast<std::uint32_t>(scene.images.size());
+    scene.textures.push_back(texture);
+    EncodedImage image;
+    image.mime_type = type;
+    image.bytes.resize(4);
+    scene.images.push_back(image);
+  }
+  const Json json = page_scene(scene, "a.glb", {}, {}).json;
+  const Json& shown = json["materials"][0];
+  EXPECT_EQ(shown["base_map"]["tex_coord"], 1);
+  EXPECT_TRUE(shown["normal_map"].is_null());
+  EXPECT_TRUE(json["images"][1].is_null());
+  EXPECT_EQ(shown["unlit"], true);
+  ASSERT_EQ(shown["warnings"].size(), 1U);
+  EXPECT_EQ(shown["warnings"][0].get<std::string>().substr(0, 17), "picture_not_shown");
+  EXPECT_NE(json["parts"][0]["meshes"][0]["uv1_stream"], "");
 }
 
 TEST(PageScene, CountsInstances) {

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -389,31 +388,6 @@ void add_system(BenchReport& report) {
                  code == 77 ? std::nullopt : std::optional(code == 0)});
 }
 
-void add_survival(BenchReport& report) {
-  namespace fs = std::filesystem;
-  const fs::path file = fs::temp_directory_path() / fmt::format("papilla-survival-{}.json", ::getpid());
-  const int status = std::system((std::string(PAPILLA_SURVIVAL " ") + file.string() + " >/dev/null 2>&1").c_str());
-  std::ifstream stream(file);
-  const Json rows = stream ? Json::parse(stream) : Json::array();
-  fs::remove(file);
-  EvidenceTable table{
-      "What other tools leave of the haptic tag",
-      "A plate with a relief in a data: URI goes through the tool, the player feels what comes out: kept "
-      "means the same map, the same force within 5 %, no contact lost. three.js runs without a browser, so "
-      "its pictures are left out. uv_transform: the player followed the packer's KHR_texture_transform. "
-      "gltfpack drops all extras without -ke; a file without a tag is refused with exit code 3. Blender "
-      "was not installed here.",
-      {"tool", "tag", "detail"},
-      {}};
-  for (const Json& row : rows)
-    table.rows.push_back(
-        {row.at("tool").get<std::string>(), row.at("outcome").get<std::string>(), row.at("detail").get<std::string>()});
-  report.target({"the haptic tag survives other tools (see the table)",
-                 rows.empty() ? "tools not installed" : fmt::format("{} tools", rows.size()),
-                 rows.empty() ? std::nullopt : std::optional(status == 0)});
-  report.table(std::move(table));
-}
-
 }  // namespace
 
 void add_contact_targets(BenchReport& report) {
@@ -421,7 +395,6 @@ void add_contact_targets(BenchReport& report) {
   add_felt(report);
   add_passivity(report);
   add_system(report);
-  add_survival(report);
 }
 
 }  // namespace papilla::bench

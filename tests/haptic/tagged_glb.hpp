@@ -69,8 +69,7 @@ inline std::string sine_png() {
 
 /// A GLB of a plate of 0.1 × 0.1 m in the plane y = 0, front up, uv 2.5 repeats, with one material "grain".
 /// @param extras of the material. @param image bytes of an image named haptic.height.grain; empty for none.
-/// @param textured the image is the material's normalTexture as well, so that tools keep the coordinates.
-inline std::string plate_glb(const nlohmann::json& extras, const std::string& image, bool textured = false) {
+inline std::string plate_glb(const nlohmann::json& extras, const std::string& image) {
   const int n = 10;
   std::string positions, uvs, indices;
   const auto add = [](std::string& to, float value) { to += little_endian(std::bit_cast<std::uint32_t>(value), 4); };
@@ -114,10 +113,6 @@ inline std::string plate_glb(const nlohmann::json& extras, const std::string& im
         {{"bufferView", 2}, {"componentType", 5125}, {"count", 6 * n * n}, {"type", "SCALAR"}}}}};
   if (!image.empty())
     gltf["images"] = {{{"name", "haptic.height.grain"}, {"mimeType", "image/png"}, {"bufferView", 3}}};
-  if (textured) {
-    gltf["textures"] = {{{"source", 0}}};
-    gltf["materials"][0]["normalTexture"] = {{"index", 0}};
-  }
   std::string json = gltf.dump();
   json += std::string((4 - json.size() % 4) % 4, ' ');
   const auto size = [](std::size_t s) { return little_endian(static_cast<std::uint32_t>(s), 4); };

@@ -114,6 +114,47 @@ TEST_F(GlbWriter, SharesPartsAndStatesTheSource) {
   EXPECT_FALSE(gltf["nodes"][0].contains("matrix") || gltf["nodes"][0].contains("rotation")) << "identity";
 }
 
+TEST_F(GlbWriter, CarriesOnWhoseAFileIsAndWhatWroteIt) {
+  Scene scene = test::rich_scene();
+  scene.asset.copyright = "(c) somebody";
+  scene.asset.generators = {"modeller 1", "packer 2"};
+  scene.asset.extras_json = R"({"license":"CC-BY-4.0","author":["a"]})";
+  scene.asset.xmp_packets_json = R"({"packets":[{"dc:rights":"all"}]})";
+  scene.asset.xmp_reference_json = R"({"packet":0})";
+  const json asset = document(scene)["asset"];
+  EXPECT_EQ(asset["copyright"], "(c) somebody");
+  EXPECT_EQ(asset["extras"]["license"], "CC-BY-4.0");
+  EXPECT_EQ(asset["extras"]["generators"], json({"modeller 1", "packer 2", std::string("papilla ") + version()}));
+  const Scene back = read_gltf(folder_ / "a.glb");
+  EXPECT_EQ(back.asset.copyright, scene.asset.copyright);
+  EXPECT_EQ(json::parse(back.asset.extras_json), json::parse(scene.asset.extras_json));
+  EXPECT_EQ(json::parse(back.asset.xmp_packets_json), json::parse(scene.asset.xmp_packets_json));
+  EXPECT_EQ(json::parse(back.asset.xmp_reference_json), json::parse(scene.asset.xmp_reference_json));
+  EXPECT_EQ(back.asset.generators.size(), 3U);
+  EXPECT_TRUE(back.losses.empty()) << back.losses[0];
+  EXPECT_EQ(round_trip(back).asset.generators.size(), 3U) << "our own name is not piled up";
+  scene.asset.extras_json = "[]";
+  EXPECT_NE(refusal(scene).find("asset.extras"), std::string::npos);
+}
+
+TEST_F(GlbWriter, PicturesOfOtherFormatsKeepTheirExtensions) {
+  Scene scene = test::rich_scene();
+  scene.images[1].mime_type = "image/webp";
+  scene.textures[0].others = {{"EXT_texture_webp", 1}};
+  json gltf = document(scene);
+  EXPECT_EQ(gltf["textures"][0]["source"], 0);
+  EXPECT_EQ(gltf["textures"][0]["extensions"]["EXT_texture_webp"]["source"], 1);
+  EXPECT_FALSE(gltf.contains("extensionsRequired")) << "there is a PNG";
+  EXPECT_EQ(read_gltf(folder_ / "a.glb").textures.at(0).others.at(0).image, 1U);
+  scene.textures[0].image = 1;
+  gltf = document(scene);
+  EXPECT_FALSE(gltf["textures"][0].contains("source"));
+  EXPECT_EQ(gltf["extensionsRequired"], json({"EXT_texture_webp"}));
+  EXPECT_EQ(read_gltf(folder_ / "a.glb").textures.at(0).image, 1U);
+  scene.textures[0].others[0].image = 7;
+  EXPECT_NE(refusal(scene), "");
+}
+
 TEST_F(GlbWriter, TangentsOnlyWhereANormalTextureNeedsThem) {
   const json primitives = document(test::rich_scene())["meshes"][0]["primitives"];
   ASSERT_EQ(primitives.size(), 2U);

@@ -159,12 +159,52 @@ TEST_F(GltfReader, RefusesBadNodeTrees) {
   EXPECT_NE(refusal(tree(R"([{},{"children":[2]},{"children":[1]}])")), "") << "a cycle that no scene uses";
 }
 
-TEST_F(GltfReader, NamesRequiredExtensions) {
-  const std::string message =
-      refusal(triangle_glb("", R"("extensionsRequired":["KHR_texture_basisu","KHR_materials_unlit"],)"));
-  EXPECT_NE(message.find("KHR_texture_basisu"), std::string::npos);
+TEST_F(GltfReader, RefusesUnknownExtensionsThatMayTouchGeometry) {
+  const std::string required = R"("extensionsRequired":["EX_shape","KHR_materials_unlit"],)";
+  const std::string message = refusal(triangle_glb("", required));
+  EXPECT_NE(message.find("a.glb: needs EX_shape, which is not supported"), std::string::npos) << message;
   EXPECT_EQ(message.find("unlit"), std::string::npos);
-  EXPECT_NE(message.find("a.glb"), std::string::npos);
+  for (const char* place :
+       {R"("skins":[{"joints":[0],"extensions":{"EX_shape":{}}}],)",
+        R"("materials":[{"extensions":{"EX_shape":{}}}],"skins":[{"joints":[0],"extensions":{"EX_shape":{}}}],)"})
+    EXPECT_NE(refusal(triangle_glb("", required + place)), "") << place;
+}
+
+TEST_F(GltfReader, IgnoresUnknownExtensionsThatLeaveGeometryAlone) {
+  for (const char* place :
+       {R"("materials":[{"extensions":{"EX_shape":{}}}],)",
+        R"("materials":[{"normalTexture":{"index":0,"extensions":{"EX_shape":{}}}}],"textures":[{}],)",
+        R"("textures":[{"extensions":{"EX_shape":{"source":9}}}],)", R"("extensions":{"EX_shape":{}},)"}) {
+    const Scene scene = read(triangle_glb("", std::string(R"("extensionsRequired":["EX_shape"],)") + place));
+    EXPECT_EQ(scene.parts.size(), 1U) << place;
+    ASSERT_FALSE(scene.warnings.empty()) << place;
+    EXPECT_EQ(scene.warnings[0], "needs EX_shape, which is not read and leaves the geometry alone");
+  }
+}
+
+TEST_F(GltfReader, PicturesOfAnyFormatStopNothing) {
+  for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"}) {
+    const std::string extension = name;
+    const Scene scene =
+        read(triangle_glb("", R"("extensionsRequired":[")" + extension + R"("],"textures":[{"extensions":{")" +
+                                  extension + R"(":{"source":0}}}],"images":[{"uri":"data:image/odd;base64,AAAA"}],)"));
+    EXPECT_EQ(scene.textures.at(0).image, 0U) << name;
+    EXPECT_EQ(scene.textures[0].others.at(0).extension, name);
+    EXPECT_EQ(scene.textures[0].extensions_json, "") << name;
+    EXPECT_EQ(scene.images.at(0).bytes.size(), 3U) << name;
+    EXPECT_TRUE(scene.warnings.empty()) << name;
+  }
+  const Scene both = read(triangle_glb(
+      "",
+      R"("textures":[{"source":1,"extensions":{"KHR_texture_basisu":{"source":0},"EX_other":{}}}],"images":[{"uri":"data:image/ktx2;base64,q0tUWCAyMLs="},{"uri":"data:image/avif;base64,AAAAHGZ0eXBhdmlmAAAAAA=="}],)"));
+  EXPECT_EQ(both.textures.at(0).image, 1U) << "what needs no extension comes first";
+  EXPECT_EQ(both.textures[0].others.at(0).image, 0U);
+  EXPECT_EQ(both.textures[0].extensions_json, R"({"EX_other":{}})");
+  EXPECT_EQ(both.images.at(0).mime_type, "image/ktx2");
+  EXPECT_EQ(both.images.at(1).mime_type, "image/avif");
+  EXPECT_NE(refusal(triangle_glb("", R"("textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],)"))
+                .find("EXT_texture_webp: image 0 does not exist"),
+            std::string::npos);
 }
 
 TEST_F(GltfReader, ChecksCountsBeforeTakingMemory) {

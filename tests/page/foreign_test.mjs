@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { deflateSync } from 'node:zlib';
 import { folder, launch, open, text } from './browser.mjs';
 
 const [papilla, place] = process.argv.slice(2);
@@ -25,6 +26,59 @@ function gltf({ name = 'square', uv = false, empty = false }) {
     accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 0] },
       { bufferView: 1, componentType: 5126, count: 4, type: 'VEC2' }, { bufferView: 2, componentType: 5123, count: 6, type: 'SCALAR' }],
   };
+}
+
+/** A PNG of one row of 8-bit RGB pixels. */
+function rowPng(pixels) {
+  const crc = (bytes) => {
+    let value = ~0;
+    for (const byte of bytes) for (let k = 0, low = byte; k < 8; ++k, low >>>= 1) value = (value ^ low) & 1 ? 0xedb88320 ^ value >>> 1 : value >>> 1;
+    return ~value >>> 0;
+  };
+  const word = (value) => { const bytes = Buffer.alloc(4); bytes.writeUInt32BE(value); return bytes; };
+  const chunk = (type, data) => Buffer.concat([word(data.length), Buffer.from(type), data, word(crc(Buffer.concat([Buffer.from(type), data])))]);
+  const header = Buffer.concat([word(pixels.length), word(1), Buffer.from([8, 2, 0, 0, 0])]);
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', header), chunk('IDAT', deflateSync(Buffer.from([0, ...pixels.flat()]))), chunk('IEND', Buffer.alloc(0))]);
+}
+
+const RED_BLUE = `data:image/png;base64,${rowPng([[255, 0, 0], [0, 0, 255]]).toString('base64')}`;
+const WEBP = 'data:image/webp;base64,UklGRiIAAABXRUJQVlA4IBYAAAAwAQCdASoBAAEADsD+JaQAA3AAAAAA';
+const KTX2 = `data:image/ktx2;base64,${Buffer.from('\xabKTX 20\xbb\r\n\x1a\n and no more', 'latin1').toString('base64')}`;
+
+/** The square without light, its picture on channel 1, which is at the picture's right end; channel 0 is at the left. */
+function unlit({ uri = RED_BLUE, extension = null, color = [1, 1, 1, 1] }) {
+  const model = gltf({ name: 'unlit', uv: true });
+  const floats = new Float32Array([0.25, 0.5, 0.25, 0.5, 0.25, 0.5, 0.25, 0.5, 0.75, 0.5, 0.75, 0.5, 0.75, 0.5, 0.75, 0.5]);
+  const bytes = Buffer.from(floats.buffer);
+  model.buffers.push({ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString('base64')}` });
+  model.bufferViews.push({ buffer: 1, byteLength: 32 }, { buffer: 1, byteOffset: 32, byteLength: 32 });
+  for (const view of [3, 4]) model.accessors.push({ bufferView: view, componentType: 5126, count: 4, type: 'VEC2' });
+  Object.assign(model.meshes[0].primitives[0].attributes, { TEXCOORD_0: 3, TEXCOORD_1: 4 });
+  model.extensionsUsed = ['KHR_materials_unlit'];
+  model.materials = [{ name: 'unlit', pbrMetallicRoughness: { baseColorFactor: color }, extensions: { KHR_materials_unlit: {} } }];
+  if (!uri) return model;
+  model.materials[0].pbrMetallicRoughness.baseColorTexture = { index: 0, texCoord: 1 };
+  model.images = [{ uri }];
+  model.textures = [extension ? { extensions: { [extension]: { source: 0 } } } : { source: 0 }];
+  if (extension) model.extensionsRequired = [extension], model.extensionsUsed.push(extension);
+  return model;
+}
+
+/** The colour in the middle of the scene, sRGB. */
+async function middleOf(page) {
+  await page.waitForSelector('#canvas3d[data-textures=loaded]');
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));  // is drawn with them
+  const picture = (await page.locator('#canvas3d').screenshot()).toString('base64');
+  return page.evaluate(async (base64) => {
+    const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: 'image/png' }));
+    const context = Object.assign(document.createElement('canvas'), { width: bitmap.width, height: bitmap.height }).getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    return [...context.getImageData(bitmap.width >> 1, bitmap.height >> 1, 1, 1).data.slice(0, 3)];
+  }, picture);
+}
+
+function assertColour(found, wanted) {
+  assert.ok(found.every((value, i) => Math.abs(value - wanted[i]) <= 3), `${found} instead of ${wanted}`);
 }
 
 async function view(name, model) {
@@ -57,6 +111,22 @@ try {
   { // nothing at all
     const { page, complaints } = await view('empty', gltf({ empty: true }));
     assert.match(await text(page, '#problem'), /has no triangles/);
+    assert.deepEqual(complaints, []);
+  }
+  { // without light a colour is what the file says
+    const { page, complaints } = await view('unlit', unlit({ uri: null, color: [0.2159, 0.0, 0.8, 1] }));
+    assertColour(await middleOf(page), [128, 0, 231]);
+    assert.deepEqual(complaints, []);
+  }
+  { // a picture on channel 1
+    const { page, complaints } = await view('channel-1', unlit({}));
+    assertColour(await middleOf(page), [0, 0, 255]);
+    assert.deepEqual(complaints, []);
+  }
+  for (const [name, uri, extension] of [['webp', WEBP, 'EXT_texture_webp'], ['ktx2', KTX2, 'KHR_texture_basisu']]) { // pictures of other formats
+    const { page, complaints } = await view(name, unlit({ uri, extension, color: [0, 1, 0, 1] }));
+    const [red, , blue] = await middleOf(page);
+    assert.ok(red <= 3 && blue <= 3);
     assert.deepEqual(complaints, []);
   }
   { // names that would like to be markup

@@ -134,6 +134,7 @@ Json weather_json(const WeatheredMaterial& m) {
                         {"neighbours", m.depends_on_neighbours}};
   json["uses"] = m.uses;
   json["own_relief"] = m.own_relief;
+  json["keeps_relief"] = m.keeps_relief;
   json["mm_per_texel"] = m.mm_per_texel;
   json["friction"] = m.friction;
   json["stiffness"] = m.stiffness;

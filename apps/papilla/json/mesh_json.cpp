@@ -5,6 +5,7 @@
 
 #include "json/scene_json.hpp"
 #include "papilla/core/bounds.hpp"
+#include "papilla/haptic/material_tag.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 
 namespace papilla::app {
@@ -46,6 +47,33 @@ Json materials_json(const Scene& scene) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     for (const auto& [use, name] : texture_names(scene, scene.materials[i])) materials[i]["textures"][use] = name;
   return materials;
+}
+
+/// The tag as it stands in the file; a height map within the tag is only named.
+Json tag_json(const MaterialTag& tag) {
+  MaterialTag shown = tag;
+  if (shown.height && shown.height->uri.starts_with("data:")) shown.height->uri = "data:";
+  return Json::parse(to_json(shown));
+}
+
+/// Every tagged material, and what became of tags that the file had before.
+Json haptic_json(const Scene& scene) {
+  const std::vector<std::size_t> triangles = triangles_of_materials(scene);
+  Json tags = Json::array(), restored = Json::array(), lost = Json::array();
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const Material& material = scene.materials[m];
+    if (!material.haptic) continue;
+    tags.push_back({{"material", material.name}, {"triangles", triangles[m]}, {"tag", tag_json(*material.haptic)}});
+    tags.back()["warnings"] = Json::array();
+    for (const HapticWarning& warning : material.haptic_warnings)
+      tags.back()["warnings"].push_back(warning.code + ": " + warning.message);
+  }
+  for (const MissingTag& tag : scene.tags.missing)
+    if (tag.restored_by.empty())
+      lost.push_back(tag.material);
+    else
+      restored.push_back({{"material", tag.material}, {"by", tag.restored_by}});
+  return {{"tags", tags}, {"expected", scene.tags.expected}, {"restored", restored}, {"lost", lost}};
 }
 
 Json faces_json(const std::vector<CadFaceNote>& notes) {
@@ -175,6 +203,9 @@ Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statist
   json["totals"] = counters_json(total_statistics(statistics));
   json["totals"]["drawn_triangles"] = drawn_triangles(scene);
   json["materials"] = materials_json(scene);
+  json["haptic"] = haptic_json(scene);
+  json["asset"] = {{"copyright", scene.asset.copyright}, {"generators", scene.asset.generators}};
+  if (!scene.asset.extras_json.empty()) json["asset"]["extras"] = Json::parse(scene.asset.extras_json);
   json["warnings"] = scene.warnings;
   json["losses"] = scene.losses;
   if (perception) json["perception"] = perception_json(scene, *perception);

@@ -43,6 +43,11 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->check(CLI::IsMember({"file", "y", "z"}))
       ->capture_default_str()
       ->group("Input");
+  verb.add_option("--tags", tags,
+                  "glTF: the file as it was before another program changed it; haptic tags that are missing are taken "
+                  "from there")
+      ->type_name("FILE")
+      ->group("Input");
 }
 
 ReadOptions SceneOptions::read_options() const {
@@ -52,6 +57,7 @@ ReadOptions SceneOptions::read_options() const {
   options.max_edge_mm = max_edge_mm;
   if (unit != "file") options.millimetres_per_unit = k_units.at(unit);
   if (up != "file") options.up = up == "y" ? UpAxis::y : UpAxis::z;
+  options.tags = tags;
   return options;
 }
 

@@ -10,7 +10,7 @@ namespace papilla::app {
 
 /// How a verb's input is read: unit, axes and, for CAD, tessellation. Shared by every verb that reads a scene.
 struct SceneOptions {
-  std::string unit = "file", up = "file", quality;
+  std::string unit = "file", up = "file", quality, tags;
   double chord_mm = 0.1, angle_deg = 20, max_edge_mm = 0;
 
   void add_to(CLI::App& verb);

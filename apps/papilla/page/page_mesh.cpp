@@ -15,7 +15,7 @@ namespace {
 /// What makes corners one vertex.
 struct Corner {
   std::array<float, 3> position{}, normal{};
-  std::array<float, 2> uv{};
+  std::array<float, 2> uv{}, uv1{};
 };
 
 /// A vertex as it goes into the stream; see PageMesh.
@@ -60,8 +60,8 @@ std::uint16_t angle_code(double degrees) {
 
 class Builder {
  public:
-  Builder(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, const DistortionReport& report)
-      : mesh_(mesh), uv_(uv), report_(report) {}
+  Builder(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, bool needs_uv1, const DistortionReport& report)
+      : mesh_(mesh), uv_(uv), needs_uv1_(needs_uv1 && !mesh.uv1.empty()), report_(report) {}
 
   PageMesh build(std::uint32_t slot, const std::vector<std::size_t>& triangles, double keep) {
     PageMesh out;
@@ -79,10 +79,15 @@ class Builder {
     Corner c;
     c.position = floats(mesh_.positions[mesh_.triangles[t][k]]);
     if (mesh_.normals.has_value(t)) c.normal = floats(mesh_.normals.values[mesh_.normals.indices[t][k]]);
-    if (!uv_.has_value(t)) return c;
-    const Vec2 value = uv_.values[uv_.indices[t][k]];
-    c.uv = {static_cast<float>(value.x), static_cast<float>(1 - value.y)};  // glTF's v runs down
+    c.uv = uv_at(uv_, t, k);
+    if (needs_uv1_) c.uv1 = uv_at(mesh_.uv1, t, k);
     return c;
+  }
+
+  static std::array<float, 2> uv_at(const CornerAttribute<Vec2>& uv, std::size_t t, std::size_t k) {
+    if (!uv.has_value(t)) return {};
+    const Vec2 value = uv.values[uv.indices[t][k]];
+    return {static_cast<float>(value.x), static_cast<float>(1 - value.y)};  // glTF's v runs down
   }
 
   void gather(const std::vector<std::size_t>& triangles, PageMesh& out) {
@@ -152,15 +157,19 @@ class Builder {
 
   void find_bounds(PageMesh& out) const {
     constexpr double far = std::numeric_limits<double>::max();
-    out.low = {far, far, far}, out.high = {-far, -far, -far}, out.uv_low = {far, far}, out.uv_high = {-far, -far};
+    out.low = {far, far, far}, out.high = {-far, -far, -far};
+    out.uv_low = out.uv1_low = {far, far}, out.uv_high = out.uv1_high = {-far, -far};
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       if (order_[i] == ~0U) continue;
       const auto& [x, y, z] = vertices_[i].position;
       const auto& [u, v] = vertices_[i].uv;
+      const auto& [u1, v1] = vertices_[i].uv1;
       out.low = {std::min<double>(out.low.x, x), std::min<double>(out.low.y, y), std::min<double>(out.low.z, z)};
       out.high = {std::max<double>(out.high.x, x), std::max<double>(out.high.y, y), std::max<double>(out.high.z, z)};
       out.uv_low = {std::min<double>(out.uv_low.x, u), std::min<double>(out.uv_low.y, v)};
       out.uv_high = {std::max<double>(out.uv_high.x, u), std::max<double>(out.uv_high.y, v)};
+      out.uv1_low = {std::min<double>(out.uv1_low.x, u1), std::min<double>(out.uv1_low.y, v1)};
+      out.uv1_high = {std::max<double>(out.uv1_high.x, u1), std::max<double>(out.uv1_high.y, v1)};
     }
   }
 
@@ -188,14 +197,27 @@ class Builder {
     return packed;
   }
 
+  std::vector<std::array<std::uint16_t, 2>> packed_uv1(const PageMesh& out) const {
+    std::vector<std::array<std::uint16_t, 2>> packed(out.vertices);
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+      if (order_[i] != ~0U)
+        packed[order_[i]] = {within(vertices_[i].uv1[0], out.uv1_low.x, out.uv1_high.x),
+                             within(vertices_[i].uv1[1], out.uv1_low.y, out.uv1_high.y)};
+    return packed;
+  }
+
   void encode(PageMesh& out) const {
     std::vector<Packed> packed(out.vertices);
     for (std::size_t i = 0; i < vertices_.size(); ++i)
       if (order_[i] != ~0U) packed[order_[i]] = pack(vertices_[i], around_[i], out);
     const auto bytes = [](std::vector<std::byte>& stream) { return reinterpret_cast<unsigned char*>(stream.data()); };
-    out.vertex_stream.resize(meshopt_encodeVertexBufferBound(packed.size(), sizeof(Packed)));
-    out.vertex_stream.resize(meshopt_encodeVertexBuffer(bytes(out.vertex_stream), out.vertex_stream.size(),
-                                                        packed.data(), packed.size(), sizeof(Packed)));
+    const auto encode_vertices = [&](const auto& values, std::vector<std::byte>& stream) {
+      constexpr std::size_t k_size = sizeof(values[0]);
+      stream.resize(meshopt_encodeVertexBufferBound(values.size(), k_size));
+      stream.resize(meshopt_encodeVertexBuffer(bytes(stream), stream.size(), values.data(), values.size(), k_size));
+    };
+    encode_vertices(packed, out.vertex_stream);
+    if (needs_uv1_) encode_vertices(packed_uv1(out), out.uv1_stream);
     const auto encode_indices = [&](const std::vector<unsigned int>& indices, std::vector<std::byte>& stream) {
       stream.resize(meshopt_encodeIndexBufferBound(indices.size(), packed.size()));
       stream.resize(meshopt_encodeIndexBuffer(bytes(stream), stream.size(), indices.data(), indices.size()));
@@ -206,6 +228,7 @@ class Builder {
 
   const TriangleMesh& mesh_;
   const CornerAttribute<Vec2>& uv_;
+  bool needs_uv1_;
   const DistortionReport& report_;
   std::vector<Corner> vertices_;
   std::vector<Around> around_;
@@ -215,13 +238,14 @@ class Builder {
 }  // namespace
 
 std::vector<PageMesh> page_meshes(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
-                                  const DistortionReport& report, double keep) {
+                                  const std::vector<bool>& needs_uv1, const DistortionReport& report, double keep) {
   std::map<std::uint32_t, std::vector<std::size_t>> by_slot;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     by_slot[mesh.material.empty() ? 0 : mesh.material[t]].push_back(t);
   std::vector<PageMesh> meshes;
   for (const auto& [slot, triangles] : by_slot)
-    meshes.push_back(Builder(mesh, uv, report).build(slot, triangles, keep));
+    meshes.push_back(
+        Builder(mesh, uv, slot < needs_uv1.size() && needs_uv1[slot], report).build(slot, triangles, keep));
   return meshes;
 }
 

@@ -21,8 +21,9 @@ struct PageMesh {
   double error_mm = 0;     ///< Of the simplification, as the simplifier estimates it; 0 when nothing was left out.
   bool has_uv = false;
   Vec3 low, high;
-  Vec2 uv_low, uv_high;
+  Vec2 uv_low, uv_high, uv1_low, uv1_high;
   std::vector<std::byte> vertex_stream, index_stream, coarse_stream;
+  std::vector<std::byte> uv1_stream;  ///< Channel 1 as 2 x u16 over [uv1_low, uv1_high]; empty when nothing needs it.
 };
 
 /// "Not measured" in the streams of a PageMesh.
@@ -32,8 +33,9 @@ inline constexpr std::uint16_t k_page_no_value = 65535;
 /// leaves borders and seams of uv in place, or by clustering where these allow too little. Distortion is that of the
 /// full mesh, averaged by area at the vertices that are kept.
 /// @param uv the channel to show; entries without value give uv (0, 0) and no distortion.
+/// @param needs_uv1 by material slot: something lies on channel 1 of the mesh. Slots beyond its end need nothing.
 /// @param report of measure_distortion(mesh, uv); without triangles when there is no uv.
 std::vector<PageMesh> page_meshes(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv,
-                                  const DistortionReport& report, double keep);
+                                  const std::vector<bool>& needs_uv1, const DistortionReport& report, double keep);
 
 }  // namespace papilla::app

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <set>
 
 #include "json/scene_json.hpp"
 #include "page/page_mesh.hpp"
@@ -34,8 +35,11 @@ Json mesh_json(const PageMesh& mesh, const Part& part) {
           {"high", triple(mesh.high)},
           {"uv_low", pair(mesh.uv_low)},
           {"uv_high", pair(mesh.uv_high)},
+          {"uv1_low", pair(mesh.uv1_low)},
+          {"uv1_high", pair(mesh.uv1_high)},
           {"vertex_stream", encode_base64(mesh.vertex_stream)},
           {"index_stream", encode_base64(mesh.index_stream)},
+          {"uv1_stream", encode_base64(mesh.uv1_stream)},
           {"coarse", mesh.coarse},
           {"coarse_stream", encode_base64(mesh.coarse_stream)}};
 }
@@ -51,12 +55,22 @@ struct ShownPart {
   DistortionReport distortion;
 };
 
-ShownPart show_part(const Part& part, double keep) {
+/// Whether something that the page shows of a material lies on channel 1.
+bool lies_on_uv1(const Material& material) {
+  for (const auto* map : {&material.base_color_texture, &material.normal_texture})
+    if (*map && (*map)->tex_coord == 1) return true;
+  return material.haptic && material.haptic->height && material.haptic->height->tex_coord == 1;
+}
+
+ShownPart show_part(const Scene& scene, const Part& part, double keep) {
   static const CornerAttribute<Vec2> none;
   const CornerAttribute<Vec2>* uv = shown_uv(part.mesh);
   ShownPart shown;
   if (uv) shown.distortion = measure_distortion(part.mesh, *uv, {.texture_px = {1, 1}});
-  shown.meshes = page_meshes(part.mesh, uv ? *uv : none, shown.distortion, keep);
+  std::vector<bool> needs_uv1;
+  for (const std::uint32_t m : part.materials)
+    needs_uv1.push_back(uv != &part.mesh.uv1 && m < scene.materials.size() && lies_on_uv1(scene.materials[m]));
+  shown.meshes = page_meshes(part.mesh, uv ? *uv : none, needs_uv1, shown.distortion, keep);
   shown.distortion.per_triangle = {};
   return shown;
 }
@@ -66,7 +80,7 @@ std::vector<ShownPart> show_parts(const Scene& scene, double keep, const Progres
   std::atomic<std::size_t> done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, scene.parts.size(), [&](std::size_t i) {
     try {
-      shown[i] = show_part(scene.parts[i], keep);
+      shown[i] = show_part(scene, scene.parts[i], keep);
     } catch (const InvalidInput& error) {
       throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
     }
@@ -76,10 +90,19 @@ std::vector<ShownPart> show_parts(const Scene& scene, double keep, const Progres
   return shown;
 }
 
+/// Pictures that browsers show.
+bool is_shown_by_browsers(const EncodedImage& image) {
+  static const std::set<std::string> types = {"image/png",  "image/jpeg", "image/webp",
+                                              "image/avif", "image/gif",  "image/bmp"};
+  return types.contains(image.mime_type) && !image.bytes.empty();
+}
+
+/// The picture of a texture that browsers show, if there is one: not KTX2, and of the two channels that a mesh has.
 Json texture_json(const Scene& scene, const std::optional<TextureReference>& reference) {
-  if (!reference || reference->texture >= scene.textures.size()) return nullptr;
+  if (!reference || reference->texture >= scene.textures.size() || reference->tex_coord > 1) return nullptr;
   const Texture& texture = scene.textures[reference->texture];
   if (!texture.image || *texture.image >= scene.images.size()) return nullptr;
+  if (!is_shown_by_browsers(scene.images[*texture.image])) return nullptr;
   const UvTransform transform = reference->transform.value_or(UvTransform{});
   return {{"image", *texture.image},          {"tex_coord", reference->tex_coord},
           {"factor", reference->factor},      {"wrap", {texture.wrap_s, texture.wrap_t}},
@@ -106,6 +129,7 @@ class PageMaterials {
                  {"double_sided", material.double_sided},
                  {"alpha_mode", material.alpha_mode},
                  {"alpha_cutoff", material.alpha_cutoff},
+                 {"unlit", material.extensions_json.find("\"KHR_materials_unlit\"") != std::string::npos},
                  {"base_map", texture_json(scene_, material.base_color_texture)},
                  {"normal_map", texture_json(scene_, material.normal_texture)},
                  {"haptic", nullptr},
@@ -119,6 +143,10 @@ class PageMaterials {
       }
       json["haptic"] = Json::parse(to_json(shown));
     }
+    for (const auto* map : {&material.base_color_texture, &material.normal_texture})
+      if (*map && texture_json(scene_, *map).is_null())
+        warnings.push_back(
+            {"picture_not_shown", "a picture of it is missing or in a format that browsers do not show"});
     json["warnings"] = Json::array();
     for (const HapticWarning& warning : warnings) json["warnings"].push_back(warning.code + ": " + warning.message);
     materials.push_back(std::move(json));
@@ -157,6 +185,7 @@ Json images_json(const Scene& scene) {
       const auto number = scene.textures[(*map)->texture].image;
       if (!number || *number >= scene.images.size() || !images[*number].is_null()) continue;
       const EncodedImage& image = scene.images[*number];
+      if (!is_shown_by_browsers(image)) continue;
       images[*number] = {{"name", image.name}, {"type", image.mime_type}, {"bytes", encode_base64(image.bytes)}};
     }
   return images;

@@ -11,7 +11,8 @@ namespace {
 
 /// Streams of bytes are no reading.
 bool is_bytes(const std::string& key) {
-  static const std::set<std::string> keys = {"vertex_stream", "index_stream", "coarse_stream", "png", "bytes"};
+  static const std::set<std::string> keys = {"vertex_stream", "index_stream", "coarse_stream",
+                                             "uv1_stream",    "png",          "bytes"};
   return keys.contains(key);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "json/scene_json.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
@@ -22,6 +23,27 @@ std::string perception_text(const Scene& scene, const ScenePerception& perceptio
 
 std::string simplified_row(std::size_t before, std::size_t after, double deviation, const std::string& name) {
   return shown_format("{:>10} {:>10} {:>12.4g}  {}\n", before, after, deviation, name);
+}
+
+/// A row a tagged material.
+std::string haptic_text(const Scene& scene) {
+  const std::vector<std::size_t> triangles = triangles_of_materials(scene);
+  std::string rows;
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const auto& tag = scene.materials[m].haptic;
+    if (!tag) continue;
+    ++count;
+    std::string relief = "-";
+    if (tag->height) relief = fmt::format("{} x {}", tag->height->size[0], tag->height->size[1]);
+    rows += fmt::format("{:>9} {:>8.4g} {:>9.3g} {:>9} {:>11}  {}\n", triangles[m], tag->stiffness, tag->damping,
+                        fmt::format("{:.2g}/{:.2g}", tag->static_friction, tag->dynamic_friction), relief,
+                        one_line(scene.materials[m].name));
+  }
+  if (count == 0) return "\nno haptic tag\n";
+  return fmt::format("\n{} haptic tags\n{:>9} {:>8} {:>9} {:>9} {:>11}  material\n", count, "triangles", "N/m", "N s/m",
+                     "friction", "relief") +
+         rows;
 }
 
 }  // namespace
@@ -54,6 +76,8 @@ std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& 
     for (const auto& [use, name] : texture_names(scene, material)) text += shown_format("  {}: {}", use, name);
     text += "\n";
   }
+  text += haptic_text(scene);
+  if (!scene.asset.copyright.empty()) text += "\ncopyright: " + one_line(scene.asset.copyright) + "\n";
   if (perception) text += perception_text(scene, *perception);
   return text;
 }

@@ -186,15 +186,43 @@ void check_depth(std::string_view json, const std::string& file) {
   }
 }
 
-/// Extensions that a file may require: they are read, or only change how a material looks.
+/// Extensions that a file may require: they are read, or known to leave the geometry as it is.
 bool is_supported(const std::string& extension) {
-  static constexpr std::array<std::string_view, 5> k_supported = {"KHR_mesh_quantization", "KHR_texture_transform",
-                                                                  "KHR_lights_punctual", "KHR_xmp_json_ld",
-                                                                  "EXT_mesh_gpu_instancing"};
+  static constexpr std::array<std::string_view, 5> k_supported = {
+      "KHR_mesh_quantization", "KHR_lights_punctual", "KHR_xmp_json_ld", "EXT_mesh_gpu_instancing", "MSFT_texture_dds"};
   if (extension == "KHR_draco_mesh_compression") return has_draco();
   if (extension == "EXT_meshopt_compression" || extension == "KHR_meshopt_compression") return has_meshopt();
-  return extension.starts_with("KHR_materials_") ||
+  return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
+         extension.starts_with("EXT_texture_") ||
          std::find(k_supported.begin(), k_supported.end(), extension) != k_supported.end();
+}
+
+/// Whether "extensions" anywhere below `json` has the member.
+bool uses_extension(const Json& json, const std::string& extension) {
+  if (json.is_array())
+    return std::any_of(json.begin(), json.end(), [&](const Json& child) { return uses_extension(child, extension); });
+  if (!json.is_object()) return false;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "extras") continue;
+    if (key == "extensions" && value.is_object() && value.contains(extension)) return true;
+    if (uses_extension(value, extension)) return true;
+  }
+  return false;
+}
+
+/// Whether an unknown extension may change the geometry: it stands there, or nowhere, as KHR_mesh_quantization does.
+bool may_touch_geometry(const Json& json, const std::string& extension) {
+  static constexpr std::array<std::string_view, 8> k_others = {"materials", "textures",   "images", "samplers",
+                                                               "cameras",   "animations", "asset",  "extensions"};
+  bool elsewhere = false;
+  for (const auto& [key, value] : json.items()) {
+    const bool stands_here = key == "extensions" ? value.is_object() && value.contains(extension)
+                                                 : value.is_structured() && uses_extension(value, extension);
+    if (!stands_here) continue;
+    if (std::find(k_others.begin(), k_others.end(), key) == k_others.end()) return true;
+    elsewhere = true;
+  }
+  return !elsewhere;
 }
 
 /// The number of primitives of each mesh; tinygltf leaves out those it can't parse.
@@ -206,8 +234,26 @@ std::vector<std::size_t> count_primitives(const Json& json) {
   return counts;
 }
 
+/// Required extensions that are unknown and leave the geometry alone become warnings.
+/// @throws InvalidInput naming the others.
+void check_required(const Json& json, const std::string& file, std::vector<std::string>& warnings) {
+  const auto required = json.find("extensionsRequired");
+  if (required == json.end()) return;
+  if (!required->is_array()) throw InvalidInput(file + ": extensionsRequired is not an array");
+  std::string missing;
+  for (const auto& extension : *required) {
+    const std::string name = extension.is_string() ? extension.get<std::string>() : extension.dump();
+    if (is_supported(name)) continue;
+    if (may_touch_geometry(json, name))
+      missing += (missing.empty() ? "" : ", ") + printable(name, k_quoted);
+    else
+      warnings.push_back("needs " + printable(name, k_quoted) + ", which is not read and leaves the geometry alone");
+  }
+  if (!missing.empty()) throw InvalidInput(file + ": needs " + missing + ", which is not supported");
+}
+
 /// Parses the text and checks everything that tinygltf does not.
-Json parse_header(std::string_view text, const std::string& file) {
+Json parse_header(std::string_view text, const std::string& file, std::vector<std::string>& warnings) {
   check_depth(text, file);
   Json json;
   try {
@@ -224,15 +270,7 @@ Json parse_header(std::string_view text, const std::string& file) {
   const std::string version = (*asset)["version"].get<std::string>();
   if (!version.starts_with("2."))
     throw InvalidInput(file + ": glTF version '" + printable(version, k_quoted) + "' is not supported (2.x is)");
-  const auto required = json.find("extensionsRequired");
-  if (required == json.end()) return json;
-  if (!required->is_array()) throw InvalidInput(file + ": extensionsRequired is not an array");
-  std::string missing;
-  for (const auto& extension : *required) {
-    const std::string name = extension.is_string() ? extension.get<std::string>() : extension.dump();
-    if (!is_supported(name)) missing += (missing.empty() ? "" : ", ") + printable(name, k_quoted);
-  }
-  if (!missing.empty()) throw InvalidInput(file + ": needs " + missing + ", which is not supported");
+  check_required(json, file, warnings);
   return json;
 }
 
@@ -307,6 +345,28 @@ std::set<int> fill_empty_buffers(Json& json, bool binary) {
     filled.insert(static_cast<int>(i));
   }
   return filled;
+}
+
+/// tinygltf refuses data: URIs of pictures in types that it does not know. Leaves the type to the picture's first
+/// bytes.
+/// @returns whether there was any.
+bool rename_picture_types(Json& json) {
+  static constexpr std::array<std::string_view, 4> k_known = {"data:image/png;", "data:image/jpeg;", "data:image/bmp;",
+                                                              "data:application/octet-stream;"};
+  static constexpr std::string_view k_base64 = ";base64,";
+  const auto images = json.find("images");
+  if (images == json.end() || !images->is_array()) return false;
+  bool renamed = false;
+  for (Json& image : *images) {
+    if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
+    const auto& uri = image["uri"].get_ref<const std::string&>();
+    const bool known = std::any_of(k_known.begin(), k_known.end(), [&](auto type) { return uri.starts_with(type); });
+    const std::size_t data = std::string_view(uri).substr(0, k_quoted).find(k_base64);
+    if (known || !uri.starts_with("data:") || data == std::string::npos) continue;
+    image["uri"] = "data:application/octet-stream;base64," + uri.substr(data + k_base64.size());
+    renamed = true;
+  }
+  return renamed;
 }
 
 /// Where a primitive's indices are.
@@ -416,13 +476,15 @@ Document load_document(const std::filesystem::path& path) {
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(document.file + ": is larger than glTF's limit of 4 GiB");
   document.binary = std::string_view(bytes).starts_with(k_magic);
-  Json json = parse_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file);
+  Json json = parse_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file,
+                           document.warnings);
   check_meshopt_numbers(json, document.file);
   const auto primitives = count_primitives(json);
   document.empty_buffers = fill_empty_buffers(json, document.binary);
   const std::vector<Indices> detached = detach_indices(json);
+  const bool renamed = rename_picture_types(json);
   std::vector<ReferencedFile> buffers = detach_buffers(json, path), images = detach_images(json, path);
-  if (!document.empty_buffers.empty() || !detached.empty() || !buffers.empty() || !images.empty())
+  if (!document.empty_buffers.empty() || !detached.empty() || renamed || !buffers.empty() || !images.empty())
     bytes = with_json(bytes, document.binary, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 
   tinygltf::TinyGLTF loader = make_loader();

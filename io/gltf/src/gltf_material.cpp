@@ -2,6 +2,7 @@
 #include "gltf_document.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -111,6 +112,30 @@ class MaterialReader {
   const Document& document_;
 };
 
+/// Formats that extensions bring, those that most programs read first.
+constexpr std::array k_image_extensions = {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds",
+                                           "KHR_texture_basisu"};
+
+/// Takes the pictures of other formats out of the texture's extensions.
+void take_other_images(std::size_t image_count, const std::string& where, Texture& texture) {
+  using Json = nlohmann::ordered_json;
+  Json extensions = Json::parse(texture.extensions_json, nullptr, false);
+  if (!extensions.is_object()) return;
+  for (const char* name : k_image_extensions) {
+    const auto found = extensions.find(name);
+    if (found == extensions.end()) continue;
+    const Json* source = found->is_object() && found->contains("source") ? &(*found)["source"] : nullptr;
+    if (source != nullptr) {
+      if (!source->is_number_unsigned() || source->get<std::uint64_t>() >= image_count)
+        throw InvalidInput(where + ": " + name + ": image " + source->dump() + " does not exist");
+      texture.others.push_back({name, source->get<std::uint32_t>()});
+    }
+    extensions.erase(name);
+  }
+  texture.extensions_json = extensions.empty() ? "" : extensions.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (!texture.image && !texture.others.empty()) texture.image = texture.others.front().image;
+}
+
 Texture read_texture(const tinygltf::Texture& source, std::size_t number, const Document& document) {
   const tinygltf::Model& model = document.model;
   const std::string where = document.file + ": texture " + std::to_string(number);
@@ -121,6 +146,7 @@ Texture read_texture(const tinygltf::Texture& source, std::size_t number, const 
   if (source.source >= static_cast<int>(model.images.size()))
     throw InvalidInput(where + ": image " + std::to_string(source.source) + " does not exist");
   if (source.source >= 0) texture.image = static_cast<std::uint32_t>(source.source);
+  take_other_images(model.images.size(), where, texture);
   if (source.sampler >= static_cast<int>(model.samplers.size()))
     throw InvalidInput(where + ": sampler " + std::to_string(source.sampler) + " does not exist");
   if (source.sampler >= 0) {

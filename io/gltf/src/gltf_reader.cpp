@@ -14,12 +14,16 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/scene.hpp"
+#include "papilla/io/tag_manifest.hpp"
 
 namespace papilla {
 namespace {
 
 using gltf::AccessorReader;
 using gltf::Document;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_xmp = "KHR_xmp_json_ld";
 
 /// Translation · rotation · scale.
 /// @param rotation  a quaternion x, y, z, w of any length but zero.
@@ -197,7 +201,7 @@ void drop_parts(Scene& scene, const std::vector<bool>& dropped) {
 }
 
 void drop_coverages(Node& node) {
-  nlohmann::ordered_json extras = nlohmann::ordered_json::parse(node.extras_json, nullptr, false);
+  Json extras = Json::parse(node.extras_json, nullptr, false);
   if (!extras.is_object() || extras.erase("MSFT_screencoverage") == 0) return;
   node.extras_json = extras.empty() ? "" : extras.dump();
 }
@@ -329,6 +333,48 @@ void read_roots(const Document& document, Scene& scene) {
   }
 }
 
+/// What write_glb() states itself, anew for each file.
+constexpr std::array k_own_asset_extras = {"sourceFormat", "sourceUnit", "millimetresPerUnit"};
+
+void read_asset(const Document& document, Scene& scene) {
+  const tinygltf::Asset& source = document.model.asset;
+  AssetInfo& asset = scene.asset;
+  asset.copyright = source.copyright;
+  Json extras = Json::parse(source.extras_json_string, nullptr, false);
+  if (extras.is_object()) {
+    if (const auto list = extras.find("generators"); list != extras.end() && list->is_array()) {
+      for (const Json& generator : *list)
+        if (generator.is_string()) asset.generators.push_back(generator.get<std::string>());
+      extras.erase("generators");
+    }
+    for (const char* own : k_own_asset_extras) extras.erase(own);
+    if (!extras.empty()) asset.extras_json = extras.dump(-1, ' ', false, Json::error_handler_t::replace);
+  } else if (!source.extras_json_string.empty()) {
+    scene.losses.push_back("extras of the asset, which are no object");
+  }
+  if (!source.generator.empty() && (asset.generators.empty() || asset.generators.back() != source.generator))
+    asset.generators.push_back(source.generator);
+  const auto member = [](const std::string& extensions, const char* name) {
+    const Json json = Json::parse(extensions, nullptr, false);
+    const auto found = json.is_object() ? json.find(name) : json.end();
+    return found == json.end() ? "" : found->dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  asset.xmp_packets_json = member(document.model.extensions_json_string, k_xmp);
+  asset.xmp_reference_json = member(source.extensions_json_string, k_xmp);
+}
+
+/// Looks for tags that got lost since the file, or the one that the options name, had them.
+void find_missing_tags(const GltfReadOptions& options, Scene& scene) {
+  std::optional<TagManifest> manifest = take_tag_manifest(scene);
+  if (!options.tags.empty()) {
+    manifest = tag_manifest(read_gltf(options.tags));
+    if (manifest->materials.empty()) throw InvalidInput(options.tags.string() + ": has no haptic tag");
+  }
+  if (!manifest) return;
+  scene.tags = restore_tags(scene, *manifest);
+  if (const std::string sentence = survival_sentence(scene.tags); !sentence.empty()) scene.warnings.push_back(sentence);
+}
+
 /// Lists the content of the document that a scene can't hold.
 void note_losses(const Document& document, Scene& scene) {
   const tinygltf::Model& model = document.model;
@@ -340,20 +386,20 @@ void note_losses(const Document& document, Scene& scene) {
   count(model.cameras.size(), "cameras");
   count(model.lights.size(), "lights");
   if (model.scenes.size() > 1) count(model.scenes.size() - 1, "further scenes");
-  if (!model.asset.copyright.empty()) scene.losses.push_back("copyright notice: " + model.asset.copyright);
   std::set<std::string> extensions;
   for (const tinygltf::Node& node : model.nodes)
     for (const auto& [name, value] : node.extensions)
       if (name != "EXT_mesh_gpu_instancing" && name != "MSFT_lod") extensions.insert(name + " of nodes");
   for (const tinygltf::Mesh& mesh : model.meshes)
     for (const auto& [name, value] : mesh.extensions) extensions.insert(name + " of meshes");
-  for (const auto& [name, value] : model.extensions) extensions.insert(name + " of the file");
+  for (const auto& [name, value] : model.extensions)
+    if (name != k_xmp) extensions.insert(name + " of the file");
   scene.losses.insert(scene.losses.end(), extensions.begin(), extensions.end());
 }
 
 }  // namespace
 
-Scene read_gltf(const std::filesystem::path& path) {
+Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options) {
   Document document = gltf::load_document(path);
   Scene scene;
   scene.format = "glTF";
@@ -369,11 +415,13 @@ Scene read_gltf(const std::filesystem::path& path) {
   expand_instances(document, reader, scene);  // appends nodes: those of the file keep their numbers
   keep_finest_levels(document, scene);
   note_losses(document, scene);
+  read_asset(document, scene);
   try {
     assign_part_ids(scene);
   } catch (const InvalidInput& error) {
     throw InvalidInput(document.file + ": " + error.what());
   }
+  find_missing_tags(options, scene);
   // Names, addresses and keys come from the file.
   for (std::vector<std::string>* lines : {&scene.losses, &scene.warnings})
     for (std::string& line : *lines) line = one_line(line);

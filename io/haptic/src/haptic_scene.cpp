@@ -15,6 +15,7 @@
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/height_source.hpp"
+#include "papilla/io/tag_manifest.hpp"
 
 namespace papilla {
 namespace {
@@ -36,6 +37,8 @@ class Builder {
   }
 
   void add_materials() {
+    if (const std::string sentence = survival_sentence(scene_.tags); !sentence.empty())
+      result.warnings.push_back({"", {"tags_missing", sentence}});
     const std::vector<bool> used = used_materials();
     tagged_.resize(scene_.materials.size());
     tex_coord_.resize(scene_.materials.size(), 0);

@@ -35,7 +35,9 @@ void change(TriangleMesh& mesh, const Variant& variant) {
     }
 }
 
-void move_to_second_channel(Material& material) {
+void move_to_second_channel(Material& material, bool keeps_relief) {
+  if (keeps_relief && material.normal_texture && material.normal_texture->tex_coord == 0)
+    material.normal_texture->tex_coord = 1;
   for (std::optional<TextureReference>* reference :
        {&material.metallic_roughness_texture, &material.occlusion_texture, &material.emissive_texture})
     if (*reference && (*reference)->tex_coord == 0) (*reference)->tex_coord = 1;
@@ -46,7 +48,7 @@ void move_to_second_channel(Material& material) {
 }  // namespace
 
 void set_atlas_uv(Scene& scene, std::span<const Instance> all, std::vector<NewUv> changes,
-                  std::span<const std::uint32_t> materials) {
+                  std::span<const AtlasMaterial> materials) {
   std::stable_sort(changes.begin(), changes.end(), [](const NewUv& a, const NewUv& b) {
     return std::pair(a.instance, a.triangle) < std::pair(b.instance, b.triangle);
   });
@@ -83,7 +85,7 @@ void set_atlas_uv(Scene& scene, std::span<const Instance> all, std::vector<NewUv
     scene.nodes[instance.node].part = part;
     variants.emplace(variant, part);
   }
-  for (const std::uint32_t m : materials) move_to_second_channel(scene.materials[m]);
+  for (const AtlasMaterial& m : materials) move_to_second_channel(scene.materials[m.material], m.keeps_relief);
 }
 
 }  // namespace papilla

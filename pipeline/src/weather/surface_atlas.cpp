@@ -20,6 +20,7 @@ namespace papilla {
 namespace {
 
 constexpr double k_most_side = 8192, k_most_texels = 1 << 26;
+constexpr double k_coarser = 0.85, k_coarsest = 1e-3;  // Steps of the resolution, and where they end.
 
 /// A corner of an instance with its coordinates; for flat pieces also the direction its triangle looks in.
 using Corner = std::array<std::uint64_t, 4>;
@@ -58,6 +59,8 @@ struct Window {
       high[0] = std::max(high[0], p.x), high[1] = std::max(high[1], p.y);
     }
   }
+  /// About those of texels_of().
+  double texels(double scale) const { return (high[0] - low[0]) * scale * (high[1] - low[1]) * scale; }
 };
 
 SurfaceTexels texels_of(const Window& window, double scale) {
@@ -118,30 +121,36 @@ std::string look_of(const AtlasTile& tile, const SurfaceReading& reading) {
 /// One try at a resolution; nothing when the tiles are too many texels.
 class Cutter {
  public:
-  Cutter(std::span<const SurfaceTriangle> surface, const SurfaceReading& reading, const SkyView* sky, double scale)
-      : surface_(surface), reading_(reading), sky_(sky) {
+  Cutter(std::span<const SurfaceTriangle> surface, const SurfaceReading& reading, const SkyView* sky, double scale,
+         double most_texels)
+      : surface_(surface), reading_(reading), sky_(sky), most_texels_(most_texels) {
     atlas_.texels_per_repeat = scale;
     atlas_.chart_of.resize(surface.size());
   }
 
   std::optional<SurfaceAtlas> cut(const std::vector<Triangles>& charts) {
     for (const Triangles& chart : charts) {
+      if (texels_ > most_texels_) return std::nullopt;
       if (add(chart)) continue;
       for (const Triangles& piece : connected(surface_, chart, true)) {
         if (add(piece)) continue;
         for (const std::uint32_t triangle : piece) add({triangle});
       }
     }
-    if (texels_ > k_most_texels) return std::nullopt;
+    if (texels_ > most_texels_) return std::nullopt;
     return std::move(atlas_);
   }
 
  private:
   /// @returns whether the chart lies flat: no texel belongs to two unlike places of it.
   bool add(const Triangles& triangles) {
-    if (texels_ > k_most_texels) return true;
+    if (texels_ > most_texels_) return true;
     Window window;
     for (const std::uint32_t t : triangles) window.add(surface_[t]);
+    if (window.texels(atlas_.texels_per_repeat) > most_texels_) {  // Known before memory is taken for them.
+      texels_ += window.texels(atlas_.texels_per_repeat);
+      return true;
+    }
     AtlasTile tile{texels_of(window, atlas_.texels_per_repeat), {}, 1};
     for (const std::uint32_t t : triangles)
       if (draw(tile.texels, surface_[t], atlas_.texels_per_repeat, reading_) > 0 && triangles.size() > 1) return false;
@@ -163,6 +172,7 @@ class Cutter {
   std::span<const SurfaceTriangle> surface_;
   const SurfaceReading& reading_;
   const SkyView* sky_;
+  double most_texels_;
   SurfaceAtlas atlas_;
   std::map<std::string, std::uint32_t> known_;
   double texels_ = 0;
@@ -181,9 +191,17 @@ std::optional<SurfaceTexels> one_repeat(std::span<const SurfaceTriangle> surface
   return texels;
 }
 
+/// Whether coordinates go on as channel 1 when an atlas takes channel 0.
+bool keeps_coordinates(const Scene& scene, std::span<const Instance> all, std::span<const SurfaceTriangle> surface,
+                       const TextureReference& place) {
+  return place.tex_coord == 1 || std::all_of(surface.begin(), surface.end(), [&](const SurfaceTriangle& t) {
+           return scene.parts[all[t.instance].part].mesh.uv1.empty();
+         });
+}
+
 }  // namespace
 
-SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels_per_repeat,
+SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels_per_repeat, int most_side,
                          const SurfaceReading& reading, const SkyView* sky) {
   Triangles all(surface.size());
   std::iota(all.begin(), all.end(), 0U);
@@ -198,10 +216,12 @@ SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels
     }
   }
   if (!(farthest < 1e9)) throw InvalidInput("weather: texture coordinates of " + std::to_string(farthest) + " repeats");
-  double scale = std::min({texels_per_repeat, (k_most_side - 2 * k_gutter - 2) / std::max(longest, 1e-300),
-                           1e9 / std::max(farthest, 1e-300)});
-  for (int attempt = 0; attempt < 24; ++attempt, scale *= 0.7)
-    if (auto atlas = Cutter(surface, reading, sky, scale).cut(charts)) return std::move(*atlas);
+  const double finest = std::min({texels_per_repeat, (k_most_side - 2 * k_gutter - 2) / std::max(longest, 1e-300),
+                                  1e9 / std::max(farthest, 1e-300)});
+  // Coarser and coarser until the asked number of texels is enough, and then until any is.
+  for (const double most_texels : {double{most_side} * most_side, k_most_texels})
+    for (double scale = finest; scale > k_coarsest * finest; scale *= k_coarser)
+      if (auto atlas = Cutter(surface, reading, sky, scale, most_texels).cut(charts)) return std::move(*atlas);
   throw InvalidInput("weather: " + std::to_string(charts.size()) + " charts do not fit into a picture");
 }
 
@@ -242,7 +262,7 @@ std::size_t MaterialSurface::texels() const {
 }
 
 MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::uint32_t material, int size,
-                        const SurfaceReading& reading, const std::function<const SkyView&()>& sky) {
+                        int atlas_side, const SurfaceReading& reading, const std::function<const SkyView&()>& sky) {
   MaterialSurface surface;
   const Material& own = scene.materials[material];
   surface.triangles = surface_of(scene, all, material, own_place(own));
@@ -250,9 +270,11 @@ MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::
   if (!(surface.mm_per_repeat > 0)) return surface;
   surface.own.emplace(scene, own, surface.mm_per_repeat);
   surface.repeat = one_repeat(surface.triangles, reading, size);
-  if (!surface.repeat)
-    surface.atlas = cut_surface(surface.triangles, size, reading, reading.sky ? &sky() : nullptr);
-  else if (reading.sky)
+  if (!surface.repeat) {
+    surface.atlas = cut_surface(surface.triangles, size, atlas_side, reading, reading.sky ? &sky() : nullptr);
+    surface.keeps_relief = surface.atlas.texels_per_repeat < size && surface.own->has_relief() &&
+                           keeps_coordinates(scene, all, surface.triangles, *own_place(own));
+  } else if (reading.sky)
     surface.sky = sky_texels(*surface.repeat, sky());
   return surface;
 }

@@ -66,11 +66,12 @@ struct SurfaceAtlas {
 
 /// Charts that have the same window, outline and readings (products with the directions in steps of 1/2048, positions
 /// in steps of 0.1 mm if they are read, sky in steps of 1/256) share a tile, found by a hash (SHA-256) of these
-/// numbers. The resolution is `texels_per_repeat`, or less when the tiles would exceed 2^26 texels, or one 8192 a side.
-/// Cost: O(texels), and the sky. Deterministic.
+/// numbers. The resolution is `texels_per_repeat`, or less, down to 1/1000 of it, when the tiles would exceed the
+/// texels of a picture of `most_side` a side, or one is longer than 8192. Charts so many that their gutters alone
+/// exceed that get up to 2^26 texels. Cost: O(texels), and the sky. Deterministic.
 /// @param sky  null when it is not read.
 /// @throws InvalidInput when there are more charts than fit, or uv that are not finite.
-SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels_per_repeat,
+SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels_per_repeat, int most_side,
                          const SurfaceReading& reading, const SkyView* sky);
 
 /// Where the tiles lie.
@@ -90,12 +91,14 @@ struct MaterialSurface {
   std::optional<SurfaceTexels> repeat;  ///< One repeat, where no texel is shown by two unlike places.
   std::vector<float> sky;               ///< Of `repeat`; empty when it is not read.
   SurfaceAtlas atlas;                   ///< Else.
-  bool leaves_the_repeat() const;       ///< Some uv lie outside of [0, 1].
+  bool keeps_relief = false;       ///< The atlas is coarser than asked for, and the own relief's coordinates are kept.
+  bool leaves_the_repeat() const;  ///< Some uv lie outside of [0, 1].
   std::size_t texels() const;
 };
 
-/// @param size  texels a repeat. @param sky  is called if the reading asks for it.
+/// @param size  texels a repeat. @param atlas_side  texels a side of an atlas at most.
+/// @param sky  is called if the reading asks for it.
 MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::uint32_t material, int size,
-                        const SurfaceReading& reading, const std::function<const SkyView&()>& sky);
+                        int atlas_side, const SurfaceReading& reading, const std::function<const SkyView&()>& sky);
 
 }  // namespace papilla

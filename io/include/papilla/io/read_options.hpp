@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "papilla/io/scene.hpp"
@@ -12,10 +13,11 @@ struct ReadOptions {
   /// Instead of the unit that a CAD file states; of STL, OBJ, PLY and OFF, which state none: 1 when not given.
   /// In (0, 1e9].
   std::optional<double> millimetres_per_unit;
-  std::optional<UpAxis> up;  ///< Overrides the format's convention: OBJ and glTF y, all others z.
-  double chord_mm = 0.1;     ///< CAD surfaces: largest distance between surface and triangle.
-  double angle_deg = 20;     ///< CAD surfaces: largest angle between neighbouring normals.
-  double max_edge_mm = 0;    ///< CAD surfaces: longest edge of a triangle; 0: any.
+  std::optional<UpAxis> up;    ///< Overrides the format's convention: OBJ and glTF y, all others z.
+  double chord_mm = 0.1;       ///< CAD surfaces: largest distance between surface and triangle.
+  double angle_deg = 20;       ///< CAD surfaces: largest angle between neighbouring normals.
+  double max_edge_mm = 0;      ///< CAD surfaces: longest edge of a triangle; 0: any.
+  std::filesystem::path tags;  ///< glTF: GltfReadOptions::tags.
 };
 
 }  // namespace papilla

@@ -22,6 +22,9 @@ Bounds3 scene_bounds(const Scene& scene);
 /// How many nodes show each part.
 std::vector<std::size_t> uses_of_parts(const Scene& scene);
 
+/// How many triangles show each material, counted for every use of a part.
+std::vector<std::size_t> triangles_of_materials(const Scene& scene);
+
 /// A material's pictures: use (base_color, metallic_roughness, normal, occlusion, emissive) and name of each.
 std::vector<std::pair<std::string, std::string>> texture_names(const Scene& scene, const Material& material);
 

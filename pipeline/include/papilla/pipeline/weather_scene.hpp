@@ -23,6 +23,7 @@ struct WeatherLayer {
 /// CONFIG of the verb weather.
 struct WeatherConfig {
   int size = 512;                      ///< Texels a side of one repeat of a material's maps.
+  int atlas = 0;                       ///< Texels a side of an atlas at most; 0: four times `size`.
   std::vector<double> times{1};        ///< A scene for each.
   double depth_mm = 0.3;               ///< Relief of a height of 1.
   int sky_rays = 64;                   ///< A sample of the sky.
@@ -30,6 +31,8 @@ struct WeatherConfig {
   std::vector<WeatherLayer> layers;    ///< From the lowest to the highest.
   std::filesystem::path folder;        ///< Where the names within are looked for.
   std::string source = "weather";      ///< The configuration's name in messages.
+
+  int atlas_side() const { return atlas > 0 ? atlas : 4 * size; }
 };
 
 /// @throws IoError, InvalidInput naming file and key.
@@ -56,6 +59,7 @@ struct WeatheredMaterial {
   bool depends_on_normal = false, depends_on_position = false, depends_on_sky = false, depends_on_neighbours = false;
   std::vector<std::string> uses;  ///< Recipes of the libraries.
   bool own_relief = false;        ///< Its normal map was read as relief below the layers.
+  bool keeps_relief = false;      ///< Its own relief stays as it was, without the layers'.
   double mm_per_texel = 0;
   double friction = 0, stiffness = 1;  ///< Means of the channels; stiffness is a factor.
 
@@ -99,8 +103,10 @@ class WeatherCache {
 /// Every texel knows the interpolated normal, the position and the sky of the surface that shows it. A material whose
 /// recipe reads none of them, or whose uv show no texel twice, keeps its uv; its maps cover one repeat. The others are
 /// cut into charts that get an atlas of their own, with new texture coordinates: charts that look the same to the
-/// recipe share their texels. What else lies on the old coordinates (other pictures, the haptic height map) goes to the
-/// second ones. Maps that cover one repeat are seamless where the uv leave it. An own normal map that lies on other
+/// recipe share their texels. Its resolution is `size` texels a repeat, or less to stay within atlas_side(). An own
+/// relief that would be blurred then, its normal map and the tag's height map, stays as it was, without that of the
+/// layers (a loss of the result). What else lies on the old coordinates (other pictures, the haptic height map) goes to
+/// the second ones. Maps that cover one repeat are seamless where the uv leave it. An own normal map that lies on other
 /// coordinates than the colour is replaced. Materials without uv, or that no layer fits, stay as they are and are named
 /// in the result.
 /// @param cache Materials that have been painted with the same recipes before are taken from it; belongs to this scene.

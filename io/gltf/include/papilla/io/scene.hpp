@@ -22,15 +22,22 @@ inline constexpr Transform k_identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 
 /// An encoded picture, byte for byte as in the file it came from.
 struct EncodedImage {
   std::string name;
-  std::string mime_type;  ///< "image/png" or "image/jpeg".
+  std::string mime_type;  ///< "image/png", "image/jpeg"; of glTF also "image/webp", "image/avif", "image/ktx2".
   std::string uri;        ///< Where it came from, relative to the scene's file; empty when embedded.
   std::vector<std::byte> bytes;
   std::string extras_json;
 };
 
+/// The same picture in a format that a glTF extension brings, as EXT_texture_webp does.
+struct OtherImage {
+  std::string extension;
+  std::uint32_t image = 0;  ///< Index into Scene::images.
+};
+
 /// How a texture is sampled; the numbers are glTF's (OpenGL's), 0 = not given.
 struct Texture {
-  std::optional<std::uint32_t> image;
+  std::optional<std::uint32_t> image;  ///< PNG or JPEG; the first of `others` where there is neither.
+  std::vector<OtherImage> others;      ///< Those that are read by few programs last.
   std::string name;
   int wrap_s = 10497, wrap_t = 10497;  ///< 10497 repeat, 33071 clamp, 33648 mirrored repeat.
   int min_filter = 0, mag_filter = 0;
@@ -86,6 +93,27 @@ struct Node {
   std::string extras_json;
 };
 
+/// Whose a file is and what wrote it; carried from input to output where the format has a place for it (glTF).
+struct AssetInfo {
+  std::string copyright;
+  std::vector<std::string> generators;  ///< Programs that wrote the file, one after the other.
+  std::string extras_json;              ///< Further statements, the licence among them: a JSON object, or empty.
+  /// KHR_xmp_json_ld: the object of the root, and that of the asset, which names one of its packets. Or empty.
+  std::string xmp_packets_json, xmp_reference_json;
+};
+
+/// A haptic tag that a file had when it was written and that no material has any more.
+struct MissingTag {
+  std::string material;     ///< That had it.
+  std::string restored_by;  ///< "material name", "part" or "place"; empty: it is lost.
+};
+
+/// How the haptic tags got through what other programs did to the file, by the list that write_glb() adds.
+struct TagSurvival {
+  std::size_t expected = 0;  ///< Tags in the list; 0 without a list.
+  std::vector<MissingTag> missing;
+};
+
 /// What a file holds, in millimetres, in the file's own axes.
 ///
 /// Texture coordinates are those of OBJ for every format: u to the right, v up, (0, 0) at the lower left corner of the
@@ -105,6 +133,8 @@ struct Scene {
   std::vector<EncodedImage> images;
 
   std::string extras_json;
+  AssetInfo asset;
+  TagSurvival tags;
   std::vector<std::string> losses;    ///< What the reader had to leave behind, one sentence each.
   std::vector<std::string> warnings;  ///< What looked wrong and how it was read.
 };
