@@ -43,9 +43,9 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->check(CLI::IsMember({"file", "y", "z"}))
       ->capture_default_str()
       ->group("Input");
-  verb.add_option("--tags", tags,
-                  "glTF: the file as it was before another program changed it; haptic tags that are missing are taken "
-                  "from there")
+  reads(verb.add_option("--tags", tags,
+                        "glTF: the file as it was before another program changed it; haptic tags that are missing are "
+                        "taken from there"))
       ->type_name("FILE")
       ->group("Input");
 }
