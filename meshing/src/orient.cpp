@@ -5,48 +5,22 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "check_mesh.hpp"
-#include "papilla/core/bounds.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/core/union_find.hpp"
 #include "repair_steps.hpp"
+#include "traversal.hpp"
 
 namespace papilla {
 namespace {
 
 using namespace detail;
 
-/// A range of `Traversal::order` and its data for orient().
-struct Component {
-  std::size_t begin = 0, end = 0;
-  std::size_t turned = 0;
-  bool closed = true, orientable = true;
-  double volume = 0;
-  Bounds3 box;
-  bool turn_all = false;
-};
-
-struct Traversal {
-  std::vector<Index> order;        ///< Triangles, component by component.
-  std::vector<std::uint8_t> turn;  ///< Per triangle.
-  std::vector<Component> components;
-};
-
 /// The volume of the tetrahedron over a triangle.
 double volume_over(const TriangleMesh& mesh, Index t, const Vec3& origin) {
   return dot(mesh.corner(t, 0) - origin, cross(mesh.corner(t, 1) - origin, mesh.corner(t, 2) - origin)) / 6;
-}
-
-/// The other half-edge of edges with exactly two, whichever way they run.
-std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count) {
-  std::vector<Index> neighbour(3 * triangle_count, k_none);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto h = edges.halfedges(e);
-    if (h.size() != 2) continue;
-    neighbour[h[0]] = h[1];
-    neighbour[h[1]] = h[0];
-  }
-  return neighbour;
 }
 
 /// The components of a mesh as they are, found by streaming through it, where a traversal would jump.
@@ -86,48 +60,6 @@ bool has_inward(const ComponentsAsTheyAre& found) {
   for (std::size_t c = 0; c < found.components.size(); ++c)
     if (found.consistent[c] && found.components[c].closed && found.components[c].volume < 0) return true;
   return false;
-}
-
-/// Breadth-first through each component, turning each triangle to agree with the one it was reached from.
-/// Triangles flagged in `seen` are left out.
-Traversal traverse(const TriangleMesh& mesh, std::span<const Index> neighbour, std::vector<std::uint8_t> seen,
-                   std::size_t& conflicts) {
-  Traversal result;
-  result.order.reserve(mesh.triangles.size());
-  result.turn.assign(mesh.triangles.size(), 0);
-  std::size_t conflict_halfedges = 0;
-  for (Index seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (seen[seed]) continue;
-    Component component;
-    component.begin = result.order.size();
-    seen[seed] = 1;
-    result.order.push_back(seed);
-    for (std::size_t at = component.begin; at < result.order.size(); ++at) {
-      const Index t = result.order[at];
-      component.turned += result.turn[t];
-      for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-        if (neighbour[h] == k_none) {
-          component.closed = false;
-          continue;
-        }
-        const Index other = triangle_of(neighbour[h]);
-        const bool same_way = runs_up(mesh.triangles, h) == runs_up(mesh.triangles, neighbour[h]);
-        const std::uint8_t wanted = result.turn[t] ^ static_cast<std::uint8_t>(same_way);
-        if (!seen[other]) {
-          seen[other] = 1;
-          result.turn[other] = wanted;
-          result.order.push_back(other);
-        } else if (result.turn[other] != wanted) {
-          component.orientable = false;
-          ++conflict_halfedges;
-        }
-      }
-    }
-    component.end = result.order.size();
-    result.components.push_back(component);
-  }
-  conflicts = conflict_halfedges / 2;
-  return result;
 }
 
 void measure(const TriangleMesh& mesh, const Traversal& traversal, Component& component) {
@@ -180,6 +112,57 @@ void decide_senses(const TriangleMesh& mesh, Traversal& traversal) {
 
 namespace detail {
 
+std::vector<Index> neighbours(const EdgeTable& edges, std::size_t triangle_count) {
+  std::vector<Index> neighbour(3 * triangle_count, k_none);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.halfedges(e);
+    if (h.size() != 2) continue;
+    neighbour[h[0]] = h[1];
+    neighbour[h[1]] = h[0];
+  }
+  return neighbour;
+}
+
+Traversal traverse(const std::vector<Triangle>& triangles, std::span<const Index> neighbour,
+                   std::vector<std::uint8_t> seen, std::size_t& conflicts) {
+  Traversal result;
+  result.order.reserve(triangles.size());
+  result.turn.assign(triangles.size(), 0);
+  std::size_t conflict_halfedges = 0;
+  for (Index seed = 0; seed < triangles.size(); ++seed) {
+    if (seen[seed]) continue;
+    Component component;
+    component.begin = result.order.size();
+    seen[seed] = 1;
+    result.order.push_back(seed);
+    for (std::size_t at = component.begin; at < result.order.size(); ++at) {
+      const Index t = result.order[at];
+      component.turned += result.turn[t];
+      for (Index h = 3 * t; h < 3 * t + 3; ++h) {
+        if (neighbour[h] == k_none) {
+          component.closed = false;
+          continue;
+        }
+        const Index other = triangle_of(neighbour[h]);
+        const bool same_way = runs_up(triangles, h) == runs_up(triangles, neighbour[h]);
+        const std::uint8_t wanted = result.turn[t] ^ static_cast<std::uint8_t>(same_way);
+        if (!seen[other]) {
+          seen[other] = 1;
+          result.turn[other] = wanted;
+          result.order.push_back(other);
+        } else if (result.turn[other] != wanted) {
+          component.orientable = false;
+          ++conflict_halfedges;
+        }
+      }
+    }
+    component.end = result.order.size();
+    result.components.push_back(component);
+  }
+  conflicts = conflict_halfedges / 2;
+  return result;
+}
+
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result) {
   const ComponentsAsTheyAre found = components_as_they_are(mesh, edges);
   std::vector<std::uint8_t> fine(mesh.triangles.size(), 0);
@@ -191,7 +174,7 @@ bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result)
     if (result.components == found.components.size()) return false;
   }
   Traversal traversal =
-      traverse(mesh, neighbours(edges, mesh.triangles.size()), std::move(fine), result.conflicting_edges);
+      traverse(mesh.triangles, neighbours(edges, mesh.triangles.size()), std::move(fine), result.conflicting_edges);
   decide_senses(mesh, traversal);
   for (const Component& c : traversal.components) {
     result.closed += c.closed;
@@ -205,6 +188,13 @@ bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result)
 }
 
 }  // namespace detail
+
+void turn_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& turn) {
+  if (turn.size() != mesh.triangles.size())
+    throw InvalidInput("turn_triangles: turn has " + std::to_string(turn.size()) + " entries for " +
+                       std::to_string(mesh.triangles.size()) + " triangles");
+  reverse_triangles(mesh, turn);
+}
 
 OrientResult orient(TriangleMesh mesh) {
   check_mesh(mesh, "orient");

@@ -377,26 +377,28 @@ ClosestPoint TriangleBvh::closest(const Vec3& p, ClosestPoint best, double enoug
 
 namespace {
 
-/// Does the open segment a + t d, 0 < t < 1, cut the triangle? [Möller & Trumbore 1997]; parallel ones don't.
-bool cuts(const Vec3& a, const Vec3& d, const TriangleFrame& t) noexcept {
+/// Where the open segment a + t d, 0 < t < 1, cuts the triangle [Möller & Trumbore 1997]; 0 when it does not, as those
+/// parallel to it.
+double cut_at(const Vec3& a, const Vec3& d, const TriangleFrame& t) noexcept {
   const Vec3 h = cross(d, t.ac);
   const double det = dot(t.ab, h);
-  if (!(std::abs(det) > 0)) return false;
+  if (!(std::abs(det) > 0)) return 0;
   const double inverse = 1 / det;
   const Vec3 s = a - t.a;
   const double u = inverse * dot(s, h);
-  if (!(u >= 0 && u <= 1)) return false;
+  if (!(u >= 0 && u <= 1)) return 0;
   const Vec3 q = cross(s, t.ab);
   const double v = inverse * dot(d, q);
-  if (!(v >= 0 && u + v <= 1)) return false;
+  if (!(v >= 0 && u + v <= 1)) return 0;
   const double along = inverse * dot(t.ac, q);
-  return along > 0 && along < 1;
+  return along > 0 && along < 1 ? along : 0;
 }
 
 }  // namespace
 
-bool TriangleBvh::blocks(const Vec3& a, const Vec3& b, Index ignored) const noexcept {
-  if (nodes_.empty()) return false;
+template <class Visit>
+void TriangleBvh::visit_cuts(const Vec3& a, const Vec3& b, const double& end, const Visit& visit) const noexcept {
+  if (nodes_.empty()) return;
   const Vec3 d = b - a;
   const Vec3 start = a - centre_;
   const double origin[3] = {start.x, start.y, start.z};
@@ -411,13 +413,13 @@ bool TriangleBvh::blocks(const Vec3& a, const Vec3& b, Index ignored) const noex
     const std::int64_t child = stack[--depth];
     if (child < 0) {
       const auto bits = static_cast<std::size_t>(~child);
-      for (std::size_t i = bits >> 3, end = i + (bits & 7); i < end; ++i)
-        if (prims_[i].triangle != ignored && cuts(a, d, prims_[i].frame)) return true;
+      for (std::size_t i = bits >> 3, last = i + (bits & 7); i < last; ++i)
+        if (const double t = cut_at(a, d, prims_[i].frame); t > 0 && visit(prims_[i], t)) return;
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(child)];
     for (int i = 0; i < 4; ++i) {
-      double enter = 0, leave = 1;
+      double enter = 0, leave = end;
       for (int k = 0; k < 3; ++k) {
         const double t0 = (static_cast<double>(node.low[k][i]) - origin[k]) * inverse[k];
         const double t1 = (static_cast<double>(node.high[k][i]) - origin[k]) * inverse[k];
@@ -428,7 +430,25 @@ bool TriangleBvh::blocks(const Vec3& a, const Vec3& b, Index ignored) const noex
       if (enter <= leave * (1 + 1e-12) + 1e-15) stack[depth++] = node.child[i];
     }
   }
-  return false;
+}
+
+bool TriangleBvh::blocks(const Vec3& a, const Vec3& b, Index ignored) const noexcept {
+  bool blocked = false;
+  visit_cuts(a, b, 1, [&](const Prim& prim, double) { return blocked = prim.triangle != ignored; });
+  return blocked;
+}
+
+Index TriangleBvh::first_cut(const Vec3& a, const Vec3& b) const noexcept {
+  Index first = k_no_value;
+  double end = 1;
+  visit_cuts(a, b, end, [&](const Prim& prim, double t) {
+    if (t < end || (t == end && prim.triangle < first)) {
+      end = t;
+      first = prim.triangle;
+    }
+    return false;
+  });
+  return first;
 }
 
 }  // namespace papilla::detail

@@ -107,6 +107,10 @@ class TriangleBvh {
   /// Does a triangle other than `ignored` cut the open segment from a to b?
   bool blocks(const Vec3& a, const Vec3& b, Index ignored = k_no_value) const noexcept;
 
+  /// The triangle that cuts the open segment from a to b nearest to a, the least number of several there; k_no_value
+  /// when none does.
+  Index first_cut(const Vec3& a, const Vec3& b) const noexcept;
+
   /// The triangle with this number in the list.
   const TriangleFrame& frame(Index triangle) const noexcept { return prims_[slot_of_[triangle]].frame; }
 
@@ -121,6 +125,11 @@ class TriangleBvh {
     std::int64_t child[4];
   };
   friend class BvhBuilder;
+
+  /// Calls visit(prim, t) for the triangles that cut a + t (b - a), 0 < t < end, until one call returns true; `end` may
+  /// fall meanwhile.
+  template <class Visit>
+  void visit_cuts(const Vec3& a, const Vec3& b, const double& end, const Visit& visit) const noexcept;
 
   Vec3 centre_;
   std::vector<Node> nodes_;

@@ -9,77 +9,12 @@
 
 #include "convex_piece.hpp"
 #include "papilla/core/error.hpp"
+#include "sample_points.hpp"
 #include "triangle_bvh.hpp"
 #include "world_scene.hpp"
 
 namespace papilla {
 namespace {
-
-void check(const Volume& volume, const std::string& function) {
-  if (const auto* box = std::get_if<BoxVolume>(&volume)) {
-    const bool ordered = box->low.x <= box->high.x && box->low.y <= box->high.y && box->low.z <= box->high.z;
-    if (!ordered || !is_finite(box->low) || !is_finite(box->high))
-      throw InvalidInput(function + ": the box is not finite or its low corner exceeds its high one");
-  } else {
-    const auto& sphere = std::get<SphereVolume>(volume);
-    if (!is_finite(sphere.centre) || !std::isfinite(sphere.radius_mm) || sphere.radius_mm < 0)
-      throw InvalidInput(function + ": the sphere is not finite or has a negative radius");
-  }
-}
-
-/// Point i of a low-discrepancy sequence in [0, 1)^d: multiples of the powers of 1 / phi_d, phi_d the root of
-/// x^(d + 1) = x + 1 [Roberts 2018].
-double spread(std::uint64_t i, double step) noexcept {
-  const double x = 0.5 + step * static_cast<double>(i % (std::uint64_t{1} << 40));
-  return x - std::floor(x);
-}
-constexpr double k_phi2 = 1.32471795724474602596, k_phi3 = 1.22074408460575947536;
-
-Vec3 eye(const Volume& volume, std::uint64_t i) noexcept {
-  const double u = spread(i, 1 / k_phi3), v = spread(i, 1 / (k_phi3 * k_phi3)),
-               w = spread(i, 1 / (k_phi3 * k_phi3 * k_phi3));
-  if (const auto* box = std::get_if<BoxVolume>(&volume)) {
-    const Vec3 d = box->high - box->low;
-    return box->low + Vec3{u * d.x, v * d.y, w * d.z};
-  }
-  const auto& sphere = std::get<SphereVolume>(volume);
-  const double z = 2 * u - 1, flat = std::sqrt(std::max(0.0, 1 - z * z)), angle = 2 * 3.14159265358979323846 * v;
-  return sphere.centre + (sphere.radius_mm * std::cbrt(w)) * Vec3{flat * std::cos(angle), flat * std::sin(angle), z};
-}
-
-/// Points spread evenly over a surface's area.
-class AreaSampler {
- public:
-  explicit AreaSampler(const TriangleMesh& mesh) : mesh_(mesh) {
-    double sum = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      sum += norm(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
-      cumulative_.push_back(sum);
-    }
-  }
-  bool empty() const noexcept { return cumulative_.empty() || !(cumulative_.back() > 0); }
-
-  struct Sample {
-    std::size_t triangle;
-    Vec3 point;
-  };
-  Sample operator()(std::uint64_t i, std::uint64_t count) const {
-    const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * cumulative_.back();
-    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at);
-    const auto t = std::min(static_cast<std::size_t>(found - cumulative_.begin()), cumulative_.size() - 1);
-    double u = spread(i, 1 / k_phi2), v = spread(i, 1 / (k_phi2 * k_phi2));
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    const Vec3 a = mesh_.corner(t, 0);
-    return {t, a + u * (mesh_.corner(t, 1) - a) + v * (mesh_.corner(t, 2) - a)};
-  }
-
- private:
-  const TriangleMesh& mesh_;
-  std::vector<double> cumulative_;  ///< Twice the area of the triangles up to each.
-};
 
 /// Wilson's score interval for `hits` of `count` at 95 %.
 void set_interval(PartVisibility& part) noexcept {
@@ -125,9 +60,25 @@ bool touches(const TriangleMesh& mesh, std::size_t t, const Volume& volume) noex
 
 }  // namespace
 
+namespace detail {
+
+void check_volume(const Volume& volume, const std::string& function) {
+  if (const auto* box = std::get_if<BoxVolume>(&volume)) {
+    const bool ordered = box->low.x <= box->high.x && box->low.y <= box->high.y && box->low.z <= box->high.z;
+    if (!ordered || !is_finite(box->low) || !is_finite(box->high))
+      throw InvalidInput(function + ": the box is not finite or its low corner exceeds its high one");
+  } else {
+    const auto& sphere = std::get<SphereVolume>(volume);
+    if (!is_finite(sphere.centre) || !std::isfinite(sphere.radius_mm) || sphere.radius_mm < 0)
+      throw InvalidInput(function + ": the sphere is not finite or has a negative radius");
+  }
+}
+
+}  // namespace detail
+
 std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts, const Volume& eyes,
                                                const VisibilityOptions& options) {
-  check(eyes, "measure_visibility");
+  detail::check_volume(eyes, "measure_visibility");
   if (options.samples_per_part == 0 || options.eyes_per_sample == 0)
     throw InvalidInput("measure_visibility: samples_per_part and eyes_per_sample must be positive");
   const detail::WorldScene scene = detail::place(parts, "measure_visibility");
@@ -138,7 +89,7 @@ std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts
 
   std::vector<PartVisibility> result(parts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    const AreaSampler sampler(scene.parts[i]);
+    const detail::AreaSampler sampler(scene.parts[i]);
     if (sampler.empty()) return;
     const std::uint64_t count = options.samples_per_part;
     std::vector<std::uint8_t> seen(count, 0);
@@ -146,7 +97,7 @@ std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts
       const auto sample = sampler(s, count);
       const Index own = first[i] == k_no_value ? k_no_value : first[i] + static_cast<Index>(sample.triangle);
       for (std::uint64_t e = 0; e < options.eyes_per_sample && !seen[s]; ++e) {
-        const Vec3 to = eye(eyes, s * options.eyes_per_sample + e), way = to - sample.point;
+        const Vec3 to = detail::point_in(eyes, s * options.eyes_per_sample + e), way = to - sample.point;
         const double length = norm(way);
         seen[s] = length <= start || !bvh.blocks(sample.point + (start / length) * way, to, own);
       }
@@ -159,7 +110,7 @@ std::vector<PartVisibility> measure_visibility(std::span<const PlacedMesh> parts
 }
 
 std::vector<PartReach> measure_reach(std::span<const PlacedMesh> parts, const Volume& reach) {
-  check(reach, "measure_reach");
+  detail::check_volume(reach, "measure_reach");
   const detail::WorldScene scene = detail::place(parts, "measure_reach");
   std::vector<PartReach> result(parts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {

@@ -4,7 +4,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 import { bytesOf } from './data.mjs';
-import { applyView, shadingOf, uvMatrix } from './shading.mjs';
+import { applyView, shadingOf, sideOf, uvMatrix } from './shading.mjs';
 
 const GL_WRAP = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
 
@@ -47,11 +47,11 @@ async function textureOf(scene, reference, isColour) {
 }
 
 function standardMaterial(material) {
-  if (!material) return new THREE.MeshStandardMaterial({ color: 0x9aa3ad, roughness: 0.8, side: THREE.DoubleSide });
+  if (!material) return new THREE.MeshStandardMaterial({ color: 0x9aa3ad, roughness: 0.8, side: sideOf(material) });
   const [r, g, b, a] = material.color;
   const blend = material.alpha_mode === 'BLEND';
   const common = {
-    color: new THREE.Color(r, g, b), side: THREE.DoubleSide, transparent: blend, opacity: blend ? a : 1,
+    color: new THREE.Color(r, g, b), side: sideOf(material), transparent: blend, opacity: blend ? a : 1,
     depthWrite: !blend, alphaTest: material.alpha_mode === 'MASK' ? material.alpha_cutoff : 0,
   };
   if (material.unlit) return new THREE.MeshBasicMaterial({ ...common, toneMapped: false });

@@ -73,11 +73,14 @@ void main() {
   gl_FragColor = vec4(colour * light, 1.0);
 }`;
 
+/** What a client draws: glTF's back sides are not, unless the material says so. */
+export const sideOf = (material) => material?.double_sided ? THREE.DoubleSide : THREE.FrontSide;
+
 /** @param flat drawn in the plane of its uv */
 export function shadingOf(material, mesh, flat) {
   const perUv = mmPerUv(material);
   const shader = new THREE.ShaderMaterial({
-    vertexShader, fragmentShader, side: THREE.DoubleSide,
+    vertexShader, fragmentShader, side: flat ? THREE.DoubleSide : sideOf(material),
     uniforms: {
       flat_: { value: flat }, hasUv: { value: mesh.uv }, hasHeight: { value: Boolean(material?.relief) }, isLog: { value: false },
       kind: { value: 0 }, constant: { value: -1 }, texturePx: { value: texturePx(material) }, range: { value: new THREE.Vector2(0, 1) },

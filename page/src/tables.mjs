@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Plan, distortion, times and downloads.
 import { number } from './colour.mjs';
-import { csvOf, download, element, table } from './dom.mjs';
+import { count, csvOf, download, element, table } from './dom.mjs';
 
 const $ = (id) => document.getElementById(id);
 
@@ -48,10 +48,22 @@ function leftOut(rows) {
   return [...reasons.values()];
 }
 
+/** Open parts that were turned towards those who see them, or have no side. */
+function sidesList({ seen_from: from, eye_mm: eye, parts }) {
+  const seen = { inside: 'the given point', view: 'the view volume', room: 'the room', around: 'all around' }[from] ?? from;
+  const line = (part) => `${part.part}: ${[part.turned_triangles && `${count(part.turned_triangles, 'triangle')} turned over`,
+    part.ambiguous && `${count(part.ambiguous, 'piece')} double sided`].filter(Boolean).join(', ')} (${part.reasons.join(', ').replaceAll('_', ' ')})`;
+  const changed = parts.filter((part) => part.turned_triangles || part.ambiguous);
+  return element('div', { id: 'sides' }, element('h3', {}, 'Sides of open parts'),
+    element('p', { class: 'note' }, `${count(parts.length, 'part')} with a border, looked at from ${seen}${eye ? ` (${eye.map(number).join(', ')} mm)` : ''}; ${changed.length || 'none'} changed.`),
+    element('ul', {}, ...changed.map((part) => element('li', {}, line(part)))));
+}
+
 function fillPlan({ scene, report }) {
   const host = $('plan-table');
   const lost = [...(report?.losses ?? scene.losses), ...(report?.warnings ?? scene.warnings)];
   if (lost.length) host.append(element('ul', {}, ...lost.map((line) => element('li', {}, line))));
+  if (report?.sides?.parts.length) host.append(sidesList(report.sides));
   if (!report?.plan) return host.append(element('p', {}, 'The file alone does not tell how it was made; bake --report writes a page with the plan.'));
   const rows = planRows(report.plan), stages = [...new Set(report.plan.map((step) => step.stage))];
   host.append(element('h3', {}, 'Left out, and why'), table([

@@ -26,6 +26,13 @@ void check(const SeamVisibilityOptions& o) {
     throw InvalidInput(std::string(k_function) + ": tile_mm is negative or not finite");
 }
 
+constexpr double k_turn_deg = 15;  ///< A grain that turns by less hides in its own scatter.
+const double k_smooth = std::cos(30 * std::numbers::pi / 180);
+
+Vec3 normal_of(const TriangleMesh& mesh, std::size_t t) {
+  return normalized(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
+}
+
 double turn_deg(const SeamEdge& e) {
   const Vec2 here = e.here[1] - e.here[0], there = e.there[1] - e.there[0];
   return std::abs(std::atan2(cross(here, there), dot(here, there))) * 180 / std::numbers::pi;
@@ -49,7 +56,10 @@ SeamVisibility seam_visibility(const TriangleMesh& mesh, const CornerAttribute<V
       const SeamEdge e = seam_edge(mesh, uv, t, k, other);
       if (e.here[0] == e.there[0] && e.here[1] == e.there[1]) continue;
       result.seam_mm += e.length_mm;
-      result.mean_turn_deg += e.length_mm * turn_deg(e);
+      const double turn = turn_deg(e);
+      result.mean_turn_deg += e.length_mm * turn;
+      if (turn > k_turn_deg && dot(normal_of(mesh, t), normal_of(mesh, other)) > k_smooth)
+        result.turned_mm += e.length_mm;
       for (int i = 0; i < k_samples; ++i) {
         const double s = (i + 0.5) / k_samples, length = e.length_mm / k_samples;
         const Vec2 difference = (1 - s) * (e.here[0] - e.there[0]) + s * (e.here[1] - e.there[1]);

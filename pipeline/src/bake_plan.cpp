@@ -167,6 +167,7 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rule
 BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options,
                    const ProgressCallback& progress) {
   BakePlan plan;
+  plan.sides = turn_sheets(scene, options.sides, options.perception.view);
   plan.shared = share_identical_parts(scene, rules);
   const Stopwatch perception_clock;
   plan.perception = measure_perception(scene, options.perception, progress);

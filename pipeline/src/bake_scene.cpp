@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -15,6 +16,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"
 
 namespace papilla {
@@ -85,10 +87,34 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   work.report.charts = part.flattening.charts.count;
   work.report.seam_mm = part.flattening.charts.seam_length_mm;
   work.report.grain_continued_mm = part.grain_continued_mm;
+  work.report.seams = part.seams;
   for (const ChartNote& note : part.flattening.notes) work.report.notes.push_back(note.reason);
   work.mesh.uv = repeats_of(part.flattening, grain.size_mm);
   work.report.mesh = work.mesh;
   work.report.mesh.uv = std::move(part.flattening.uv);
+}
+
+/// The seams of uv that stay, in millimetres: their mesh need not be welded, nor have uv everywhere.
+SeamVisibility kept_seams(const TriangleMesh& mesh, const Grain& grain) {
+  std::vector<Index> with_uv;
+  for (Index t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.uv.has_value(t)) with_uv.push_back(t);
+  const TriangleMesh welded = weld_equal(extract_triangles(mesh, with_uv)).mesh;
+  const double grain_mm = std::min(grain.size_mm[0], grain.size_mm[1]) / 8;
+  return seam_visibility(welded, welded.uv, {.tile_mm = {grain.size_mm[0], grain.size_mm[1]}, .grain_mm = grain_mm});
+}
+
+/// Share of the seams that must turn the grain to be worth a warning.
+constexpr double k_chevron_share = 0.1;
+
+/// A sentence for people when the uv that a surface keeps turn its grain at their seams.
+std::optional<std::string> chevron_warning(const BakedSurface& surface) {
+  const SeamVisibility& seams = surface.seams;
+  if (surface.method != "kept" || !(seams.turned_mm > k_chevron_share * seams.seam_mm)) return std::nullopt;
+  return fmt::format(
+      "part '{}': the grain jumps in direction at the seams of its own uv, on {:.0f} % of them or {:.4g} mm, by {:.0f} "
+      "degrees on average over all of them",
+      surface.label, 100 * seams.turned_mm / seams.seam_mm, seams.turned_mm, seams.mean_turn_deg);
 }
 
 void process(Work& work, const PartContext& context, const UnwrapOptions& options,
@@ -104,6 +130,8 @@ void process(Work& work, const PartContext& context, const UnwrapOptions& option
     work.report.reason = surface.uv_note;
     work.report.mesh = work.mesh;
     work.report.mesh.uv = scaled(work.mesh.uv, surface.uv_mm_per_unit);
+    work.report.seams = kept_seams(work.report.mesh, grains.at(surface.material));
+    work.report.seam_mm = work.report.seams.seam_mm;
   }
   Stopwatch clock;
   work.report.distortion = measure_distortion(work.report.mesh, work.report.mesh.uv, {});
@@ -352,7 +380,9 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   result.plan = plan_bake(std::move(scene), rules, options.plan, progress);
   const std::vector<PartSurface>& surfaces = result.plan.surfaces;
   result.scene = std::move(result.plan.scene);
-  result.seconds = {{"leave_out", result.plan.perception_seconds}, {"simplify", result.plan.simplify_seconds}};
+  result.seconds = {{"sides", result.plan.sides.seconds},
+                    {"leave_out", result.plan.perception_seconds},
+                    {"simplify", result.plan.simplify_seconds}};
   const PartContext context = unwrap_context(result.scene, {});
   leave_out(result.scene, result.plan.perception);
   result.grains = make_grains(result.plan, rules, options.library, progress);
@@ -406,6 +436,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
     result.seconds["charts"] += work.charts;
     result.seconds["unwrap"] += work.unwrap;
     result.seconds["measure"] += work.measure;
+    if (const auto warning = chevron_warning(work.report)) result.scene.warnings.push_back(*warning);
     result.surfaces.push_back(std::move(work.report));
   }
   return result;

@@ -61,6 +61,7 @@ RepairSceneResult repair_scene(Scene scene, const RepairSceneOptions& options, c
   result.parts = repair_parts(scene, options.repair, progress);
   result.after = total_statistics(part_statistics(scene, progress));
   make_double_sided(scene, result.parts);
+  result.sides = turn_sheets(scene, options.sides);
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
     result.max_deviation_mm = std::max(result.max_deviation_mm, result.parts[i].max_deviation_mm);
     result.weld_tolerance_mm = std::max(result.weld_tolerance_mm, result.parts[i].weld_tolerance_mm);

@@ -144,6 +144,7 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
     throw InvalidInput("no part has triangles to unwrap");
   UnwrapResult result;
   result.scene = std::move(scene);
+  result.sides = turn_sheets(result.scene, options.sides);
   std::vector<Part>& parts = result.scene.parts;
   result.parts.resize(parts.size());
   result.grain_mm = grain_size(options);

@@ -48,6 +48,13 @@ expect 3 'wrong.json: at /materials/g/stiffness' "$papilla" bake one.obj -m wron
 expect 3 'broken.json' "$papilla" plan one.obj -m broken.json
 expect 3 'no/such' "$papilla" synthesize grain --kind leather --size 32 -o no/such/folder.png
 expect 2 'out.obj' "$papilla" bake one.obj -m grain.json -o out.obj
+for point in 1,2 1,2,3,4 nan,0,0 inf,0,0 1e999,0,0 x,y,z; do
+  expect 2 '--inside' "$papilla" inspect one.obj --inside "$point"
+  expect 2 '--inside' "$papilla" repair one.obj -o out.obj --inside "$point"
+done
+expect 2 '--inside' "$papilla" unwrap one.obj -o out.obj --inside 0,0,nan
+expect 2 '--inside' "$papilla" bake one.obj -m grain.json -o out.glb --inside 0,0,-inf
+expect 2 '--keep-sides' "$papilla" repair one.obj -o out.obj --inside 0,0,0 --keep-sides
 expect 2 '' "$papilla" bake
 expect 2 '' "$papilla" frobnicate
 expect 2 '' "$papilla" inspect --no-such-option one.obj

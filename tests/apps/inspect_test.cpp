@@ -26,7 +26,7 @@ Scene tagged_scene() {
 
 TEST(Inspect, ListsHapticTagsAsJson) {
   const Scene scene = tagged_scene();
-  const Json json = inspect_json(scene, part_statistics(scene), {});
+  const Json json = inspect_json(scene, part_statistics(scene), {}, nullptr);
   const Json& haptic = json["haptic"];
   ASSERT_EQ(haptic["tags"].size(), 1U);
   EXPECT_EQ(haptic["tags"][0]["material"], "grain");
@@ -41,12 +41,12 @@ TEST(Inspect, ListsHapticTagsAsJson) {
 
 TEST(Inspect, ListsHapticTagsAsText) {
   const Scene scene = tagged_scene(), untagged = test::rich_scene();
-  const std::string text = inspect_text(scene, part_statistics(scene), {});
+  const std::string text = inspect_text(scene, part_statistics(scene), {}, {});
   EXPECT_NE(text.find("1 haptic tags\n"), std::string::npos);
   EXPECT_NE(text.find("       22      900"), std::string::npos) << text;
   EXPECT_NE(text.find("640 x 480  grain\n"), std::string::npos) << text;
   EXPECT_NE(text.find("copyright: CC-BY somebody\n"), std::string::npos) << "on one line";
-  EXPECT_NE(inspect_text(untagged, part_statistics(untagged), {}).find("no haptic tag"), std::string::npos);
+  EXPECT_NE(inspect_text(untagged, part_statistics(untagged), {}, {}).find("no haptic tag"), std::string::npos);
 }
 
 }  // namespace

@@ -118,6 +118,25 @@ try {
     assertColour(await middleOf(page), [128, 0, 231]);
     assert.deepEqual(complaints, []);
   }
+  { // back sides are drawn where the material says so, as clients do; a mirrored node shows its front
+    const turned = (doubleSided, scale) => {
+      const model = unlit({ uri: null, color: [0.2159, 0.0, 0.8, 1] });
+      model.materials[0].doubleSided = doubleSided;
+      model.nodes[0].scale = scale;
+      model.nodes[0].rotation = [0, 1, 0, 0];  // half a turn
+      return model;
+    };
+    for (const [name, model, drawn] of [['culled', turned(false, [1, 1, 1]), false], ['double-sided', turned(true, [1, 1, 1]), true], ['mirrored', turned(false, [1, 1, -1]), true]]) {
+      const { page, complaints } = await view(name, model);
+      for (const kind of ['textured', 'checker']) {
+        await page.locator(`#view-${kind}`).check();
+        const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).map(Number));
+        const found = await middleOf(page), isBackground = found.every((value, i) => Math.abs(value - background[i]) <= 3);
+        assert.equal(isBackground, !drawn, `${name}, ${kind}: ${found} on ${background}`);
+      }
+      assert.deepEqual(complaints, []);
+    }
+  }
   { // a picture on channel 1
     const { page, complaints } = await view('channel-1', unlit({}));
     assertColour(await middleOf(page), [0, 0, 255]);

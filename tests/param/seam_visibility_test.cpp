@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "papilla/core/error.hpp"
 #include "papilla_test/shapes.hpp"
 
@@ -44,6 +47,24 @@ TEST(SeamVisibility, TurnsAreMeasured) {
   TwoTriangles s({0, 0});
   for (std::size_t i = 3; i < 6; ++i) s.uv.values[i] = {-s.uv.values[i].y, s.uv.values[i].x};
   EXPECT_NEAR(seam_visibility(s.mesh, s.uv).mean_turn_deg, 90, 1e-9);
+}
+
+TEST(SeamVisibility, ATurnCountsWhereTheSurfaceIsSmooth) {
+  const auto turned_by = [](double degrees) {
+    TwoTriangles s({0, 0});
+    const double c = std::cos(degrees * std::numbers::pi / 180), t = std::sin(degrees * std::numbers::pi / 180);
+    for (std::size_t i = 3; i < 6; ++i) {
+      const Vec2 p = s.uv.values[i];
+      s.uv.values[i] = {c * p.x - t * p.y, t * p.x + c * p.y};
+    }
+    return s;
+  };
+  EXPECT_EQ(seam_visibility(turned_by(14).mesh, turned_by(14).uv).turned_mm, 0);
+  TwoTriangles chevron = turned_by(16);
+  EXPECT_NEAR(seam_visibility(chevron.mesh, chevron.uv).turned_mm, 10, 1e-12);
+  EXPECT_NEAR(seam_visibility(chevron.mesh, chevron.uv).mean_turn_deg, 16, 1e-9);
+  chevron.mesh.positions[3] = {0, 0, 10};  // A right angle.
+  EXPECT_EQ(seam_visibility(chevron.mesh, chevron.uv).turned_mm, 0);
 }
 
 TEST(SeamVisibility, SheetsWithoutSeamsAndBadInput) {

@@ -79,7 +79,12 @@ class BakeTest : public testing::Test {
     return scene;
   }
 
-  BakeResult run(Scene scene) const { return bake_scene(std::move(scene), rules_); }
+  /// Sheets alone in space, which have no side, stay as they are.
+  BakeResult run(Scene scene) const {
+    BakeOptions options;
+    options.plan.sides.keep = true;
+    return bake_scene(std::move(scene), rules_, options);
+  }
 
   static nlohmann::json tag_of(const Material& material) {
     return nlohmann::json::parse(to_json(material.haptic.value()));

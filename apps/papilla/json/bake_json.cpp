@@ -101,11 +101,13 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
                              {"charts", surface.charts},
                              {"seam_mm", surface.seam_mm},
                              {"grain_continued_mm", surface.grain_continued_mm},
+                             {"seam_visibility", seams_json(surface.seams)},
                              {"notes", surface.notes},
                              {"distortion", distortion_json(surface.distortion)}});
   json["materials"] = Json::array();
   for (const auto& [name, grain] : result.grains) json["materials"].push_back(grain_json(name, grain));
   json["distortion"] = total_json(result.surfaces);
+  json["sides"] = sides_json(result.plan.sides, options.plan.sides);
   json["losses"] = result.scene.losses;
   json["warnings"] = result.scene.warnings;
   json["seconds"] = result.seconds;

@@ -195,7 +195,7 @@ Json budget_json(const Scene& scene, std::size_t wanted, const BudgetResult& bud
 }
 
 Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statistics,
-                  const std::optional<ScenePerception>& perception) {
+                  const std::optional<ScenePerception>& perception, const Json& sides) {
   const Vec3 size = scene_bounds(scene).size();
   Json json{{"format", scene.format}, {"units", scene.unit}, {"millimetres_per_unit", scene.millimetres_per_unit}};
   json["size_mm"] = {size.x, size.y, size.z};
@@ -208,6 +208,7 @@ Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statist
   if (!scene.asset.extras_json.empty()) json["asset"]["extras"] = Json::parse(scene.asset.extras_json);
   json["warnings"] = scene.warnings;
   json["losses"] = scene.losses;
+  json["sides"] = sides;
   if (perception) json["perception"] = perception_json(scene, *perception);
   return json;
 }
@@ -253,7 +254,7 @@ Json tessellation_json(const Scene& scene, const CadReport& report) {
       {"warnings", scene.warnings}};
 }
 
-Json repair_json(const RepairSceneResult& result) {
+Json repair_json(const RepairSceneResult& result, const RepairSceneOptions& options) {
   return {{"before", counters_json(result.before)},
           {"after", counters_json(result.after)},
           {"max_deviation_mm", result.max_deviation_mm},
@@ -261,6 +262,7 @@ Json repair_json(const RepairSceneResult& result) {
           {"weld_tolerance_mm", result.weld_tolerance_mm},
           {"operations", operations_json(result.parts)},
           {"deviations_mm", deviations_json(result.parts)},
+          {"sides", sides_json(result.sides, options.sides)},
           {"parts", result.parts.size()},
           {"identical_parts", shared_parts_json(result.shared, result.scene)},
           {"unsettled", result.unsettled},

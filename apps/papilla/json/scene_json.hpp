@@ -41,6 +41,12 @@ Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene
 /// line.
 Json perception_json(const Scene& scene, const ScenePerception& perception);
 
+/// {seen_from, eye_mm, enclosure, open_components, facing_away, ambiguous, skipped, parts[] {part, open_components,
+/// facing_away, ambiguous, turned_triangles, reasons[]}}; null when sheets were kept as they are.
+Json sides_json(const SceneSides& sides, const SceneSideOptions& options);
+/// {seam_mm, visible_mm, mean_jump_mm, max_jump_mm, mean_turn_deg, turned_mm, per_size}.
+Json seams_json(const SeamVisibility& seams);
+
 /// {wanted, triangles, reached, tolerance_mm, trace[], parts[] {name, triangles_before, triangles_after,
 /// max_deviation_mm, max_deviation_met_mm}}.
 /// @param triangles_after Of each part.
@@ -49,12 +55,12 @@ Json budget_json(const Scene& scene, std::size_t wanted, const BudgetResult& bud
 
 /// What `inspect` says of a scene.
 Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statistics,
-                  const std::optional<ScenePerception>& perception);
+                  const std::optional<ScenePerception>& perception, const Json& sides);
 
 Json tessellation_json(const Scene& scene, const CadReport& report);
-Json repair_json(const RepairSceneResult& result);
+Json repair_json(const RepairSceneResult& result, const RepairSceneOptions& options);
 Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options);
-Json unwrap_json(const UnwrapResult& result, const SceneDistortion& distortion);
+Json unwrap_json(const UnwrapResult& result, const UnwrapOptions& options, const SceneDistortion& distortion);
 
 /// The report's numbers by their key names in JSON; the keys of nested objects are joined by dots.
 using DistortionNumbers = std::vector<std::pair<std::string, std::variant<std::uint64_t, double>>>;

@@ -10,11 +10,6 @@ Json choices_json(const std::vector<ChartChoice>& choices) {
   return json;
 }
 
-Json seams_json(const SeamVisibility& s) {
-  return {{"seam_mm", s.seam_mm},         {"visible_mm", s.visible_mm},       {"mean_jump_mm", s.mean_jump_mm},
-          {"max_jump_mm", s.max_jump_mm}, {"mean_turn_deg", s.mean_turn_deg}, {"per_size", s.per_size}};
-}
-
 Json parts_json(const UnwrapResult& result) {
   Json parts = Json::array();
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
@@ -39,7 +34,13 @@ Json parts_json(const UnwrapResult& result) {
 
 }  // namespace
 
-Json unwrap_json(const UnwrapResult& result, const SceneDistortion& distortion) {
+Json seams_json(const SeamVisibility& s) {
+  return {{"seam_mm", s.seam_mm},         {"visible_mm", s.visible_mm},       {"mean_jump_mm", s.mean_jump_mm},
+          {"max_jump_mm", s.max_jump_mm}, {"mean_turn_deg", s.mean_turn_deg}, {"turned_mm", s.turned_mm},
+          {"per_size", s.per_size}};
+}
+
+Json unwrap_json(const UnwrapResult& result, const UnwrapOptions& options, const SceneDistortion& distortion) {
   Json unique;
   if (result.unique)
     unique = {{"fill_rate", result.unique->fill_rate},
@@ -55,6 +56,7 @@ Json unwrap_json(const UnwrapResult& result, const SceneDistortion& distortion) 
           {"fill_rate", result.fill_rate},
           {"grain_mm", result.grain_mm},
           {"unique", unique},
+          {"sides", sides_json(result.sides, options.sides)},
           {"distortion", distortion_json(distortion.report)},
           {"worst_chart", worst_chart_json(result.scene, distortion)},
           {"parts", parts_json(result)},

@@ -62,7 +62,7 @@ std::string counters_row(const std::string& name, const MeshStatistics& s) {
 }
 
 std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& statistics,
-                         const std::optional<ScenePerception>& perception) {
+                         const std::optional<ScenePerception>& perception, const SceneSides& sides) {
   const Vec3 size = scene_bounds(scene).size();
   std::string text = shown_format("{}, units {}, {} parts, {:.4g} x {:.4g} x {:.4g} mm\n\n", scene.format, scene.unit,
                                   scene.parts.size(), size.x, size.y, size.z);
@@ -76,6 +76,7 @@ std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& 
     for (const auto& [use, name] : texture_names(scene, material)) text += shown_format("  {}: {}", use, name);
     text += "\n";
   }
+  if (const std::string lines = sides_text(sides, false); !lines.empty()) text += "\n" + lines;
   text += haptic_text(scene);
   if (!scene.asset.copyright.empty()) text += "\ncopyright: " + one_line(scene.asset.copyright) + "\n";
   if (perception) text += perception_text(scene, *perception);
@@ -105,6 +106,7 @@ std::string repair_text(const RepairSceneResult& result) {
     text += shown_format("measured deviation at most {:.3g} mm, both ways{}\n", *result.measured_deviation_mm,
                          walls ? ", with the walls between solids that were dropped" : "");
   }
+  text += sides_text(result.sides, true);
   for (const std::string& name : result.unsettled) text += shown_format("not settled: {}\n", name);
   return text;
 }
@@ -135,7 +137,7 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
 }
 
 std::string unwrap_remarks(const UnwrapResult& result) {
-  std::string text;
+  std::string text = sides_text(result.sides, true);
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
     const UnwrappedPart& part = result.parts[p];
     if (part.opposed_edges > 0)

@@ -21,12 +21,16 @@ std::string counters_row(const std::string& name, const MeshStatistics& statisti
 
 /// What `inspect` says of a scene.
 std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& statistics,
-                         const std::optional<ScenePerception>& perception);
+                         const std::optional<ScenePerception>& perception, const SceneSides& sides);
 std::string tessellation_text(const Scene& scene, const CadReport& report);
 std::string repair_text(const RepairSceneResult& result);
 std::string simplify_text(const SimplifySceneResult& result, const SimplifySceneOptions& options);
 /// What was not done as asked, a line each.
 std::string unwrap_remarks(const UnwrapResult& result);
+
+/// A line for parts that are open, and a row each for those that face away or have no side; empty without open ones.
+/// @param turned They were turned, or are only counted.
+std::string sides_text(const SceneSides& sides, bool turned);
 
 /// A few lines on the distortion, and the chart that has most of it.
 std::string distortion_text(const Scene& scene, const SceneDistortion& distortion);

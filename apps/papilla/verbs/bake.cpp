@@ -8,6 +8,7 @@
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
+#include "options/side_option.hpp"
 #include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/glb_writer.hpp"
@@ -31,6 +32,7 @@ struct Options {
   bool pictures = false;
   BakeOptions bake;
   PerceptionOption perception;
+  SideOption sides;
   SceneOptions scene;
 
   GlbWriteOptions write_options() const {
@@ -64,6 +66,7 @@ Json run(const Options& options, VerbContext& context) {
     throw UsageError("--output: '" + options.output + "' must end in .glb");
   BakeOptions bake = options.bake;
   bake.plan.perception = options.perception.options();
+  bake.plan.sides = options.sides.options(options.output);
   if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
   const Stopwatch total;
   const Materials rules = read_materials(options.materials);
@@ -81,7 +84,7 @@ Json run(const Options& options, VerbContext& context) {
   const std::size_t triangles = drawn_triangles(result.scene), bytes = fs::file_size(options.output);
   Json json = bake_json(result, bake);
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
-  context.console.print(left_out_table(result.scene, result.plan.perception));
+  context.console.print(sides_text(result.plan.sides, true) + left_out_table(result.scene, result.plan.perception));
   if (const auto& budget = result.plan.budget)
     context.console.print(shown_format("budget of {} triangles: {} within {:.3g} mm{}\n", *bake.plan.budget,
                                        budget->triangles, budget->tolerance_mm,
@@ -126,6 +129,7 @@ void add_bake(CLI::App& program) {
                  "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")
       ->needs(report);
   options->perception.add_to(*verb);
+  options->sides.add_to(*verb);
   options->scene.add_to(*verb);
 }
 

@@ -5,6 +5,7 @@
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
+#include "options/side_option.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/pipeline/pictures/scene_render.hpp"
@@ -19,19 +20,22 @@ namespace {
 struct Options {
   std::string file, picture;
   PerceptionOption perception;
+  SideOption sides;
   SceneOptions read;
 };
 
 Json run(const Options& options, VerbContext& context) {
   const PerceptionOptions wanted = options.perception.options();
+  const SceneSideOptions look = options.sides.options();
   const Scene scene = read_scene(options.file, options.read.read_options(), context.progress);
   const std::vector<MeshStatistics> statistics = part_statistics(scene, context.progress);
   std::optional<ScenePerception> perception;
   if (wanted.asked()) perception = measure_perception(scene, wanted, context.progress);
-  context.console.print(inspect_text(scene, statistics, perception));
+  const SceneSides sides = find_sides(scene, look, wanted.view);
+  context.console.print(inspect_text(scene, statistics, perception, sides));
   print_notes(scene, context.console);
   Json json{{"file", options.file}};
-  json.update(inspect_json(scene, statistics, perception));
+  json.update(inspect_json(scene, statistics, perception, sides_json(sides, look)));
   if (!options.picture.empty()) {
     write_color_image(options.picture, render_scene(scene, {.mode = RenderMode::triangles}));
     json["picture"] = options.picture;
@@ -53,6 +57,7 @@ void add_inspect(CLI::App& program) {
                           "Picture of the scene with its triangles; red: edges of one triangle"))
       ->type_name("PNG");
   options->perception.add_to(*verb, false);
+  options->sides.add_to(*verb, false);
   options->read.add_to(*verb);
 }
 

@@ -5,6 +5,7 @@
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
+#include "options/side_option.hpp"
 #include "scene_output.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
@@ -15,18 +16,21 @@ namespace {
 struct Options {
   std::string input, materials;
   PerceptionOption perception;
+  SideOption sides;
   SceneOptions scene;
 };
 
 Json run(const Options& options, VerbContext& context) {
-  const BakePlanOptions wanted{options.perception.options(), {}};
+  const BakePlanOptions wanted{options.perception.options(), {}, options.sides.options()};
   const Materials rules = read_materials(options.materials);
   const BakePlan plan = plan_bake(read_scene(options.input, options.scene.read_options(), context.progress), rules,
                                   wanted, context.progress);
-  context.console.print(plan_table(plan.surfaces) + left_out_table(plan.scene, plan.perception));
+  context.console.print(plan_table(plan.surfaces) + sides_text(plan.sides, true) +
+                        left_out_table(plan.scene, plan.perception));
   print_notes(plan.scene, context.console);
   Json json{{"scene", options.input}, {"materials", options.materials}, {"stages", plan_json(plan.surfaces)}};
   json["identical_parts"] = shared_parts_json(plan.shared, plan.scene);
+  json["sides"] = sides_json(plan.sides, wanted.sides);
   json["losses"] = plan.scene.losses;
   json["warnings"] = plan.scene.warnings;
   if (wanted.perception.asked()) json["perception"] = perception_json(plan.scene, plan.perception);
@@ -44,6 +48,7 @@ void add_plan(CLI::App& program) {
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json"))->type_name("FILE")->required();
   options->perception.add_to(*verb);
+  options->sides.add_to(*verb);
   options->scene.add_to(*verb);
 }
 

@@ -4,6 +4,7 @@
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/scene_option.hpp"
+#include "options/side_option.hpp"
 #include "scene_output.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
@@ -14,16 +15,19 @@ namespace {
 struct Options {
   std::string in, out;
   RepairSceneOptions repair;
+  SideOption sides;
   SceneOptions read;
 };
 
 Json run(const Options& options, VerbContext& context) {
+  RepairSceneOptions repair = options.repair;
+  repair.sides = options.sides.options(options.out);
   Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
   RepairSceneResult result =
-      named_by(options.in, [&] { return repair_scene(std::move(scene), options.repair, context.progress); });
+      named_by(options.in, [&] { return repair_scene(std::move(scene), repair, context.progress); });
   write_output(result.scene, options.out, context.console);
   context.console.print(repair_text(result));
-  Json json = repair_json(result);
+  Json json = repair_json(result, repair);
   json["output"] = options.out;
   return json;
 }
@@ -53,6 +57,7 @@ void add_repair(CLI::App& program) {
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--verify", options->repair.verify, "Measure the deviation from the input, not only bound it");
   verb->add_flag("--keep-copies", options->repair.keep_copies, "Do not make identical parts instances of one");
+  options->sides.add_to(*verb);
   options->read.add_to(*verb);
 }
 

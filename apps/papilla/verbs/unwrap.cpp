@@ -8,6 +8,7 @@
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/scene_option.hpp"
+#include "options/side_option.hpp"
 #include "options/unwrap_option.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/image_file.hpp"
@@ -23,6 +24,7 @@ namespace {
 struct Options {
   std::string input, output, trace, picture;
   SceneOptions scene;
+  SideOption sides;
   UnwrapOption unwrap;
 };
 
@@ -36,7 +38,8 @@ Json run(const Options& options, VerbContext& context) {
   if (const auto extension = std::filesystem::path(options.output).extension();
       extension == ".stl" || extension == ".STL")
     throw UsageError("-o " + options.output + ": STL has no place for texture coordinates");
-  const UnwrapOptions unwrap = options.unwrap.options();
+  UnwrapOptions unwrap = options.unwrap.options();
+  unwrap.sides = options.sides.options(options.output);
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
@@ -51,7 +54,7 @@ Json run(const Options& options, VerbContext& context) {
   context.console.print(shown_format("{}: {} charts in {:.3f} s\n", method, result.charts, result.seconds.total) +
                         distortion_text(result.scene, distortion) + unwrap_remarks(result));
   Json json{{"method", method}};
-  json.update(unwrap_json(result, distortion));
+  json.update(unwrap_json(result, unwrap, distortion));
   return json;
 }
 
@@ -71,6 +74,7 @@ void add_unwrap(CLI::App& program) {
   writes(verb->add_option("--trace", options->trace, "Write error over run time as CSV: seconds,error"))
       ->type_name("FILE");
   writes(verb->add_option("--picture", options->picture, "Draw the layout, coloured by distortion"))->type_name("PNG");
+  options->sides.add_to(*verb);
   options->scene.add_to(*verb);
 }
 

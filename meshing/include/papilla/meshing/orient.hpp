@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "papilla/meshing/triangle_mesh.hpp"
 
@@ -23,5 +25,10 @@ struct OrientResult {
 /// Good input is welded by index. O(n), plus O(n) for each inward closed component inside another's box. Deterministic.
 /// @throws InvalidInput when an index is out of range or a position is not finite.
 OrientResult orient(TriangleMesh mesh);
+
+/// Turns the triangles whose flag is set over: corners 1 and 2 swapped, normals negated; uv stay with their corners, so
+/// that charts of turned triangles are mirrored.
+/// @param turn A flag a triangle. @throws InvalidInput when there are more or fewer.
+void turn_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& turn);
 
 }  // namespace papilla

@@ -17,6 +17,8 @@ struct SeamVisibility {
   double mean_jump_mm = 0;  ///< Of |jump| modulo the tile, by length.
   double max_jump_mm = 0;
   double mean_turn_deg = 0;  ///< By length: how far the grain's direction turns at the seam.
+  double turned_mm = 0;      ///< Length over which it turns by more than 15 degrees though the surface is smooth there,
+                             ///< its normals within 30 degrees: a chevron.
   /// visible_mm / √(area of the surface): how much seam one sees per size of the part. 0: none.
   double per_size = 0;
 };

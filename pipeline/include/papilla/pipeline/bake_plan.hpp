@@ -13,6 +13,7 @@
 #include "papilla/pipeline/bake_stages.hpp"
 #include "papilla/pipeline/materials.hpp"
 #include "papilla/pipeline/perception.hpp"
+#include "papilla/pipeline/scene_sides.hpp"
 #include "papilla/pipeline/shared_parts.hpp"
 
 namespace papilla {
@@ -34,11 +35,13 @@ struct PartSurface {
 struct BakePlanOptions {
   PerceptionOptions perception;       ///< Parts to be left out.
   std::optional<std::size_t> budget;  ///< Triangles that the scene may draw.
+  SceneSideOptions sides;             ///< `perception.view` tells where eyes are when `inside` is not given.
 };
 
 /// A scene made ready to be baked, and what shall be done to each of its surfaces.
 struct BakePlan {
-  Scene scene;  ///< Identical parts that are assigned the same rules are shared; within the budget.
+  Scene scene;  ///< Sheets turned; identical parts that are assigned the same rules are shared; within the budget.
+  SceneSides sides;
   std::vector<PartSurface> surfaces;
   std::vector<SharedPart> shared;
   ScenePerception perception;

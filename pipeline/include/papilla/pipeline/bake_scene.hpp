@@ -30,7 +30,8 @@ struct BakedSurface {
   std::string method, reason;  ///< Of the unwrap; "kept" when its own uv stays.
   std::uint32_t charts = 0;
   double seam_mm = 0;
-  double grain_continued_mm = 0;  ///< Of the seam: where the grain goes on.
+  double grain_continued_mm = 0;  ///< Of the seam: where the grain goes on; 0 when its own uv stays.
+  SeamVisibility seams;           ///< For the grain's tile, a grain being an eighth of it.
   std::vector<std::string> notes;
   DistortionReport distortion;
   TriangleMesh mesh;  ///< The surface with uv in millimetres.

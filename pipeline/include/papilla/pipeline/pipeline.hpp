@@ -7,6 +7,7 @@
 ///   read_scene()          CAD, mesh or glTF file -> Scene                     io/scene_file.hpp
 ///   part_statistics()     what is wrong with the meshes                       part_statistics.hpp
 ///   repair_scene()        soup -> clean, oriented, manifold parts             repair_scene.hpp
+///   turn_sheets()         open surfaces face those who see them               scene_sides.hpp
 ///   simplify_scene()      fewer triangles within a measured tolerance, LODs   simplify_scene.hpp
 ///   share_identical_parts() copies -> instances of one part                   shared_parts.hpp
 ///   measure_perception()  what can be reached and seen; leave_out()           perception.hpp
@@ -37,6 +38,7 @@
 #include "papilla/pipeline/perception.hpp"
 #include "papilla/pipeline/prepare_file.hpp"
 #include "papilla/pipeline/repair_scene.hpp"
+#include "papilla/pipeline/scene_sides.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"

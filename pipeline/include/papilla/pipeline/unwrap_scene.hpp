@@ -10,6 +10,7 @@
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/pack_unique.hpp"
 #include "papilla/param/seam_visibility.hpp"
+#include "papilla/pipeline/scene_sides.hpp"
 #include "papilla/pipeline/unwrap_method.hpp"
 
 namespace papilla {
@@ -27,7 +28,8 @@ struct UniqueUv {
 /// Options of unwrap_scene(). Every caller that wants uv starts from these defaults.
 struct UnwrapOptions {
   MethodOptions method;
-  bool repair = false;  ///< repair() every part before; without, equal positions are welded and nothing else.
+  SceneSideOptions sides;  ///< Of unwrap_scene().
+  bool repair = false;     ///< repair() every part before; without, equal positions are welded and nothing else.
   UvLayout layout = UvLayout::atlas;
   std::optional<double> gutter_mm;  ///< Not given: 0.5 % of the side of a square with the area of all charts.
   Vec2 tile_mm{0, 0};               ///< Of the grain; 0: unknown.
@@ -51,6 +53,7 @@ struct UnwrappedPart : FlattenedPart {
 
 struct UnwrapResult {
   Scene scene;
+  SceneSides sides;
   std::vector<UnwrappedPart> parts;  ///< As in the scene.
   std::uint32_t charts = 0;
   StopReason stop = StopReason::direct;  ///< The worst ending of any chart.
@@ -69,9 +72,9 @@ PartContext unwrap_context(const Scene& scene, Vec2 tile_mm);
 /// @throws InvalidInput, SolverFailure of the method.
 UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options);
 
-/// unwrap_part() of every part, and the atlas (channel 0, millimetres; environment: textures, not placed). Parts run in
-/// parallel; the result does not depend on the number of threads. Parts whose method fails keep what they had and say
-/// why; when all fail, the first failure is thrown.
+/// turn_sheets(), unwrap_part() of every part, and the atlas (channel 0, millimetres; environment: textures, not
+/// placed). Parts run in parallel; the result does not depend on the number of threads. Parts whose method fails keep
+/// what they had and say why; when all fail, the first failure is thrown.
 /// @throws InvalidInput when there is no triangle.
 UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options = {}, const ProgressCallback& progress = {});
 

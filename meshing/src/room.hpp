@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "papilla/core/bounds.hpp"
+#include "triangle_bvh.hpp"
+
+namespace papilla::detail {
+
+/// A free place with surfaces around it.
+struct Place {
+  Vec3 point;
+  double enclosure = 0;     ///< Share of the directions in which a surface lies.
+  double clearance_mm = 0;  ///< To the nearest surface.
+  /// 0 where half of the directions are free, or most of what is seen shows its back: the inside of a solid.
+  double score = 0;
+};
+
+/// Places spread over the scene's box.
+/// Cost: 512 places with 64 rays each, about 1 us a ray. Parallel, deterministic.
+/// @param bvh of triangles that are counter-clockwise seen from their front.
+std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds);
+
+/// The place with the highest score above 0.
+std::optional<Place> best_place(const std::vector<Place>& places);
+
+/// Up to `most` places around that see `point` and have at least half the score of the best of them.
+std::vector<Vec3> places_around(const TriangleBvh& bvh, const std::vector<Place>& places, const Vec3& point,
+                                std::size_t most);
+
+/// Directions spread evenly over the sphere, each with its opposite. @param count even.
+std::vector<Vec3> directions_around(std::size_t count);
+
+}  // namespace papilla::detail

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "papilla/io/scene.hpp"
+#include "papilla/meshing/sheet_sides.hpp"
+
+namespace papilla {
+
+/// Options of turn_sheets().
+struct SceneSideOptions {
+  bool keep = false;           ///< Sheets stay as they are and are not looked at.
+  std::optional<Vec3> inside;  ///< A point where people are, mm in the scene's frame; not given: it is looked for.
+  /// Parts without material get one where a sheet must be seen from both sides. Only glTF has a place for that.
+  bool add_materials = true;
+};
+
+/// The sheets of one part: its pieces with a border.
+struct PartSides {
+  std::string part;
+  std::size_t open_components = 0;
+  std::size_t facing_away = 0;       ///< Of these: show their back to those who see them.
+  std::size_t ambiguous = 0;         ///< Of these: have no side.
+  std::size_t turned_triangles = 0;  ///< To make all but the ambiguous ones face those who see them.
+  std::vector<SideReason> reasons;   ///< Of all of them, each once, ascending.
+};
+
+/// What is known of the sides of a scene's sheets.
+struct SceneSides {
+  Viewpoint viewpoint = Viewpoint::none;
+  Vec3 eye;                      ///< Of Viewpoint::inside and Viewpoint::room, mm in the scene's frame.
+  double enclosure = 0;          ///< Of Viewpoint::room.
+  std::vector<PartSides> parts;  ///< Those with sheets, in the order of Scene::parts.
+  std::size_t open_components = 0, facing_away = 0, ambiguous = 0;  ///< Of all parts.
+  std::string skipped;  ///< Why nothing was looked at, though it was to be: coordinates beyond what sight lines carry.
+  double seconds = 0;
+};
+
+/// find_sheet_sides() of the parts that nodes show; those with a material that is blended hide nothing.
+/// @param view Where eyes can be; counts when `inside` is not given.
+/// @throws InvalidInput as instances().
+SceneSides find_sides(const Scene& scene, const SceneSideOptions& options = {}, std::span<const Volume> view = {});
+
+/// Turns the sheets over that face away from those who see them (turn_triangles()), and makes the materials of
+/// ambiguous ones double sided: copies of them, of the same name, where other parts share them. Runs before charts are
+/// made, so that new uv are not mirrored; uv that a turned sheet has already keep their place and become mirrored.
+/// @throws InvalidInput as find_sides().
+SceneSides turn_sheets(Scene& scene, const SceneSideOptions& options = {}, std::span<const Volume> view = {});
+
+}  // namespace papilla
