@@ -88,17 +88,6 @@ ContactMesh contact_mesh(const TriangleMesh& mesh) {
   return result;
 }
 
-ContactMesh contact_mesh(const Scene& scene) {
-  ContactMesh result;
-  for (const Instance& instance : instances(scene)) {
-    const TriangleMesh& mesh = scene.parts[instance.part].mesh;
-    const auto base = static_cast<std::uint32_t>(result.positions.size());
-    for (const Vec3& p : mesh.positions) result.positions.push_back(transform_point(instance.world, p));
-    for (const Triangle& t : mesh.triangles) result.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
-  return result;
-}
-
 /// Spheres, sheets, tubes, slivers, sharp edges, thin walls, roughness.
 std::vector<std::pair<std::string, std::function<ContactMesh()>>> generated_meshes() {
   using test::grid_mesh;
