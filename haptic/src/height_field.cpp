@@ -39,6 +39,19 @@ void cubic_weights(double f, double* w, double* d) noexcept {
   d[3] = 0.5 * (3 * f2 - 2 * f);
 }
 
+/// The same of the uniform cubic B-spline.
+void bspline_weights(double f, double* w, double* d) noexcept {
+  const double g = 1 - f, f2 = f * f;
+  w[0] = g * g * g / 6;
+  w[1] = (3 * f2 * f - 6 * f2 + 4) / 6;
+  w[2] = (-3 * f2 * f + 3 * f2 + 3 * f + 1) / 6;
+  w[3] = f2 * f / 6;
+  d[0] = -0.5 * g * g;
+  d[1] = 0.5 * (3 * f2 - 4 * f);
+  d[2] = 0.5 * (-3 * f2 + 2 * f + 1);
+  d[3] = 0.5 * f2;
+}
+
 double texel_coordinate(double value) noexcept {
   return std::isfinite(value) ? std::clamp(value, -k_largest_texel, k_largest_texel) : 0;
 }
@@ -129,6 +142,7 @@ std::uint16_t HeightField::texel(long x, long y) const noexcept {
 /// largest. Slopes along rows and columns: the cubic between the samples p1 and p2 with the neighbours p0 and p3 is the
 /// Bézier curve of p1, p1 + (p2 − p0)/6, p2 − (p3 − p1)/6 and p2, so its slope is at most three times the longest edge
 /// of that polygon. Between rows slopes are blended with the cubic's weights, whose absolute sum is at most 5/4.
+/// B-splines and their slopes are means of the samples and of their differences.
 HeightField::Extremes HeightField::extremes() const {
   // In integers: 16 times the value halfway between samples, 256 times that between four rows of these.
   const auto halfway = [](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
@@ -224,10 +238,15 @@ HeightSample HeightField::sample(Vec2 uv) const noexcept {
   const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
   const long ix = static_cast<long>(x0), iy = static_cast<long>(y0);
   Weighted sum;
-  if (options_.interpolation == Interpolation::bicubic) {
+  if (options_.interpolation != Interpolation::bilinear) {
     Weights along_x, along_y;
-    cubic_weights(fx, along_x.value, along_x.slope);
-    cubic_weights(fy, along_y.value, along_y.slope);
+    if (options_.interpolation == Interpolation::bicubic) {
+      cubic_weights(fx, along_x.value, along_x.slope);
+      cubic_weights(fy, along_y.value, along_y.slope);
+    } else {
+      bspline_weights(fx, along_x.value, along_x.slope);
+      bspline_weights(fy, along_y.value, along_y.slope);
+    }
     sum = weighted<4>(ix - 1, iy - 1, along_x, along_y);
   } else {
     sum = weighted<2>(ix, iy, {{1 - fx, fx}, {-1, 1}}, {{1 - fy, fy}, {-1, 1}});
@@ -334,7 +353,9 @@ HeightField HeightField::rounded(double radius_m, Vec2 metres_per_uv) const {
     for (long x = 0; x < width_; ++x) down.lower(&heights[static_cast<std::size_t>(x)], width_, options_.wrap[1]);
     for (double& h : heights) h *= sign;
   }
-  return HeightField(width_, height_, quantised(heights), options_);
+  HeightFieldOptions options = options_;
+  if (options.interpolation == Interpolation::bicubic) options.interpolation = Interpolation::bspline;
+  return HeightField(width_, height_, quantised(heights), options);
 }
 
 double HeightField::share_steeper(double slope, Vec2 metres_per_uv) const {

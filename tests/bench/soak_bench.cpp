@@ -5,18 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <numbers>
 
 #include "bench/bench_json.hpp"
 #include "haptic/contact_shapes.hpp"
-#include "model_files.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/roughness_field.hpp"
 #include "papilla/haptic/stability.hpp"
@@ -34,7 +30,6 @@ using namespace papilla;
 namespace fs = std::filesystem;
 
 constexpr double k_cockpit_s = 7200, k_mesh_s = 360, k_quick_s = 3;
-constexpr std::size_t k_meshes = 20, k_most_files = 10;
 constexpr double k_largest_m = 0.3;  // A mesh is scaled to fit into a hand's reach.
 
 /// What hands can meet: triangles with their materials.
@@ -93,17 +88,6 @@ ContactMesh contact_mesh(const TriangleMesh& mesh) {
   return result;
 }
 
-ContactMesh contact_mesh(const Scene& scene) {
-  ContactMesh result;
-  for (const Instance& instance : instances(scene)) {
-    const TriangleMesh& mesh = scene.parts[instance.part].mesh;
-    const auto base = static_cast<std::uint32_t>(result.positions.size());
-    for (const Vec3& p : mesh.positions) result.positions.push_back(transform_point(instance.world, p));
-    for (const Triangle& t : mesh.triangles) result.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
-  return result;
-}
-
 /// Spheres, sheets, tubes, slivers, sharp edges, thin walls, roughness.
 std::vector<std::pair<std::string, std::function<ContactMesh()>>> generated_meshes() {
   using test::grid_mesh;
@@ -156,20 +140,9 @@ std::vector<std::pair<std::string, std::function<ContactMesh()>>> generated_mesh
   };
 }
 
-std::vector<Held> held_meshes(const std::vector<std::string>& inputs) {
-  std::vector<std::string> folders = inputs;
-  if (const char* shared = std::getenv("PAPILLA_SHARED_DATA"); shared != nullptr && folders.empty())
-    for (const char* folder : {"mesh/cad-stl", "mesh/interior"})
-      folders.push_back((fs::path(shared) / folder).string());
+std::vector<Held> held_meshes() {
   std::vector<Held> held;
-  for (const fs::path& file : folders.empty() ? std::vector<fs::path>{} : bench::model_files(folders)) {
-    if (held.size() == k_most_files) break;
-    const std::size_t number = held.size();
-    held.push_back(
-        {file.filename().string(), [file, number] { return held_surface(contact_mesh(read_scene(file)), number); }});
-  }
   for (const auto& [name, make] : generated_meshes()) {
-    if (held.size() == k_meshes) break;
     const std::size_t number = held.size();
     held.push_back({name, [make = make, number] { return held_surface(make(), number); }});
   }
@@ -255,7 +228,7 @@ void add_results(bench::BenchReport& report, const std::vector<Result>& results)
 
 void body(bench::BenchReport& report) {
   const bool quick = report.options().quick;
-  const std::vector<Held> held = held_meshes(report.options().inputs);
+  const std::vector<Held> held = held_meshes();
   std::vector<Result> results;
   {
     const HapticScene scene = cockpit();

@@ -209,6 +209,51 @@ TEST(HeightField, RoundedPeaksHaveTheRadiusAndValleysStay) {
   EXPECT_NEAR(at(round, 64, 9), foot * foot / (2 * radius), 2e-5);
 }
 
+/// Second derivatives between the samples, where Catmull and Rom's cubics overshoot beside the grooves that rounding
+/// leaves.
+TEST(HeightField, RoundedPeaksAreRoundBetweenTheSamples) {
+  constexpr int n = 64;
+  constexpr double side = 4e-3, radius = 1e-3, step = side / n / 16;
+  const HeightField sharp(n, n, noise(n, n, 5), options(Interpolation::bicubic));
+  const HeightField round = sharp.rounded(radius, {side, side});
+  const auto sharpest = [&](const HeightField& field, Vec2 way) {
+    double least = 0;
+    for (double y = 0.3 * step; y < side; y += 0.031 * side)
+      for (double x = 0; x < side; x += step) {
+        const auto at = [&](double t) {
+          return field.sample({(x + t * step * way.x) / side, (y + t * step * way.y) / side}).height_m;
+        };
+        least = std::min(least, (at(-1) - 2 * at(0) + at(1)) / (step * step));
+      }
+    return least;
+  };
+  for (const Vec2 way : {Vec2{1, 0}, Vec2{0, 1}}) EXPECT_GT(sharpest(round, way), -1.02 / radius);
+  EXPECT_LT(sharpest(sharp, {1, 0}), -10 / radius);
+}
+
+/// A cubic B-spline repeats straight lines, and has the values 1/6, 2/3, 1/6 and the slopes ±1/2 of a single sample.
+TEST(HeightField, BSplineValuesAndBounds) {
+  constexpr int n = 16;
+  std::vector<std::uint16_t> samples(n * n, 0);
+  samples[5 * n + 7] = 36000;
+  HeightFieldOptions o;
+  o.scale_m = 65535e-9;
+  o.interpolation = Interpolation::bspline;
+  const HeightField one(n, n, samples, o);
+  const auto at = [&](double x, double y) { return one.sample({(x + 0.5) / n, (y + 0.5) / n}); };
+  EXPECT_NEAR(at(7, 5).height_m, 36e-6 * 4 / 9, 1e-15);
+  EXPECT_NEAR(at(8, 5).height_m, 36e-6 / 9, 1e-15);
+  EXPECT_NEAR(at(8, 6).height_m, 1e-6, 1e-15);
+  EXPECT_NEAR(at(8, 5).gradient_m.x, -36e-6 * n / 3, 1e-12);
+  EXPECT_NEAR(at(7, 5).gradient_m.x, 0, 1e-12);
+  EXPECT_EQ(at(9, 5).height_m, 0);
+  EXPECT_NEAR(one.steepest_m().x, 36e-6, 1e-15);
+  EXPECT_NEAR(one.max_m(), 36e-6, 1e-15);
+  for (int i = 0; i < n * n; ++i) samples[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(1000 * (i % n));
+  const HeightField line(n, n, samples, o);
+  for (double x = 1; x < 14; x += 0.17) EXPECT_NEAR(line.sample({(x + 0.5) / n, 0.4}).height_m, 1e-6 * x, 1e-14);
+}
+
 TEST(HeightField, RoundingIsIdempotentAndPeriodic) {
   const HeightField rough(64, 64, noise(64, 64, 4), options(Interpolation::bilinear));
   const HeightField once = rough.rounded(1e-3, {0.005, 0.005}), twice = once.rounded(1e-3, {0.005, 0.005});

@@ -32,7 +32,7 @@ struct Stroke {
   double speed_m_per_s = 0.02;
   double way_m = 0.06;
   double angle = 0;  ///< Of the way, from x.
-  Vec3 shift;        ///< Of the whole path.
+  Vec3 shift = {};   ///< Of the whole path.
 };
 
 /// Forces of the whole path from positions to a device, at 1 kHz.

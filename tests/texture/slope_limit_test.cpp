@@ -26,12 +26,14 @@ double mean(const HeightMap& map) {
   return std::accumulate(map.mm.begin(), map.mm.end(), 0.0) / static_cast<double>(map.mm.size());
 }
 
+double height_mm(const HeightMap& map, int x, int y) { return static_cast<double>(map.at(x, y)); }
+
 double steepest(const HeightMap& map) {
   double most = 0;
   for (int y = 0; y + 1 < map.height; ++y)
     for (int x = 0; x + 1 < map.width; ++x) {
-      const double here = map.at(x, y);
-      most = std::max(most, std::hypot(map.at(x + 1, y) - here, map.at(x, y + 1) - here) / k_pitch_mm);
+      const double here = height_mm(map, x, y);
+      most = std::max(most, std::hypot(height_mm(map, x + 1, y) - here, height_mm(map, x, y + 1) - here) / k_pitch_mm);
     }
   return most;
 }
@@ -49,7 +51,9 @@ TEST(SlopeLimit, AWallBecomesARampAroundItsPlace) {
   for (int x = 0; x < 64; ++x) {
     const double expected = std::clamp(0.2 + (x - 31.5) * k_pitch_mm, 0.0, 0.4);
     EXPECT_NEAR(result.relief.at(x, 3), expected, 0.01) << x;
-    if (std::abs(x - 31.5) > 8) EXPECT_EQ(result.relief.at(x, 3), wall.at(x, 3)) << x;
+    if (std::abs(x - 31.5) > 8) {
+      EXPECT_EQ(result.relief.at(x, 3), wall.at(x, 3)) << x;
+    }
   }
   EXPECT_NEAR(mean(result.relief), mean(wall), 1e-7);
 }
@@ -72,7 +76,7 @@ TEST(SlopeLimit, VolumeStaysWhereItWas) {
   const auto half = [](const HeightMap& map) {
     double sum = 0;
     for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) sum += map.at(x, y);
+      for (int x = 0; x < 64; ++x) sum += height_mm(map, x, y);
     return sum;
   };
   EXPECT_NEAR(half(of_both.relief), half(both), 1e-5);
@@ -94,8 +98,9 @@ TEST(SlopeLimit, IsTheNearestGentleRelief) {
       double along = 0, length = 0;
       for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
-          const double here = result.relief.at(x, y), way = result.relief.at((x + shift) % 64, y) * 0.9 - here;
-          along += way * (grain.relief.at(x, y) - here);
+          const double here = height_mm(result.relief, x, y);
+          const double way = 0.9 * height_mm(result.relief, (x + shift) % 64, y) - here;
+          along += way * (height_mm(grain.relief, x, y) - here);
           length += way * way;
         }
       largest = std::max(largest, along / std::sqrt(length));

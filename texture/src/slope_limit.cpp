@@ -154,7 +154,8 @@ SlopeLimitResult limit_slope(const HeightMap& relief, const SlopeLimitOptions& o
   const auto samples = static_cast<double>(h.size());
   // Heights are stored as floats: what rounds up to the limit is not above it.
   const double most = options.max_slope * (1 + 1e-6);
-  SlopeLimitResult result{.relief = relief};
+  SlopeLimitResult result;
+  result.relief = relief;
   const Steepness before = steepness(grid, h, most);
   result.steepest_before = result.steepest_after = before.largest;
   result.share_before = static_cast<double>(before.above) / samples;

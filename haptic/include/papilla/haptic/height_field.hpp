@@ -16,8 +16,10 @@ namespace papilla {
 enum class Wrap { repeat, clamp, mirror };
 
 /// Interpolation between samples. Bilinear is continuous; bicubic (Catmull–Rom) has a continuous gradient as well and
-/// still passes through the samples.
-enum class Interpolation { bilinear, bicubic };
+/// still passes through the samples, but overshoots beside a crease. The cubic B-spline of the samples has continuous
+/// second derivatives, along rows and columns the means of the samples' second differences; it passes beside the
+/// samples by a sixth of these.
+enum class Interpolation { bilinear, bicubic, bspline };
 
 /// From 16-bit samples to heights in metres: h = offset + scale · v / 65535.
 struct HeightFieldOptions {
@@ -40,7 +42,7 @@ struct HeightSample {
 /// Texel (x, y) of a w × h picture has its centre at uv = ((x+½)/w, (y+½)/h), row 0 on top, as glTF samples
 /// pictures. Bicubic values are clamped to the range of the samples and of the values halfway between them, so that
 /// min_m() and max_m() are bounds everywhere.
-/// sample() is noexcept, allocates nothing, and costs 4 (bilinear) or 16 (bicubic) reads. A uv that is not finite
+/// sample() is noexcept, allocates nothing, and costs 4 (bilinear) or 16 reads. A uv that is not finite
 /// is read as 0.
 class HeightField {
  public:
@@ -63,8 +65,9 @@ class HeightField {
   /// Valleys stay as sharp as they are. A probe that is less than R below has one closest point, not several to choose
   /// from: below a smooth surface that is so as far as the smallest radius of its peaks [Federer, Curvature measures,
   /// 1959]. Exact on the samples where their rows and columns are orthogonal on the surface; quantised to 16 bits of
-  /// the old range. By parabola envelopes [Felzenszwalb and Huttenlocher, Distance transforms of sampled functions,
-  /// 2012]. Cost: about 0.3 µs a sample.
+  /// the old range. Bicubic interpolation becomes that of B-splines: beside a crease Catmull–Rom's overshoot is a peak
+  /// as sharp as a texel, from which a probe slips. By parabola envelopes [Felzenszwalb and Huttenlocher, Distance
+  /// transforms of sampled functions, 2012]. Cost: about 0.3 µs a sample.
   /// @param metres_per_uv as for dilated().
   HeightField rounded(double radius_m, Vec2 metres_per_uv) const;
 
