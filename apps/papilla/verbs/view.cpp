@@ -97,9 +97,10 @@ void add_view(CLI::App& program) {
           ->type_name("HTML");
   verb->add_flag("--no-open", options->no_open, "Don't start a browser");
   auto* const follow =
-      verb->add_option("--follow", options->follow,
-                       "Serve the page on this machine, with probe, proxy and force of a player that was started with "
-                       "--live; without SOCKET at its default")
+      verb->add_option(
+              "--follow", options->follow,
+              "Serve the page on this machine, at an address with a secret token, with probe, proxy and force of a "
+              "player that was started with --live; without SOCKET at its default")
           ->type_name("[SOCKET]")
           ->expected(0, 1)
           ->excludes(output);
