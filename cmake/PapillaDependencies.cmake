@@ -32,10 +32,10 @@ if(PAPILLA_BUILD_TOOLKIT)
   find_package(OpenMesh CONFIG REQUIRED)
   set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
   find_package(CGAL REQUIRED)
+  find_package(Boost 1.74 REQUIRED)  # Headers only: Beast and Asio.
   find_package(TBB REQUIRED)
   find_package(OpenCASCADE REQUIRED)
   pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
-  pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
   find_package(OpenImageIO REQUIRED)
   # Debian's target names an OpenCV include directory that need not exist.
   set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")

@@ -2,10 +2,11 @@
 #include "live_publisher.hpp"
 
 #include <fmt/core.h>
-#include <poll.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 
 #include "live_socket.hpp"
@@ -13,9 +14,13 @@
 namespace papilla::player {
 namespace {
 
-constexpr int k_backlog = 8;
+constexpr int k_backlog = LivePublisher::k_most_clients;
 /// Send buffer of a client, about twenty samples: a slow client skips samples instead of seeing old ones.
 constexpr int k_waiting_bytes = 8192;
+
+constexpr auto k_turn = std::chrono::microseconds(1000000 / LivePublisher::k_live_hz);
+/// After how many turns in which it took nothing a client is dropped: 5 s.
+constexpr int k_longest_stall = 5 * LivePublisher::k_live_hz;
 
 /// Sends without blocking and leaves the rest in `rest`. @returns false when the connection is closed.
 bool send_now(int connection, std::string& rest) {
@@ -80,10 +85,9 @@ LivePublisher::~LivePublisher() {
 void LivePublisher::serve(const std::stop_token& end) {
   std::uint64_t last = 0;
   while (!end.stop_requested()) {
-    pollfd waiting{socket_, POLLIN, 0};
-    if (::poll(&waiting, 1, 1000 / k_live_hz) > 0) {
-      accept_new();
-      continue;
+    std::this_thread::sleep_for(k_turn);
+    // So few in a turn that a flood of connections does not hold up the samples.
+    for (int i = 0; i < k_backlog && accept_one(); ++i) {
     }
     RecordRow row;
     const std::uint64_t tick = slot_.load(row);
@@ -93,21 +97,34 @@ void LivePublisher::serve(const std::stop_token& end) {
   publish("{\"end\":true}\n");
 }
 
-void LivePublisher::accept_new() {
+bool LivePublisher::accept_one() {
   const int connection = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (connection < 0) return;
+  if (connection < 0) return false;
   ::setsockopt(connection, SOL_SOCKET, SO_SNDBUF, &k_waiting_bytes, sizeof k_waiting_bytes);
   Client client{connection, greeting_ + '\n'};
-  if (clients_.size() < k_most_clients && send_now(connection, client.rest))
+  if (app::is_of_this_user(connection) && make_room() && send_now(connection, client.rest))
     clients_.push_back(std::move(client));
   else
     ::close(connection);
+  return true;
+}
+
+bool LivePublisher::make_room() {
+  if (clients_.size() < k_most_clients) return true;
+  const auto slowest = std::ranges::max_element(clients_, {}, &Client::stalled_turns);
+  if (slowest->stalled_turns == 0) return false;
+  ::close(slowest->connection);
+  clients_.erase(slowest);
+  return true;
 }
 
 void LivePublisher::publish(const std::string& text) {
   std::erase_if(clients_, [&](Client& client) {
     if (client.rest.empty()) client.rest = text;
-    if (send_now(client.connection, client.rest)) return false;
+    const std::size_t waiting = client.rest.size();
+    const bool open = send_now(client.connection, client.rest);
+    client.stalled_turns = client.rest.size() < waiting || waiting == 0 ? 0 : client.stalled_turns + 1;
+    if (open && client.stalled_turns < k_longest_stall) return false;
     ::close(client.connection);
     return true;
   });

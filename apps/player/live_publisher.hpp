@@ -13,8 +13,9 @@ namespace papilla::player {
 /// Sends probe, proxy and force to every client of a local socket, k_live_hz times a second, one JSON object a line
 /// (docs/live.md). It runs in its own thread; the loop only stores into a slot.
 ///
-/// A client that reads too slowly misses samples and never blocks the others or the loop. The socket has mode 0600 and
-/// is removed at the end.
+/// A client that reads too slowly misses samples and never blocks the others or the loop; one that takes nothing for
+/// five seconds is dropped, and sooner when another needs its place. The socket has mode 0600, lies in a folder of the
+/// user and takes clients of the same user only. It is removed at the end.
 class LivePublisher {
  public:
   static constexpr int k_live_hz = 60;
@@ -35,10 +36,14 @@ class LivePublisher {
   struct Client {
     int connection = -1;
     std::string rest;
+    int stalled_turns = 0;  ///< In which it took nothing of the rest.
   };
 
   void serve(const std::stop_token& end);
-  void accept_new();
+  /// @returns false when nobody waits.
+  bool accept_one();
+  /// @returns false when all places are taken by clients that read.
+  bool make_room();
   /// Sends the rest of older lines, and `text` to clients without one.
   void publish(const std::string& text);
 

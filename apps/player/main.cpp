@@ -372,11 +372,14 @@ int main(int argc, char** argv) {
       ->type_name("MS")
       ->check(CLI::Range(1.0, 1000.0))
       ->capture_default_str();
-  auto* const live = app::writes(program.add_option("--live", options.live,
-                                                    "Tell what happens over a local socket, for papilla view --follow; "
-                                                    "default: $XDG_RUNTIME_DIR/papilla-player.sock, or one in /tmp"))
-                         ->type_name("[SOCKET]")
-                         ->expected(0, 1);
+  auto* const live =
+      app::writes(
+          program.add_option("--live", options.live,
+                             "Tell what happens over a local socket, for papilla view --follow; "
+                             "in a folder of this user alone; default: $XDG_RUNTIME_DIR/papilla/player.sock, or "
+                             "/tmp/papilla-UID/player.sock"))
+          ->type_name("[SOCKET]")
+          ->expected(0, 1);
   app::reads(program.add_option("--tags", options.tags,
                                 "The file as it was before another program changed it: tags that are missing are "
                                 "taken from there"))

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,6 +21,7 @@
 #include "descriptor.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/file_guard.hpp"
+#include "papilla/core/random_token.hpp"
 
 namespace papilla {
 namespace {
@@ -122,20 +122,13 @@ class Registration {
 // A temporary file is ".papilla-" + 32 hexadecimal digits + ".tmp". As long as its process lives it is locked (flock),
 // whatever the container or machine it runs in; the system drops the lock when the process dies.
 constexpr std::string_view k_prefix = ".papilla-", k_suffix = ".tmp", k_hex = "0123456789abcdef";
-constexpr std::size_t k_random_bytes = 16;
 
-std::string temporary_name(const fs::path& path) {
-  std::array<unsigned char, k_random_bytes> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) fail(path, errno);
-  std::string name(k_prefix);
-  for (const unsigned char byte : bytes) (name += k_hex[byte >> 4U]) += k_hex[byte & 0xfU];
-  return name.append(k_suffix);
-}
+std::string temporary_name() { return std::string(k_prefix).append(random_token()).append(k_suffix); }
 
 bool is_temporary_name(std::string_view name) {
-  if (name.size() != k_prefix.size() + 2 * k_random_bytes + k_suffix.size()) return false;
+  if (name.size() != k_prefix.size() + 2 * k_random_token_bytes + k_suffix.size()) return false;
   return name.starts_with(k_prefix) && name.ends_with(k_suffix) &&
-         name.substr(k_prefix.size(), 2 * k_random_bytes).find_first_not_of(k_hex) == std::string_view::npos;
+         name.substr(k_prefix.size(), 2 * k_random_token_bytes).find_first_not_of(k_hex) == std::string_view::npos;
 }
 
 /// Removes a temporary file of this user whose process is dead.
@@ -170,7 +163,7 @@ class Temporary {
   /// @param path  the file that it will become.
   Temporary(int folder, const fs::path& path, mode_t mode) : folder_(folder), path_(path) {
     for (int attempt = 0; attempt < k_attempts; ++attempt) {
-      name_ = temporary_name(path);
+      name_ = temporary_name();
       file_ = ::openat(folder, name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
       if (file_ < 0 && errno == EEXIST) continue;
       if (file_ < 0) fail(path, errno);

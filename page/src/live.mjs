@@ -21,10 +21,10 @@ export class Live {
     this.clear();
     this.makePlot();
     this.say('Connecting.');
-    const events = new EventSource('live');
+    const events = new EventSource(`live${location.search}`);  // with the token of the page's address
     events.addEventListener('state', (e) => this.enter(JSON.parse(e.data)));
     events.addEventListener('sample', (e) => this.take(JSON.parse(e.data)));
-    events.addEventListener('error', () => this.say('papilla view has ended; this page connects again when it runs on the same port.', 'lost'));
+    events.addEventListener('error', () => this.say('papilla view has ended. When it starts again it gives a new address.', 'lost'));
   }
 
   say(text, state = 'connecting') {

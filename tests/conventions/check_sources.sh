@@ -120,7 +120,7 @@ check_private_headers() {
 
 # Scenes in, scenes out: no command line, no console, no server; JSON in parsers only.
 check_pipeline() {
-  breach_each "pipeline must not include %s" < <(cpp_sources pipeline | includes | grep -E ' <(CLI/|iostream>|httplib\.h)')
+  breach_each "pipeline must not include %s" < <(cpp_sources pipeline | includes | grep -E ' <(CLI/|iostream>|boost/(asio|beast))')
   breach_each "a header of pipeline must not include %s" < <(cpp_sources pipeline | grep -E '/src/.*\.hpp$' | includes |
     grep ' <nlohmann/')
 }
@@ -156,7 +156,7 @@ readonly library_uses='
 <(oneapi/)?tbb/ TBB libtbb-dev TBB::tbb
 \.hxx> OpenCASCADE libocct-data-exchange-dev libfontconfig-dev papilla_occt
 <fftw3 fftw3 libfftw3-dev PkgConfig::FFTW
-<httplib\.h> cpp-httplib libcpp-httplib-dev PkgConfig::HTTPLIB
+<boost/(asio|beast) Boost libboost-dev Boost::headers
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
 <zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB'
 

@@ -5,6 +5,7 @@ import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { request } from 'node:http';
+import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
@@ -35,7 +36,7 @@ function addressOf(viewer) {
   return new Promise((resolve, reject) => {
     viewer.stdout.on('data', (chunk) => {
       said += chunk;
-      const found = /http:\/\/127\.0\.0\.1:\d+\//.exec(said);
+      const found = /http:\/\/127\.0\.0\.1:\d+\/\?token=[0-9a-f]{32}/.exec(said);
       if (found) resolve(found[0]);
     });
     viewer.on('exit', () => reject(new Error(`papilla view ended: ${said}`)));
@@ -45,7 +46,7 @@ function addressOf(viewer) {
 /** Events of the stream, until `count` samples came. */
 async function samples(url, count) {
   const end = new AbortController(), seen = [];
-  const response = await fetch(`${url}live`, { signal: end.signal });
+  const response = await fetch(url.replace('/?', '/live?'), { signal: end.signal });
   assert.equal(response.headers.get('content-type'), 'text/event-stream');
   let rest = '';
   for await (const chunk of response.body.pipeThrough(new TextDecoderStream())) {
@@ -61,9 +62,24 @@ async function samples(url, count) {
   return seen;
 }
 
-/** The status of a request that names another host, as one from a page elsewhere would. */
-function statusAs(host, url) {
-  return new Promise((resolve, reject) => request(url, { headers: { Host: host } }, (r) => { r.resume(); resolve(r.statusCode); }).on('error', reject).end());
+/** The status of a request with these headers. */
+function status(url, headers = {}) {
+  return new Promise((resolve, reject) => request(url, { headers }, (r) => { r.resume(); resolve(r.statusCode); }).on('error', reject).end());
+}
+
+/** A thousand connections that hold on: a third sends nothing, a third begins a request, a third follows and never reads. */
+async function waitingClients(url) {
+  const { port, host, pathname, search } = new URL(url);
+  const begins = ['', `GET ${pathname}${search} HTTP/1.1\r\nHost: ${host}\r\nX: `, `GET /live${search} HTTP/1.1\r\nHost: ${host}\r\n\r\n`];
+  const sockets = [];
+  for (let i = 0; i < 1000; ++i) {
+    const socket = connect({ port, host: '127.0.0.1' }).on('error', () => {});
+    socket.pause();
+    await once(socket, 'connect');
+    socket.write(begins[i % 3]);
+    sockets.push(socket);
+  }
+  return sockets;
 }
 
 async function follows(page) {
@@ -99,11 +115,16 @@ try {
       assert.equal(typeof contact, 'boolean');
     }
   }
-  assert.equal(await statusAs('example.com', url), 403);
-  assert.equal(await statusAs(new URL(url).host, url), 200);
+  assert.equal(await status(url), 200);
+  assert.equal(await status(url, { Host: 'example.com' }), 403);
+  assert.equal(await status(url, { Origin: 'http://example.com' }), 403);
+  for (const path of ['/', '/live', '/none', '/?token=0', `/${new URL(url).search.slice(1)}`]) assert.equal(await status(new URL(path, url)), 403);
 
+  const waiting = await waitingClients(url);
   const { page, complaints } = await openUrl(browser, url);
   await follows(page);
+  for (const seen of await Promise.all([samples(url, 30), samples(url, 30)])) assert.ok(seen.length > 30);
+  for (const socket of waiting) socket.destroy();
   await page.screenshot({ path: join(pictures, 'live.png') });
   await page.locator('#live').scrollIntoViewIfNeeded();
   await page.screenshot({ path: join(pictures, 'live-numbers.png') });

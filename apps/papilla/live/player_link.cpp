@@ -6,6 +6,7 @@
 #include <array>
 
 #include "live_socket.hpp"
+#include "papilla/core/error.hpp"
 #include "verb.hpp"
 
 namespace papilla::app {
@@ -15,6 +16,15 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds k_retry{250};
 constexpr std::size_t k_longest_line = 65536;
+
+/// -1, too, when somebody took the folder away after the start.
+int connect_if_possible(const std::string& path) {
+  try {
+    return connect_live(path);
+  } catch (const InvalidInput&) {
+    return -1;
+  }
+}
 
 std::string event(const char* name, const std::string& data) {
   return std::string("event: ") + name + "\ndata: " + data + "\n\n";
@@ -31,13 +41,12 @@ PlayerLink::~PlayerLink() = default;
 
 std::string PlayerLink::greeting(milliseconds patience) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, patience, [&] { return !greeting_.empty(); });
+  greeted_.wait_for(lock, patience, [&] { return !greeting_.empty(); });
   return greeting_;
 }
 
-std::string PlayerLink::events(std::uint64_t& seen, milliseconds patience) {
-  std::unique_lock lock(mutex_);
-  if (!changed_.wait_for(lock, patience, [&] { return turn_ > seen; })) return ": still here\n\n";
+std::string PlayerLink::events(std::uint64_t& seen) {
+  const std::lock_guard lock(mutex_);
   std::string text;
   if (state_turn_ > seen) text += event("state", state_);
   if (sample_turn_ > seen) text += event("sample", sample_);
@@ -49,8 +58,7 @@ void PlayerLink::follow(const std::stop_token& end) {
   std::mutex alone;
   std::condition_variable_any wake;
   while (!end.stop_requested()) {
-    const int connection = connect_live(path_);
-    if (connection >= 0) {
+    if (const int connection = connect_if_possible(path_); connection >= 0) {
       read_lines(connection, end);
       ::close(connection);
       if (!greeting_.empty()) enter(R"({"state":"ended"})", "");
@@ -88,7 +96,6 @@ void PlayerLink::take(const std::string& line) {
     const std::lock_guard lock(mutex_);
     sample_ = json.dump();
     sample_turn_ = ++turn_;
-    changed_.notify_all();
   }
 }
 
@@ -98,7 +105,7 @@ void PlayerLink::enter(const char* state, std::string greeting) {
   greeting_ = std::move(greeting);
   state_turn_ = ++turn_;
   sample_turn_ = 0;  // Of the state before: nobody who comes now shall take it for what happens.
-  changed_.notify_all();
+  greeted_.notify_all();
 }
 
 }  // namespace papilla::app

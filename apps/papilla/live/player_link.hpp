@@ -14,7 +14,7 @@ namespace papilla::app {
 /// whenever there is a player; one thread.
 class PlayerLink {
  public:
-  /// @throws InvalidInput when the path is no socket's.
+  /// @throws InvalidInput when the path is no socket's, as live_address().
   explicit PlayerLink(std::string path);
   ~PlayerLink();
   PlayerLink(const PlayerLink&) = delete;
@@ -24,10 +24,10 @@ class PlayerLink {
   std::string greeting(std::chrono::milliseconds patience);
 
   /// What is newer than `seen`, as server-sent events: `state` (the greeting with "state": "playing", or
-  /// {"state": "waiting"} before the first player, {"state": "ended"} after one) and `sample`, the newest line. Waits
-  /// for it until `patience` is over and returns a comment then.
+  /// {"state": "waiting"} before the first player, {"state": "ended"} after one) and `sample`, the newest line; nothing
+  /// when nothing is newer.
   /// @param seen 0 at first; moved on.
-  std::string events(std::uint64_t& seen, std::chrono::milliseconds patience);
+  std::string events(std::uint64_t& seen);
 
  private:
   void follow(const std::stop_token& end);
@@ -37,7 +37,7 @@ class PlayerLink {
 
   std::string path_;
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable greeted_;
   std::uint64_t turn_ = 1, state_turn_ = 1, sample_turn_ = 0;
   std::string state_, greeting_, sample_;
   std::jthread thread_;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "exit_code.hpp"
 #include "file_options.hpp"
+#include "http/browser.hpp"
 #include "live/follow.hpp"
 #include "options/scene_option.hpp"
 #include "page/page_file.hpp"
@@ -31,20 +29,6 @@ struct Options {
   SceneOptions scene;
 };
 
-/// Gives a file or an address to the desktop's browser. The browser outlives this program: it belongs to a child of a
-/// child.
-bool open_in_browser(const std::string& page) {
-  const pid_t child = ::fork();
-  if (child < 0) return false;
-  if (child == 0) {
-    if (!::freopen("/dev/null", "w", stdout) || !::freopen("/dev/null", "w", stderr)) ::_exit(127);
-    ::execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
-    ::_exit(127);
-  }
-  int status = 0;
-  return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
 PageScene scene_of(const std::string& file, const Options& options, const VerbContext& context) {
   return page_scene(read_scene(file, options.scene.read_options(), context.progress), file, options.page,
                     context.progress);
@@ -54,8 +38,11 @@ PageContent content_of(const std::string& file, Json scene) {
   return {fs::path(file).filename().string(), std::move(scene), nullptr};
 }
 
-bool open_if_wanted(const std::string& page, const Options& options, const VerbContext& context) {
-  if (options.no_open || context.console.silent()) return false;
+bool wants_browser(const Options& options, const VerbContext& context) {
+  return !options.no_open && !context.console.silent();
+}
+
+bool open(const std::string& page, const VerbContext& context) {
   const bool opened = open_in_browser(page);
   if (!opened) context.console.print("no browser could be started; open the page by hand\n");
   return opened;
@@ -63,12 +50,13 @@ bool open_if_wanted(const std::string& page, const Options& options, const VerbC
 
 Json run_follow(const Options& options, const VerbContext& context) {
   bool opened = false;
+  std::optional<PageDoor> door;
   Json json = follow_player(
       {*options.follow, options.input, options.port},
       [&](const std::string& file) { return content_of(file, scene_of(file, options, context).json); },
       [&](const std::string& url) {
         context.console.print("following the player at " + url + " until Ctrl-C\n");
-        opened = open_if_wanted(url, options, context);
+        if (wants_browser(options, context)) opened = open(door.emplace(url).file().string(), context);
       });
   json["opened"] = opened;
   return json;
@@ -83,7 +71,7 @@ Json run(const Options& options, VerbContext& context) {
   const std::size_t bytes = write_page(content_of(options.input, std::move(scene.json)), page);
   context.console.print(shown_format("{}: {} of {} triangles shown, {:.1f} MB\n", page.string(), scene.triangles_shown,
                                      scene.triangles, static_cast<double>(bytes) / 1e6));
-  const bool opened = open_if_wanted(fs::absolute(page).string(), options, context);
+  const bool opened = wants_browser(options, context) && open(fs::absolute(page).string(), context);
   return {{"page", page.string()},
           {"triangles", scene.triangles},
           {"triangles_shown", scene.triangles_shown},
@@ -109,9 +97,10 @@ void add_view(CLI::App& program) {
           ->type_name("HTML");
   verb->add_flag("--no-open", options->no_open, "Don't start a browser");
   auto* const follow =
-      verb->add_option("--follow", options->follow,
-                       "Serve the page on this machine, with probe, proxy and force of a player that was started with "
-                       "--live; without SOCKET at its default")
+      verb->add_option(
+              "--follow", options->follow,
+              "Serve the page on this machine, at an address with a secret token, with probe, proxy and force of a "
+              "player that was started with --live; without SOCKET at its default")
           ->type_name("[SOCKET]")
           ->expected(0, 1)
           ->excludes(output);
