@@ -19,39 +19,29 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/image_bands.hpp"
+#include "papilla/io/scene.hpp"
 #include "picture_input.hpp"
 
 namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
-using io_detail::check_png;
-using io_detail::check_size;
-using io_detail::color_channels;
-using io_detail::open_picture;
+using io_detail::PictureInput;
 using io_detail::pixel_count;
-using io_detail::stored_values;
-using OIIO::ImageInput;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// The first `channels` channels of every pixel, interleaved.
-template <class T>
-std::vector<T> read_pixels(ImageInput& input, const fs::path& path, int channels) {
-  const ImageSpec& spec = input.spec();
-  std::vector<T> pixels(pixel_count(spec.width, spec.height) * static_cast<std::size_t>(channels));
-  if (!input.read_image(0, 0, 0, channels, OIIO::BaseTypeFromC<T>::value, pixels.data()))
-    throw InvalidInput(path.string() + ": is damaged: " + first_line(input.geterror()));
-  return pixels;
-}
-
-ColorImage read_rgb(ImageInput& input, const fs::path& path) {
-  const ImageSpec& spec = input.spec();
-  const int channels = color_channels(spec);
-  ColorImage image{spec.width, spec.height, read_pixels<unsigned char>(input, path, channels)};
+ColorImage read_rgb(PictureInput& input, std::size_t bytes_per_pixel) {
+  const auto channels = static_cast<std::size_t>(input.channels());
+  const std::size_t pixels = pixel_count(input.width(), input.height());
+  input.require_memory((bytes_per_pixel + (channels == 3 ? 0 : channels)) * pixels);
+  ColorImage image{input.width(), input.height(), std::vector<unsigned char>(channels * pixels)};
+  const int step = input.tile_rows() > 0 ? input.tile_rows() : image.height;
+  for (int row = 0; row < image.height; row += step)
+    input.read(row, std::min(step, image.height - row), image.pixels.data() + channels * pixel_count(image.width, row));
   if (channels == 3) return image;
-  std::vector<unsigned char> rgb(3 * image.pixels.size());
+  std::vector<unsigned char> rgb(3 * pixels);
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
   image.pixels = std::move(rgb);
   return image;
@@ -107,29 +97,33 @@ std::vector<std::byte> to_bytes(const std::vector<unsigned char>& data) {
 
 }  // namespace
 
-GreyImage read_grey_image(const fs::path& path) {
+GreyImage read_grey_image(const fs::path& path, std::size_t bytes_per_pixel) {
   ImageBands bands(path, k_max_image_pixels);
+  bands.require_memory(bytes_per_pixel);
   return bands.next(bands.height());
 }
 
-ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_picture(path, k_max_image_pixels), path); }
+ColorImage read_color_image(const fs::path& path, std::size_t bytes_per_pixel) {
+  PictureInput input(path, k_max_image_pixels);
+  return input.is_float() ? read_picture(path).color : read_rgb(input, bytes_per_pixel);
+}
 
 Picture read_picture(const fs::path& path) {
   ImageBands bands(path, k_max_image_pixels, std::numeric_limits<int>::max());
+  bands.require_memory(sizeof(float) + 3);
   GreyImage grey = bands.next(bands.height());
   return {std::move(grey), bands.sample()};
 }
 
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
-  check_png(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name);
-  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-  const bool jpeg = bytes.size() > 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
-  const auto input = ImageInput::create(jpeg ? "jpeg" : "png");
-  ImageSpec spec;
-  if (!input || !input->set_ioproxy(&memory) || !input->open(name, spec, stored_values()))
-    throw InvalidInput(name + ": is no picture: " + first_line(input ? input->geterror() : OIIO::geterror()));
-  check_size(input->spec(), name, bytes.size(), k_max_image_pixels);
-  return read_rgb(*input, name);
+  PictureInput input(bytes, name, k_max_image_pixels);
+  return read_rgb(input, 3);
+}
+
+ColorImage decode_image(const Scene& scene, std::size_t image) {
+  const EncodedImage& encoded = scene.images[image];
+  const std::string& named = encoded.name.empty() ? encoded.uri : encoded.name;
+  return decode_color_image(encoded.bytes, named.empty() ? fmt::format("picture {} of the scene", image) : named);
 }
 
 std::vector<std::byte> encode_png(const ColorImage& image) {
