@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <exception>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
@@ -56,21 +58,81 @@ bool can_hold(const ImageOutput& output, TypeDesc type) {
   return format != "openexr" || type == TypeDesc::FLOAT;
 }
 
-/// The file's bytes; `path` only names it and chooses the format.
-std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
-  const auto output = ImageOutput::create(path.string());
+std::unique_ptr<ImageOutput> make_output(const fs::path& path, const ImageSpec& spec) {
+  auto output = ImageOutput::create(path.string());
   if (!output || !output->supports("ioproxy")) {
     OIIO::geterror();
     throw InvalidInput(path.string() + ": pictures can be written as .png, .tif, .exr and .jpg");
   }
   if (!can_hold(*output, spec.format))
     throw InvalidInput(fmt::format("{}: the format cannot hold {}", path.string(), spec.format.c_str()));
+  return output;
+}
+
+/// The file's bytes; `path` only names it and chooses the format.
+std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
+  const auto output = make_output(path, spec);
   OIIO::Filesystem::IOVecOutput memory;
   if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec))
     throw InvalidInput(path.string() + ": " + first_line(output->geterror()));
   if (!output->write_image(source, pixels) || !output->close())
     throw IoError(path.string() + ": " + first_line(output->geterror()));
   return memory.buffer();
+}
+
+/// Lets OpenImageIO write into a stream. What the stream throws is kept, because it must not pass through C libraries.
+class StreamOutput final : public OIIO::Filesystem::IOProxy {
+ public:
+  StreamOutput(const std::string& name, std::ostream& out) : IOProxy(name, Write), out_(out) {}
+
+  const char* proxytype() const override { return "stream"; }
+  bool seek(int64_t offset) override {
+    m_pos = offset;
+    return true;
+  }
+  size_t write(const void* bytes, size_t count) override {
+    if (failure_) return 0;
+    try {
+      if (m_pos != written_to_) out_.seekp(m_pos);
+      out_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
+    } catch (...) {
+      failure_ = std::current_exception();
+      return 0;
+    }
+    written_to_ = m_pos += static_cast<int64_t>(count);
+    size_ = std::max(size_, m_pos);
+    return count;
+  }
+  size_t size() const override { return static_cast<size_t>(size_); }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::ostream& out_;
+  std::exception_ptr failure_;
+  int64_t written_to_ = 0, size_ = 0;
+};
+
+/// Writes row by row what read(y, row) gives, values of type T.
+template <class T, class Read>
+void write_rows(const fs::path& path, const ImageSpec& spec, const Read& read) {
+  const auto output = make_output(path, spec);
+  write_atomically(path, [&](std::ostream& out) {
+    StreamOutput stream(path.string(), out);
+    std::vector<T> row(static_cast<std::size_t>(spec.width));
+    const auto require = [&](bool done) {
+      stream.rethrow();
+      if (!done) throw IoError(path.string() + ": " + first_line(output->geterror()));
+    };
+    require(output->set_ioproxy(&stream) && output->open(path.string(), spec));
+    for (int y = 0; y < spec.height; ++y) {
+      read(y, row.data());
+      require(output->write_scanline(y, 0, spec.format, row.data()));
+    }
+    require(output->close());
+  });
 }
 
 void write_bytes(const fs::path& path, const std::vector<unsigned char>& data) {
@@ -164,6 +226,24 @@ void write_height_float(const fs::path& path, const HeightMap& map) {
   ImageSpec spec(map.width, map.height, 1, TypeDesc::FLOAT);
   set_pitch(spec, map.pitch_mm_x, map.pitch_mm_y);
   write_bytes(path, encode(path, spec, TypeDesc::FLOAT, map.mm.data()));
+}
+
+void write_height_rows(const fs::path& path, const SampleRows& heights_mm, double depth_mm, double pitch_mm) {
+  const int width = heights_mm.width();
+  ImageSpec spec(width, heights_mm.height(), 1, TypeDesc::FLOAT);
+  if (path.extension() != ".png") {
+    set_pitch(spec, pitch_mm, pitch_mm);
+    write_rows<float>(path, spec, [&](int y, float* row) { heights_mm.read(0, y, width, row); });
+    return;
+  }
+  spec.set_format(TypeDesc::UINT16);
+  std::vector<float> heights(static_cast<std::size_t>(width));
+  const double steps_per_mm = depth_mm > 0 ? 65535 / depth_mm : 0;
+  write_rows<std::uint16_t>(path, spec, [&](int y, std::uint16_t* row) {
+    heights_mm.read(0, y, width, heights.data());
+    for (const float height : heights)
+      *row++ = static_cast<std::uint16_t>(std::lround(std::clamp(double{height} * steps_per_mm, 0.0, 65535.0)));
+  });
 }
 
 void write_color_image(const fs::path& path, const ColorImage& image) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <string>
@@ -102,9 +103,9 @@ class PngRows {
       stream_.next_out = block_.data();
       stream_.avail_out = static_cast<uInt>(block_.size());
       const int status = inflate(&stream_, Z_NO_FLUSH);
-      if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR)
-        fail(stream_.msg ? stream_.msg : "not as zlib writes it");
       const bool has_more = look_at(block_.size() - stream_.avail_out);
+      if (!has_more && status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR)
+        fail(stream_.msg ? stream_.msg : "not as zlib writes it");
       ended_ = has_more || status == Z_STREAM_END;
       if (stream_.avail_out > 0) return;  // What came in is used up.
     }
@@ -228,6 +229,30 @@ PictureFormat picture_format(std::string_view first, const fs::path& path) {
   if (first.starts_with("8BPS"sv)) return {"psd"};
   if (equals_ignoring_case(path.extension().string(), ".tga")) return {"targa"};
   return {};
+}
+
+AnnouncedSize announced_size(std::string_view format, std::string_view first) {
+  const auto little_endian = [&](std::size_t at, std::size_t count) {
+    std::uint64_t value = 0;
+    for (std::size_t i = count; i-- > 0;) value = value << 8U | static_cast<unsigned char>(first[at + i]);
+    return value;
+  };
+  constexpr std::size_t k_gif = 10, k_bmp = 26, k_webp = 30;
+  if (format == "gif" && first.size() >= k_gif) return {little_endian(6, 2), little_endian(8, 2)};
+  if (format == "bmp" && first.size() >= k_bmp) {
+    const auto signed_size = [&](std::size_t at) {
+      return static_cast<std::uint64_t>(std::abs(std::int64_t{static_cast<std::int32_t>(little_endian(at, 4))}));
+    };
+    return {signed_size(18), signed_size(22)};
+  }
+  if (format != "webp" || first.size() < k_webp) return {};
+  constexpr std::uint64_t k_14_bits = 0x3fff;
+  if (first.substr(12, 4) == "VP8X") return {little_endian(24, 3) + 1, little_endian(27, 3) + 1};
+  if (first.substr(12, 4) == "VP8L") {
+    const std::uint64_t bits = little_endian(21, 4);
+    return {(bits & k_14_bits) + 1, (bits >> 14U & k_14_bits) + 1};
+  }
+  return {little_endian(26, 2) & k_14_bits, little_endian(28, 2) & k_14_bits};
 }
 
 bool check_png(const ByteSource& next, const fs::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string_view>
@@ -21,6 +22,13 @@ struct PictureFormat {
 /// By the first bytes; by the extension for Targa, which has no signature. What a reader would decode when it opens a
 /// file, before the size is known, is not read at all (JPEG 2000, HEIF, camera raw, video).
 PictureFormat picture_format(std::string_view first_bytes, const std::filesystem::path& path);
+
+/// What readers that take memory for the whole picture when they open a file (GIF, BMP, WebP) would take it for; 0 x 0
+/// for all others.
+struct AnnouncedSize {
+  std::uint64_t width = 0, height = 0;
+};
+AnnouncedSize announced_size(std::string_view format, std::string_view first_bytes);
 
 /// Reads a PNG to its end: checksums and order of the chunks, header, and the compressed rows. libpng then finds
 /// nothing to print about. @returns whether the rows come in several passes, so that the reader holds the whole

@@ -30,7 +30,7 @@ using OIIO::ImageSpec;
 constexpr std::size_t k_max_pixels_per_byte = 8 * 1032;
 constexpr std::size_t k_free_pixels = 65536;
 
-constexpr std::size_t k_signature_bytes = 16;
+constexpr std::size_t k_first_bytes = 32;
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
 ByteSource source_of(std::ifstream& file) {
@@ -47,6 +47,13 @@ PictureFormat checked_format(std::string_view first, const ByteSource& next, con
     throw InvalidInput(path.string() +
                        ": is no picture, or of a format that is not read (PNG, JPEG, TIFF, OpenEXR, PNM, PFM, HDR, "
                        "BMP, GIF, WebP, DPX, PSD and TGA are)");
+  const auto [width, height] = announced_size(format.name, first);
+  constexpr std::uint64_t k_rgba = 4;
+  if (k_rgba * width * height > picture_memory())
+    throw InvalidInput(
+        fmt::format("{}: {} x {} pixels take {:.1f} MB of memory, more than the {:.1f} MB that "
+                    "--max-memory allows",
+                    path.string(), width, height, megabytes(k_rgba * width * height), megabytes(picture_memory())));
   if (format.name == "png") format.in_rows = !check_png(next, path);
   if (format.name == "jpeg") format.in_rows = !check_jpeg(next, path);
   return format;
@@ -55,7 +62,7 @@ PictureFormat checked_format(std::string_view first, const ByteSource& next, con
 PictureFormat checked_format(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": cannot be read");
-  std::string first(k_signature_bytes, '\0');
+  std::string first(k_first_bytes, '\0');
   file.read(first.data(), static_cast<std::streamsize>(first.size()));
   first.resize(static_cast<std::size_t>(file.gcount()));
   file.clear();
@@ -76,7 +83,13 @@ std::unique_ptr<ImageInput> open_input(const PictureFormat& format, const std::s
   ImageSpec spec, wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);  // Values as they are stored, not multiplied by alpha.
   auto input = ImageInput::create(std::string(format.name));
-  if (input && (!proxy || input->set_ioproxy(proxy)) && input->open(name, spec, wishes)) return input;
+  try {
+    if (input && (!proxy || input->set_ioproxy(proxy)) && input->open(name, spec, wishes)) return input;
+  } catch (const std::bad_alloc&) {
+    throw InvalidInput(name + ": no memory is left to open it");
+  } catch (const std::length_error&) {
+    throw InvalidInput(name + ": announces more than its reader can hold");
+  }
   const std::string reason = input ? input->geterror() : OIIO::geterror();
   if (reason.find("limits:imagesize_MB") != std::string::npos)
     throw InvalidInput(fmt::format("{}: takes more than the {:.1f} MB of memory that --max-memory allows", name,
@@ -115,7 +128,7 @@ PictureInput::PictureInput(const fs::path& path, std::size_t most_pixels) : name
 PictureInput::PictureInput(std::span<const std::byte> bytes, const std::string& name, std::size_t most_pixels)
     : name_(name) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const PictureFormat format = checked_format(text.substr(0, k_signature_bytes), source_of(text), name);
+  const PictureFormat format = checked_format(text.substr(0, k_first_bytes), source_of(text), name);
   if (format.name != "png" && format.name != "jpeg") throw InvalidInput(name + ": is neither PNG nor JPEG");
   memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(bytes.data()), bytes.size());
   input_ = open_input(format, name_, memory_.get());

@@ -9,6 +9,7 @@
 
 #include "papilla/texture/height_map.hpp"
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla {
 
@@ -73,6 +74,12 @@ void write_grey_image(const std::filesystem::path& path, const GreyImage& image,
 /// Writes the heights in millimetres as 32-bit floats to .exr, .tif or .tiff, with the pitch as resolution.
 /// @throws InvalidInput, IoError as write_grey_image().
 void write_height_float(const std::filesystem::path& path, const HeightMap& map);
+
+/// Writes heights of 0 to `depth_mm` row by row, whatever their number: 16-bit grey .png as encode_height_png16(), or
+/// .exr, .tif, .tiff as write_height_float().
+/// @throws InvalidInput, IoError as write_grey_image().
+void write_height_rows(const std::filesystem::path& path, const SampleRows& heights_mm, double depth_mm,
+                       double pitch_mm);
 
 /// @throws InvalidInput, IoError as write_grey_image().
 void write_color_image(const std::filesystem::path& path, const ColorImage& image);
