@@ -6,12 +6,15 @@
 #include <unistd.h>
 
 #include <memory>
+#include <new>
 #include <optional>
 
 #include "file_options.hpp"
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/trace.hpp"
+#include "papilla/io/picture_memory.hpp"
 #include "standard_output.hpp"
 
 namespace papilla::app {
@@ -25,7 +28,19 @@ struct CommonOptions {
   bool quiet = false;
   int threads = 0;
   std::uint64_t seed = 1;
+  std::uint64_t max_memory = 0;
 };
+
+/// The values of the options that name files to read, separated by commas.
+std::string inputs_of(const CLI::App& verb) {
+  std::string names;
+  for (const CLI::Option* option : verb.get_options()) {
+    const auto known = file_options().find(option);
+    if (known == file_options().end() || known->second.use != FileOption::Use::input) continue;
+    for (const std::string& value : option->results()) names += (names.empty() ? "" : ", ") + value;
+  }
+  return names;
+}
 
 /// Prints "stage 42 % 3 s left" on one line of the terminal, or one JSON object a line.
 class ProgressPrinter {
@@ -70,7 +85,7 @@ class ProgressPrinter {
   double last_ = -1;
 };
 
-void run_verb(const CommonOptions& common, const VerbBody& body) {
+void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbBody& body) {
   const bool json_on_stdout = common.json == "-";
   std::optional<oneapi::tbb::global_control> limit;
   if (common.threads > 0)
@@ -81,12 +96,20 @@ void run_verb(const CommonOptions& common, const VerbBody& body) {
   std::shared_ptr<ProgressPrinter> printer;
   if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))
     printer = std::make_shared<ProgressPrinter>(wants_json);
-  if (printer)
-    context.progress = [printer](const Progress& done) {
-      (*printer)(done.stage, done.fraction);
-      return true;
-    };
-  const Json result = body(context);
+  std::string stage = "reading";
+  context.progress = [printer, &stage](const Progress& done) {
+    if (stage != done.stage) stage = done.stage;
+    if (printer) (*printer)(done.stage, done.fraction);
+    return true;
+  };
+  set_picture_memory(common.max_memory);
+  Json result;
+  try {
+    result = body(context);
+  } catch (const std::bad_alloc&) {
+    const std::string inputs = inputs_of(verb);
+    throw InvalidInput((inputs.empty() ? verb.get_name() : inputs) + ": no memory is left, at '" + stage + "'");
+  }
   context.progress = {};
   printer.reset();
   if (json_on_stdout)
@@ -118,13 +141,20 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->type_name("N")
       ->capture_default_str()
       ->group("Common");
+  verb->add_option("--max-memory", common->max_memory,
+                   "What a picture may take, like 512M or 2G; default: half of the machine's memory. Larger ones are "
+                   "read in bands or refused")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::PositiveNumber)
+      ->type_name("SIZE")
+      ->group("Common");
   verb->add_option("--progress", common->progress, "auto (a line on a terminal), json (a JSON object a line), none")
       ->check(CLI::IsMember({"auto", "json", "none"}))
       ->capture_default_str()
       ->group("Common");
   verb->callback([verb, common, body = std::move(body)] {
     declare_files(*verb);
-    run_verb(*common, body);
+    run_verb(*verb, *common, body);
   });
   return verb;
 }

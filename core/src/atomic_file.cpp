@@ -56,6 +56,18 @@ class FileBuffer final : public std::streambuf {
     return count;
   }
   int sync() override { return flush(), 0; }
+  pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override {
+    flush();
+    const off_t at = ::lseek(file_, offset,
+                             from == std::ios::beg   ? SEEK_SET
+                             : from == std::ios::cur ? SEEK_CUR
+                                                     : SEEK_END);
+    if (at < 0) fail(path_, errno);
+    return at;
+  }
+  pos_type seekpos(pos_type position, std::ios::openmode mode) override {
+    return seekoff(position, std::ios::beg, mode);
+  }
 
  private:
   static constexpr std::size_t k_block = std::size_t{1} << 16;

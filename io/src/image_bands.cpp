@@ -10,76 +10,71 @@
 #include <vector>
 
 #include "papilla/core/error.hpp"
-#include "papilla/core/one_line.hpp"
 #include "picture_input.hpp"
 
 namespace papilla {
 namespace {
 
 constexpr int k_rows_at_once = 64;
-/// Tiles whose row holds more values than this are refused: a gigabyte.
-constexpr std::size_t k_most_values = std::size_t{1} << 28;
+/// Larger floats are no grey value, no luminance and no height in millimetres: the file is damaged or of another kind.
+constexpr float k_largest_value = 1e6F;
 
 }  // namespace
 
 struct ImageBands::State {
-  std::filesystem::path path;
-  std::unique_ptr<OIIO::ImageInput> input;
-  int width, height, channels, rows_at_once, stride;
+  io_detail::PictureInput input;
+  int width, height, rows_at_once, stride;
+  std::size_t channels;
   int decoded = 0;             ///< Rows.
   std::vector<float> waiting;  ///< Grey rows decoded and not yet returned by next().
   std::vector<float> stored;   ///< Scratch: rows as the file stores them.
   ColorImage sample;
 
   State(const std::filesystem::path& file, std::size_t most_pixels, int sample_side)
-      : path(file), input(io_detail::open_picture(file, most_pixels)) {
-    const OIIO::ImageSpec& spec = input->spec();
-    width = spec.width;
-    height = spec.height;
-    channels = io_detail::color_channels(spec);
-    rows_at_once = std::min(height, spec.tile_height > 0 ? spec.tile_height : k_rows_at_once);
-    stride = static_cast<int>((std::int64_t{std::max(width, height)} + sample_side - 1) / sample_side);
+      : input(file, most_pixels),
+        width(input.width()),
+        height(input.height()),
+        rows_at_once(std::min(height, input.tile_rows() > 0 ? input.tile_rows() : k_rows_at_once)),
+        stride(static_cast<int>((std::int64_t{std::max(width, height)} + sample_side - 1) / sample_side)),
+        channels(static_cast<std::size_t>(input.channels())) {
     sample.width = (width + stride - 1) / stride;
-    if (io_detail::pixel_count(width, rows_at_once) * static_cast<std::size_t>(channels) > k_most_values)
-      throw InvalidInput(fmt::format("{}: rows of {} x {} pixels are too large to be read at once", path.string(),
-                                     width, rows_at_once));
+    // Stored, waiting, and the grey rows that are returned.
+    input.require_memory(io_detail::pixel_count(width, rows_at_once) * (channels + 2) * sizeof(float));
   }
 
   void decode() {
-    const OIIO::ImageSpec& spec = input->spec();
-    const int rows = std::min(rows_at_once, height - decoded), top = spec.y + decoded;
-    stored.resize(io_detail::pixel_count(width, rows) * static_cast<std::size_t>(channels));
-    const bool read =
-        spec.tile_height > 0
-            ? input->read_tiles(0, 0, spec.x, spec.x + width, top, top + rows, spec.z, spec.z + 1, 0, channels,
-                                OIIO::TypeDesc::FLOAT, stored.data())
-            : input->read_scanlines(0, 0, top, top + rows, spec.z, 0, channels, OIIO::TypeDesc::FLOAT, stored.data());
-    if (!read) throw InvalidInput(path.string() + ": is damaged: " + first_line(input->geterror()));
+    const int rows = std::min(rows_at_once, height - decoded);
+    const std::size_t count = io_detail::pixel_count(width, rows);
+    stored.resize(count * channels);
+    input.read(decoded, rows, stored.data());
+    if (input.is_float()) check_values();
     for (int y = 0; y < rows; ++y)
       if ((decoded + y) % stride == 0) take_sample(y);
-    const std::size_t first = waiting.size(), count = io_detail::pixel_count(width, rows);
     for (std::size_t i = 0; i < count; ++i)
       waiting.push_back(channels == 3
                             ? 0.2126F * stored[3 * i] + 0.7152F * stored[3 * i + 1] + 0.0722F * stored[3 * i + 2]
                             : stored[i]);
-    const auto bad = std::find_if(waiting.begin() + static_cast<std::ptrdiff_t>(first), waiting.end(),
-                                  [](float v) { return !std::isfinite(v); });
-    if (bad != waiting.end()) {
-      const auto before = io_detail::pixel_count(width, decoded);
-      throw InvalidInput(fmt::format("{}: pixel {} is not finite", path.string(),
-                                     before + static_cast<std::size_t>(bad - waiting.begin()) - first));
-    }
     decoded += rows;
+  }
+
+  void check_values() const {
+    const auto bad =
+        std::find_if(stored.begin(), stored.end(), [](float v) { return !(std::abs(v) <= k_largest_value); });
+    if (bad == stored.end()) return;
+    const std::size_t pixel = static_cast<std::size_t>(bad - stored.begin()) / channels,
+                      columns = static_cast<std::size_t>(width);
+    throw InvalidInput(fmt::format("{}: pixel ({}, {}) is {}, {}", input.name(), pixel % columns,
+                                   static_cast<std::size_t>(decoded) + pixel / columns, *bad,
+                                   std::isfinite(*bad) ? "beyond a million" : "not finite"));
   }
 
   void take_sample(int row) {
     for (int x = 0; x < width; x += stride)
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t channel = channels == 3 ? c : 0;
-        const float value = stored[io_detail::pixel_count(width, row) * static_cast<std::size_t>(channels) +
-                                   static_cast<std::size_t>(x) * static_cast<std::size_t>(channels) + channel];
-        const float grey = std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : 0;
-        sample.pixels.push_back(static_cast<unsigned char>(std::lround(255 * grey)));
+        const float value =
+            stored[(io_detail::pixel_count(width, row) + static_cast<std::size_t>(x)) * channels + channel];
+        sample.pixels.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(value, 0.0F, 1.0F))));
       }
     ++sample.height;
   }
@@ -91,8 +86,11 @@ ImageBands::~ImageBands() = default;
 
 int ImageBands::width() const noexcept { return state_->width; }
 int ImageBands::height() const noexcept { return state_->height; }
-int ImageBands::bits() const noexcept { return static_cast<int>(8 * state_->input->spec().format.basesize()); }
-double ImageBands::pitch_mm() const noexcept { return io_detail::pitch_of(state_->input->spec()); }
+int ImageBands::bits() const noexcept { return state_->input.bits(); }
+double ImageBands::pitch_mm() const noexcept { return state_->input.pitch_mm(); }
+void ImageBands::require_memory(std::size_t bytes_per_pixel) const {
+  state_->input.require_memory(bytes_per_pixel * io_detail::pixel_count(state_->width, state_->height));
+}
 const ColorImage& ImageBands::sample() const noexcept { return state_->sample; }
 
 GreyImage ImageBands::next(int rows) {

@@ -8,50 +8,42 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <exception>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/image_bands.hpp"
+#include "papilla/io/scene.hpp"
 #include "picture_input.hpp"
 
 namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
-using io_detail::check_png;
-using io_detail::check_size;
-using io_detail::color_channels;
-using io_detail::open_picture;
+using io_detail::PictureInput;
 using io_detail::pixel_count;
-using io_detail::stored_values;
-using OIIO::ImageInput;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// The first `channels` channels of every pixel, interleaved.
-template <class T>
-std::vector<T> read_pixels(ImageInput& input, const fs::path& path, int channels) {
-  const ImageSpec& spec = input.spec();
-  std::vector<T> pixels(pixel_count(spec.width, spec.height) * static_cast<std::size_t>(channels));
-  if (!input.read_image(0, 0, 0, channels, OIIO::BaseTypeFromC<T>::value, pixels.data()))
-    throw InvalidInput(path.string() + ": is damaged: " + first_line(input.geterror()));
-  return pixels;
-}
-
-ColorImage read_rgb(ImageInput& input, const fs::path& path) {
-  const ImageSpec& spec = input.spec();
-  const int channels = color_channels(spec);
-  ColorImage image{spec.width, spec.height, read_pixels<unsigned char>(input, path, channels)};
+ColorImage read_rgb(PictureInput& input, std::size_t bytes_per_pixel) {
+  const auto channels = static_cast<std::size_t>(input.channels());
+  const std::size_t pixels = pixel_count(input.width(), input.height());
+  input.require_memory((bytes_per_pixel + (channels == 3 ? 0 : channels)) * pixels);
+  ColorImage image{input.width(), input.height(), std::vector<unsigned char>(channels * pixels)};
+  const int step = input.tile_rows() > 0 ? input.tile_rows() : image.height;
+  for (int row = 0; row < image.height; row += step)
+    input.read(row, std::min(step, image.height - row), image.pixels.data() + channels * pixel_count(image.width, row));
   if (channels == 3) return image;
-  std::vector<unsigned char> rgb(3 * image.pixels.size());
+  std::vector<unsigned char> rgb(3 * pixels);
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = image.pixels[i / 3];
   image.pixels = std::move(rgb);
   return image;
@@ -66,21 +58,81 @@ bool can_hold(const ImageOutput& output, TypeDesc type) {
   return format != "openexr" || type == TypeDesc::FLOAT;
 }
 
-/// The file's bytes; `path` only names it and chooses the format.
-std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
-  const auto output = ImageOutput::create(path.string());
+std::unique_ptr<ImageOutput> make_output(const fs::path& path, const ImageSpec& spec) {
+  auto output = ImageOutput::create(path.string());
   if (!output || !output->supports("ioproxy")) {
     OIIO::geterror();
     throw InvalidInput(path.string() + ": pictures can be written as .png, .tif, .exr and .jpg");
   }
   if (!can_hold(*output, spec.format))
     throw InvalidInput(fmt::format("{}: the format cannot hold {}", path.string(), spec.format.c_str()));
+  return output;
+}
+
+/// The file's bytes; `path` only names it and chooses the format.
+std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
+  const auto output = make_output(path, spec);
   OIIO::Filesystem::IOVecOutput memory;
   if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec))
     throw InvalidInput(path.string() + ": " + first_line(output->geterror()));
   if (!output->write_image(source, pixels) || !output->close())
     throw IoError(path.string() + ": " + first_line(output->geterror()));
   return memory.buffer();
+}
+
+/// Lets OpenImageIO write into a stream. What the stream throws is kept, because it must not pass through C libraries.
+class StreamOutput final : public OIIO::Filesystem::IOProxy {
+ public:
+  StreamOutput(const std::string& name, std::ostream& out) : IOProxy(name, Write), out_(out) {}
+
+  const char* proxytype() const override { return "stream"; }
+  bool seek(int64_t offset) override {
+    m_pos = offset;
+    return true;
+  }
+  size_t write(const void* bytes, size_t count) override {
+    if (failure_) return 0;
+    try {
+      if (m_pos != written_to_) out_.seekp(m_pos);
+      out_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
+    } catch (...) {
+      failure_ = std::current_exception();
+      return 0;
+    }
+    written_to_ = m_pos += static_cast<int64_t>(count);
+    size_ = std::max(size_, m_pos);
+    return count;
+  }
+  size_t size() const override { return static_cast<size_t>(size_); }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::ostream& out_;
+  std::exception_ptr failure_;
+  int64_t written_to_ = 0, size_ = 0;
+};
+
+/// Writes row by row what read(y, row) gives, values of type T.
+template <class T, class Read>
+void write_rows(const fs::path& path, const ImageSpec& spec, const Read& read) {
+  const auto output = make_output(path, spec);
+  write_atomically(path, [&](std::ostream& out) {
+    StreamOutput stream(path.string(), out);
+    std::vector<T> row(static_cast<std::size_t>(spec.width));
+    const auto require = [&](bool done) {
+      stream.rethrow();
+      if (!done) throw IoError(path.string() + ": " + first_line(output->geterror()));
+    };
+    require(output->set_ioproxy(&stream) && output->open(path.string(), spec));
+    for (int y = 0; y < spec.height; ++y) {
+      read(y, row.data());
+      require(output->write_scanline(y, 0, spec.format, row.data()));
+    }
+    require(output->close());
+  });
 }
 
 void write_bytes(const fs::path& path, const std::vector<unsigned char>& data) {
@@ -107,29 +159,33 @@ std::vector<std::byte> to_bytes(const std::vector<unsigned char>& data) {
 
 }  // namespace
 
-GreyImage read_grey_image(const fs::path& path) {
+GreyImage read_grey_image(const fs::path& path, std::size_t bytes_per_pixel) {
   ImageBands bands(path, k_max_image_pixels);
+  bands.require_memory(bytes_per_pixel);
   return bands.next(bands.height());
 }
 
-ColorImage read_color_image(const fs::path& path) { return read_rgb(*open_picture(path, k_max_image_pixels), path); }
+ColorImage read_color_image(const fs::path& path, std::size_t bytes_per_pixel) {
+  PictureInput input(path, k_max_image_pixels);
+  return input.is_float() ? read_picture(path).color : read_rgb(input, bytes_per_pixel);
+}
 
 Picture read_picture(const fs::path& path) {
   ImageBands bands(path, k_max_image_pixels, std::numeric_limits<int>::max());
+  bands.require_memory(sizeof(float) + 3);
   GreyImage grey = bands.next(bands.height());
   return {std::move(grey), bands.sample()};
 }
 
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
-  check_png(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name);
-  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-  const bool jpeg = bytes.size() > 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
-  const auto input = ImageInput::create(jpeg ? "jpeg" : "png");
-  ImageSpec spec;
-  if (!input || !input->set_ioproxy(&memory) || !input->open(name, spec, stored_values()))
-    throw InvalidInput(name + ": is no picture: " + first_line(input ? input->geterror() : OIIO::geterror()));
-  check_size(input->spec(), name, bytes.size(), k_max_image_pixels);
-  return read_rgb(*input, name);
+  PictureInput input(bytes, name, k_max_image_pixels);
+  return read_rgb(input, 3);
+}
+
+ColorImage decode_image(const Scene& scene, std::size_t image) {
+  const EncodedImage& encoded = scene.images[image];
+  const std::string& named = encoded.name.empty() ? encoded.uri : encoded.name;
+  return decode_color_image(encoded.bytes, named.empty() ? fmt::format("picture {} of the scene", image) : named);
 }
 
 std::vector<std::byte> encode_png(const ColorImage& image) {
@@ -170,6 +226,24 @@ void write_height_float(const fs::path& path, const HeightMap& map) {
   ImageSpec spec(map.width, map.height, 1, TypeDesc::FLOAT);
   set_pitch(spec, map.pitch_mm_x, map.pitch_mm_y);
   write_bytes(path, encode(path, spec, TypeDesc::FLOAT, map.mm.data()));
+}
+
+void write_height_rows(const fs::path& path, const SampleRows& heights_mm, double depth_mm, double pitch_mm) {
+  const int width = heights_mm.width();
+  ImageSpec spec(width, heights_mm.height(), 1, TypeDesc::FLOAT);
+  if (path.extension() != ".png") {
+    set_pitch(spec, pitch_mm, pitch_mm);
+    write_rows<float>(path, spec, [&](int y, float* row) { heights_mm.read(0, y, width, row); });
+    return;
+  }
+  spec.set_format(TypeDesc::UINT16);
+  std::vector<float> heights(static_cast<std::size_t>(width));
+  const double steps_per_mm = depth_mm > 0 ? 65535 / depth_mm : 0;
+  write_rows<std::uint16_t>(path, spec, [&](int y, std::uint16_t* row) {
+    heights_mm.read(0, y, width, heights.data());
+    for (const float height : heights)
+      *row++ = static_cast<std::uint16_t>(std::lround(std::clamp(double{height} * steps_per_mm, 0.0, 65535.0)));
+  });
 }
 
 void write_color_image(const fs::path& path, const ColorImage& image) {

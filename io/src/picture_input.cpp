@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "picture_input.hpp"
 
-#include <OpenImageIO/filesystem.h>
 #include <fmt/core.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <fstream>
-#include <functional>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/units.hpp"
-#include "papilla/io/image_file.hpp"
-#include "text_scanner.hpp"
+#include "papilla/io/picture_memory.hpp"
+#include "picture_bytes.hpp"
 
 namespace papilla::io_detail {
 namespace {
@@ -30,54 +30,83 @@ using OIIO::ImageSpec;
 constexpr std::size_t k_max_pixels_per_byte = 8 * 1032;
 constexpr std::size_t k_free_pixels = 65536;
 
-/// Up to that many next bytes of a file; fewer only at its end.
-using ByteSource = std::function<std::string_view(std::size_t)>;
+constexpr std::size_t k_first_bytes = 32;
+double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
-std::uint32_t big_endian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char c : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(c);
-  return value;
-}
-
-/// True when the file is a PNG whose rows come in several passes, so that its reader holds the whole picture.
-bool check_png_from(const ByteSource& next, const fs::path& path) {
-  constexpr std::size_t k_block = 65536, k_interlace = 12;
-  if (next(8) != "\x89PNG\r\n\x1a\n") return false;
-  const auto taken = [&](std::size_t count) {
-    const std::string_view bytes = next(count);
-    if (bytes.size() < count) throw InvalidInput(path.string() + ": is truncated");
-    return bytes;
+ByteSource source_of(std::ifstream& file) {
+  return [&file, block = std::string()](std::size_t count) mutable {
+    block.resize(count);
+    file.read(block.data(), static_cast<std::streamsize>(count));
+    return std::string_view(block).substr(0, static_cast<std::size_t>(file.gcount()));
   };
-  for (bool interlaced = false;;) {
-    std::size_t rest = big_endian(taken(4));
-    const std::string name(taken(4));
-    const auto crc_of = [](uLong crc, std::string_view bytes) {
-      return crc32_z(crc, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-    };
-    uLong crc = crc_of(0, name);
-    for (bool first = true; rest > 0; first = false) {
-      const std::string_view bytes = taken(std::min(rest, k_block));
-      if (first && name == "IHDR" && bytes.size() > k_interlace) interlaced = bytes[k_interlace] != 0;
-      crc = crc_of(crc, bytes);
-      rest -= bytes.size();
-    }
-    if (crc != big_endian(taken(4)))
-      throw InvalidInput(fmt::format("{}: is damaged in chunk {}", path.string(), printable(name)));
-    if (name == "IEND") return interlaced;
-  }
 }
 
-bool check_png_file(const fs::path& path) {
+PictureFormat checked_format(std::string_view first, const ByteSource& next, const fs::path& path) {
+  PictureFormat format = picture_format(first, path);
+  if (format.name.empty())
+    throw InvalidInput(path.string() +
+                       ": is no picture, or of a format that is not read (PNG, JPEG, TIFF, OpenEXR, PNM, PFM, HDR, "
+                       "BMP, GIF, WebP, DPX, PSD and TGA are)");
+  const auto [width, height] = announced_size(format.name, first);
+  constexpr std::uint64_t k_rgba = 4;
+  if (k_rgba * width * height > picture_memory())
+    throw InvalidInput(
+        fmt::format("{}: {} x {} pixels take {:.1f} MB of memory, more than the {:.1f} MB that "
+                    "--max-memory allows",
+                    path.string(), width, height, megabytes(k_rgba * width * height), megabytes(picture_memory())));
+  if (format.name == "png") format.in_rows = !check_png(next, path);
+  if (format.name == "jpeg") format.in_rows = !check_jpeg(next, path);
+  return format;
+}
+
+PictureFormat checked_format(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": cannot be read");
-  std::string block;
-  return check_png_from(
-      [&](std::size_t count) {
-        block.resize(count);
-        file.read(block.data(), static_cast<std::streamsize>(count));
-        return std::string_view(block).substr(0, static_cast<std::size_t>(file.gcount()));
-      },
-      path);
+  std::string first(k_first_bytes, '\0');
+  file.read(first.data(), static_cast<std::streamsize>(first.size()));
+  first.resize(static_cast<std::size_t>(file.gcount()));
+  file.clear();
+  file.seekg(0);
+  return checked_format(first, source_of(file), path);
+}
+
+/// Opens with the reader of one format. Readers that hold whole pictures look at the size that is announced before they
+/// take memory.
+std::unique_ptr<ImageInput> open_input(const PictureFormat& format, const std::string& name,
+                                       OIIO::Filesystem::IOProxy* proxy) {
+  static std::mutex mutex;  // The limit is one for the process.
+  const std::scoped_lock lock(mutex);
+  constexpr std::uint64_t k_most = 1U << 30U;
+  const std::uint64_t most = std::clamp<std::uint64_t>(picture_memory() >> 20U, 1, k_most);
+  OIIO::attribute("limits:imagesize_MB", format.in_rows ? 0 : static_cast<int>(most));
+  OIIO::attribute("tiff:multithread", 0);  // With threads a tile that can't be decompressed is black, and no error.
+  ImageSpec spec, wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);  // Values as they are stored, not multiplied by alpha.
+  auto input = ImageInput::create(std::string(format.name));
+  try {
+    if (input && (!proxy || input->set_ioproxy(proxy)) && input->open(name, spec, wishes)) return input;
+  } catch (const std::bad_alloc&) {
+    throw InvalidInput(name + ": no memory is left to open it");
+  } catch (const std::length_error&) {
+    throw InvalidInput(name + ": announces more than its reader can hold");
+  }
+  const std::string reason = input ? input->geterror() : OIIO::geterror();
+  if (reason.find("limits:imagesize_MB") != std::string::npos)
+    throw InvalidInput(fmt::format("{}: takes more than the {:.1f} MB of memory that --max-memory allows", name,
+                                   megabytes(picture_memory())));
+  throw InvalidInput(fmt::format("{}: is no picture: {}", name, first_line(reason)));
+}
+
+/// What OpenImageIO, or the library below it, holds of a picture while it is read.
+std::uint64_t held_bytes(const PictureFormat& format, const ImageSpec& spec) {
+  const std::uint64_t pixels = pixel_count(spec.width, spec.height);
+  const auto channels = static_cast<std::uint64_t>(spec.nchannels);
+  if (format.name == "jpeg" && !format.in_rows) return pixels * channels * sizeof(std::int16_t);
+  // libtiff turns what is neither grey, RGB, a palette nor CMYK into RGBA as a whole.
+  constexpr int k_cmyk = 5;
+  if (format.name == "tiff" && spec.get_int_attribute("tiff:PhotometricInterpretation") > k_cmyk) return 4 * pixels;
+  if (!format.in_rows) return pixels * channels * spec.format.size();
+  return pixel_count(spec.width, std::max(1, spec.tile_height)) * channels * spec.format.size();
 }
 
 }  // namespace
@@ -86,54 +115,87 @@ std::size_t pixel_count(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-int color_channels(const ImageSpec& spec) { return spec.nchannels >= 3 ? 3 : 1; }
-
-ImageSpec stored_values() {
-  ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);
-  return wishes;
+PictureInput::PictureInput(const fs::path& path, std::size_t most_pixels) : name_(path.string()) {
+  require_file(path);
+  const std::uintmax_t bytes = fs::file_size(path);
+  if (bytes == 0) throw InvalidInput(name_ + ": is empty");
+  const PictureFormat format = checked_format(path);
+  input_ = open_input(format, name_, nullptr);
+  check_size(bytes, most_pixels);
+  held_bytes_ = held_bytes(format, spec());
 }
 
-double pitch_of(const ImageSpec& spec) {
-  const double x = double{spec.get_float_attribute("XResolution")},
-               y = double{spec.get_float_attribute("YResolution", static_cast<float>(x))};
-  const std::string unit(spec.get_string_attribute("ResolutionUnit"));
+PictureInput::PictureInput(std::span<const std::byte> bytes, const std::string& name, std::size_t most_pixels)
+    : name_(name) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const PictureFormat format = checked_format(text.substr(0, k_first_bytes), source_of(text), name);
+  if (format.name != "png" && format.name != "jpeg") throw InvalidInput(name + ": is neither PNG nor JPEG");
+  memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(bytes.data()), bytes.size());
+  input_ = open_input(format, name_, memory_.get());
+  check_size(bytes.size(), most_pixels);
+  held_bytes_ = held_bytes(format, spec());
+}
+
+double PictureInput::pitch_mm() const noexcept {
+  const double x = double{spec().get_float_attribute("XResolution")},
+               y = double{spec().get_float_attribute("YResolution", static_cast<float>(x))};
+  const std::string unit(spec().get_string_attribute("ResolutionUnit"));
   const double length_mm = unit == "in" || unit == "inch" ? k_mm_per_inch : unit == "cm" ? 10 : unit == "m" ? 1000 : 0;
   if (!(x > 0) || !std::isfinite(x) || !(std::abs(x - y) <= 1e-3 * x)) return 0;
   return length_mm / x;
 }
 
-void check_png(std::string_view bytes, const fs::path& path) {
-  check_png_from(
-      [&](std::size_t count) {
-        const std::string_view taken = bytes.substr(0, count);
-        bytes.remove_prefix(taken.size());
-        return taken;
-      },
-      path);
+void PictureInput::check_size(std::uintmax_t bytes, std::size_t most_pixels) const {
+  const ImageSpec& s = spec();
+  if (s.width < 1 || s.height < 1 || s.depth > 1 || s.nchannels < 1 || s.deep)
+    throw InvalidInput(name_ + ": is no flat picture");
+  const std::size_t most = std::min<std::size_t>(most_pixels, k_free_pixels + k_max_pixels_per_byte * bytes);
+  if (pixel_count(s.width, s.height) > most)
+    throw InvalidInput(fmt::format("{}: claims {} x {} pixels; at most {} are supported for its size", name_, s.width,
+                                   s.height, most));
 }
 
-void check_size(const ImageSpec& spec, const fs::path& path, std::uintmax_t bytes, std::size_t most_pixels) {
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
-    throw InvalidInput(path.string() + ": is no flat picture");
-  const std::size_t pixels = pixel_count(spec.width, spec.height);
-  const std::size_t holdable = k_free_pixels + k_max_pixels_per_byte * bytes;
-  if (pixels > std::min(most_pixels, holdable))
-    throw InvalidInput(fmt::format("{}: claims {} x {} pixels; at most {} are supported for its size", path.string(),
-                                   spec.width, spec.height, std::min(most_pixels, holdable)));
+void PictureInput::require_memory(std::uint64_t bytes) const {
+  const std::uint64_t most = picture_memory(), needed = bytes + held_bytes_;
+  if (needed > most)
+    throw InvalidInput(
+        fmt::format("{}: {} x {} pixels of {} channels take {:.1f} MB of memory, more than the {:.1f} MB "
+                    "that --max-memory allows",
+                    name_, width(), height(), spec().nchannels, megabytes(needed), megabytes(most)));
 }
 
-std::unique_ptr<ImageInput> open_picture(const fs::path& path, std::size_t most_pixels) {
-  require_file(path);
-  const std::uintmax_t bytes = fs::file_size(path);
-  if (bytes == 0) throw InvalidInput(path.string() + ": is empty");
-  const bool interlaced = check_png_file(path);
-  const ImageSpec wishes = stored_values();
-  auto input = ImageInput::open(path.string(), &wishes);
-  if (!input) throw InvalidInput(path.string() + ": is no picture: " + first_line(OIIO::geterror()));
-  const bool held_whole = interlaced || std::string_view(input->format_name()) == "jpeg";
-  check_size(input->spec(), path, bytes, held_whole ? std::min(most_pixels, k_max_image_pixels) : most_pixels);
-  return input;
+bool PictureInput::read_native(int top, int rows, OIIO::TypeDesc type, void* values) {
+  const ImageSpec& s = spec();
+  if (s.tile_height > 0)
+    return input_->read_tiles(0, 0, s.x, s.x + s.width, top, top + rows, s.z, s.z + 1, 0, channels(), type, values);
+  return input_->read_scanlines(0, 0, top, top + rows, s.z, 0, channels(), type, values);
 }
+
+void PictureInput::read(int top, int rows, OIIO::TypeDesc type, void* values) {
+  // OpenImageIO decompresses the strips of a TIFF itself when it is asked for several rows, and takes what it can't
+  // decompress for black; row by row libtiff does it, and says so.
+  const bool row_by_row = spec().tile_height == 0 && std::string_view(input_->format_name()) == "tiff";
+  const std::size_t row_bytes = pixel_count(width(), channels()) * type.size();
+  const int step = row_by_row ? 1 : rows;
+  for (int row = 0; row < rows; row += step) {
+    try {
+      const bool read = read_native(spec().y + top + row, step, type,
+                                    static_cast<unsigned char*>(values) + static_cast<std::size_t>(row) * row_bytes);
+      if (read && !input_->has_error()) continue;
+    } catch (const std::bad_alloc&) {
+      throw InvalidInput(
+          fmt::format("{}: no memory is left at row {} of {} x {} pixels", name_, top + row, width(), height()));
+    } catch (const std::length_error&) {
+      throw InvalidInput(fmt::format("{}: {} x {} pixels are more than its reader can hold", name_, width(), height()));
+    }
+    std::string reason = first_line(input_->geterror());
+    if (reason.empty()) reason = "its data end or make no sense there";
+    throw InvalidInput(fmt::format("{}: is damaged at row {}: {}", name_, top + row, reason));
+  }
+}
+
+void PictureInput::read(int top, int rows, float* values) { read(top, rows, OIIO::TypeDesc::FLOAT, values); }
+
+void PictureInput::read(int top, int rows, unsigned char* values) { read(top, rows, OIIO::TypeDesc::UINT8, values); }
 
 }  // namespace papilla::io_detail

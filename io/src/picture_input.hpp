@@ -1,37 +1,56 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
-#include <string_view>
 
 namespace papilla::io_detail {
 
 std::size_t pixel_count(int width, int height);
 
-/// Colours are read as three channels, everything else as its first one.
-int color_channels(const OIIO::ImageSpec& spec);
+/// A flat picture whose file is open and whose size is known; nothing of it is decoded yet.
+class PictureInput {
+ public:
+  /// @throws IoError, InvalidInput as read_grey_image().
+  PictureInput(const std::filesystem::path& path, std::size_t most_pixels);
+  /// A picture in memory, PNG or JPEG, which must outlive it; `name` only names it in messages.
+  PictureInput(std::span<const std::byte> bytes, const std::string& name, std::size_t most_pixels);
 
-/// Asks for values as they are stored, not multiplied by alpha.
-OIIO::ImageSpec stored_values();
+  int width() const noexcept { return spec().width; }
+  int height() const noexcept { return spec().height; }
+  int channels() const noexcept { return spec().nchannels >= 3 ? 3 : 1; }  ///< Colours, or the first channel as grey.
+  bool is_float() const noexcept { return spec().format.is_floating_point(); }
+  int bits() const noexcept { return static_cast<int>(8 * spec().format.basesize()); }
+  double pitch_mm() const noexcept;  ///< From the file's resolution; 0 when it has none or pixels are not square.
+  int tile_rows() const noexcept { return spec().tile_height; }  ///< 0: the picture is not tiled.
+  const std::string& name() const noexcept { return name_; }
 
-/// Millimetres per pixel from the file's resolution; 0 when it has none or its pixels are not square.
-double pitch_of(const OIIO::ImageSpec& spec);
+  /// @throws InvalidInput when `bytes` and what the reader of the format holds are more than picture_memory().
+  void require_memory(std::uint64_t bytes) const;
 
-/// Checks the chunks of a PNG before libpng reads it, because libpng prints messages of its own to stderr. Accepts all
-/// other formats. @throws InvalidInput naming `path` when a chunk is damaged.
-void check_png(std::string_view bytes, const std::filesystem::path& path);
+  /// Decodes `rows` rows from `top` on: the first channels() channels of every pixel, interleaved, as floats or bytes.
+  /// Of a tiled picture `top` and `rows` are whole tiles, but for the last rows.
+  /// @throws InvalidInput naming the file and the row when it is damaged there.
+  void read(int top, int rows, float* values);
+  void read(int top, int rows, unsigned char* values);
 
-/// @throws InvalidInput when the picture is not flat, larger than `most_pixels`, or larger than a file of that many
-/// bytes can hold.
-void check_size(const OIIO::ImageSpec& spec, const std::filesystem::path& path, std::uintmax_t bytes,
-                std::size_t most_pixels);
+ private:
+  const OIIO::ImageSpec& spec() const noexcept { return input_->spec(); }
+  void check_size(std::uintmax_t bytes, std::size_t most_pixels) const;
+  void read(int top, int rows, OIIO::TypeDesc type, void* values);
+  bool read_native(int top, int rows, OIIO::TypeDesc type, void* values);
 
-/// @throws IoError, InvalidInput as read_grey_image().
-std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path& path, std::size_t most_pixels);
+  std::string name_;
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  std::uint64_t held_bytes_ = 0;
+};
 
 }  // namespace papilla::io_detail

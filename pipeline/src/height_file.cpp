@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/height_file.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "pictures/relief.hpp"
@@ -51,6 +57,51 @@ std::vector<ReliefPicture> draw_pictures(const fs::path& folder, HeightMap map) 
   return pictures;
 }
 
+bool needs_memory(const HeightFileOptions& options) {
+  return options.height.tile || options.height.roughness != HeightRoughness::whole ||
+         options.height.shortest_wavelength_mm > 0 || !options.normal_map.empty() || !options.pictures.empty();
+}
+
+/// The middle of a picture, at most `most` pixels a side.
+GreyImage middle_of(const SampleRows& picture, int most, int bits) {
+  const int width = std::min(picture.width(), most), height = std::min(picture.height(), most);
+  GreyImage middle{width, height,
+                   std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), 0, bits};
+  for (int y = 0; y < height; ++y)
+    picture.read((picture.width() - width) / 2, (picture.height() - height) / 2 + y, width, &middle.at(0, y));
+  return middle;
+}
+
+HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const HeightFileOptions& options) {
+  constexpr int k_rows = 64;
+  // A device has no room beside it.
+  const bool is_device = fs::exists(output) && !fs::is_regular_file(output);
+  const fs::path folder = is_device ? fs::temp_directory_path() : output.parent_path();
+  SampleFile grey(bands.width(), bands.height(), folder);
+  for (int y = 0; y < bands.height();) {
+    const GreyImage band = bands.next(k_rows);
+    for (int row = 0; row < band.height; ++row, ++y)
+      grey.write(y, std::span(band.pixels).subspan(band.index(0, row), static_cast<std::size_t>(band.width)));
+  }
+  HeightOptions height = options.height;
+  if (!(height.pitch_mm > 0)) height.pitch_mm = bands.pitch_mm();
+  SampleFile samples(bands.width(), bands.height(), folder);
+  const HeightRows rows =
+      height_from_rows(grey, middle_of(grey, options.largest_px / 2, bands.bits()), height, samples);
+  HeightFiles files{rows.result, {}, {}, {}};
+  const auto write = [&](const fs::path& file, double factor, double offset_mm) {
+    const ScaledSamples heights(samples, factor * rows.scale, rows.lowest, offset_mm);
+    write_height_rows(file, heights, std::abs(factor) * rows.result.depth_mm, rows.result.map.pitch_mm_x);
+    return file.string();
+  };
+  write(output, 1, 0);
+  if (options.opposite) files.opposite = write(beside(output, "opposite"), -1, rows.result.depth_mm);
+  if (options.deeper)
+    for (const int factor : {2, 4})
+      files.deeper.push_back({factor, write(beside(output, "x" + std::to_string(factor)), factor, 0)});
+  return files;
+}
+
 }  // namespace
 
 void write_height_file(const fs::path& path, const HeightMap& map) {
@@ -63,7 +114,11 @@ void write_height_file(const fs::path& path, const HeightMap& map) {
 }
 
 HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& output, const HeightFileOptions& options) {
-  HeightFiles files{height_from_image(read_grey_image(picture), options.height), {}, {}, {}};
+  ImageBands bands(picture);
+  if (std::max(bands.width(), bands.height()) > options.largest_px && !needs_memory(options))
+    return height_by_bands(bands, output, options);
+  bands.require_memory(k_height_bytes_per_pixel);
+  HeightFiles files{height_from_image(bands.next(bands.height()), options.height), {}, {}, {}};
   const HeightMap& map = files.result.map;
   write_height_file(output, map);
   if (!options.normal_map.empty()) write_color_image(options.normal_map, normal_map(map));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/resample.hpp"
@@ -24,7 +25,8 @@ GreyImage scale_to_width(const GreyImage& image, int width, bool periodic) {
 
 PreparedPicture prepare_picture_file(const std::filesystem::path& picture, const std::filesystem::path& output,
                                      const PrepareFileOptions& options) {
-  GreyImage image = read_grey_image(picture);
+  constexpr std::size_t k_bytes_per_pixel = 64;  // Of the picture and what prepare_picture() makes of it, at most.
+  GreyImage image = read_grey_image(picture, k_bytes_per_pixel);
   if (options.pitch_mm > 0) image.pitch_mm = options.pitch_mm;
   PreparedPicture prepared = prepare_picture(image, options.prepare);
   if (options.width_px) {

@@ -23,7 +23,7 @@ CompileOptions recipe_options(const std::filesystem::path& folder) {
   options.read_picture = [folder](const std::string& path) {
     const auto file = resolve_reference({folder, "picture", path});
     if (!file) throw InvalidInput("'" + shown(path) + "' does not exist");
-    const ColorImage image = read_color_image(*file);
+    const ColorImage image = read_color_image(*file, 3 + 3 * sizeof(float));
     RecipePicture picture{image.width, image.height, {}};
     picture.rgb.reserve(image.pixels.size());
     for (const unsigned char byte : image.pixels) picture.rgb.push_back(static_cast<float>(byte) / 255.0F);

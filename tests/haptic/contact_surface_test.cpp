@@ -193,6 +193,9 @@ TEST(ContactSurface, RefusesBrokenInput) {
   mesh = good;
   mesh.material.assign(mesh.triangles.size(), 3);
   EXPECT_THROW(ContactSurface(mesh, materials, {}, 0), InvalidInput);
+  mesh = good;
+  for (Vec3& position : mesh.positions) position.x += 2e6;
+  EXPECT_THROW(ContactSurface(mesh, materials, {}, 0), InvalidInput) << "farther than 1000 km";
   std::vector<ContactMaterial> odd(1);
   odd[0].stiffness = std::nan("");
   EXPECT_THROW(ContactSurface(good, odd, {}, 0), InvalidInput);

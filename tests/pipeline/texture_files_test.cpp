@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
@@ -34,6 +36,40 @@ TEST(HeightFile, WritesWhatWasAskedForBesideTheOutput) {
   ASSERT_EQ(files.pictures.size(), 3U);
   EXPECT_EQ(files.pictures[0].name, "relief");
   EXPECT_TRUE(std::filesystem::exists(files.pictures[1].file));
+}
+
+TEST(HeightFile, InBandsWritesTheSameFiles) {
+  const test::TemporaryFolder folder;
+  const Synthesis grain = synthesize_texture({.grain = GrainKind::spheres6, .size_px = 300});
+  write_grey_image(folder / "grain.png", grain.picture, 16);
+  HeightFileOptions options;
+  options.height.pitch_mm = 0.1;
+  options.opposite = options.deeper = true;
+  for (const char* extension : {".png", ".exr", ".tif"})
+    for (const HeightMethod method : {HeightMethod::automatic, HeightMethod::intensity, HeightMethod::tsai_shah}) {
+      options.height.method = method;
+      options.largest_px = 4096;
+      const HeightFiles whole =
+          height_of_picture_file(folder / "grain.png", folder / (std::string("whole") + extension), options);
+      options.largest_px = 256;
+      const HeightFiles bands =
+          height_of_picture_file(folder / "grain.png", folder / (std::string("bands") + extension), options);
+      EXPECT_EQ(bands.result.method, whole.result.method);
+      EXPECT_EQ(bands.result.map.periodic, whole.result.map.periodic);
+      EXPECT_NEAR(bands.result.rms_mm, whole.result.rms_mm, 1e-6);
+      if (bands.result.method == HeightMethod::variational) continue;  // In pieces it is another guess at long waves.
+      for (const char* suffix : {"", "-opposite", "-x4"}) {
+        const auto file = [&](const char* stem) { return folder / (std::string(stem) + suffix + extension); };
+        const GreyImage a = read_grey_image(file("whole")), b = read_grey_image(file("bands"));
+        ASSERT_EQ(a.pixels.size(), b.pixels.size());
+        EXPECT_NEAR(a.pitch_mm, b.pitch_mm, 1e-9);
+        double most = 0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i)
+          most = std::max(most, std::abs(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i])));
+        EXPECT_LE(most, 2e-5) << file("bands");
+      }
+    }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 25) << "no temporary file is left";
 }
 
 TEST(PrepareFile, ScalesInProportionAndKeepsTheSizeInMillimetres) {

@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
@@ -16,6 +19,7 @@
 #include "papilla/texture/shape_from_shading.hpp"
 #include "papilla/texture/symmetry.hpp"
 #include "papilla/texture/tiling.hpp"
+#include "row_window.hpp"
 #include "shaped_noise.hpp"
 #include "slopes.hpp"
 
@@ -67,36 +71,79 @@ void choose_tile(const GreyImage& image, const Lattice& lattice, HeightResult& r
   result.map.periodic = true;
 }
 
-void choose_light(const GreyImage& image, const HeightOptions& options, HeightResult& result) {
+void choose_light(const SampleRows& picture, const HeightOptions& options, HeightResult& result) {
   if (options.light) {
     result.light = texture_detail::require_light(*options.light, "height_from_image");
     return;
   }
-  const LightEstimate estimate = estimate_light(image);
+  const LightEstimate estimate = estimate_light(picture);
   result.light = estimate.direction;
   result.light_estimated = true;
   result.light_coherence = estimate.coherence;
 }
 
-std::vector<double> height_by_shading(const GreyImage& image, const HeightOptions& options, HeightResult& result) {
-  choose_light(image, options, result);
-  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
-  const double mean =
-      std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) / static_cast<double>(image.pixels.size());
-  if (!(*low < *high) || !(mean > 0)) {
+struct Statistics {
+  float low = 0, high = 0;
+  double mean = 0, deviation = 0;  ///< Root mean square from the mean.
+};
+
+Statistics statistics(const SampleRows& samples) {
+  Statistics s;
+  std::vector<float> row(static_cast<std::size_t>(samples.width()));
+  const auto each_row = [&](const auto& visit) {
+    for (int y = 0; y < samples.height(); ++y) {
+      samples.read(0, y, samples.width(), row.data());
+      visit(y);
+    }
+  };
+  double sum = 0, squares = 0;
+  each_row([&](int y) {
+    const auto [low, high] = std::minmax_element(row.begin(), row.end());
+    s.low = y == 0 ? *low : std::min(s.low, *low);
+    s.high = y == 0 ? *high : std::max(s.high, *high);
+    for (const float value : row) sum += static_cast<double>(value);
+  });
+  s.mean = sum / samples.count();
+  each_row([&](int) {
+    for (const float value : row)
+      squares += (static_cast<double>(value) - s.mean) * (static_cast<double>(value) - s.mean);
+  });
+  s.deviation = std::sqrt(squares / samples.count());
+  return s;
+}
+
+/// The light, and how the picture is to be solved for its heights; nothing for a flat or black one, whose heights are
+/// 0.
+std::optional<ShadingOptions> choose_shading(const SampleRows& picture, const HeightOptions& options,
+                                             HeightResult& result) {
+  choose_light(picture, options, result);
+  const Statistics grey = statistics(picture);
+  if (!(grey.low < grey.high) || !(grey.mean > 0)) {
     result.stop = StopReason::direct;
-    return std::vector<double>(image.pixels.size(), 0.0);
+    return std::nullopt;
   }
   ShadingOptions shading;
   shading.light = result.light;
-  shading.albedo = options.albedo > 0 ? options.albedo : mean / result.light.z;
+  shading.albedo = options.albedo > 0 ? options.albedo : grey.mean / result.light.z;
   shading.periodic = result.map.periodic;
+  shading.largest_piece_px = options.largest_piece_px;
   if (options.iterations > 0) shading.iterations = options.iterations;
   shading.progress = options.progress;
-  const auto solve = result.method == HeightMethod::variational ? shape_from_shading_variational
-                     : result.method == HeightMethod::pentland  ? shape_from_shading_pentland
-                                                                : shape_from_shading_tsai_shah;
-  ShadingResult solved = solve(image, shading);
+  return shading;
+}
+
+/// Of the three methods with the same parameters the one that was chosen.
+template <class Solve>
+Solve* solver(HeightMethod method, Solve* variational, Solve* pentland, Solve* tsai_shah) {
+  return method == HeightMethod::variational ? variational : method == HeightMethod::pentland ? pentland : tsai_shah;
+}
+
+std::vector<double> height_by_shading(const GreyImage& image, const HeightOptions& options, HeightResult& result) {
+  const auto shading = choose_shading(SamplesInMemory(image.pixels, image.width, image.height), options, result);
+  if (!shading) return std::vector<double>(image.pixels.size(), 0.0);
+  using Solve = ShadingResult(const GreyImage&, const ShadingOptions&);
+  ShadingResult solved = solver<Solve>(result.method, shape_from_shading_variational, shape_from_shading_pentland,
+                                       shape_from_shading_tsai_shah)(image, *shading);
   result.trace = std::move(solved.trace);
   result.stop = solved.stop;
   return std::move(solved.height_px);
@@ -193,20 +240,26 @@ void cut_short_waves(Field& field, const HeightOptions& options, HeightResult& r
 }
 
 /// See HeightResult::guessed_share.
-double share_across(const HeightMap& map, Vec3 light) {
+double share_across(const SampleRows& relief, bool periodic, Vec3 light) {
   const Vec2 azimuth = {light.x, light.y};
   const double length = norm(azimuth);
   if (!(length > 0)) return 1;
-  HeightMap unit = map;
-  unit.pitch_mm_x = unit.pitch_mm_y = 1;
+  const int width = relief.width();
   double across = 0, total = 0;
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x) {
-      const Vec2 slope = texture_detail::slope(unit, x, y);
+  texture_detail::visit_rows(relief, periodic, [&](int y, const texture_detail::RowWindow& rows) {
+    const double span = texture_detail::stencil(y, relief.height(), periodic).span;
+    for (int x = 0; x < width; ++x) {
+      const texture_detail::Stencil columns = texture_detail::stencil(x, width, periodic);
+      const auto at = [](const std::vector<float>& row, int i) {
+        return static_cast<double>(row[static_cast<std::size_t>(i)]);
+      };
+      const Vec2 slope{(at(rows.row, columns.after) - at(rows.row, columns.before)) / columns.span,
+                       (at(rows.below, x) - at(rows.above, x)) / span};
       const double sideways = cross(azimuth, slope) / length;
       across += sideways * sideways;
       total += dot(slope, slope);
     }
+  });
   return total > 0 ? across / total : 0;
 }
 
@@ -291,9 +344,71 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   scale_to_depth(field, options.depth_mm, result);
   result.roughness_rms_mm *= range > 0 ? options.depth_mm / range : 0;
   result.rms_mm = rms_height_mm(result.map);
-  if (result.method != HeightMethod::intensity) result.guessed_share = share_across(result.map, result.light);
+  if (result.method != HeightMethod::intensity)
+    result.guessed_share = share_across(SamplesInMemory(result.map.mm, result.map.width, result.map.height),
+                                        result.map.periodic, result.light);
   list_measured_and_assumed(options, result);
   return result;
+}
+
+HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, const HeightOptions& options,
+                            SampleFile& relief) {
+  require_options(options);
+  texture_detail::require_image(middle, "height_from_rows");
+  if (options.tile || options.roughness != HeightRoughness::whole || options.shortest_wavelength_mm > 0)
+    throw InvalidInput(
+        "height_from_rows: a tile, roughness apart and a shortest wavelength need the picture in memory");
+  HeightRows rows;
+  HeightResult& result = rows.result;
+  result.map.width = picture.width();
+  result.map.height = picture.height();
+  result.map.pitch_mm_x = result.map.pitch_mm_y = options.pitch_mm;
+  result.map.periodic = options.periodic ? *options.periodic : measure_tiling(picture).tiles;
+  Lattice lattice;
+  if (options.method == HeightMethod::automatic)
+    lattice = options.lattice ? *options.lattice
+                              : analyze_symmetry(middle, {}, FeatureKind::squared, options.progress).lattice;
+  choose_method(options, lattice, result);
+  if (options.method == HeightMethod::automatic)
+    result.reason +=
+        " (seen in the middle " + std::to_string(middle.width) + " x " + std::to_string(middle.height) + ")";
+
+  std::vector<float> row(static_cast<std::size_t>(picture.width()), 0.0F);
+  std::optional<ShadingOptions> shading;
+  const bool lit = result.method != HeightMethod::intensity;
+  if (lit) shading = choose_shading(picture, options, result);
+  if (shading) {
+    using Solve = ShadingResult(const SampleRows&, const ShadingOptions&, const HeightWriter&);
+    ShadingResult solved =
+        solver<Solve>(result.method, shape_from_shading_variational, shape_from_shading_pentland,
+                      shape_from_shading_tsai_shah)(picture, *shading, [&](int y, std::span<const double> heights) {
+          std::transform(heights.begin(), heights.end(), row.begin(), [](double h) { return static_cast<float>(h); });
+          relief.write(y, row);
+        });
+    result.trace = std::move(solved.trace);
+    result.stop = solved.stop;
+    const auto pieces = [&](int side) {
+      const int core = options.largest_piece_px / 2;
+      return (side + core - 1) / core;
+    };
+    result.pieces = {pieces(picture.width()), pieces(picture.height())};
+  } else {
+    for (int y = 0; y < picture.height(); ++y) {
+      if (!lit) picture.read(0, y, picture.width(), row.data());
+      relief.write(y, row);
+    }
+  }
+
+  const Statistics heights = statistics(relief);
+  const double range = static_cast<double>(heights.high) - static_cast<double>(heights.low);
+  rows.scale = range > 0 ? options.depth_mm / range : 0;
+  rows.lowest = static_cast<double>(heights.low);
+  result.depth_mm = range > 0 ? options.depth_mm : 0;
+  result.rms_mm = rows.scale * heights.deviation;
+  if (options.pitch_mm > 0) result.shortest_wavelength_mm = 2 * options.pitch_mm;
+  if (lit) result.guessed_share = share_across(relief, result.map.periodic, result.light);
+  list_measured_and_assumed(options, result);
+  return rows;
 }
 
 }  // namespace papilla

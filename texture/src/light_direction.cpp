@@ -5,13 +5,18 @@
 
 #include "checks.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/texture/stored_samples.hpp"
 #include "structure_tensor.hpp"
 
 namespace papilla {
 
 LightEstimate estimate_light(const GreyImage& image) {
   texture_detail::require_image(image, "estimate_light");
-  const texture_detail::StructureTensor tensor = texture_detail::structure_tensor(image);
+  return estimate_light(SamplesInMemory(image.pixels, image.width, image.height));
+}
+
+LightEstimate estimate_light(const SampleRows& picture) {
+  const texture_detail::StructureTensor tensor = texture_detail::structure_tensor(picture);
   LightEstimate estimate;
   estimate.coherence = tensor.coherence();
   if (!(estimate.coherence > 0)) return estimate;

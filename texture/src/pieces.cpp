@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 #include "checks.hpp"
 
@@ -16,28 +19,69 @@ namespace {
 /// Bounds the memory on machines of many cores.
 constexpr std::size_t k_pieces_at_once = 4;
 
-Piece cut_out(const GreyImage& image, const PieceSpan& across, const PieceSpan& down) {
-  Piece piece{across, down, {across.length(), down.length(), {}, image.pitch_mm, image.bits}};
-  piece.image.pixels.reserve(static_cast<std::size_t>(across.length()) * static_cast<std::size_t>(down.length()));
+Piece cut_out(const SampleRows& picture, const PieceSpan& across, const PieceSpan& down) {
+  Piece piece{across, down, {across.length(), down.length(), {}, 0, 32}};
+  piece.image.pixels.resize(static_cast<std::size_t>(across.length()) * static_cast<std::size_t>(down.length()));
   for (int y = 0; y < down.length(); ++y) {
-    const int row = wrapped(down.begin + y, image.height);
-    for (int x = 0; x < across.length(); ++x)
-      piece.image.pixels.push_back(image.at(wrapped(across.begin + x, image.width), row));
+    const int row = wrapped(down.begin + y, picture.height());
+    for (int x = 0; x < across.length();) {
+      const int column = wrapped(across.begin + x, picture.width());
+      const int count = std::min(picture.width() - column, across.length() - x);
+      picture.read(column, row, count, &piece.image.at(x, y));
+      x += count;
+    }
   }
   return piece;
 }
 
-void add_weighted(const PieceSpan& across, const PieceSpan& down, const std::vector<double>& heights,
-                  const GreyImage& image, std::vector<double>& sum) {
-  for (int y = 0; y < down.length(); ++y) {
-    const double row_weight = down.weights[static_cast<std::size_t>(y)];
-    if (!(row_weight > 0)) continue;
-    const int row = wrapped(down.begin + y, image.height);
-    for (int x = 0; x < across.length(); ++x)
-      sum[pixel_index(wrapped(across.begin + x, image.width), row, image.width)] +=
-          row_weight * across.weights[static_cast<std::size_t>(x)] * heights[pixel_index(x, y, across.length())];
+/// The weighted sums of the rows that pieces may still add to.
+class OpenRows {
+ public:
+  OpenRows(int width, const RowWriter& write) : width_(width), write_(write) {}
+
+  void add(const PieceSpan& across, const PieceSpan& down, const std::vector<double>& heights) {
+    for (int y = 0; y < down.length(); ++y) {
+      const double row_weight = down.weights[static_cast<std::size_t>(y)];
+      if (!(row_weight > 0)) continue;
+      double* sum = row(down.begin + y);
+      for (int x = 0; x < across.length(); ++x)
+        sum[wrapped(across.begin + x, width_)] +=
+            row_weight * across.weights[static_cast<std::size_t>(x)] * heights[pixel_index(x, y, across.length())];
+    }
   }
-}
+
+  /// No piece adds to the rows above `end` any more, but for the first `shared`, to which those below the lower border
+  /// are added in the end.
+  void close(int end, int shared) {
+    for (; top_ < end; ++top_) {
+      std::vector<double> sum = std::move(rows_.front());
+      rows_.pop_front();
+      if (top_ < shared) {
+        head_.push_back(std::move(sum));
+      } else {
+        write_(top_, sum);
+      }
+    }
+  }
+
+  void finish() {
+    for (std::size_t i = 0; i < head_.size(); ++i) {
+      std::transform(head_[i].begin(), head_[i].end(), rows_[i].begin(), head_[i].begin(), std::plus<>());
+      write_(static_cast<int>(i), head_[i]);
+    }
+  }
+
+ private:
+  double* row(int y) {
+    while (top_ + static_cast<int>(rows_.size()) <= y) rows_.emplace_back(static_cast<std::size_t>(width_), 0.0);
+    return rows_[static_cast<std::size_t>(y - top_)].data();
+  }
+
+  int width_, top_ = 0;
+  const RowWriter& write_;
+  std::deque<std::vector<double>> rows_;   ///< From row top_ on, beyond the lower border of periodic pictures too.
+  std::vector<std::vector<double>> head_;  ///< The first rows of a periodic picture.
+};
 
 }  // namespace
 
@@ -78,26 +122,40 @@ ProgressCallback part_of(const ProgressCallback& whole, double begin, double end
   };
 }
 
-std::vector<double> solve_by_pieces(const GreyImage& image, const PieceLayout& layout,
-                                    const std::function<std::vector<double>(const Piece&)>& solve,
-                                    const ProgressCallback& progress, std::string_view stage) {
-  const std::vector<PieceSpan> columns = piece_spans(image.width, layout), rows = piece_spans(image.height, layout);
-  const std::size_t count = columns.size() * rows.size();
-  std::vector<double> sum(image.pixels.size(), 0.0);
-  for (std::size_t first = 0; first < count; first += k_pieces_at_once) {
-    report_progress(progress, stage, static_cast<double>(first) / static_cast<double>(count));
-    std::vector<std::vector<double>> heights(std::min(k_pieces_at_once, count - first));
-    oneapi::tbb::parallel_for(std::size_t{0}, heights.size(), [&](std::size_t i) {
-      const std::size_t t = first + i;
-      heights[i] = solve(cut_out(image, columns[t % columns.size()], rows[t / columns.size()]));
-    });
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-      const std::size_t t = first + i;
-      add_weighted(columns[t % columns.size()], rows[t / columns.size()], heights[i], image, sum);
+void solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
+                     const std::function<std::vector<double>(const Piece&)>& solve, const RowWriter& write,
+                     const ProgressCallback& progress, std::string_view stage) {
+  const std::vector<PieceSpan> columns = piece_spans(picture.width(), layout),
+                               rows = piece_spans(picture.height(), layout);
+  const double count = static_cast<double>(columns.size()) * static_cast<double>(rows.size());
+  const int shared = rows.back().begin + rows.back().length() - picture.height();
+  OpenRows open(picture.width(), write);
+  double done = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t first = 0; first < columns.size(); first += k_pieces_at_once) {
+      report_progress(progress, stage, done / count);
+      std::vector<std::vector<double>> heights(std::min(k_pieces_at_once, columns.size() - first));
+      oneapi::tbb::parallel_for(std::size_t{0}, heights.size(), [&](std::size_t i) {
+        heights[i] = solve(cut_out(picture, columns[first + i], rows[r]));
+      });
+      for (std::size_t i = 0; i < heights.size(); ++i) open.add(columns[first + i], rows[r], heights[i]);
+      done += static_cast<double>(heights.size());
     }
+    const auto first_row = [&](const PieceSpan& span) {
+      return span.begin + static_cast<int>(std::find_if(span.weights.begin(), span.weights.end(),
+                                                        [](double weight) { return weight > 0; }) -
+                                           span.weights.begin());
+    };
+    open.close(r + 1 < rows.size() ? first_row(rows[r + 1]) : picture.height(), shared);
   }
+  open.finish();
   report_progress(progress, stage, 1);
-  return sum;
+}
+
+RowWriter rows_of(std::vector<double>& field, int width) {
+  return [&field, width](int y, std::span<const double> row) {
+    std::copy(row.begin(), row.end(), field.begin() + static_cast<std::ptrdiff_t>(pixel_index(0, y, width)));
+  };
 }
 
 }  // namespace papilla::texture_detail

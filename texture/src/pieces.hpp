@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla::texture_detail {
 
@@ -50,12 +52,18 @@ double ordered_sum(std::vector<double> values);
 /// Progress of a part of the work, from `begin` to `end` of the whole; empty when `whole` is.
 ProgressCallback part_of(const ProgressCallback& whole, double begin, double end);
 
+/// Takes a row of the result; called once for every row, in any order.
+using RowWriter = std::function<void(int y, std::span<const double> row)>;
+
 /// Solves a picture piece by piece, several at a time on all threads: `solve` returns the heights of a piece, row by
-/// row, and their weighted sum over the pieces is the result. Memory: that of the result and of four pieces. The result
-/// does not depend on the number of threads. `solve` must be safe to run on several pieces at once; `progress` gets
-/// `stage` and the share of the pieces that are done.
-std::vector<double> solve_by_pieces(const GreyImage& image, const PieceLayout& layout,
-                                    const std::function<std::vector<double>(const Piece&)>& solve,
-                                    const ProgressCallback& progress, std::string_view stage);
+/// row, and their weighted sum over the pieces is the result. Memory: that of four pieces, and of the result's rows
+/// that pieces share. The result does not depend on the number of threads. `solve` must be safe to run on several
+/// pieces at once; `progress` gets `stage` and the share of the pieces that are done.
+void solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
+                     const std::function<std::vector<double>(const Piece&)>& solve, const RowWriter& write,
+                     const ProgressCallback& progress, std::string_view stage);
+
+/// Writes rows into a field of that width, which must outlive the writer.
+RowWriter rows_of(std::vector<double>& field, int width);
 
 }  // namespace papilla::texture_detail

@@ -2,9 +2,13 @@
 #include "pyramid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 
 #include "checks.hpp"
+#include "papilla/texture/stored_samples.hpp"
 
 namespace papilla::texture_detail {
 namespace {
@@ -32,6 +36,59 @@ std::vector<Cover> covers(int fine, int coarse) {
   return result;
 }
 
+/// A picture at half its sides (rounded), every sample the mean of the area it covers. Computes whole rows when they
+/// are read, from the top down; not for several threads.
+class HalvedRows final : public SampleRows {
+ public:
+  explicit HalvedRows(const SampleRows& fine)
+      : SampleRows((fine.width() + 1) / 2, (fine.height() + 1) / 2),
+        fine_(fine),
+        columns_(covers(fine.width(), width())),
+        rows_(covers(fine.height(), height())) {}
+
+  void read(int x, int y, int count, float* samples) const override {
+    const Cover& row = rows_[static_cast<std::size_t>(y)];
+    for (int k = row.first; k <= row.last; ++k) keep(k);
+    for (int i = 0; i < count; ++i) {
+      const Cover& column = columns_[static_cast<std::size_t>(x + i)];
+      double sum = 0, area = 0;
+      for (int fy = row.first; fy <= row.last; ++fy)
+        for (int fx = column.first; fx <= column.last; ++fx) {
+          const double share = row.share(fy) * column.share(fx);
+          sum += share * static_cast<double>(kept(fy).samples[static_cast<std::size_t>(fx)]);
+          area += share;
+        }
+      samples[i] = static_cast<float>(sum / area);
+    }
+  }
+
+ private:
+  static constexpr int k_kept = 4;  // A row covers at most three, which follow one another.
+  struct Kept {
+    int row = -1;
+    std::vector<float> samples;
+  };
+
+  Kept& kept(int row) const { return kept_[static_cast<std::size_t>(row % k_kept)]; }
+  void keep(int row) const {
+    Kept& place = kept(row);
+    if (place.row == row) return;
+    place.row = row;
+    place.samples.resize(static_cast<std::size_t>(fine_.width()));
+    fine_.read(0, row, fine_.width(), place.samples.data());
+  }
+
+  const SampleRows& fine_;
+  std::vector<Cover> columns_, rows_;
+  mutable std::array<Kept, k_kept> kept_;
+};
+
+GreyImage all_of(const SampleRows& rows) {
+  GreyImage image{rows.width(), rows.height(), std::vector<float>(static_cast<std::size_t>(rows.count())), 0, 32};
+  for (int y = 0; y < rows.height(); ++y) rows.read(0, y, rows.width(), &image.at(0, y));
+  return image;
+}
+
 /// The two coarse samples around a fine one and the weight of the second.
 struct Between {
   int before = 0, after = 0;
@@ -52,30 +109,25 @@ std::vector<Between> positions(const FineAxis& axis, int fine, int coarse, bool 
 }  // namespace
 
 GreyImage halved(const GreyImage& image) {
-  GreyImage half{(image.width + 1) / 2, (image.height + 1) / 2, {}, 2 * image.pitch_mm, 32};
-  const std::vector<Cover> columns = covers(image.width, half.width), rows = covers(image.height, half.height);
-  half.pixels.reserve(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height));
-  for (const Cover& row : rows)
-    for (const Cover& column : columns) {
-      double sum = 0, area = 0;
-      for (int y = row.first; y <= row.last; ++y)
-        for (int x = column.first; x <= column.last; ++x) {
-          const double share = row.share(y) * column.share(x);
-          sum += share * static_cast<double>(image.at(x, y));
-          area += share;
-        }
-      half.pixels.push_back(static_cast<float>(sum / area));
-    }
+  GreyImage half = all_of(HalvedRows(SamplesInMemory(image.pixels, image.width, image.height)));
+  half.pitch_mm = 2 * image.pitch_mm;
   return half;
 }
 
-Shrunk shrunk(const GreyImage& image, int most_side) {
-  Shrunk result;
-  for (const GreyImage* from = &image; std::max(from->width, from->height) > most_side; from = &result.image) {
-    result.image = halved(*from);
-    ++result.halvings;
+Shrunk shrunk(const SampleRows& picture, int most_side) {
+  std::vector<std::unique_ptr<HalvedRows>> levels;
+  const SampleRows* finest = &picture;
+  while (std::max(finest->width(), finest->height()) > most_side) {
+    levels.push_back(std::make_unique<HalvedRows>(*finest));
+    finest = levels.back().get();
   }
-  if (result.halvings == 0) result.image = image;
+  return {all_of(*finest), static_cast<int>(levels.size())};
+}
+
+Shrunk shrunk(const GreyImage& image, int most_side) {
+  Shrunk result = shrunk(SamplesInMemory(image.pixels, image.width, image.height), most_side);
+  result.image.pitch_mm = std::ldexp(image.pitch_mm, result.halvings);
+  if (result.halvings == 0) result.image.bits = image.bits;
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla::texture_detail {
 
@@ -16,6 +17,8 @@ struct Shrunk {
   int halvings = 0;
 };
 Shrunk shrunk(const GreyImage& image, int most_side);
+/// The same of samples that are read once, from the top down; the pitch is not known.
+Shrunk shrunk(const SampleRows& picture, int most_side);
 
 /// Heights in pixels over a grid made by halved(), once or several times, and the picture it was made from.
 struct CoarseHeights {

@@ -4,14 +4,21 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/texture/stored_samples.hpp"
+#include "pieces.hpp"
 
 namespace papilla::texture_detail {
 
 void require_shading(const GreyImage& image, const ShadingOptions& options, const char* function) {
   require_image(image, function);
+  require_shading_options(options, function);
+}
+
+void require_shading_options(const ShadingOptions& options, const char* function) {
   constexpr int k_least_piece = 64;
   if (options.largest_piece_px < k_least_piece)
     throw InvalidInput(std::string(function) + ": pieces of " + std::to_string(options.largest_piece_px) +
@@ -22,6 +29,15 @@ void require_shading(const GreyImage& image, const ShadingOptions& options, cons
                        std::to_string(options.smoothness) + ", tolerance " +
                        std::to_string(options.relative_tolerance) + " and iterations " +
                        std::to_string(options.iterations) + " must be positive");
+}
+
+ShadingResult in_memory(ShadingByRows method, const GreyImage& image, const ShadingOptions& options) {
+  std::vector<double> heights(image.pixels.size());
+  ShadingResult result =
+      method(SamplesInMemory(image.pixels, image.width, image.height), options, rows_of(heights, image.width));
+  remove_mean(heights);
+  result.height_px = std::move(heights);
+  return result;
 }
 
 std::vector<double> brightness(const GreyImage& image, double albedo) {

@@ -33,6 +33,14 @@ inline Vec3 oblique(Vec3 light) {
 /// @throws InvalidInput naming `function` when the picture or an option is out of range.
 void require_shading(const GreyImage& image, const ShadingOptions& options, const char* function);
 
+/// The same of the options alone.
+void require_shading_options(const ShadingOptions& options, const char* function);
+
+using ShadingByRows = ShadingResult (*)(const SampleRows&, const ShadingOptions&, const HeightWriter&);
+
+/// A method that solves by pieces, on a picture in memory.
+ShadingResult in_memory(ShadingByRows method, const GreyImage& image, const ShadingOptions& options);
+
 /// The picture over the albedo.
 std::vector<double> brightness(const GreyImage& image, double albedo);
 

@@ -396,8 +396,8 @@ void keep_short_waves(Field& heights, const Field& start, int width, int height,
 
 /// Pictures too large for one piece: the long waves from the picture at a size that is one, the others in overlapping
 /// pieces with free borders that start from those, mixed by ramps.
-Field solve_large(const GreyImage& image, const ShadingOptions& options, const Stopwatch& clock,
-                  ShadingResult& result) {
+void solve_large(const SampleRows& image, const ShadingOptions& options, const Stopwatch& clock, const RowWriter& write,
+                 ShadingResult& result) {
   const auto [small, levels] = shrunk(image, options.largest_piece_px / 2);
   ShadingOptions coarse_options = options;
   for (int level = 0; level < levels; ++level) coarse_options = coarser(coarse_options);
@@ -412,11 +412,11 @@ Field solve_large(const GreyImage& image, const ShadingOptions& options, const S
   layout.periodic = options.periodic;
   constexpr double k_resolved_px = 6;
   const double longest_px = std::max<double>(layout.overlap, k_resolved_px * std::ldexp(1, levels));
-  const CoarseHeights common{coarse, small.width, small.height, image.width, image.height, options.periodic};
+  const CoarseHeights common{coarse, small.width, small.height, image.width(), image.height(), options.periodic};
   std::mutex mutex;
   std::vector<double> squares;
   StopReason stop = StopReason::converged;
-  Field z = solve_by_pieces(
+  solve_by_pieces(
       image, layout,
       [&](const Piece& piece) {
         ShadingResult steps;
@@ -427,22 +427,33 @@ Field solve_large(const GreyImage& image, const ShadingOptions& options, const S
         if (steps.stop != StopReason::converged) stop = StopReason::iteration_limit;
         return heights;
       },
-      part_of(options.progress, k_coarse_share, 1), k_stage);
+      write, part_of(options.progress, k_coarse_share, 1), k_stage);
   const auto pieces = static_cast<double>(squares.size());
   result.trace.push_back({clock.seconds(), std::sqrt(ordered_sum(std::move(squares)) / pieces)});
   result.stop = stop;
-  return z;
 }
+
+constexpr const char* k_name = "shape_from_shading_variational";
 
 }  // namespace
 
 ShadingResult shape_from_shading_variational(const GreyImage& image, const ShadingOptions& options) {
-  require_shading(image, options, "shape_from_shading_variational");
+  require_shading(image, options, k_name);
+  if (std::max(image.width, image.height) > options.largest_piece_px)
+    return in_memory(shape_from_shading_variational, image, options);
   const Stopwatch clock;
   ShadingResult result;
-  const bool large = std::max(image.width, image.height) > options.largest_piece_px;
-  result.height_px = large ? solve_large(image, options, clock, result) : solve(image, options, 1, clock, result);
+  result.height_px = solve(image, options, 1, clock, result);
   remove_mean(result.height_px);
+  return result;
+}
+
+ShadingResult shape_from_shading_variational(const SampleRows& picture, const ShadingOptions& options,
+                                             const HeightWriter& write) {
+  require_shading_options(options, k_name);
+  const Stopwatch clock;
+  ShadingResult result;
+  solve_large(picture, options, clock, write, result);
   return result;
 }
 

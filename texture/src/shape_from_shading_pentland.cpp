@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <complex>
+#include <mutex>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "checks.hpp"
 #include "fft.hpp"
@@ -16,6 +19,8 @@ namespace papilla {
 namespace {
 
 using Field = std::vector<double>;
+
+constexpr const char* k_name = "shape_from_shading_pentland";
 
 /// Angular frequency of row or column k of a transform of n; 0 for the highest one, whose derivative is not real.
 double frequency(int k, int n) {
@@ -75,22 +80,26 @@ Field linear_heights(Field brightness, int columns, int rows, bool periodic, Vec
 }
 
 /// The method is linear: the long waves come from the small picture, the others, which reach less far, from pieces.
-Field heights_by_pieces(const GreyImage& image, const ShadingOptions& options, Vec3 light) {
+/// @returns the root mean square over the pieces of their residuals.
+double heights_by_pieces(const SampleRows& image, const ShadingOptions& options, Vec3 light,
+                         const texture_detail::RowWriter& write) {
   const GreyImage small = texture_detail::shrunk(image, options.largest_piece_px / 2).image;
   const auto enlarged = [&](const Field& field, const texture_detail::Piece& piece) {
-    return texture_detail::enlarged({field, small.width, small.height, image.width, image.height, options.periodic},
+    return texture_detail::enlarged({field, small.width, small.height, image.width(), image.height(), options.periodic},
                                     {static_cast<double>(piece.across.begin), 1, piece.across.length()},
                                     {static_cast<double>(piece.down.begin), 1, piece.down.length()});
   };
   const Field coarse = texture_detail::brightness(small, options.albedo);
   const Field heights = linear_heights(coarse, small.width, small.height, options.periodic, light);
   const double scale = texture_detail::enlargement(
-      {coarse, small.width, small.height, image.width, image.height, options.periodic}, {0, 1, 0}, {0, 1, 0});
+      {coarse, small.width, small.height, image.width(), image.height(), options.periodic}, {0, 1, 0}, {0, 1, 0});
   texture_detail::PieceLayout layout;
   layout.core = options.largest_piece_px / 2;
   layout.overlap = texture_detail::piece_overlap(options.largest_piece_px);
   layout.periodic = options.periodic;
-  return texture_detail::solve_by_pieces(
+  std::mutex mutex;
+  std::vector<double> squares;
+  texture_detail::solve_by_pieces(
       image, layout,
       [&](const texture_detail::Piece& piece) {
         Field fine = texture_detail::brightness(piece.image, options.albedo);
@@ -99,27 +108,43 @@ Field heights_by_pieces(const GreyImage& image, const ShadingOptions& options, V
         fine = linear_heights(std::move(fine), piece.image.width, piece.image.height, false, light);
         const Field common = enlarged(heights, piece);
         for (std::size_t i = 0; i < fine.size(); ++i) fine[i] += common[i];
+        const double error = residual(fine, piece.image, options.albedo, light, false);
+        const std::scoped_lock lock(mutex);
+        squares.push_back(error * error);
         return fine;
       },
-      options.progress, "shape from shading");
+      write, options.progress, "shape from shading");
+  const auto pieces = static_cast<double>(squares.size());
+  return std::sqrt(texture_detail::ordered_sum(std::move(squares)) / pieces);
 }
 
 }  // namespace
 
 ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingOptions& options) {
-  texture_detail::require_shading(image, options, "shape_from_shading_pentland");
-  const Vec3 light =
-      texture_detail::oblique(texture_detail::require_light(options.light, "shape_from_shading_pentland"));
+  texture_detail::require_shading(image, options, k_name);
+  if (std::max(image.width, image.height) > options.largest_piece_px)
+    return texture_detail::in_memory(shape_from_shading_pentland, image, options);
+  const Vec3 light = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
   const Stopwatch clock;
   ShadingResult result;
-  result.height_px = std::max(image.width, image.height) > options.largest_piece_px
-                         ? heights_by_pieces(image, options, light)
-                         : linear_heights(texture_detail::brightness(image, options.albedo), image.width, image.height,
-                                          options.periodic, light);
+  result.height_px = linear_heights(texture_detail::brightness(image, options.albedo), image.width, image.height,
+                                    options.periodic, light);
   texture_detail::remove_mean(result.height_px);
   result.stop = StopReason::direct;
   result.trace.push_back({clock.seconds(), residual(result.height_px, image, options.albedo, light, options.periodic)});
   report_progress(options.progress, "shape from shading", 1);
+  return result;
+}
+
+ShadingResult shape_from_shading_pentland(const SampleRows& picture, const ShadingOptions& options,
+                                          const HeightWriter& write) {
+  texture_detail::require_shading_options(options, k_name);
+  const Vec3 light = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
+  const Stopwatch clock;
+  const double error = heights_by_pieces(picture, options, light, write);
+  ShadingResult result;
+  result.stop = StopReason::direct;
+  result.trace.push_back({clock.seconds(), error});
   return result;
 }
 

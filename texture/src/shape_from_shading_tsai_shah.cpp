@@ -58,7 +58,8 @@ Field iterate(const GreyImage& image, const ShadingOptions& options, Wraps wraps
 
 /// A piece that includes as many pixels to its left and above as there are steps gives the same heights as the whole
 /// picture.
-Field iterate_by_pieces(const GreyImage& image, const ShadingOptions& options, ShadingResult& result) {
+void iterate_by_pieces(const SampleRows& image, const ShadingOptions& options, const texture_detail::RowWriter& write,
+                       ShadingResult& result) {
   const Stopwatch clock;
   texture_detail::PieceLayout layout;
   layout.core = options.largest_piece_px / 2;
@@ -66,11 +67,11 @@ Field iterate_by_pieces(const GreyImage& image, const ShadingOptions& options, S
   layout.periodic = options.periodic;
   std::mutex mutex;
   std::vector<std::vector<double>> errors(static_cast<std::size_t>(options.iterations));
-  Field z = texture_detail::solve_by_pieces(
+  texture_detail::solve_by_pieces(
       image, layout,
       [&](const texture_detail::Piece& piece) {
-        const Wraps wraps{options.periodic && piece.across.length() == image.width,
-                          options.periodic && piece.down.length() == image.height};
+        const Wraps wraps{options.periodic && piece.across.length() == image.width(),
+                          options.periodic && piece.down.length() == image.height()};
         return iterate(piece.image, options, wraps, [&](const Field& squares, int iteration) {
           double sum = 0;
           for (int y = 0; y < piece.down.length(); ++y)
@@ -80,34 +81,38 @@ Field iterate_by_pieces(const GreyImage& image, const ShadingOptions& options, S
           errors[static_cast<std::size_t>(iteration)].push_back(sum);
         });
       },
-      options.progress, k_stage);
+      write, options.progress, k_stage);
   // The clock ran over the pieces, not over the steps: each step took its share.
   const double seconds = clock.seconds() / options.iterations;
   for (std::vector<double>& step : errors) {
     const double time = seconds * static_cast<double>(result.trace.size() + 1);
-    result.trace.push_back(
-        {time, std::sqrt(texture_detail::ordered_sum(std::move(step)) / static_cast<double>(z.size()))});
+    result.trace.push_back({time, std::sqrt(texture_detail::ordered_sum(std::move(step)) / image.count())});
   }
-  return z;
 }
 
 }  // namespace
 
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options) {
   texture_detail::require_shading(image, options, k_name);
+  if (std::max(image.width, image.height) > options.largest_piece_px)
+    return texture_detail::in_memory(shape_from_shading_tsai_shah, image, options);
   ShadingResult result;
-  if (std::max(image.width, image.height) > options.largest_piece_px) {
-    result.height_px = iterate_by_pieces(image, options, result);
-  } else {
-    const Stopwatch clock;
-    result.height_px =
-        iterate(image, options, {options.periodic, options.periodic}, [&](const Field& squares, int iteration) {
-          const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-          result.trace.push_back({clock.seconds(), std::sqrt(sum / static_cast<double>(squares.size()))});
-          report_progress(options.progress, k_stage, (iteration + 1.0) / options.iterations);
-        });
-  }
+  const Stopwatch clock;
+  result.height_px =
+      iterate(image, options, {options.periodic, options.periodic}, [&](const Field& squares, int iteration) {
+        const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+        result.trace.push_back({clock.seconds(), std::sqrt(sum / static_cast<double>(squares.size()))});
+        report_progress(options.progress, k_stage, (iteration + 1.0) / options.iterations);
+      });
   texture_detail::remove_mean(result.height_px);
+  return result;
+}
+
+ShadingResult shape_from_shading_tsai_shah(const SampleRows& picture, const ShadingOptions& options,
+                                           const HeightWriter& write) {
+  texture_detail::require_shading_options(options, k_name);
+  ShadingResult result;
+  iterate_by_pieces(picture, options, write, result);
   return result;
 }
 

@@ -2,6 +2,10 @@
 #include "structure_tensor.hpp"
 
 #include <cmath>
+#include <cstddef>
+
+#include "papilla/texture/stored_samples.hpp"
+#include "row_window.hpp"
 
 namespace papilla::texture_detail {
 
@@ -12,21 +16,26 @@ double StructureTensor::coherence() const {
 
 double StructureTensor::angle() const { return 0.5 * std::atan2(2 * xy, xx - yy); }
 
-StructureTensor structure_tensor(const GreyImage& image) {
+StructureTensor structure_tensor(const SampleRows& picture) {
   StructureTensor tensor;
-  for (int y = 1; y + 1 < image.height; ++y)
-    for (int x = 1; x + 1 < image.width; ++x) {
-      const double gx = static_cast<double>(image.at(x + 1, y)) - static_cast<double>(image.at(x - 1, y));
-      const double gy = static_cast<double>(image.at(x, y + 1)) - static_cast<double>(image.at(x, y - 1));
+  visit_rows(picture, false, [&](int y, const RowWindow& rows) {
+    if (y == 0 || y + 1 == picture.height()) return;
+    for (std::size_t x = 1; x + 1 < rows.row.size(); ++x) {
+      const double gx = static_cast<double>(rows.row[x + 1]) - static_cast<double>(rows.row[x - 1]);
+      const double gy = static_cast<double>(rows.below[x]) - static_cast<double>(rows.above[x]);
       tensor.xx += gx * gx;
       tensor.xy += gx * gy;
       tensor.yy += gy * gy;
     }
-  const double pixels = static_cast<double>(image.width) * image.height;
-  tensor.xx /= pixels;
-  tensor.xy /= pixels;
-  tensor.yy /= pixels;
+  });
+  tensor.xx /= picture.count();
+  tensor.xy /= picture.count();
+  tensor.yy /= picture.count();
   return tensor;
+}
+
+StructureTensor structure_tensor(const GreyImage& image) {
+  return structure_tensor(SamplesInMemory(image.pixels, image.width, image.height));
 }
 
 }  // namespace papilla::texture_detail

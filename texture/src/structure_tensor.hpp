@@ -2,6 +2,7 @@
 #pragma once
 
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla::texture_detail {
 
@@ -13,6 +14,7 @@ struct StructureTensor {
   double angle() const;      ///< Direction of the strongest gradient, radians from x towards y, in (−π/2, π/2].
 };
 
+StructureTensor structure_tensor(const SampleRows& picture);
 StructureTensor structure_tensor(const GreyImage& image);
 
 }  // namespace papilla::texture_detail

@@ -204,6 +204,7 @@ Json height_json(const HeightFiles& files) {
   json["roughness"] = {{"source", to_string(result.roughness)}, {"rms_mm", result.roughness_rms_mm}};
   json["shortest_wavelength_mm"] = positive_or_null(result.shortest_wavelength_mm);
   json["guessed_share"] = result.guessed_share;
+  json["pieces"] = {{"columns", result.pieces[0]}, {"rows", result.pieces[1]}};
   json["tile"] = nullptr;
   if (result.tile)
     json["tile"] = {{"size", {result.tile->width, result.tile->height}},

@@ -112,6 +112,11 @@ std::string height_text(const std::string& image, const std::string& output, con
     lines.add("pitch      {:.4f} mm a pixel\n", result.map.pitch_mm_x);
   else
     lines.add("pitch      unknown: the file has no resolution, give --pitch\n");
+  if (result.pieces[0] * result.pieces[1] > 1)
+    lines.add("pieces     {} x {}, {}\n", result.pieces[0], result.pieces[1],
+              result.method == HeightMethod::tsai_shah
+                  ? "the same as in one"
+                  : "long waves from the picture made small, mixed where they overlap");
   if (result.tile) lines.add("tile       of the lattice, strain {:.2f} %\n", 100 * result.tile->strain);
   if (!result.trace.empty())
     lines.add("shading    residual {:.4f} after {} steps, {:.2f} s, {}\n", result.trace.back().error,

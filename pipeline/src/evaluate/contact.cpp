@@ -100,8 +100,12 @@ ContactCase contact_case(const Scene& scene, const std::string& file, const Prob
   }
   double samples = 0;
   for (const HeightField& height : haptic.heights) samples += 1.0 * height.width() * height.height();
-  return {ContactSurface(haptic.mesh, haptic.materials, std::move(haptic.heights), probe.radius_m), largest.material,
-          largest.centre, samples};
+  try {
+    return {ContactSurface(haptic.mesh, haptic.materials, std::move(haptic.heights), probe.radius_m), largest.material,
+            largest.centre, samples};
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(file + ": " + error.what());
+  }
 }
 
 EvaluationRun over_rates(const EvaluationInput& input, const ProbeCase& probe, const ContactCase& contact,

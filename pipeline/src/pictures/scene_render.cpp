@@ -141,8 +141,7 @@ class Pyramids {
     const auto& image = scene_.textures[reference->texture].image;
     if (!image || *image >= scene_.images.size()) return nullptr;
     auto& slot = (color ? color_ : raw_)[reference->texture];
-    const EncodedImage& encoded = scene_.images[*image];
-    if (!slot) slot = std::make_shared<MipPyramid>(decode_color_image(encoded.bytes, encoded.name), color);
+    if (!slot) slot = std::make_shared<MipPyramid>(decode_image(scene_, *image), color);
     return slot;
   }
 

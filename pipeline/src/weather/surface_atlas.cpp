@@ -285,7 +285,7 @@ std::optional<ColorImage> picture_of(const Scene& scene, const std::optional<Tex
   if (!reference) return std::nullopt;
   const auto image = scene.textures[reference->texture].image;
   if (!image) return std::nullopt;
-  return decode_color_image(scene.images[*image].bytes, scene.images[*image].name);
+  return decode_image(scene, *image);
 }
 
 bool same_place(const TextureReference& a, const TextureReference& b) {

@@ -15,7 +15,7 @@ namespace papilla {
 /// everyone may write to. Devices and pipes are written to as they are.
 /// The temporary file has an unpredictable name, is new, and is locked until it is renamed. Temporary files that a
 /// killed process of the same user left in the folder are removed by the next process that writes there.
-/// The stream throws when the system refuses a byte; it can't be positioned.
+/// The stream throws when the system refuses a byte. Its position can be set, except on devices and pipes.
 /// @throws IoError naming `path` and the system's reason; OverwriteRefused as note_output() of file_guard.hpp;
 ///         whatever `write` throws passes through after the temporary file is removed.
 void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream& out)>& write);

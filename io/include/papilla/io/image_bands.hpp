@@ -9,16 +9,17 @@
 
 namespace papilla {
 
-/// Pictures of more pixels than this are refused even when they are read band by band. JPEG files and interlaced PNG
-/// files, which their readers hold as a whole, are refused from k_max_image_pixels on.
+/// Pictures of more pixels than this are refused even when they are read band by band.
 inline constexpr std::size_t k_max_streamed_pixels = std::size_t{65536} * 65536;
 
 /// Reads a picture from top to bottom, some rows at a time, with the values of read_grey_image().
-/// Memory: the rows asked for, and 64 rows (or those of one tile of a tiled file) as the file stores them.
+/// Memory: the rows asked for, 64 rows (or those of one tile of a tiled file) as the file stores them, and the whole
+/// picture where the reader of the format holds it: progressive JPEG, interlaced PNG, BMP, GIF, WebP, DPX, PSD, TGA.
 class ImageBands {
  public:
   /// Opens the file and looks at its size.
-  /// @throws IoError, InvalidInput as read_grey_image(); InvalidInput too when the picture is over `most_pixels`.
+  /// @throws IoError, InvalidInput as read_grey_image(); InvalidInput too when the picture is over `most_pixels`, or a
+  ///         band and what the reader holds are over picture_memory().
   /// @param sample_side the longer side of sample(): every n-th pixel of every n-th row, n the least that gives it.
   explicit ImageBands(const std::filesystem::path& path, std::size_t most_pixels = k_max_streamed_pixels,
                       int sample_side = 1024);
@@ -31,8 +32,13 @@ class ImageBands {
   int bits() const noexcept;         ///< As in GreyImage.
   double pitch_mm() const noexcept;  ///< As in GreyImage.
 
+  /// @throws InvalidInput with the size of the picture when it takes more than picture_memory() at so many bytes a
+  /// pixel.
+  void require_memory(std::size_t bytes_per_pixel) const;
+
   /// The next `rows` rows, fewer at the end of the picture, none after it.
-  /// @throws InvalidInput naming the file when it is damaged there or holds a number that is not finite.
+  /// @throws InvalidInput naming the file and row when it is damaged there; file, pixel and value when a float is not
+  ///         finite or its magnitude is over a million.
   GreyImage next(int rows);
 
   /// Every k-th pixel of every k-th row read so far, in colour, k such that the whole picture gives at most 1024 a

@@ -9,23 +9,28 @@
 
 #include "papilla/texture/height_map.hpp"
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla {
+
+struct Scene;
 
 /// Pictures of more pixels than this are refused before memory is taken for them.
 inline constexpr std::size_t k_max_image_pixels = std::size_t{32768} * 32768;
 
-/// Reads any picture OpenImageIO knows as grey values: integers are divided by their largest value, floats
-/// stay as they are. Colours become their Rec. 709 luminance 0.2126 R + 0.7152 G + 0.0722 B of the stored values
-/// (no gamma is undone); alpha is ignored. `pitch_mm` comes from the file's resolution (dots per inch or
-/// centimetre), 0 when it has none or one pixel would not be square.
-/// @throws IoError when the file can't be read; InvalidInput naming the file when it is no picture, damaged, too
-///         large, or holds a number that is not finite.
-GreyImage read_grey_image(const std::filesystem::path& path);
+/// Reads a picture (PNG, JPEG, TIFF, OpenEXR, PNM, PFM, HDR, BMP, GIF, WebP, DPX, PSD, TGA) as grey values: integers
+/// are divided by their largest value, floats stay as they are. Colours become their Rec. 709 luminance 0.2126 R +
+/// 0.7152 G + 0.0722 B of the stored values (no gamma is undone); alpha is ignored. `pitch_mm` comes from the file's
+/// resolution (dots per inch or centimetre), 0 when it has none or one pixel would not be square.
+/// @param bytes_per_pixel what the caller is going to take for a pixel, the grey value included.
+/// @throws IoError when the file can't be read; InvalidInput naming the file when it is no picture or takes more than
+///         picture_memory(), the row when it is damaged, the pixel when a float is not finite or over a million.
+GreyImage read_grey_image(const std::filesystem::path& path, std::size_t bytes_per_pixel = sizeof(float));
 
-/// Reads any picture OpenImageIO knows as 8-bit RGB; grey is repeated, alpha ignored.
+/// Reads a picture of the same formats as 8-bit RGB; grey is repeated, alpha ignored.
+/// @param bytes_per_pixel what the caller is going to take for a pixel, its colour included.
 /// @throws IoError, InvalidInput as read_grey_image().
-ColorImage read_color_image(const std::filesystem::path& path);
+ColorImage read_color_image(const std::filesystem::path& path, std::size_t bytes_per_pixel = 3);
 
 /// Both of a picture, decoded once.
 struct Picture {
@@ -40,6 +45,10 @@ Picture read_picture(const std::filesystem::path& path);
 /// The same as read_color_image() for a picture in memory, PNG or JPEG; `name` only names it in messages.
 /// @throws InvalidInput as read_color_image().
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);
+
+/// decode_color_image() of a picture of the scene; messages call it by its name, its file, or its number.
+/// @throws InvalidInput as decode_color_image().
+ColorImage decode_image(const Scene& scene, std::size_t image);
 
 /// The picture as an 8-bit RGB PNG file, without metadata. The same picture gives the same bytes.
 /// @pre pixels.size() == 3 * width * height.
@@ -65,6 +74,12 @@ void write_grey_image(const std::filesystem::path& path, const GreyImage& image,
 /// Writes the heights in millimetres as 32-bit floats to .exr, .tif or .tiff, with the pitch as resolution.
 /// @throws InvalidInput, IoError as write_grey_image().
 void write_height_float(const std::filesystem::path& path, const HeightMap& map);
+
+/// Writes heights of 0 to `depth_mm` row by row, whatever their number: 16-bit grey .png as encode_height_png16(), or
+/// .exr, .tif, .tiff as write_height_float().
+/// @throws InvalidInput, IoError as write_grey_image().
+void write_height_rows(const std::filesystem::path& path, const SampleRows& heights_mm, double depth_mm,
+                       double pitch_mm);
 
 /// @throws InvalidInput, IoError as write_grey_image().
 void write_color_image(const std::filesystem::path& path, const ColorImage& image);

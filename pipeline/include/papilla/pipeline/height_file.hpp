@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,12 +16,16 @@ namespace papilla {
 /// @throws InvalidInput for other extensions; IoError when writing fails.
 void write_height_file(const std::filesystem::path& path, const HeightMap& map);
 
+/// Memory that height_from_image() takes for a pixel, the picture and its results included, at most.
+inline constexpr std::size_t k_height_bytes_per_pixel = 96;
+
 /// Options of height_of_picture_file().
 struct HeightFileOptions {
   HeightOptions height;
   std::filesystem::path normal_map;  ///< File for the glTF normal map of the relief; empty: none.
   std::filesystem::path pictures;    ///< Folder for HeightFiles::pictures; empty: none are drawn.
   bool opposite = false;             ///< Write opposite_relief() too, as NAME-opposite.EXT beside the output.
+  int largest_px = 4096;             ///< Longer pictures are read in bands, if no option needs the whole of them.
   bool deeper = false;               ///< Write the relief 2 and 4 times as deep too, as NAME-x2.EXT and NAME-x4.EXT.
 };
 
@@ -46,7 +51,10 @@ struct HeightFiles {
   std::vector<ReliefPicture> pictures;  ///< relief.png and relief-opposite.png, lit; section.svg.
 };
 
-/// Reads a picture of a surface and writes its height_from_image().
+/// Reads a picture of a surface and writes its height_from_image(). One longer than `largest_px` passes through two
+/// temporary files of 4 bytes a pixel in the folder of the output (height_from_rows()), unless tile, roughness, a
+/// shortest wavelength, a normal map or pictures are asked for: those take k_height_bytes_per_pixel, for which
+/// picture_memory() must have room.
 /// @throws InvalidInput, IoError as read_grey_image(), height_from_image() and write_height_file().
 HeightFiles height_of_picture_file(const std::filesystem::path& picture, const std::filesystem::path& output,
                                    const HeightFileOptions& options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "papilla/texture/height_map.hpp"
 #include "papilla/texture/image.hpp"
 #include "papilla/texture/lattice.hpp"
+#include "papilla/texture/stored_samples.hpp"
 
 namespace papilla {
 
@@ -59,6 +61,7 @@ struct HeightOptions {
   /// HeightResult::tile. The relief is that of the symmetric part; `whole` and `residual` become `synthesized`, because
   /// what does not repeat can't tile. Needs a lattice.
   bool tile = false;
+  int largest_piece_px = 2048;          ///< ShadingOptions::largest_piece_px.
   std::optional<Lattice> lattice = {};  ///< Of the picture, when it is known; else analyze_symmetry() finds it.
   ProgressCallback progress = {};
 };
@@ -82,6 +85,7 @@ struct HeightResult {
   std::optional<CommensurateTile> tile;        ///< When one was asked for: its size and the strain it costs.
   std::vector<std::string> measured, assumed;  ///< What the picture determines, and what is assumed.
   Trace trace;                                 ///< See ShadingResult; empty for intensity.
+  std::array<int, 2> pieces = {1, 1};          ///< Across and down, that shape from shading solved one by one.
   StopReason stop = StopReason::direct;
 };
 
@@ -95,6 +99,22 @@ struct HeightResult {
 /// @throws InvalidInput when the picture is empty or not finite, an option is out of range, or a tile is asked for and
 /// the picture has no lattice.
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options = {});
+
+/// What height_from_rows() returns: the relief in millimetres is scale · (sample − lowest) of the samples it wrote.
+struct HeightRows {
+  HeightResult result;  ///< Its map has a size and a pitch, and no samples.
+  double scale = 0, lowest = 0;
+};
+
+/// height_from_image() of a picture of any size outside the memory, except for a tile, roughness apart and a shortest
+/// wavelength. Shape from shading works in pieces, whose differences to the solve of the whole shape_from_shading.hpp
+/// states; the other results are the same. Memory: see there; with largest_piece_px = 2048 and 20000 columns about half
+/// a gigabyte on two cores.
+/// @param middle a part of the picture, in which a lattice is looked for when the method is automatic.
+/// @param relief takes the samples; as large as the picture.
+/// @throws InvalidInput when an option is out of range or needs the picture in memory; IoError when the disk is full.
+HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, const HeightOptions& options,
+                            SampleFile& relief);
 
 /// The other relief that the same picture allows: h → highest + lowest − h. Light from the opposite azimuth on the
 /// inverted relief gives the same picture, R(−p, −q; −s_x, −s_y) = R(p, q; s_x, s_y), so that one picture does not

@@ -3,6 +3,7 @@
 
 #include "papilla/core/vec.hpp"
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla {
 
@@ -23,5 +24,7 @@ struct LightEstimate {
 /// @throws InvalidInput when the picture is empty or not finite.
 /// Koenderink and Pont, Irradiation direction from texture, J. Opt. Soc. Am. A 20(10), 2003.
 LightEstimate estimate_light(const GreyImage& image);
+/// The same of finite samples, in one pass.
+LightEstimate estimate_light(const SampleRows& picture);
 
 }  // namespace papilla

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla {
 
@@ -27,13 +30,14 @@ struct ShadingOptions {
 };
 
 /// Pictures of any size: those longer than `largest_piece_px` are cut into pieces, several of which are solved at a
-/// time on all threads. Memory is 8 bytes a pixel for the result and a constant for the pieces in work, time grows with
-/// the pixels. tsai-shah: a piece includes as many pixels to its left and above as there are steps, all that
-/// influence it; the result is that of the whole picture to the last bit, up to half of largest_piece_px steps.
-/// variational and pentland: waves longer than a few pixels of the picture at half of largest_piece_px a side come from
-/// that, the others from pieces with free borders that overlap by 128 pixels (a quarter of largest_piece_px, if that is
-/// less) and are mixed by linear ramps, across the borders of periodic pictures too. How much that differs from the
-/// whole is measured in the tests and the report of the benchmark.
+/// time on all threads. Memory is 8 bytes a pixel for the result (none with HeightWriter), 9 KB a column for the rows
+/// in work, and a constant for the pieces in work; time grows with the pixels. tsai-shah: a piece includes as many
+/// pixels to its left and above as there are steps, all that influence it; the result is that of the whole picture to
+/// the last bit, up to half of largest_piece_px steps. variational and pentland: waves longer than a few pixels of the
+/// picture at half of largest_piece_px a side come from that, the others from pieces with free borders that overlap by
+/// 128 pixels (a quarter of largest_piece_px, if that is less) and are mixed by linear ramps, across the borders of
+/// periodic pictures too. How much that differs from the whole is measured in the tests and the report of the
+/// benchmark.
 
 /// What a shape-from-shading method returns.
 struct ShadingResult {
@@ -41,6 +45,9 @@ struct ShadingResult {
   Trace trace;                    ///< Root mean square of I/albedo − R after each step.
   StopReason stop = StopReason::iteration_limit;
 };
+
+/// Takes the heights in pixels of row y; called once for every row, in any order.
+using HeightWriter = std::function<void(int y, std::span<const double> heights_px)>;
 
 /// Integrable surface that minimises
 ///   E(Z) = Σ (I/albedo − max(0, R(p, q)))² + λ Σ (ΔZ)²
@@ -57,6 +64,10 @@ struct ShadingResult {
 /// @throws InvalidInput when the picture is empty or not finite, or an option is out of range.
 /// Horn and Brooks, Shape from Shading, 1989; Frankot and Chellappa, 1988 (integrability).
 ShadingResult shape_from_shading_variational(const GreyImage& image, const ShadingOptions& options = {});
+/// The same by pieces, of finite samples wherever they lie: the heights go to `write`, their mean as it comes, and not
+/// into the result.
+ShadingResult shape_from_shading_variational(const SampleRows& picture, const ShadingOptions& options,
+                                             const HeightWriter& write);
 
 /// Pentland's linear method: for gentle slopes R ≈ s_z − s_x p − s_y q, so that in Fourier space
 ///   Z = conj(D) I / (|D|² + δ² |ω|² |(s_x, s_y)|²),  D = −i (s_x ω_x + s_y ω_y),  δ = 0.1,
@@ -68,6 +79,10 @@ ShadingResult shape_from_shading_variational(const GreyImage& image, const Shadi
 /// @throws InvalidInput as shape_from_shading_variational().
 /// Pentland, Linear shape from shading, Int. J. Comp. Vision 4, 1990.
 ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingOptions& options = {});
+/// The same by pieces, of finite samples wherever they lie: the heights go to `write`, their mean as it comes, and not
+/// into the result.
+ShadingResult shape_from_shading_pentland(const SampleRows& picture, const ShadingOptions& options,
+                                          const HeightWriter& write);
 
 /// Tsai and Shah's local method: p = Z(x, y) − Z(x−1, y), q = Z(x, y) − Z(x, y−1), and for every pixel
 ///   Z ← Z − K f,  f = I/albedo − max(0, R(p, q)),  K = S f′ / (W + S f′²),  S ← (1 − K f′) S,
@@ -80,5 +95,9 @@ ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingO
 /// @throws InvalidInput as shape_from_shading_variational().
 /// Tsai and Shah, Shape from shading using linear approximation, 1994; Schulze 2005, equations 8.1 to 8.5.
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options = {});
+/// The same by pieces, of finite samples wherever they lie: the heights go to `write`, their mean as it comes, and not
+/// into the result.
+ShadingResult shape_from_shading_tsai_shah(const SampleRows& picture, const ShadingOptions& options,
+                                           const HeightWriter& write);
 
 }  // namespace papilla

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/sample_rows.hpp"
 
 namespace papilla {
 
@@ -15,5 +16,7 @@ struct Tiling {
 /// any two neighbouring columns, and the same for rows. A picture that is one pixel wide tiles in x.
 /// Cost: O(pixels). @throws InvalidInput when the picture is empty or not finite.
 Tiling measure_tiling(const GreyImage& image);
+/// The same of finite samples, in one pass.
+Tiling measure_tiling(const SampleRows& picture);
 
 }  // namespace papilla
