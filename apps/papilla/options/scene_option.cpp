@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "file_options.hpp"
 #include "papilla/core/units.hpp"
 
 namespace papilla::app {
