@@ -30,6 +30,12 @@ class Folder {
   std::filesystem::path path_;
 };
 
+/// Printed when the program ends properly.
+struct Counts {
+  std::size_t inputs = 0, accepted = 0;
+  ~Counts() { std::fprintf(stderr, "%zu of %zu inputs got past the reader\n", accepted, inputs); }
+};
+
 }  // namespace
 
 std::filesystem::path write_input(const std::string& name, std::string_view content) {
@@ -39,13 +45,23 @@ std::filesystem::path write_input(const std::string& name, std::string_view cont
   return path;
 }
 
-void expect_result_or_refusal(const std::function<void()>& read) {
+bool expect_result_or_refusal(const std::function<void()>& read) {
   try {
     read();
+    return true;
   } catch (const Error& error) {
     const std::string_view message = error.what();
     require(!message.empty() && message.find('\n') == std::string_view::npos, "a refusal is one line");
+    return false;
   }
+}
+
+bool expect_read(const std::function<void()>& read) {
+  static Counts counts;
+  ++counts.inputs;
+  const bool accepted = expect_result_or_refusal(read);
+  if (accepted) ++counts.accepted;
+  return accepted;
 }
 
 void require(bool condition, const char* promise) {

@@ -19,7 +19,9 @@ class Random {
   explicit Random(unsigned seed) : engine_(seed) {}
   std::size_t below(std::size_t count) { return count == 0 ? 0 : engine_() % count; }  ///< 0 of nothing.
   bool chance(double share) { return real(0, 1) < share; }
-  double real(double low, double high) { return low + (high - low) * (engine_() / 4294967296.0); }
+  double real(double low, double high) {
+    return low + (high - low) * (static_cast<std::uint32_t>(engine_()) / 4294967296.0);
+  }
   template <class List>
   const auto& of(const List& list) {
     return list[below(std::size(list))];
