@@ -30,11 +30,14 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// Printed when the program ends properly.
-struct Counts {
-  std::size_t inputs = 0, accepted = 0;
-  ~Counts() { std::fprintf(stderr, "%zu of %zu inputs got past the reader\n", accepted, inputs); }
+struct PrintedCounts : Counts {
+  ~PrintedCounts() { std::fprintf(stderr, "%zu of %zu inputs got past the reader\n", accepted, inputs); }
 };
+
+PrintedCounts& mutable_counts() {
+  static PrintedCounts counts;
+  return counts;
+}
 
 }  // namespace
 
@@ -57,12 +60,13 @@ bool expect_result_or_refusal(const std::function<void()>& read) {
 }
 
 bool expect_read(const std::function<void()>& read) {
-  static Counts counts;
-  ++counts.inputs;
+  ++mutable_counts().inputs;
   const bool accepted = expect_result_or_refusal(read);
-  if (accepted) ++counts.accepted;
+  if (accepted) ++mutable_counts().accepted;
   return accepted;
 }
+
+const Counts& counts() { return mutable_counts(); }
 
 void require(bool condition, const char* promise) {
   if (condition) return;

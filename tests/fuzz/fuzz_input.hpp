@@ -23,8 +23,14 @@ std::filesystem::path write_input(const std::string& name, std::string_view cont
 /// @returns whether there was a result.
 bool expect_result_or_refusal(const std::function<void()>& read);
 
-/// The same for the reader that an input is made for: at its end the program prints how many inputs got past it.
+/// The same for the reader that an input is made for, with count.
 bool expect_read(const std::function<void()>& read);
+
+/// Inputs that were given to expect_read(), and those of them with a result. Printed when the program ends properly.
+struct Counts {
+  std::size_t inputs = 0, accepted = 0;
+};
+const Counts& counts();
 
 /// Ends the program when the condition does not hold.
 void require(bool condition, const char* promise);
