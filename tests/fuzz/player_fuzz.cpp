@@ -16,6 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto path = fuzz::write_input("input.glb", fuzz::text_of(data, size));
   std::optional<HapticScene> scene;
   if (!fuzz::expect_read([&] { scene = load_haptic_scene(path, {.shortest_wave_m = 2e-4}); })) return 0;
+  for (const MaterialWarning& warning : scene->warnings)
+    fuzz::require(warning.warning.message.find('\n') == std::string::npos, "a warning is one line");
   fuzz::expect_result_or_refusal([&] {
     ContactSurface surface(scene->mesh, scene->materials, scene->heights, scene->probe_radius_m);
     clamp_to_stable(surface, k_device, k_period_s);
