@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/core/read_file.hpp"
 
 namespace papilla {
@@ -16,7 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& key, const std::string& reason) {
-  throw InvalidInput(path.string() + ": at /" + key + ": " + reason);
+  // Keys may hold anything, a message is one line.
+  throw InvalidInput(path.string() + ": at /" + shown(key) + ": " + reason);
 }
 
 }  // namespace

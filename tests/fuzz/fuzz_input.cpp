@@ -30,6 +30,15 @@ class Folder {
   std::filesystem::path path_;
 };
 
+struct PrintedCounts : Counts {
+  ~PrintedCounts() { std::fprintf(stderr, "%zu of %zu inputs got past the reader\n", accepted, inputs); }
+};
+
+PrintedCounts& mutable_counts() {
+  static PrintedCounts counts;
+  return counts;
+}
+
 }  // namespace
 
 std::filesystem::path write_input(const std::string& name, std::string_view content) {
@@ -39,14 +48,25 @@ std::filesystem::path write_input(const std::string& name, std::string_view cont
   return path;
 }
 
-void expect_result_or_refusal(const std::function<void()>& read) {
+bool expect_result_or_refusal(const std::function<void()>& read) {
   try {
     read();
+    return true;
   } catch (const Error& error) {
     const std::string_view message = error.what();
     require(!message.empty() && message.find('\n') == std::string_view::npos, "a refusal is one line");
+    return false;
   }
 }
+
+bool expect_read(const std::function<void()>& read) {
+  ++mutable_counts().inputs;
+  const bool accepted = expect_result_or_refusal(read);
+  if (accepted) ++mutable_counts().accepted;
+  return accepted;
+}
+
+const Counts& counts() { return mutable_counts(); }
 
 void require(bool condition, const char* promise) {
   if (condition) return;

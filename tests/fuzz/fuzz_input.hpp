@@ -20,7 +20,17 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 std::filesystem::path write_input(const std::string& name, std::string_view content);
 
 /// Runs a reader. An Error of one line is a proper refusal; anything else ends the program.
-void expect_result_or_refusal(const std::function<void()>& read);
+/// @returns whether there was a result.
+bool expect_result_or_refusal(const std::function<void()>& read);
+
+/// The same for the reader that an input is made for, with count.
+bool expect_read(const std::function<void()>& read);
+
+/// Inputs that were given to expect_read(), and those of them with a result. Printed when the program ends properly.
+struct Counts {
+  std::size_t inputs = 0, accepted = 0;
+};
+const Counts& counts();
 
 /// Ends the program when the condition does not hold.
 void require(bool condition, const char* promise);

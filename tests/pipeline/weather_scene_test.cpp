@@ -353,6 +353,7 @@ TEST(Weather, ConfigurationErrorsNameTheKey) {
   EXPECT_NE(refusal("{\"size\":1}").find("at /size"), std::string::npos);
   EXPECT_NE(refusal("{\"layers\":[{\"recipes\":\"dust\"}]}").find("at /layers/0"), std::string::npos);
   EXPECT_NE(refusal("{").find("no JSON"), std::string::npos);
+  EXPECT_NE(refusal("{\"a\\nb\":1}").find("at /a\\nb: unknown key"), std::string::npos);
   EXPECT_EQ(refusal("{\"time\":[0,1],\"layers\":[{\"recipe\":\"dust\"}]}"), "");
   std::filesystem::remove(path);
 }

@@ -49,14 +49,15 @@ class Finder {
     for (const EncodedImage& image : scene.images)
       if (image.name == tag_.image) {
         named = &image;
-        if (matches(image.bytes, "image " + image.name)) return named;
+        if (matches(image.bytes, "image '" + shown(image.name) + "'")) return named;
       }
-    if (!named) warnings_.push_back({"height_image", "the file holds no image of the name " + tag_.image});
+    if (!named)
+      warnings_.push_back({"height_image", "the file holds no image of the name '" + shown(tag_.image) + "'"});
     return nullptr;
   }
 
   HeightField decode(std::span<const std::byte> bytes) const {
-    Grey16 grey = decode_grey16(bytes, tag_.image.empty() ? "height map" : tag_.image);
+    Grey16 grey = decode_grey16(bytes, tag_.image.empty() ? "height map" : "image '" + shown(tag_.image) + "'");
     if (grey.bits != 16)
       warnings_.push_back(
           {"height_bits", "the height map has " + std::to_string(grey.bits) + " bits a sample, steps can be felt"});

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "materials_mutator.hpp"
+
+namespace papilla::fuzz {
+
+const JsonGrammar& materials_grammar() {
+  static const JsonGrammar grammar{{{"time", 0, 1},
+                                    {"size_mm", 1e-3, 1e5},
+                                    {"stiffness", 1e-3, 1e6},
+                                    {"damping", 0, 1e4},
+                                    {"staticFriction", 0, 10},
+                                    {"dynamicFriction", 0, 10},
+                                    {"stribeckVelocity", 1e-6, 10},
+                                    {"roughness", 0, 1},
+                                    {"metallic", 0, 1},
+                                    {"depth_mm", 1e-6, 100},
+                                    {"scale", 0, 100},
+                                    {"max_slope", 0.01, 1000}},
+                                   {{"method", {"auto", "variational", "pentland", "tsai-shah", "intensity"}},
+                                    {"unwrap", {"auto", "best", "triplanar", "lscm", "levy", "maillot", "natural"}},
+                                    {"show", {"auto", "picture", "relief"}},
+                                    {"name", {"coulomb", "bristle"}},
+                                    {"texture", {"grain.png"}},
+                                    {"material", {"grain", "chrome"}},
+                                    {"part", {"*", "p", "q*", "[a"}},
+                                    {"color", {"#000000", "#FFffFF", "#20a0ff"}},
+                                    {"cad_colour", {"#ffffff", "#202020"}},
+                                    {"gltf_material", {"*", "Leather", "L?ather", ""}}},
+                                   Json::parse(R"({"$comment":"c","version":1,"materials":{
+        "grain":{"texture":"grain.png","time":0.5,"size_mm":[40,40],"stiffness":900,"damping":0.4,"staticFriction":0.45,
+          "dynamicFriction":0.35,"stribeckVelocity":0.01,"frictionModel":{"name":"bristle","stiffness":300},
+          "forceShading":true,"height":{"method":"auto","depth_mm":0.3,"scale":1,"max_slope":0.5},"unwrap":"auto",
+          "show":"picture","color":"#808080","roughness":0.5,"metallic":0,"$comment":"c"},
+        "chrome":{"stiffness":2000,"color":"#808080"}},
+        "assign":[{"part":"*","cad_colour":"#ffffff","gltf_material":"*","material":"grain","$comment":"c"},
+          {"part":"q","material":null}]})")};
+  return grammar;
+}
+
+}  // namespace papilla::fuzz

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "fuzz_input.hpp"
+#include "json_mutator.hpp"
+#include "papilla/pipeline/weather_scene.hpp"
+
+namespace {
+
+const papilla::fuzz::JsonGrammar& grammar() {
+  using papilla::fuzz::Json;
+  static const papilla::fuzz::JsonGrammar made{
+      {{"size", 16, 8192}, {"atlas", 64, 8192}, {"sky_rays", 1, 4096}, {"depth_mm", 1e-6, 100}, {"time", 0, 1}},
+      {{"recipe", {"rust", "dirt|amount=.5", "formula|bump=u"}}, {"materials", {"*", "Leather*", "[a"}}},
+      Json::parse(R"({"$comment":"c","size":256,"atlas":1024,"time":[0,0.5,1],"depth_mm":0.2,"sky_rays":16,
+        "libraries":["weather.recipes"],"layers":[{"recipe":"rust","materials":["*"]}]})")};
+  return made;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace papilla;
+  const auto path = fuzz::write_input("input.json", fuzz::text_of(data, size));
+  fuzz::expect_read([&] {
+    const WeatherConfig config = read_weather_config(path);
+    fuzz::require(!config.layers.empty() && !config.times.empty(), "a configuration has layers and times");
+    layered_recipe(config, "Leather", 0.5);
+  });
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned seed) {
+  return papilla::fuzz::mutate_json_text(data, size, max_size, seed, grammar());
+}
