@@ -122,7 +122,7 @@ TEST(SceneSides, AmbiguousSheetsBecomeDoubleSided) {
   ASSERT_EQ(scene.parts[9].materials.size(), 1u);
   EXPECT_TRUE(scene.materials[scene.parts[9].materials[0]].double_sided);
 
-  turn_sheets(without, {.add_materials = false});
+  turn_sheets(without, {.keep = false, .inside = {}, .add_materials = false});
   EXPECT_TRUE(without.parts[9].materials.empty());
 }
 
