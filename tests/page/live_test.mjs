@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
@@ -97,11 +97,19 @@ async function follows(page) {
 }
 
 const browser = await launch();
+// A browser that keeps its command line, which every user of a machine may read, and the file that stands there.
+process.env.XDG_RUNTIME_DIR = place;
+process.env.PATH = `${place}:${process.env.PATH}`;
+writeFileSync(join(place, 'xdg-open'), '#!/bin/sh\ncp "$1" "$XDG_RUNTIME_DIR/door.html"\necho "$@" > "$XDG_RUNTIME_DIR/command"\n', { mode: 0o755 });
 try {
   const first = play();
   while (!existsSync(socket)) await sleep(100);  // it reads the file before it listens
-  const viewer = start(papilla, 'view', '--follow', socket, '--no-open');
+  const viewer = start(papilla, 'view', '--follow', socket);
   const url = await addressOf(viewer);
+  while (!existsSync(join(place, 'command'))) await sleep(100);
+  const opened = readFileSync(join(place, 'command'), 'utf8').trim();
+  assert.ok(opened.startsWith(join(place, 'papilla/')) && !opened.includes('token'), opened);
+  assert.ok(readFileSync(join(place, 'door.html'), 'utf8').includes(url));
 
   // Two listeners beside the page, each with samples of its own.
   for (const seen of await Promise.all([samples(url, 30), samples(url, 30)])) {
@@ -146,6 +154,7 @@ try {
   assert.deepEqual(complaints, []);
 
   assert.equal(await finish(viewer, 'SIGINT'), 0);  // With the page still open.
+  assert.ok(!existsSync(opened));
   await page.waitForSelector('#live[data-state=lost]');
 } finally {
   await browser.close();
