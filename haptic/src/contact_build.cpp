@@ -206,7 +206,7 @@ ContactTriangles::ContactTriangles(const ContactMesh& mesh, std::vector<ContactM
   origin_ = bounds.middle();
   const double extent = bounds.diagonal();
   if (!(extent < 1e6)) throw InvalidInput("ContactSurface: the scene is larger than 1000 km");
-  if (!is_valid_position(low_) || !is_valid_position(high_))
+  if (!ContactSurface::is_valid_position(low_) || !ContactSurface::is_valid_position(high_))
     throw InvalidInput("ContactSurface: the scene lies farther than 1000 km from its origin");
   skin_ = std::max(std::min(k_skin_m, k_skin_share * extent), k_least_skin_share * extent);
 

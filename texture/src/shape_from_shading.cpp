@@ -2,14 +2,15 @@
 #include "papilla/texture/shape_from_shading.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <numbers>
-#include <numeric>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "checks.hpp"
@@ -99,10 +100,20 @@ std::unique_ptr<InverseBilaplacian> make_inverse_bilaplacian(int width, int heig
 
 constexpr std::string_view k_stage = "shape from shading";
 
-double dot_product(const Field& a, const Field& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+/// Four sums side by side: one alone waits for every addition.
+template <class T>
+double dot_product(const std::vector<T>& a, const Field& b) {
+  std::array<double, 4> sums{};
+  std::size_t i = 0;
+  for (; i + sums.size() <= a.size(); i += sums.size())
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += static_cast<double>(a[i + k]) * b[i + k];
+  for (; i < a.size(); ++i) sums[0] += static_cast<double>(a[i]) * b[i];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
 
-void add_scaled(Field& target, double factor, const Field& field) {
-  for (std::size_t i = 0; i < target.size(); ++i) target[i] += factor * field[i];
+template <class T>
+void add_scaled(Field& target, double factor, const std::vector<T>& field) {
+  for (std::size_t i = 0; i < target.size(); ++i) target[i] += factor * static_cast<double>(field[i]);
 }
 
 /// The two neighbours along one axis and the reciprocal of their distance (0 on a single pixel).
@@ -194,37 +205,43 @@ class ShadingEnergy {
   double residual_ = 0;
 };
 
-/// Curvature pairs of L-BFGS with a preconditioner in place of the usual scaled identity.
+/// Curvature pairs of L-BFGS with a preconditioner in place of the usual scaled identity. They are most of a piece's
+/// memory and of its traffic, and only shape the next direction: floats.
 class CurvatureMemory {
  public:
-  void add(Field step, Field change) {
+  void add(const Field& step, const Field& change) {
     const double curvature = dot_product(step, change);
     if (!(curvature > 1e-12 * std::sqrt(dot_product(step, step) * dot_product(change, change)))) return;
-    pairs_.push_back({std::move(step), std::move(change), 1 / curvature, 0});
-    if (pairs_.size() > k_most_pairs) pairs_.pop_front();
+    Pair pair;
+    if (pairs_.size() == k_most_pairs) {
+      pair = std::move(pairs_.front());
+      pairs_.pop_front();
+    }
+    pair.step.assign(step.begin(), step.end());
+    pair.change.assign(change.begin(), change.end());
+    pair.inverse_curvature = 1 / curvature;
+    pairs_.push_back(std::move(pair));
   }
-  void clear() { pairs_.clear(); }
 
-  /// −H·gradient by the two-loop recursion [Nocedal and Wright, algorithm 7.4].
-  Field direction(const Field& gradient, InverseBilaplacian& inverse, double alpha, double lambda) {
-    Field work = gradient;
+  /// −H·gradient by the two-loop recursion [Nocedal and Wright, algorithm 7.4]; `work` is overwritten.
+  void direction(const Field& gradient, InverseBilaplacian& inverse, double alpha, double lambda, Field& work,
+                 Field& result) {
+    work = gradient;
     for (auto pair = pairs_.rbegin(); pair != pairs_.rend(); ++pair) {
       pair->projection = pair->inverse_curvature * dot_product(pair->step, work);
       add_scaled(work, -pair->projection, pair->change);
     }
-    Field result(work.size());
     inverse.apply(work, alpha, lambda, result);
     for (const Pair& pair : pairs_)
       add_scaled(result, pair.projection - pair.inverse_curvature * dot_product(pair.change, result), pair.step);
     for (double& value : result) value = -value;
-    return result;
   }
 
  private:
   static constexpr std::size_t k_most_pairs = 8;
   struct Pair {
-    Field step, change;
-    double inverse_curvature, projection;
+    std::vector<float> step, change;
+    double inverse_curvature = 0, projection = 0;
   };
   std::deque<Pair> pairs_;
 };
@@ -262,11 +279,12 @@ StopReason descend(Descent& state, double lambda, int steps) {
   CurvatureMemory memory;
   double value = state.energy.value_and_gradient(state.z, lambda, state.gradient);
   std::deque<double> history{value};
+  const std::size_t pixels = state.z.size();
+  Field direction(pixels), work(pixels), trial(pixels), trial_gradient(pixels);
   for (int done = 0; done < steps; ++done) {
-    Field direction = memory.direction(state.gradient, state.inverse, alpha, lambda);
-    double slope = dot_product(direction, state.gradient);
+    memory.direction(state.gradient, state.inverse, alpha, lambda, work, direction);
+    const double slope = dot_product(direction, state.gradient);
     if (!(slope < 0)) return StopReason::converged;  // The gradient is zero to rounding.
-    Field trial, trial_gradient(state.z.size());
     double trial_value = 0, step = 1;
     constexpr int k_most_halvings = 20;
     constexpr double k_armijo = 1e-4;
@@ -279,11 +297,11 @@ StopReason descend(Descent& state, double lambda, int steps) {
     }
     if (halvings == k_most_halvings) return StopReason::line_search_stalled;
     for (double& component : direction) component *= step;
-    Field change = trial_gradient;
-    add_scaled(change, -1, state.gradient);
-    memory.add(std::move(direction), std::move(change));
-    state.z = std::move(trial);
-    state.gradient = std::move(trial_gradient);
+    work = trial_gradient;
+    add_scaled(work, -1, state.gradient);
+    memory.add(direction, work);
+    std::swap(state.z, trial);
+    std::swap(state.gradient, trial_gradient);
     value = trial_value;
     state.result.trace.push_back({state.clock.seconds(), state.energy.residual()});
     state.progress(done + 1, steps);

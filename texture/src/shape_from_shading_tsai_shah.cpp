@@ -34,22 +34,27 @@ Field iterate(const GreyImage& image, const ShadingOptions& options, Wraps wraps
   constexpr double k_noise = 1e-8, k_first_gain = 0.01;  // W and S of the paper.
   const Field target = texture_detail::brightness(image, options.albedo);
   Field z(target.size(), 0.0), next(target.size()), gain(target.size(), k_first_gain), squares(target.size());
-  const auto before = [](int i, int count, bool on) { return i > 0 ? i - 1 : on ? count - 1 : 0; };
+  const auto width = static_cast<std::size_t>(image.width);
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x) {
-        const std::size_t i = pixel_index(x, y, image.width);
-        const std::size_t left = pixel_index(before(x, image.width, wraps.across), y, image.width);
-        const std::size_t up = pixel_index(x, before(y, image.height, wraps.down), image.width);
-        const Reflectance r = reflectance(s, z[i] - z[left], z[i] - z[up]);
+    for (int y = 0; y < image.height; ++y) {
+      const int row_above = y > 0 ? y - 1 : wraps.down ? image.height - 1 : 0;
+      const std::size_t row = pixel_index(0, y, image.width), up = pixel_index(0, row_above, image.width);
+      // A border pixel that is its own neighbour has no slope in that direction to change.
+      const double turns_q = row == up ? 0 : 1;
+      // Without branches and calls, so that the compiler takes several pixels at a time.
+      const auto step = [&](std::size_t i, std::size_t left, std::size_t above, double turns_p) {
+        const Reflectance r = reflectance(s, z[i] - z[left], z[i] - z[above]);
         const double error = target[i] - r.value;
-        // A border pixel that is its own neighbour has no slope in that direction to change.
-        const double slope = -((left == i ? 0 : r.dp) + (up == i ? 0 : r.dq));
+        const double slope = -(turns_p * r.dp + turns_q * r.dq);
         const double damped = gain[i] * slope / (k_noise + gain[i] * slope * slope);
         next[i] = z[i] - damped * error;
         gain[i] *= 1 - damped * slope;
         squares[i] = error * error;
-      }
+      };
+      const std::size_t first_left = wraps.across ? row + width - 1 : row;
+      step(row, first_left, up, first_left == row ? 0 : 1);
+      for (std::size_t x = 1; x < width; ++x) step(row + x, row + x - 1, up + x, 1);
+    }
     std::swap(z, next);
     after_step(squares, iteration);
   }
