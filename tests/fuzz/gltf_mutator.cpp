@@ -17,7 +17,7 @@ constexpr double k_repaired_share = 0.9;
 constexpr std::array k_lists = {"buffers",  "bufferViews", "accessors", "meshes", "nodes",      "scenes", "materials",
                                 "textures", "images",      "samplers",  "skins",  "animations", "cameras"};
 constexpr std::array<const char*, 4> k_types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-constexpr std::array k_component_types = {5120, 5121, 5122, 5123, 5125, 5126};
+constexpr std::array<std::size_t, 6> k_component_types = {5120, 5121, 5122, 5123, 5125, 5126};
 
 std::size_t component_bytes(std::int64_t type) { return type >= 5125 ? 4 : type >= 5122 ? 2 : 1; }
 
@@ -103,8 +103,8 @@ class Repair {
 
   void mend_accessor(Json& accessor) {
     const std::size_t type = whole(accessor, "componentType", 5126);
-    if (std::find(k_component_types.begin(), k_component_types.end(), type) == k_component_types.end())
-      accessor["componentType"] = k_component_types[type % k_component_types.size()];
+    const bool known = std::find(k_component_types.begin(), k_component_types.end(), type) != k_component_types.end();
+    accessor["componentType"] = known ? type : k_component_types[type % k_component_types.size()];
     const Json kind = accessor.value("type", Json());
     if (std::find(k_types.begin(), k_types.end(), kind) == k_types.end()) accessor["type"] = "VEC3";
     accessor["count"] = std::clamp<std::size_t>(whole(accessor, "count", 3), 1, 4096);
@@ -115,11 +115,8 @@ class Repair {
     if (view.contains("extensions")) return;
     const std::size_t component = component_bytes(accessor["componentType"].get<std::int64_t>());
     std::size_t size = component * components(accessor), bytes = whole(view, "byteLength", 0);
-    if (size > bytes) {
-      accessor["type"] = "SCALAR";
-      size = component;
-      if (size > bytes) return accessor["componentType"] = 5121, mend_accessor(accessor);
-    }
+    if (bytes < 4) return void(accessor.erase("bufferView"));
+    if (size > bytes) accessor["type"] = "SCALAR", size = component;
     const std::size_t stride = std::max(whole(view, "byteStride", size), size);
     if (view.contains("byteStride") && whole(view, "byteStride", 0) < size)
       gltf_["bufferViews"][accessor["bufferView"].get<std::size_t>()].erase("byteStride");
