@@ -145,7 +145,7 @@ TEST(PageServer, OnlyTheTokenOpens) {
   };
   const std::string refused = at.ask(bare("/"));
   EXPECT_TRUE(refused.starts_with("HTTP/1.1 403 ")) << refused;
-  EXPECT_TRUE(refused.ends_with("Content-Length: 0\r\n\r\n") || refused.ends_with("\r\n\r\n")) << refused;
+  EXPECT_TRUE(refused.ends_with("\r\n\r\n")) << refused;  // No body.
   std::string wrong = at.token;
   wrong.back() = wrong.back() == '0' ? '1' : '0';
   for (const std::string& target :
@@ -272,13 +272,13 @@ TEST(PageServer, ThousandsWhoWaitHoldUpNobody) {
     const std::string begin = at.get("/").substr(0, at.get("/").size() - 2) + "X: ";
     for (std::size_t i = 0; !over; ++i) {
       for (const Client& client : drip) client.send(i < begin.size() ? begin.substr(i, 1) : "x");
-      std::this_thread::sleep_for(20ms);
+      std::this_thread::sleep_for(200ms);
     }
   });
-  EXPECT_TRUE(early.read_times("data: ", 50));
+  EXPECT_TRUE(early.read_times("data: ", 30));
   const Client late(at.port);
   late.send(at.get("/live"));
-  EXPECT_TRUE(late.read_times("data: ", 50));
+  EXPECT_TRUE(late.read_times("data: ", 30));
   for (int i = 0; i < 10; ++i) EXPECT_EQ(at.status(at.get("/")), 200);
   over = true;
 }
