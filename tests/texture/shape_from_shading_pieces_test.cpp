@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -100,8 +99,8 @@ TEST(ShapeFromShadingPieces, NarrowPeriodicPicturesAreThatOfTheWhole) {
 }
 
 TEST(ShapeFromShadingPieces, StripsAndOddSidesGiveAsManyHeights) {
-  for (const Method method : std::initializer_list<Method>{shape_from_shading_tsai_shah, shape_from_shading_pentland,
-                                                           shape_from_shading_variational})
+  for (const Method method :
+       {shape_from_shading_tsai_shah, shape_from_shading_pentland, shape_from_shading_variational})
     for (const auto& [width, height] : {std::pair{1, 1000}, {1000, 1}, {129, 7}, {257, 131}})
       for (const bool periodic : {false, true}) {
         ShadingOptions options;
@@ -116,8 +115,8 @@ TEST(ShapeFromShadingPieces, StripsAndOddSidesGiveAsManyHeights) {
 }
 
 TEST(ShapeFromShadingPieces, ProgressRisesToOne) {
-  for (const Method method : std::initializer_list<Method>{shape_from_shading_tsai_shah, shape_from_shading_pentland,
-                                                           shape_from_shading_variational}) {
+  for (const Method method :
+       {shape_from_shading_tsai_shah, shape_from_shading_pentland, shape_from_shading_variational}) {
     double last = 0;
     bool falls = false;
     ShadingOptions options;
