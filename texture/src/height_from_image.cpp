@@ -379,9 +379,9 @@ HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, 
   if (lit) shading = choose_shading(picture, options, result);
   if (shading) {
     using Solve = ShadingResult(const SampleRows&, const ShadingOptions&, const HeightWriter&);
-    ShadingResult solved =
-        solver<Solve>(result.method, shape_from_shading_variational, shape_from_shading_pentland,
-                      shape_from_shading_tsai_shah)(picture, *shading, [&](int y, std::span<const double> heights) {
+    ShadingResult solved = solver<Solve>(result.method, shape_from_shading_variational_by_rows,
+                                         shape_from_shading_pentland_by_rows, shape_from_shading_tsai_shah_by_rows)(
+        picture, *shading, [&](int y, std::span<const double> heights) {
           std::transform(heights.begin(), heights.end(), row.begin(), [](double h) { return static_cast<float>(h); });
           relief.write(y, row);
         });

@@ -458,7 +458,7 @@ constexpr const char* k_name = "shape_from_shading_variational";
 ShadingResult shape_from_shading_variational(const GreyImage& image, const ShadingOptions& options) {
   require_shading(image, options, k_name);
   if (std::max(image.width, image.height) > options.largest_piece_px)
-    return in_memory(shape_from_shading_variational, image, options);
+    return in_memory(shape_from_shading_variational_by_rows, image, options);
   const Stopwatch clock;
   ShadingResult result;
   result.height_px = solve(image, options, 1, clock, result);
@@ -466,8 +466,8 @@ ShadingResult shape_from_shading_variational(const GreyImage& image, const Shadi
   return result;
 }
 
-ShadingResult shape_from_shading_variational(const SampleRows& picture, const ShadingOptions& options,
-                                             const HeightWriter& write) {
+ShadingResult shape_from_shading_variational_by_rows(const SampleRows& picture, const ShadingOptions& options,
+                                                     const HeightWriter& write) {
   require_shading_options(options, k_name);
   const Stopwatch clock;
   ShadingResult result;

@@ -123,7 +123,7 @@ double heights_by_pieces(const SampleRows& image, const ShadingOptions& options,
 ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingOptions& options) {
   texture_detail::require_shading(image, options, k_name);
   if (std::max(image.width, image.height) > options.largest_piece_px)
-    return texture_detail::in_memory(shape_from_shading_pentland, image, options);
+    return texture_detail::in_memory(shape_from_shading_pentland_by_rows, image, options);
   const Vec3 light = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
   const Stopwatch clock;
   ShadingResult result;
@@ -136,8 +136,8 @@ ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingO
   return result;
 }
 
-ShadingResult shape_from_shading_pentland(const SampleRows& picture, const ShadingOptions& options,
-                                          const HeightWriter& write) {
+ShadingResult shape_from_shading_pentland_by_rows(const SampleRows& picture, const ShadingOptions& options,
+                                                  const HeightWriter& write) {
   texture_detail::require_shading_options(options, k_name);
   const Vec3 light = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
   const Stopwatch clock;

@@ -100,7 +100,7 @@ void iterate_by_pieces(const SampleRows& image, const ShadingOptions& options, c
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options) {
   texture_detail::require_shading(image, options, k_name);
   if (std::max(image.width, image.height) > options.largest_piece_px)
-    return texture_detail::in_memory(shape_from_shading_tsai_shah, image, options);
+    return texture_detail::in_memory(shape_from_shading_tsai_shah_by_rows, image, options);
   ShadingResult result;
   const Stopwatch clock;
   result.height_px =
@@ -113,8 +113,8 @@ ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const Shading
   return result;
 }
 
-ShadingResult shape_from_shading_tsai_shah(const SampleRows& picture, const ShadingOptions& options,
-                                           const HeightWriter& write) {
+ShadingResult shape_from_shading_tsai_shah_by_rows(const SampleRows& picture, const ShadingOptions& options,
+                                                   const HeightWriter& write) {
   texture_detail::require_shading_options(options, k_name);
   ShadingResult result;
   iterate_by_pieces(picture, options, write, result);

@@ -66,8 +66,8 @@ using HeightWriter = std::function<void(int y, std::span<const double> heights_p
 ShadingResult shape_from_shading_variational(const GreyImage& image, const ShadingOptions& options = {});
 /// The same by pieces, of finite samples wherever they lie: the heights go to `write`, their mean as it comes, and not
 /// into the result.
-ShadingResult shape_from_shading_variational(const SampleRows& picture, const ShadingOptions& options,
-                                             const HeightWriter& write);
+ShadingResult shape_from_shading_variational_by_rows(const SampleRows& picture, const ShadingOptions& options,
+                                                     const HeightWriter& write);
 
 /// Pentland's linear method: for gentle slopes R ≈ s_z − s_x p − s_y q, so that in Fourier space
 ///   Z = conj(D) I / (|D|² + δ² |ω|² |(s_x, s_y)|²),  D = −i (s_x ω_x + s_y ω_y),  δ = 0.1,
@@ -81,8 +81,8 @@ ShadingResult shape_from_shading_variational(const SampleRows& picture, const Sh
 ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingOptions& options = {});
 /// The same by pieces, of finite samples wherever they lie: the heights go to `write`, their mean as it comes, and not
 /// into the result.
-ShadingResult shape_from_shading_pentland(const SampleRows& picture, const ShadingOptions& options,
-                                          const HeightWriter& write);
+ShadingResult shape_from_shading_pentland_by_rows(const SampleRows& picture, const ShadingOptions& options,
+                                                  const HeightWriter& write);
 
 /// Tsai and Shah's local method: p = Z(x, y) − Z(x−1, y), q = Z(x, y) − Z(x, y−1), and for every pixel
 ///   Z ← Z − K f,  f = I/albedo − max(0, R(p, q)),  K = S f′ / (W + S f′²),  S ← (1 − K f′) S,
@@ -97,7 +97,7 @@ ShadingResult shape_from_shading_pentland(const SampleRows& picture, const Shadi
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options = {});
 /// The same by pieces, of finite samples wherever they lie: the heights go to `write`, their mean as it comes, and not
 /// into the result.
-ShadingResult shape_from_shading_tsai_shah(const SampleRows& picture, const ShadingOptions& options,
-                                           const HeightWriter& write);
+ShadingResult shape_from_shading_tsai_shah_by_rows(const SampleRows& picture, const ShadingOptions& options,
+                                                   const HeightWriter& write);
 
 }  // namespace papilla
