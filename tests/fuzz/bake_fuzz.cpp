@@ -108,5 +108,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned seed) {
-  return fuzz::mutate_gltf(data, size, max_size, seed, grammar(), "scene");
+  return fuzz::mutate_scene(data, size, max_size, seed, grammar(), [](fuzz::Json& input) {
+    fuzz::repair_materials(input["rules"]);
+    for (auto& [name, material] : input["rules"]["materials"].items())
+      if (material.contains("texture")) material["texture"] = "grain.png";
+  });
 }

@@ -13,7 +13,7 @@
 namespace papilla::fuzz {
 namespace {
 
-constexpr double k_repaired_share = 0.9;
+constexpr double k_repaired_share = 0.9, k_bytes_share = 0.02;
 constexpr std::array k_lists = {"buffers",  "bufferViews", "accessors", "meshes", "nodes",      "scenes", "materials",
                                 "textures", "images",      "samplers",  "skins",  "animations", "cameras"};
 constexpr std::array<const char*, 4> k_types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -33,6 +33,8 @@ class Repair {
   Repair(BlobDocument& document, Json& gltf) : document_(document), gltf_(gltf) {}
 
   void run() {
+    if (!gltf_.is_object()) gltf_ = Json::object();
+    if (!gltf_["asset"].is_object()) gltf_["asset"] = Json::object();
     gltf_["asset"]["version"] = "2.0";
     for (const char* name : k_lists) keep_objects(name);
     gltf_.erase("extensionsRequired");
@@ -225,7 +227,7 @@ class Repair {
   void mend_tag(Json& extras) {
     if (!extras.contains("haptic") || !extras["haptic"].is_object()) return;
     Json& tag = extras["haptic"];
-    tag["version"] = 1;
+    repair_tag(tag);
     if (!tag.contains("height") || !tag["height"].is_object() || !tag["height"].contains("uri")) return;
     if (const auto* blob = document_.blob_of(tag["height"]["uri"]))
       tag["height"]["sha256"] = sha256_hex(std::as_bytes(std::span(blob->bytes)));
@@ -277,6 +279,11 @@ class Repair {
   std::vector<std::size_t> roots_;
 };
 
+void mutate(BlobDocument& document, const JsonGrammar& grammar, Random& random) {
+  if (random.chance(0.35)) mutate_blob(document, random);
+  if (random.chance(0.8)) mutate_json(document.json, grammar, random);
+}
+
 }  // namespace
 
 const JsonGrammar& gltf_grammar() {
@@ -321,20 +328,26 @@ const JsonGrammar& gltf_grammar() {
 
 void repair_gltf(BlobDocument& document, Json& gltf) { Repair(document, gltf).run(); }
 
-std::size_t mutate_gltf(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
-                        const JsonGrammar& grammar, const char* member) {
+std::size_t mutate_gltf(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
   Random random(seed);
   auto document = parse_blob_document({reinterpret_cast<const char*>(data), size});
-  if (!document || random.chance(0.02)) return mutate_bytes(data, size, max_size, random);
-  if (random.chance(0.35)) mutate_blob(*document, random);
-  if (random.chance(0.8)) mutate_json(document->json, grammar, random);
-  if (member == nullptr && random.chance(0.01)) document->glb = !document->glb;
-  if (!document->json.is_object()) return size;
-  Json& gltf = member == nullptr ? document->json : document->json[member];
+  if (!document || random.chance(k_bytes_share)) return mutate_bytes(data, size, max_size, random);
+  mutate(*document, gltf_grammar(), random);
+  if (random.chance(0.01)) document->glb = !document->glb;
+  if (random.chance(k_repaired_share)) repair_gltf(*document, document->json);
+  return store(to_bytes(*document), data, size, max_size);
+}
+
+std::size_t mutate_scene(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
+                         const JsonGrammar& grammar, void (*repair)(Json&)) {
+  Random random(seed);
+  auto document = parse_blob_document({reinterpret_cast<const char*>(data), size});
+  if (!document || random.chance(k_bytes_share)) return mutate_bytes(data, size, max_size, random);
+  mutate(*document, grammar, random);
   if (random.chance(k_repaired_share)) {
-    if (!gltf.is_object()) gltf = Json::object();
-    if (!gltf["asset"].is_object()) gltf["asset"] = Json::object();
-    repair_gltf(*document, gltf);
+    if (!document->json.is_object()) document->json = Json::object();
+    repair_gltf(*document, document->json["scene"]);
+    repair(document->json);
   }
   return store(to_bytes(*document), data, size, max_size);
 }

@@ -16,9 +16,10 @@ const JsonGrammar& gltf_grammar();
 /// nodes, SHA-256 sums of the tags' pictures that are right.
 void repair_gltf(BlobDocument& document, Json& gltf);
 
-/// Body of LLVMFuzzerCustomMutator() for glTF, or for a JSON document that holds glTF under the key `member`: mutates
-/// JSON and bytes, and mostly repairs the result.
-std::size_t mutate_gltf(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
-                        const JsonGrammar& grammar, const char* member = nullptr);
+/// Body of LLVMFuzzerCustomMutator() for glTF, or for a JSON document with glTF as "scene": mutates JSON and bytes,
+/// and mostly repairs the result.
+std::size_t mutate_gltf(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed);
+std::size_t mutate_scene(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
+                         const JsonGrammar& grammar, void (*repair)(Json&));
 
 }  // namespace papilla::fuzz

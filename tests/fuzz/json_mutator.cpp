@@ -243,6 +243,39 @@ void mutate_json(Json& json, const JsonGrammar& grammar, Random& random) {
   }
 }
 
+void repair_tag(Json& tag) {
+  if (!tag.is_object()) tag = Json::object();
+  tag["version"] = 1;
+  if (!tag.contains("stiffness") && !tag.contains("height")) tag["stiffness"] = 500;
+}
+
+void fit_json(Json& value, const Json& sample, const JsonGrammar& grammar, std::string_view key) {
+  const bool same = value.type() == sample.type() || (value.is_number() && sample.is_number());
+  if (!same || (value.is_array() && value.size() != sample.size())) value = sample;
+  if (value.is_object()) {
+    std::vector<std::string> unknown;
+    for (auto& [name, member] : value.items())
+      if (sample.contains(name))
+        fit_json(member, sample[name], grammar, name);
+      else
+        unknown.push_back(name);
+    for (const std::string& name : unknown) value.erase(name);
+  } else if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) fit_json(value[i], sample[i], grammar, key);
+  } else if (value.is_number()) {
+    for (const auto& [name, low, high] : grammar.ranges)
+      if (name == key) {
+        if (const double number = value.get<double>(); !(number >= low && number <= high))
+          value = std::clamp(number, low, high);
+        return;
+      }
+  } else if (value.is_string()) {
+    for (const auto& [name, words] : grammar.words)
+      if (name == key && std::find(words.begin(), words.end(), value.get<std::string>()) == words.end())
+        value = words.front();
+  }
+}
+
 void cross_json(Json& json, const Json& other, Random& random) {
   if (random.chance(0.5)) return graft(json, other, random);
   Json source = other;
@@ -255,11 +288,13 @@ void cross_json(Json& json, const Json& other, Random& random) {
 }
 
 std::size_t mutate_json_text(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
-                             const JsonGrammar& grammar) {
+                             const JsonGrammar& grammar, void (*repair)(Json&)) {
+  constexpr double k_repaired_share = 0.9;
   Random random(seed);
   Json json = Json::parse(data, data + size, nullptr, false);
   if (json.is_discarded() || random.chance(k_bytes_share)) return mutate_bytes(data, size, max_size, random);
   mutate_json(json, grammar, random);
+  if (repair != nullptr && random.chance(k_repaired_share)) repair(json);
   return store(json.dump(-1, ' ', false, Json::error_handler_t::replace), data, size, max_size);
 }
 

@@ -49,17 +49,24 @@ struct JsonGrammar {
 /// The members of `extras.haptic`.
 const JsonGrammar& tag_grammar();
 
+/// Gives a tag what it can't be without.
+void repair_tag(Json& tag);
+
 /// Changes one to four values or members: numbers to their limits and just beyond, tiny, huge and negative ones; words;
 /// members added from the sample, taken away, copied, swapped; rarely a value of another type.
 void mutate_json(Json& json, const JsonGrammar& grammar, Random& random);
+
+/// Takes away members that the sample has not, and brings values into its types, the ranges and the words.
+void fit_json(Json& value, const Json& sample, const JsonGrammar& grammar, std::string_view key = "");
 
 /// Replaces some value by one that stands under the same key in `other`.
 void cross_json(Json& json, const Json& other, Random& random);
 
 /// Bodies of LLVMFuzzerCustomMutator() and LLVMFuzzerCustomCrossOver() for JSON texts. Texts that are no JSON, and some
 /// others, are left to libFuzzer's own mutations.
+/// @param repair  of most results.
 std::size_t mutate_json_text(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed,
-                             const JsonGrammar& grammar);
+                             const JsonGrammar& grammar, void (*repair)(Json&) = nullptr);
 std::size_t cross_json_texts(std::string_view first, std::string_view second, std::uint8_t* out, std::size_t max_size,
                              unsigned seed);
 

@@ -16,5 +16,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned seed) {
-  return papilla::fuzz::mutate_json_text(data, size, max_size, seed, papilla::fuzz::materials_grammar());
+  return papilla::fuzz::mutate_json_text(data, size, max_size, seed, papilla::fuzz::materials_grammar(),
+                                         papilla::fuzz::repair_materials);
 }

@@ -37,4 +37,28 @@ const JsonGrammar& materials_grammar() {
   return grammar;
 }
 
+void repair_materials(Json& rules) {
+  const JsonGrammar& grammar = materials_grammar();
+  const Json& sample = grammar.sample;
+  if (!rules.is_object()) rules = Json::object();
+  rules.erase("version");
+  for (const char* key : {"materials", "assign"})
+    if (!rules.contains(key) || rules[key].type() != sample[key].type()) rules[key] = sample[key];
+  for (auto& [name, material] : rules["materials"].items()) {
+    fit_json(material, sample["materials"]["grain"], grammar);
+    if (material.contains("staticFriction") && material.contains("dynamicFriction") &&
+        material["dynamicFriction"] > material["staticFriction"])
+      material["dynamicFriction"] = material["staticFriction"];
+  }
+  for (Json& rule : rules["assign"]) {
+    const bool empty = rule.is_object() && rule.contains("material") && rule["material"].is_null();
+    fit_json(rule, sample["assign"][0], grammar);
+    if (!rule.contains("part") && !rule.contains("cad_colour") && !rule.contains("gltf_material")) rule["part"] = "*";
+    if (!rule.contains("material") || !rules["materials"].contains(rule["material"].get<std::string>()) || empty)
+      rule["material"] = empty || rules["materials"].empty() ? Json() : Json(rules["materials"].begin().key());
+  }
+  for (auto member = rules.begin(); member != rules.end();)
+    member = sample.contains(member.key()) ? std::next(member) : rules.erase(member);
+}
+
 }  // namespace papilla::fuzz

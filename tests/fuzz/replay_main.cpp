@@ -65,7 +65,7 @@ int main(int count, char** arguments) {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     const std::size_t before = counts().accepted;
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
-    if (mutations == 0 || counts().accepted == before) continue;
+    if (mutations == 0 || LLVMFuzzerCustomMutator == nullptr || counts().accepted == before) continue;
     const papilla::fuzz::Counts start = counts();
     run_mutations(bytes, mutations);
     mutated += counts().inputs - start.inputs;

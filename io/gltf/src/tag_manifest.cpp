@@ -25,9 +25,9 @@ std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 
 double to_micrometre(double metres) { return std::round(1e6 * metres) / 1e6; }
 
-/// Six digits: enough for a tolerance of a percent.
+/// Six digits: enough for a tolerance of a percent. Below 1e-300 the unit of the last one is no number any more.
 double rounded(double value) {
-  if (!(value > 0)) return 0;
+  if (!(value > 1e-300)) return 0;
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 5);
   return std::round(value / unit) * unit;
 }
