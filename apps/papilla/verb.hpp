@@ -40,7 +40,7 @@ struct VerbInfo {
 /// The body of a verb: does the work, prints for people, returns the machine-readable result.
 using VerbBody = std::function<Json(VerbContext&)>;
 
-/// Adds a verb with the options that all verbs share (--json, --quiet, --threads, --seed, --progress).
+/// Adds a verb with the options that all verbs share (--json, --quiet, --threads, --seed, --max-memory, --progress).
 /// The caller adds its own options to the returned command, bound to an object that `body` shares.
 CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body);
 
