@@ -67,6 +67,26 @@ bool check_png_from(const ByteSource& next, const fs::path& path) {
   }
 }
 
+/// OpenImageIO 2.4.7 reads behind its buffers where the compression of a BMP does not fit its bits a pixel.
+/// Header: BITMAPFILEHEADER of 14 bytes, size of the next one, and from 40 bytes on bits a pixel and compression.
+void check_bmp(const fs::path& path) {
+  constexpr std::size_t k_header = 34;
+  std::array<char, k_header> head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(head.data(), k_header) || head[0] != 'B' || head[1] != 'M') return;
+  const auto little_endian = [&](std::size_t at, std::size_t bytes) {
+    std::uint32_t value = 0;
+    for (std::size_t i = bytes; i-- > 0;) value = value << 8 | static_cast<unsigned char>(head[at + i]);
+    return value;
+  };
+  constexpr std::uint32_t k_rle8 = 1, k_rle4 = 2;
+  const std::uint32_t bits = little_endian(28, 2), compression = little_endian(30, 4);
+  if (little_endian(14, 4) < 40) return;
+  if ((compression == k_rle8 && bits != 8) || (compression == k_rle4 && bits != 4))
+    throw InvalidInput(fmt::format("{}: is a BMP of {} bits a pixel with compression {}, which do not fit",
+                                   path.string(), bits, compression));
+}
+
 bool check_png_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path.string() + ": cannot be read");
@@ -128,6 +148,7 @@ std::unique_ptr<ImageInput> open_picture(const fs::path& path, std::size_t most_
   const std::uintmax_t bytes = fs::file_size(path);
   if (bytes == 0) throw InvalidInput(path.string() + ": is empty");
   const bool interlaced = check_png_file(path);
+  check_bmp(path);
   const ImageSpec wishes = stored_values();
   auto input = ImageInput::open(path.string(), &wishes);
   if (!input) throw InvalidInput(path.string() + ": is no picture: " + first_line(OIIO::geterror()));
