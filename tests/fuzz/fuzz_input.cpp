@@ -55,6 +55,7 @@ bool expect_result_or_refusal(const std::function<void()>& read) {
   } catch (const Error& error) {
     const std::string_view message = error.what();
     require(!message.empty() && message.find('\n') == std::string_view::npos, "a refusal is one line");
+    if (std::getenv("PAPILLA_FUZZ_SAY") != nullptr) std::fprintf(stderr, "refused: %s\n", error.what());
     return false;
   }
 }

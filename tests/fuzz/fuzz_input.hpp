@@ -19,7 +19,8 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 /// A file of this process in the folder for temporary files. The same name gives the same file, overwritten.
 std::filesystem::path write_input(const std::string& name, std::string_view content);
 
-/// Runs a reader. An Error of one line is a proper refusal; anything else ends the program.
+/// Runs a reader. An Error of one line is a proper refusal, printed when PAPILLA_FUZZ_SAY is set; anything else ends
+/// the program.
 /// @returns whether there was a result.
 bool expect_result_or_refusal(const std::function<void()>& read);
 

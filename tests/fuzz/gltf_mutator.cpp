@@ -252,6 +252,12 @@ class Repair {
       }
       if (node.contains("matrix"))
         for (const std::size_t k : {3U, 7U, 11U, 15U}) node["matrix"][k] = k == 15 ? 1 : 0;
+      if (node.contains("extensions") && node["extensions"].is_object() && node["extensions"].contains("MSFT_lod")) {
+        if (count < 2)
+          node["extensions"].erase("MSFT_lod");
+        else
+          node["extensions"]["MSFT_lod"] = {{"ids", {(i + 1) % count}}};
+      }
       if (!node.contains("children")) continue;
       Json kept = Json::array();
       if (node["children"].is_array())

@@ -44,6 +44,33 @@ const papilla::fuzz::JsonGrammar& grammar() {
   return made;
 }
 
+/// Makes of a damaged manifest one that can be read.
+void repair(papilla::fuzz::Json& extras) {
+  using papilla::fuzz::Json;
+  const Json& sample = grammar().sample["hapticManifest"];
+  if (!extras.is_object()) extras = Json::object();
+  if (extras.contains("hapticMaterials") && extras["hapticMaterials"].is_array())
+    for (Json& entry : extras["hapticMaterials"])
+      if (entry.is_object()) papilla::fuzz::repair_tag(entry["tag"]);
+  Json& manifest = extras["hapticManifest"];
+  if (!manifest.is_object()) manifest = sample;
+  manifest["version"] = 1;
+  for (const char* list : {"materials", "surfaces"})
+    if (!manifest.contains(list) || !manifest[list].is_array()) manifest[list] = sample[list];
+  for (Json& entry : manifest["materials"]) {
+    if (!entry.is_object()) entry = sample["materials"][0];
+    if (!entry.contains("name") || !entry["name"].is_string()) entry["name"] = "Leather";
+    papilla::fuzz::repair_tag(entry["tag"]);
+  }
+  const std::size_t count = manifest["materials"].size();
+  for (Json& surface : manifest["surfaces"]) {
+    papilla::fuzz::fit_json(surface, sample["surfaces"][0], grammar());
+    if (!surface.contains("area")) surface["area"] = 1;
+    const bool known = surface.contains("material") && surface["material"].is_number_unsigned() && count > 0;
+    surface["material"] = known ? Json(surface["material"].get<std::size_t>() % count) : Json();
+  }
+}
+
 }  // namespace
 
 /// The input is the extras of the asset, and of a node.
@@ -66,5 +93,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned seed) {
-  return papilla::fuzz::mutate_json_text(data, size, max_size, seed, grammar());
+  return papilla::fuzz::mutate_json_text(data, size, max_size, seed, grammar(), repair);
 }

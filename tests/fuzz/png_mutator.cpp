@@ -83,7 +83,7 @@ void mutate_header(std::string& data, Random& random) {
     case 2: data[8] = random.of(k_depths); break;
     case 3: data[9] = random.of(k_types); break;
     case 4: data[12] ^= 1; break;
-    default: data[random.below(13)] = static_cast<char>(random.below(256)); break;
+    default: data[random.chance(0.1) ? random.below(13) : 12] = static_cast<char>(random.below(256)); break;
   }
 }
 

@@ -30,7 +30,7 @@ void keep(const std::uint8_t* data, std::size_t size) {
 }
 
 /// Every fourth mutation starts again from the file, as libFuzzer starts from inputs that found something.
-void run_mutations(const std::vector<std::uint8_t>& file, unsigned count) {
+void run_mutations(const std::vector<std::uint8_t>& file, unsigned first_seed, unsigned count) {
   constexpr unsigned k_chain = 4;
   std::vector<std::uint8_t> bytes(std::max<std::size_t>(4 * file.size(), 4096));
   std::size_t size = 0;
@@ -39,7 +39,7 @@ void run_mutations(const std::vector<std::uint8_t>& file, unsigned count) {
       std::copy(file.begin(), file.end(), bytes.begin());
       size = file.size();
     }
-    size = LLVMFuzzerCustomMutator(bytes.data(), size, bytes.size(), seed);
+    size = LLVMFuzzerCustomMutator(bytes.data(), size, bytes.size(), first_seed + seed);
     keep(bytes.data(), size);
     LLVMFuzzerTestOneInput(bytes.data(), size);
   }
@@ -67,7 +67,7 @@ int main(int count, char** arguments) {
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
     if (mutations == 0 || LLVMFuzzerCustomMutator == nullptr || counts().accepted == before) continue;
     const papilla::fuzz::Counts start = counts();
-    run_mutations(bytes, mutations);
+    run_mutations(bytes, static_cast<unsigned>(mutated), mutations);
     mutated += counts().inputs - start.inputs;
     accepted += counts().accepted - start.accepted;
   }

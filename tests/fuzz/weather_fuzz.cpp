@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "fuzz_input.hpp"
 #include "json_mutator.hpp"
 #include "papilla/pipeline/weather_scene.hpp"
@@ -13,6 +15,26 @@ const papilla::fuzz::JsonGrammar& grammar() {
       Json::parse(R"({"$comment":"c","size":256,"atlas":1024,"time":[0,0.5,1],"depth_mm":0.2,"sky_rays":16,
         "libraries":["weather.recipes"],"layers":[{"recipe":"rust","materials":["*"]}]})")};
   return made;
+}
+
+/// Makes of a damaged configuration one that can be read.
+void repair(papilla::fuzz::Json& config) {
+  using papilla::fuzz::Json;
+  const Json& sample = grammar().sample;
+  if (!config.is_object()) config = sample;
+  Json layers = config.value("layers", Json()), libraries = config.value("libraries", Json());
+  for (const char* list : {"layers", "libraries"}) config.erase(list);
+  papilla::fuzz::fit_json(config, sample, grammar());
+  if (!layers.is_array() || layers.empty()) layers = sample["layers"];
+  for (Json& layer : layers) {
+    if (!layer.is_object()) layer = Json::object();
+    if (!layer.contains("recipe")) layer["recipe"] = "rust";
+    papilla::fuzz::fit_json(layer, sample["layers"][0], grammar());
+  }
+  config["layers"] = layers;
+  if (libraries.is_array() &&
+      std::all_of(libraries.begin(), libraries.end(), [](const Json& name) { return name.is_string(); }))
+    config["libraries"] = libraries;
 }
 
 }  // namespace
@@ -30,5 +52,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned seed) {
-  return papilla::fuzz::mutate_json_text(data, size, max_size, seed, grammar());
+  return papilla::fuzz::mutate_json_text(data, size, max_size, seed, grammar(), repair);
 }
