@@ -76,7 +76,7 @@ mkdir -p examples && echo 'int a;' >examples/a.cpp && expect 'examples/a.cpp: ha
 list cmake/PapillaDependencies.cmake 'find_package(OpenMesh REQUIRED)' && expect 'requires OpenMesh, which no source includes'
 list cmake/PapillaDependencies.cmake 'pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)' &&
   expect 'requires fftw3, which no source includes'
-list cmake/PapillaDependencies.cmake 'find_package(Boost REQUIRED)' && expect 'requires Boost, of which'
+list cmake/PapillaDependencies.cmake 'find_package(Qt6 REQUIRED)' && expect 'requires Qt6, of which'
 list run 'readonly build_packages=(libopenmesh-dev)' && expect 'run: requires libopenmesh-dev, which no source includes'
 list run 'readonly docs_packages=(' '  gnuplot-nox  # plots' ')' && expect 'run: requires gnuplot-nox, which no script calls'
 write core/src/a.cpp MIT '#include <vector>' && list core/CMakeLists.txt 'papilla_module(core PRIVATE TBB::tbb)' &&
