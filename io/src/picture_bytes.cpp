@@ -123,6 +123,7 @@ class PngRows {
   };
 
   [[noreturn]] void fail(const std::string& what) const {
+    if (pass_ == passes_.size()) bytes_.fail("is damaged after its last row: " + what);
     bytes_.fail(fmt::format("is damaged in row {}: {}", done_, what));
   }
 

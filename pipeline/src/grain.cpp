@@ -131,11 +131,15 @@ HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain&
   return relief;
 }
 
+/// Lowest and highest place of a relief in metres.
+std::pair<double, double> range_m(const HeightMap& relief) {
+  const auto [low, high] = std::minmax_element(relief.mm.begin(), relief.mm.end());
+  return {k_metres_per_mm * static_cast<double>(*low), k_metres_per_mm * static_cast<double>(*high)};
+}
+
 /// Keeps the relief within what a tag may have.
 void limit_heights(const MaterialRule& rule, Grain& grain) {
-  const auto [lowest, highest] = std::minmax_element(grain.relief.mm.begin(), grain.relief.mm.end());
-  const double low = k_metres_per_mm * static_cast<double>(*lowest),
-               high = k_metres_per_mm * static_cast<double>(*highest);
+  const auto [low, high] = range_m(grain.relief);
   const double shift = relief_shift_m(low, high), share = relief_share(low + shift, high + shift);
   if (shift != 0)
     grain.warnings.push_back(
@@ -152,19 +156,30 @@ void limit_heights(const MaterialRule& rule, Grain& grain) {
 }
 
 double range_mm(const HeightMap& relief) {
-  const auto [low, high] = std::minmax_element(relief.mm.begin(), relief.mm.end());
-  return static_cast<double>(*high) - static_cast<double>(*low);
+  const auto [low, high] = range_m(relief);
+  return (high - low) / k_metres_per_mm;
 }
 
-/// Limits the slopes to what the rule says, or to what its friction allows.
+/// A relief that lost its peaks may lie farther off the mesh than it is high now, which a tag may not.
+void bring_to_mesh(HeightMap& relief) {
+  const auto [low, high] = range_m(relief);
+  const double shift = relief_shift_m(low, high);
+  if (shift == 0) return;
+  for (float& h : relief.mm) h = static_cast<float>(static_cast<double>(h) + shift / k_metres_per_mm);
+}
+
+/// Limits the slopes to what the rule says, or to what its friction allows, also where the relief meets its repeats.
 void limit_slopes(const MaterialRule& rule, Grain& grain) {
   MaterialTag constants = grain.tag;
   apply_constants(rule, constants);
   GrainHeight& height = grain.height;
   height.max_slope = rule.height.max_slope.value_or(default_max_slope(constants.static_friction));
   height.unlimited_depth_mm = range_mm(grain.relief);
+  const bool periodic = std::exchange(grain.relief.periodic, true);
   height.slopes = limit_slope(grain.relief, {.max_slope = height.max_slope});
   grain.relief = std::exchange(height.slopes.relief, {});
+  grain.relief.periodic = periodic;
+  bring_to_mesh(grain.relief);
   height.depth_mm = range_mm(grain.relief);
   height.rms_mm = rms_height_mm(grain.relief);
   if (height.slopes.stop == StopReason::iteration_limit)

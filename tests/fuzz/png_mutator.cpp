@@ -101,7 +101,7 @@ void mutate_png(std::string& bytes, Random& random) {
   std::vector<Chunk> chunks = chunks_of(bytes);
   if (chunks.empty()) return;
   const std::size_t at = random.below(chunks.size());
-  switch (random.below(8)) {
+  switch (random.below(16)) {
     case 0: mutate_header(chunks.front().data, random); break;
     case 1: chunks.insert(chunks.begin() + static_cast<std::ptrdiff_t>(at), Chunk(random.of(chunks))); break;
     case 2: chunks.erase(chunks.begin() + static_cast<std::ptrdiff_t>(at)); break;

@@ -315,12 +315,12 @@ TEST_F(Player, ForceFadesInAgainAfterASigstop) {
   // Forces begin at zero with the proxy at the probe, and take 50 ms from the next contact on.
   auto i = static_cast<std::size_t>(differs.first - whole.begin());
   ASSERT_LT(i + 600, paused.size());
-  if (whole[i].contact) {
+  if (i > 0 && whole[i - 1].contact) {  // Else it stood still in the air.
     EXPECT_EQ(paused[i].force, Vec3{});
     EXPECT_EQ(paused[i].proxy, paused[i].probe);
     while (!paused[i].contact) ++i;
   }
-  const double full = 0.5;  // N, at most: 400 N/m and the hand's 1000 N/m share 1.5 mm.
+  const double full = 0.55;  // N, at most: 400 N/m and the hand's 1000 N/m share 1.5 mm, and the relief rises.
   for (int k = 0; k < 50; ++k) EXPECT_LE(norm(paused[i + static_cast<std::size_t>(k)].force), full * (k + 1) / 50) << k;
   EXPECT_GT(norm(paused[i + 200].force), 0.1);
 }
@@ -355,7 +355,7 @@ TEST_F(Player, HostileTagsAreHeldBackWithAWarning) {
   Json high = tag();
   high["height"]["scale"] = 1.0;
   high["height"]["offset"] = -0.5;
-  expect_limited(high, "tag_height_limit", "haptic.height.scale", "1:", "0.02 m");
+  expect_limited(high, "tag_height_limit", "haptic.height.scale", "1:", "the limit of 0.02,");
   Json moved = tag();
   moved["height"]["offset"] = 0.015;
   expect_limited(moved, "tag_offset_limit", "haptic.height.offset", "0.015:", "0.0002 is used");

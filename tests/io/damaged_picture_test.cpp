@@ -93,7 +93,7 @@ TEST(DamagedPicture, PngWithRightChecksumsAndWrongRows) {
   EXPECT_EQ(refusal(folder.write("filter.png", png(2, stored("\0\x10\x20\x09\x30\x40"s)))),
             "filter.png: is damaged in row 1: filter 9");
   EXPECT_EQ(refusal(folder.write("sum.png", png(2, good.substr(0, good.size() - 1) + "x"))),
-            "sum.png: is damaged in row 2: incorrect data check");
+            "sum.png: is damaged after its last row: incorrect data check");
   EXPECT_EQ(refusal(folder.write("none.png", png(2, "no zlib stream"))),
             "none.png: is damaged in row 0: incorrect header check");
   EXPECT_EQ(refusal(folder.write("critical.png", png(2, good, 0, chunk("ABCD", "")))),
@@ -117,7 +117,16 @@ TEST(DamagedPicture, TiffStripThatCannotBeDecompressed) {
   const TemporaryFolder folder;
   write_grey_image(folder / "a.tif", ramp(300, 400), 8);
   std::string bytes = bytes_of(folder / "a.tif");
-  bytes[8] = bytes[9] = '\xff';  // Where the first strip begins.
+  const std::string tag("\x11\x01\x04\0", 4);  // StripOffsets, LONG; then their number, and where they or the one is.
+  const auto number = [&](std::size_t at) {
+    std::size_t value = 0;
+    for (std::size_t i = 4; i-- > 0;) value = value << 8U | static_cast<unsigned char>(bytes.at(at + i));
+    return value;
+  };
+  const std::size_t at = bytes.find(tag);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t strip = number(at + 4) == 1 ? number(at + 8) : number(number(at + 8));
+  bytes.at(strip) = bytes.at(strip + 1) = '\xff';
   const std::string message = refusal(folder.write("strip.tif", bytes));
   EXPECT_TRUE(message.starts_with("strip.tif: is damaged at row 0: ")) << message;
 }

@@ -89,7 +89,8 @@ TEST(ImageBands, NamesTheNumberThatIsNotFinite) {
     bands.next(60);
     FAIL() << "a NaN was read";
   } catch (const InvalidInput& error) {
-    EXPECT_NE(std::string(error.what()).find("a.exr: pixel (3, 80) is nan, not finite"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("a.exr: pixel (3, 80) is nan, not finite"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -21,7 +21,8 @@ void expect_steady(const MaterialRule& rule) {
   SCOPED_TRACE(rule.name);
   const DeviceCaps device = device_preset("touch").caps();
   const testing::FeltPlate plate = testing::felt_plate(rule, device);
-  for (const MaterialWarning& warning : plate.haptic.warnings) EXPECT_EQ(warning.warning.code, "") << warning.material;
+  for (const MaterialWarning& warning : plate.haptic.warnings)
+    EXPECT_EQ(warning.warning.code, "") << warning.warning.message;
   const GrainHeight& height = plate.baked.grains.at(rule.name).height;
   EXPECT_LE(height.slopes.steepest_after, height.max_slope * (1 + 1e-6));
   EXPECT_EQ(height.slopes.share_after, 0);

@@ -56,8 +56,8 @@ TEST(HeightFile, InBandsWritesTheSameFiles) {
           height_of_picture_file(folder / "grain.png", folder / (std::string("bands") + extension), options);
       EXPECT_EQ(bands.result.method, whole.result.method);
       EXPECT_EQ(bands.result.map.periodic, whole.result.map.periodic);
-      EXPECT_NEAR(bands.result.rms_mm, whole.result.rms_mm, 1e-6);
       if (bands.result.method == HeightMethod::variational) continue;  // In pieces it is another guess at long waves.
+      EXPECT_NEAR(bands.result.rms_mm, whole.result.rms_mm, 1e-6);
       for (const char* suffix : {"", "-opposite", "-x4"}) {
         const auto file = [&](const char* stem) { return folder / (std::string(stem) + suffix + extension); };
         const GreyImage a = read_grey_image(file("whole")), b = read_grey_image(file("bands"));

@@ -37,8 +37,8 @@ papilla_haptic* papilla_haptic_open(const char* path, const papilla_haptic_optio
                                     size_t message_size);
 void papilla_haptic_close(papilla_haptic* haptic);
 
-/* Puts the probe to `position` without contact on the way, and clears a fault; forces fade in again. Call it, too, after
- * a pause in which the hand may have gone on. */
+/* Puts the probe to `position` without contact on the way, and clears a fault; forces fade in again. Call it, too,
+ * after a pause in which the hand may have gone on. */
 void papilla_haptic_reset(papilla_haptic* haptic, const double position[3]);
 
 /* One tick: computes the force on the hand from the newest position, which is age_s old. */
