@@ -21,7 +21,8 @@ using test::TemporaryFolder;
 
 GreyImage ramp(int width, int height) {
   GreyImage image{width, height, {}, 0, 8};
-  for (int i = 0; i < width * height; ++i) image.pixels.push_back(static_cast<float>((i * 7919) % 251) / 250.0F);
+  for (std::int64_t i = 0; i < std::int64_t{width} * height; ++i)
+    image.pixels.push_back(static_cast<float>((i * 7919) % 251) / 250.0F);
   return image;
 }
 
