@@ -10,7 +10,7 @@ namespace papilla {
 
 struct GltfReadOptions {
   /// A glTF file with the tags as they were, whose tags replace the list within the file; empty: that list is used.
-  std::filesystem::path tags;
+  std::filesystem::path tags = {};
   /// Channel 1 is, where the haptic tag of a material names a channel above 1, that one; the tag then says 1. For those
   /// who need the relief and no picture.
   bool tag_channel = false;
