@@ -51,8 +51,7 @@ void write_glb_container(std::ostream& out, const std::string& json, std::size_t
   constexpr std::size_t k_json = 0x4e4f534a, k_bin = 0x004e4942;
   const std::size_t json_size = json.size() + padding_of(json.size());
   const std::size_t padded_binary = binary_size + padding_of(binary_size);
-  const std::size_t length =
-      12 + 8 + json_size + (binary_size == 0 ? 0 : 8 + padded_binary) + further_chunks.size();
+  const std::size_t length = 12 + 8 + json_size + (binary_size == 0 ? 0 : 8 + padded_binary) + further_chunks.size();
   if (length > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput("write_glb: " + std::to_string(length) + " bytes exceed glTF's limit of 4 GiB");
   out << "glTF";

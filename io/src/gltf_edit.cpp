@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 #include "gltf_file.hpp"
 #include "gltf_material_edit.hpp"
 #include "gltf_primitive_edit.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/io/tag_manifest.hpp"
 
 namespace papilla {
@@ -122,7 +125,8 @@ void write_manifest(const Scene& scene, const GltfOrigin& origin, Json& json) {
   set_extra(json["asset"], k_tag_manifest, member(asset_extras, k_tag_manifest));
   std::map<std::uint32_t, Json> tags;  // Of several instances that a node lists: the first's.
   for (std::size_t i = 0; i < node_extras.size(); ++i)
-    if (Json own = member(node_extras[i], k_node_tags); !own.is_null()) tags.try_emplace(origin.nodes[i], std::move(own));
+    if (Json own = member(node_extras[i], k_node_tags); !own.is_null())
+      tags.try_emplace(origin.nodes[i], std::move(own));
   if (!json.contains("nodes")) return;
   for (std::uint32_t i = 0; i < json["nodes"].size(); ++i) {
     const auto found = tags.find(i);
@@ -130,11 +134,8 @@ void write_manifest(const Scene& scene, const GltfOrigin& origin, Json& json) {
   }
 }
 
-}  // namespace
-
-GltfEditResult write_edited_gltf(const std::filesystem::path& source, Scene scene, const GltfOrigin& origin,
-                                 std::vector<GltfSurfaceEdit> edits, const std::filesystem::path& output) {
-  GltfEditResult result;
+void edit_file(const std::filesystem::path& source, Scene& scene, const GltfOrigin& origin,
+               std::vector<GltfSurfaceEdit> edits, const std::filesystem::path& output, GltfEditResult& result) {
   GltfFile file(source);
   add_restored(file.json, scene, origin, edits);
   const WantedEdits wanted = by_primitive(origin, edits);
@@ -144,6 +145,20 @@ GltfEditResult write_edited_gltf(const std::filesystem::path& source, Scene scen
   write_manifest(scene, origin, file.json);
   file.write(output);
   compare(file.original(), file.json, "", result.changes);
+}
+
+}  // namespace
+
+GltfEditResult write_edited_gltf(const std::filesystem::path& source, Scene scene, const GltfOrigin& origin,
+                                 std::vector<GltfSurfaceEdit> edits, const std::filesystem::path& output) {
+  GltfEditResult result;
+  try {
+    edit_file(source, scene, origin, std::move(edits), output, result);
+  } catch (const Json::exception& error) {  // What read_gltf() did not need may be damaged.
+    throw InvalidInput(source.string() + ": is no valid glTF: " + first_line(error.what()));
+  } catch (const std::out_of_range&) {
+    throw InvalidInput(source.string() + ": is no valid glTF: a number names nothing");
+  }
   result.scene = std::move(scene);
   return result;
 }

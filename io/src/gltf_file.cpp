@@ -95,7 +95,8 @@ std::string GltfFile::buffer_bytes(std::size_t number) const {
   else
     bytes = decode_data_uri(uri);
   const auto length = buffer.value("byteLength", std::size_t{0});
-  if (!bytes || bytes->size() < length) throw InvalidInput(place + ": " + std::to_string(length) + " bytes are missing");
+  if (!bytes || bytes->size() < length)
+    throw InvalidInput(place + ": " + std::to_string(length) + " bytes are missing");
   bytes->resize(length);
   return *std::move(bytes);
 }
@@ -141,16 +142,18 @@ void GltfFile::embed_buffers(bool all) {
 void GltfFile::embed_images() {
   if (!json.contains("images")) return;
   for (std::size_t i = 0; i < json["images"].size(); ++i) {
-    Json& image = json["images"][i];
+    const Json& image = json["images"][i];
     if (image.contains("bufferView")) note_view(image["bufferView"].get<std::size_t>());
     if (!is_file(image)) continue;
     const std::string place = path_.string() + ": at /images/" + std::to_string(i) + "/uri";
     const auto bytes = read_reference({path_.parent_path(), place, percent_decoded(image["uri"].get<std::string>())},
                                       ReferenceContent::picture);
     if (!bytes) continue;
-    image.erase("uri");
-    image["bufferView"] = add_view(*bytes);
-    if (!image.contains("mimeType")) image["mimeType"] = picture_mime_type(*bytes);
+    const std::size_t view = add_view(*bytes);  // May move the lists.
+    Json& moved = json["images"][i];
+    moved.erase("uri");
+    moved["bufferView"] = view;
+    if (!moved.contains("mimeType")) moved["mimeType"] = picture_mime_type(*bytes);
   }
 }
 

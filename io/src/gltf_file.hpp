@@ -52,7 +52,7 @@ class GltfFile {
   std::filesystem::path path_;
   Json original_;
   std::string binary_, further_chunks_;
-  std::size_t original_size_ = 0;                  ///< Of the binary data.
+  std::size_t original_size_ = 0;                                      ///< Of the binary data.
   std::map<std::string, std::map<std::string, std::size_t>> entries_;  ///< By list and JSON, of lists with additions.
   std::multimap<std::size_t, std::size_t> views_;  ///< Those added and those of pictures, by the hash of their bytes.
 };

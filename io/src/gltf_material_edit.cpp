@@ -35,11 +35,13 @@ Json* mappings_of(Json& primitive) {
 /// Whether both make the same of a material. Edits of one rule differ in the scale of kept uv at most.
 bool same_material(const GltfSurfaceEdit& a, const GltfSurfaceEdit& b) {
   return a.rule == b.rule && a.transform == b.transform && a.uv.empty() == b.uv.empty() &&
-         a.tag.has_value() == b.tag.has_value() && (!a.rule.empty() || a.tag == b.tag);
+         a.double_sided == b.double_sided && a.tag.has_value() == b.tag.has_value() &&
+         (!a.rule.empty() || a.tag == b.tag);
 }
 
 bool is_only_tag(const GltfSurfaceEdit& edit) {
-  return edit.normal_map == nullptr && edit.picture == nullptr && !edit.base_color && !edit.roughness && !edit.metallic;
+  return edit.normal_map == nullptr && edit.picture == nullptr && !edit.base_color && !edit.roughness &&
+         !edit.metallic && !edit.double_sided;
 }
 
 class MaterialEditor {
@@ -79,7 +81,7 @@ class MaterialEditor {
   void add_use(const MaterialUse& use, const Json& owner, const GltfSurfaceEdit* edit) {
     std::optional<std::size_t> original;
     if (owner.contains("material")) original = owner["material"].get<std::size_t>();
-    if (edit == nullptr) {
+    if (edit == nullptr || edit->keeps_material) {
       if (!original) return;
       other_uses_.insert(*original);
       // What draws no triangles, or is not shown, can't be touched: a tag alone does not matter there.
@@ -126,7 +128,7 @@ class MaterialEditor {
       most = std::max(most, channels), least = std::min(least, channels);
     }
     if (!material.original) return most;
-    Json json = file_.json["materials"][*material.original];
+    Json json = file_.json["materials"].at(*material.original);
     const int earlier = earlier_channel(json);
     remove_own_pictures(*material.edit, json);
     const int named = largest_tex_coord(json);
@@ -165,14 +167,14 @@ class MaterialEditor {
       material.number = *original;
     } else {
       material.number = list.size();
-      list.push_back(original ? list[*original] : Json::object());
+      list.push_back(original ? Json(list.at(*original)) : Json::object());
       name_copy(material.edit->rule, original.has_value(), list.back());
       for (const MaterialUse& use : material.uses) {
         Json& owner = primitive(use.primitive);
         (use.mapping ? (*mappings_of(owner))[*use.mapping] : owner)["material"] = material.number;
       }
     }
-    Json json = list[material.number];
+    Json json = list.at(material.number);
     edit(material, json);
     file_.json["materials"][material.number] = std::move(json);
   }
@@ -197,6 +199,7 @@ class MaterialEditor {
     if (edit.base_color) json["pbrMetallicRoughness"]["baseColorFactor"] = *edit.base_color;
     if (edit.roughness) json["pbrMetallicRoughness"]["roughnessFactor"] = *edit.roughness;
     if (edit.metallic) json["pbrMetallicRoughness"]["metallicFactor"] = *edit.metallic;
+    if (edit.double_sided) json["doubleSided"] = true;
     if (edit.picture != nullptr && !has_base_picture(json)) {
       Json& pbr = json["pbrMetallicRoughness"];
       pbr["baseColorTexture"] = reference(*edit.picture, material);
@@ -223,7 +226,8 @@ class MaterialEditor {
     if (json.contains("normalTexture")) return "it keeps its own normal map";
     for (const char* other : {"KHR_materials_anisotropy", "KHR_materials_clearcoat"})
       if (json.contains("extensions") && json["extensions"].contains(other) &&
-          (std::string_view(other).ends_with("anisotropy") || json["extensions"][other].contains("clearcoatNormalTexture")))
+          (std::string_view(other).ends_with("anisotropy") ||
+           json["extensions"][other].contains("clearcoatNormalTexture")))
         return std::string("its tangents are those of ") + other;
     for (const MaterialUse& use : material.uses) {
       const Json& json_primitive = primitive(use.primitive);
@@ -263,9 +267,10 @@ class MaterialEditor {
   }
 
   std::size_t texture_of(const EncodedImage& image) {
-    Json picture = {{"bufferView", file_.add_view({reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()})},
-                    {"mimeType", image.mime_type},
-                    {"name", image.name}};
+    Json picture = {
+        {"bufferView", file_.add_view({reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()})},
+        {"mimeType", image.mime_type},
+        {"name", image.name}};
     const std::size_t source = file_.add("images", std::move(picture));
     const std::size_t sampler = file_.add("samplers", {{"magFilter", 9729}, {"minFilter", 9987}});
     return file_.add("textures", {{"sampler", sampler}, {"source", source}, {"name", image.name}});
@@ -280,9 +285,7 @@ class MaterialEditor {
 
 }  // namespace
 
-std::vector<EditedMaterial> edit_materials(GltfFile& file,
-                                           const WantedEdits& wanted,
-                                           std::vector<std::string>& notes) {
+std::vector<EditedMaterial> edit_materials(GltfFile& file, const WantedEdits& wanted, std::vector<std::string>& notes) {
   return MaterialEditor(file, notes).run(wanted);
 }
 

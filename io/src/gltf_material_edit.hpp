@@ -39,7 +39,6 @@ struct EditedMaterial {
 /// Edits the materials of the file, and what primitives name them, by what primitives want.
 /// @param notes  gets what could not be done.
 /// @throws InvalidInput as write_edited_gltf().
-std::vector<EditedMaterial> edit_materials(GltfFile& file, const WantedEdits& wanted,
-                                           std::vector<std::string>& notes);
+std::vector<EditedMaterial> edit_materials(GltfFile& file, const WantedEdits& wanted, std::vector<std::string>& notes);
 
 }  // namespace papilla

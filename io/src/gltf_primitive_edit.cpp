@@ -44,7 +44,10 @@ struct VertexGroup {
   std::size_t count = 0;        ///< Vertices.
   std::vector<Index> repeated;  ///< Vertices that stand once more behind the others.
   std::vector<GltfUv> uv;
+  std::vector<std::uint8_t> turned;  ///< Per vertex: whether its normal is negated.
   std::vector<std::array<float, 4>> tangents;
+
+  bool any_turned() const { return std::find(turned.begin(), turned.end(), 1) != turned.end(); }
 };
 
 /// The uv of a corner, v upwards.
@@ -57,12 +60,18 @@ Vec2 uv_of(const Member& member, std::size_t triangle, std::size_t corner) {
 
 GltfUv stored(Vec2 uv) { return {static_cast<float>(uv.x), static_cast<float>(1 - uv.y)}; }
 
-/// Gives every vertex one uv and one handedness; it is repeated where its corners differ in them.
+bool is_turned(const Member& member, std::size_t triangle) {
+  return !member.edit->turned.empty() && member.edit->turned[member.first_of_surface + triangle] != 0;
+}
+
+/// Gives every vertex one uv, one handedness and one side; it is repeated where its corners differ in them.
 class VertexSplitter {
  public:
   explicit VertexSplitter(VertexGroup& group) : group_(group), kind_(group.count, k_unused) {
     group_.uv.resize(group.count);
-    tangents_ = std::any_of(group.members.begin(), group.members.end(), [](const Member& m) { return m.wants_tangents; });
+    group_.turned.resize(group.count);
+    tangents_ =
+        std::any_of(group.members.begin(), group.members.end(), [](const Member& m) { return m.wants_tangents; });
   }
 
   void run() {
@@ -74,7 +83,8 @@ class VertexSplitter {
           const GltfUv rounded = stored(uv_of(member, t, k));
           uv[k] = {rounded[0], 1 - double{rounded[1]}};
         }
-        const int kind = tangents_ && tangent_handedness(uv) < 0 ? k_mirrored : k_upright;
+        const int kind =
+            (tangents_ && tangent_handedness(uv) < 0 ? k_mirrored : k_upright) | (is_turned(member, t) ? k_turned : 0);
         for (std::size_t k = 0; k < 3; ++k)
           member.vertices[t][k] = vertex(member.vertices[t][k], stored(uv_of(member, t, k)), kind);
       }
@@ -82,18 +92,20 @@ class VertexSplitter {
   }
 
  private:
-  static constexpr int k_unused = 0, k_upright = 1, k_mirrored = 2;
+  static constexpr int k_unused = 0, k_upright = 1, k_mirrored = 2, k_turned = 4;
 
   Index vertex(Index number, GltfUv uv, int kind) {
     if (kind_[number] == k_unused) {
       kind_[number] = kind;
       group_.uv[number] = uv;
+      group_.turned[number] = (kind & k_turned) != 0;
     }
     if (kind_[number] == kind && group_.uv[number] == uv) return number;
     const auto [known, is_new] = others_.try_emplace({number, uv, kind}, static_cast<Index>(group_.uv.size()));
     if (is_new) {
       group_.repeated.push_back(number);
       group_.uv.push_back(uv);
+      group_.turned.push_back((kind & k_turned) != 0);
     }
     return known->second;
   }
@@ -125,6 +137,27 @@ void compute_tangents(VertexGroup& group) {
   if (!triangles.empty()) group.tangents = vertex_tangents(positions, normals, uv, triangles);
 }
 
+template <class T>
+void negate_as(char* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  value = static_cast<T>(-value);
+  std::memcpy(at, &value, sizeof value);
+}
+
+/// Negates one component: a float, or a signed normalized integer.
+void negate(char* at, std::size_t bytes) {
+  if (bytes == 1) return negate_as<std::int8_t>(at);
+  bytes == 2 ? negate_as<std::int16_t>(at) : negate_as<float>(at);
+}
+
+/// Turns the normal of a vertex over; its tangent keeps its direction and changes its handedness.
+void turn_element(const std::string& attribute, std::size_t bytes, char* at) {
+  if (attribute == "NORMAL")
+    for (std::size_t k = 0; k < 3; ++k) negate(at + k * (bytes / 3), bytes / 3);
+  if (attribute == "TANGENT" && bytes % 4 == 0 && bytes != 12) negate(at + 3 * (bytes / 4), bytes / 4);
+}
+
 class PrimitiveEditor {
  public:
   PrimitiveEditor(GltfFile& file, const GltfSource& source, const WantedEdits& wanted)
@@ -135,7 +168,8 @@ class PrimitiveEditor {
     for (const EditedMaterial& material : materials)
       for (const MaterialUse& use : material.uses) {
         const bool wants_tangents = material.has_normal_map && can_have_tangents(use.primitive, *material.edit);
-        if (material.edit->uv.empty() && !wants_tangents) continue;
+        const bool is_turned = !wanted_.at(use.primitive)->turned.empty();
+        if (material.edit->uv.empty() && !wants_tangents && !is_turned) continue;
         std::vector<Member>& members = groups[vertex_data(use.primitive)].members;
         const auto known =
             std::find_if(members.begin(), members.end(), [&](const Member& m) { return m.number == use.primitive; });
@@ -144,6 +178,9 @@ class PrimitiveEditor {
         else
           known->wants_tangents = known->wants_tangents || wants_tangents;
       }
+    for (const auto& [number, edit] : wanted_)
+      if (edit->keeps_material && !edit->turned.empty())
+        groups[vertex_data(number)].members.push_back(member(number, *edit, 0, false));
     for (auto& [data, group] : groups) edit(group);
     if (decoded_ && !any_primitive_has(k_draco)) file_.forget_extension(k_draco);
   }
@@ -198,12 +235,13 @@ class PrimitiveEditor {
     const bool decode = is_compressed(first);
     std::optional<GltfVertices> vertices;
     if (decode) vertices = read(first);
-    group.count = decode ? vertices->count
-                         : file_.json["accessors"][primitive(first)["attributes"]["POSITION"].get<std::size_t>()]["count"]
-                               .get<std::size_t>();
+    group.count = decode
+                      ? vertices->count
+                      : file_.json["accessors"][primitive(first)["attributes"]["POSITION"].get<std::size_t>()]["count"]
+                            .get<std::size_t>();
     VertexSplitter(group).run();
     compute_tangents(group);
-    if (!group.repeated.empty() && !vertices) vertices = read(first);
+    if ((!group.repeated.empty() || group.any_turned()) && !vertices) vertices = read(first);
     Json attributes, targets;
     if (vertices) {
       attributes = write(vertices->attributes, group, decode);
@@ -231,12 +269,14 @@ class PrimitiveEditor {
       for (std::size_t i = 0; i < group.uv.size(); ++i) {
         const std::size_t from = i < originals ? i : group.repeated[i - originals];
         std::memcpy(&bytes[i * stride], &attribute.bytes[from * size], size);
+        if (group.turned[i] != 0) turn_element(attribute.name, size, &bytes[i * stride]);
       }
       Json accessor = {{"bufferView", file_.add_view(bytes, GltfFile::k_vertices, stride == size ? 0 : stride)}};
       const Json& source = file_.json["accessors"][attribute.accessor];
       for (const auto& [name, value] : source.items())
         if (name != "bufferView" && name != "byteOffset" && name != "sparse") accessor[name] = value;
       accessor["count"] = group.uv.size();
+      if (attribute.name == "NORMAL") accessor.erase("min"), accessor.erase("max");
       if (decoded && accessor.contains("min") && accessor["componentType"] == k_float) set_range(bytes, accessor);
       numbers[attribute.name] = file_.add("accessors", std::move(accessor));
     }
@@ -274,7 +314,7 @@ class PrimitiveEditor {
       for (std::size_t i = 0; i < targets.size(); ++i)
         for (auto& [name, accessor] : json["targets"][i].items()) accessor = targets[i].at(name);
     json["indices"] = indices;
-    json.erase("mode");  // Strips and fans are triangles now, which is the default.
+    if (json.contains("mode")) json["mode"] = 4;  // Strips and fans are triangles now.
     if (!is_compressed(member.number)) return;
     decoded_ = true;
     json["extensions"].erase(k_draco);
@@ -295,10 +335,10 @@ class PrimitiveEditor {
         if (const std::string name = "TEXCOORD_" + std::to_string(channel);
             !primitive(member.number)["attributes"].contains(name))
           add(name, std::nullopt, "VEC2");
-      add("TEXCOORD_" + std::to_string(member.channel), file_.add_view(bytes_of(group.uv), GltfFile::k_vertices), "VEC2");
+      add("TEXCOORD_" + std::to_string(member.channel), file_.add_view(bytes_of(group.uv), GltfFile::k_vertices),
+          "VEC2");
     }
-    if (member.wants_tangents)
-      add("TANGENT", file_.add_view(bytes_of(group.tangents), GltfFile::k_vertices), "VEC4");
+    if (member.wants_tangents) add("TANGENT", file_.add_view(bytes_of(group.tangents), GltfFile::k_vertices), "VEC4");
   }
 
   GltfFile& file_;

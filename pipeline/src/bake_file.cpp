@@ -71,9 +71,8 @@ void read_again(const std::filesystem::path& output, BakeResult& result) {
   result.scene.warnings = std::move(warnings);
   result.mm_per_uv.clear();
   for (const Material& material : result.scene.materials)
-    result.mm_per_uv.push_back(material.haptic && material.haptic->height
-                                   ? k_mm_per_metre * material.haptic->height->metres_per_uv
-                                   : Vec2{});
+    result.mm_per_uv.push_back(
+        material.haptic && material.haptic->height ? k_mm_per_metre * material.haptic->height->metres_per_uv : Vec2{});
 }
 
 void edit_file(const std::filesystem::path& input, const std::filesystem::path& output, const Materials& rules,
@@ -114,8 +113,8 @@ BakePlan plan_file(const std::filesystem::path& input, const Materials& rules, c
                    const ProgressCallback& progress) {
   BakePlanOptions plan = options.bake.plan;
   plan.in_place = bake_way(input, options).in_place;
-  Scene scene = plan.in_place ? read_for_edit(input, options.read, progress, nullptr)
-                              : read_scene(input, options.read, progress);
+  Scene scene =
+      plan.in_place ? read_for_edit(input, options.read, progress, nullptr) : read_scene(input, options.read, progress);
   return plan_bake(std::move(scene), rules, plan, progress);
 }
 

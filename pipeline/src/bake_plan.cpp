@@ -19,12 +19,14 @@ namespace papilla {
 namespace {
 
 /// A uv is taken as usable when at most this share of the surface's area has no or a degenerate image: a few bad
-/// triangles are hidden by grain, more of them are not. Mirrored ones are as good as others.
+/// triangles are hidden by grain, more of them are not. Mirrored ones are as good as others: over a fold in uv grain
+/// goes on as in a mirror.
 constexpr double k_bad_uv_share = 0.02;
 /// Below this σ2/σ1 of the area-weighted mean Jacobian, grain would look smeared: the uv served another purpose.
 constexpr double k_worst_mean_stretch = 0.2;
 
 /// Share of the area of the uv that is covered more than once.
+/// @pre they have finite uv.
 double overlap_of_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
   const TriangleMesh surface = extract_triangles(mesh, triangles);
   return measure_distortion(surface, surface.uv, {}).overlap_area_fraction;
@@ -44,6 +46,7 @@ UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
       std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) { return mesh.uv.has_value(t); });
   if (!any) return {UvState::absent, 0, {}, "no uv"};
   double area_3d = 0, area_uv = 0, mirrored = 0, bad = 0, stretched = 0;
+  std::vector<std::uint32_t> finite;
   for (const std::uint32_t t : triangles) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1) - a, c = mesh.corner(t, 2) - a;
     const double area = 0.5 * norm(cross(b, c));
@@ -60,6 +63,7 @@ UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
       bad += area;
       continue;
     }
+    finite.push_back(t);
     if (doubled < 0) mirrored += area;
     area_uv += 0.5 * std::abs(doubled);
     // Singular values of the 3D -> uv map from its first fundamental form.
@@ -74,10 +78,10 @@ UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
   if (!(area_3d > 0)) return {UvState::absent, 0, {}, "the surface has no area"};
   if (area_uv <= 0) return {UvState::absent, 0, {}, "its uv has no area"};
   const double mm_per_unit = std::sqrt((area_3d - bad > 0 ? area_3d - bad : area_3d) / area_uv);
-  UvDefects defects{mirrored / area_3d, bad / area_3d, overlap_of_uv(mesh, triangles)};
-  const std::string numbers = fmt::format("{:.4g} mm per unit of its uv, {}, {}, {}", mm_per_unit,
-                                          percent(defects.flipped, "flipped"), percent(defects.degenerate, "degenerate"),
-                                          percent(defects.overlapping, "overlapping"));
+  UvDefects defects{mirrored / area_3d, bad / area_3d, overlap_of_uv(mesh, finite)};
+  const std::string numbers =
+      fmt::format("{:.4g} mm per unit of its uv, {}, {}, {}", mm_per_unit, percent(defects.flipped, "flipped"),
+                  percent(defects.degenerate, "degenerate"), percent(defects.overlapping, "overlapping"));
   if (defects.degenerate > k_bad_uv_share)
     return {UvState::unusable, mm_per_unit, defects, numbers + ": too much has no or a degenerate uv"};
   if (stretched > 0.5 * area_3d)
@@ -193,8 +197,7 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rule
       given.is_only_seen = perception[surface.part].is_only_seen;
     }
     const Wanted wanted{grain, feel, grain ? uv_wish(rule->unwrap) : UvWish::automatic};
-    if (stage_rules::repair(wanted, given).run)
-      given.is_clean = is_clean(part.mesh, surface.triangles, cad);
+    if (stage_rules::repair(wanted, given).run) given.is_clean = is_clean(part.mesh, surface.triangles, cad);
     surface.is_left_out = !given.left_out.empty();
     surface.plan = make_plan(wanted, given);
     if (!in_place && decision(surface.plan, Stage::unwrap).run) surface.lost = pictures_on_own_uv(scene, surface);

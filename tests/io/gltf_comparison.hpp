@@ -92,8 +92,7 @@ inline std::vector<std::string> unlisted_differences(const std::filesystem::path
   if (before.json.dump() != after.json.dump())
     for (const auto& difference : Json::diff(before.json, after.json))
       differences.push_back(difference.at("op").get<std::string>() + " " + difference.at("path").get<std::string>());
-  if (differences.empty() && before.json.dump() != after.json.dump())
-    differences.emplace_back("the order of members");
+  if (differences.empty() && before.json.dump() != after.json.dump()) differences.emplace_back("the order of members");
   return differences;
 }
 

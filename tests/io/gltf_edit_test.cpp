@@ -97,8 +97,8 @@ TEST_F(GltfEditTest, ATagGoesIntoTheMaterialAndTheListOfTags) {
   EXPECT_EQ(json["materials"][0]["extras"]["papilla"]["material"], "hard");
   EXPECT_EQ(json["materials"].size(), 2U);
   EXPECT_EQ(result_.changes.size(), 4U);
-  for (const char* pointer : {"/materials/0/extras/haptic", "/materials/0/extras/papilla", "/nodes/0/extras",
-                              "/asset/extras"})
+  for (const char* pointer :
+       {"/materials/0/extras/haptic", "/materials/0/extras/papilla", "/nodes/0/extras", "/asset/extras"})
     EXPECT_TRUE(changed(pointer)) << pointer;
   ASSERT_EQ(result_.scene.materials.at(0).haptic->stiffness, 700);
 }
@@ -248,7 +248,7 @@ TEST_F(GltfEditTest, ATornStripBecomesTriangles) {
   GltfSurfaceEdit torn = tagged(0, 0, "grain", 700);
   torn.uv = torn_uv(2);
   const auto json = edit({torn});
-  EXPECT_FALSE(json["meshes"][0]["primitives"][0].contains("mode"));
+  EXPECT_EQ(json["meshes"][0]["primitives"][0]["mode"], 4);
   const TriangleMesh before = scene_.parts.at(0).mesh, after = read_gltf(out()).parts.at(0).mesh;
   for (std::size_t t = 0; t < 2; ++t)
     for (int k = 0; k < 3; ++k) EXPECT_EQ(before.corner(t, k), after.corner(t, k));
@@ -269,6 +269,27 @@ TEST_F(GltfEditTest, VerticesThatPrimitivesShareAreWrittenOnce) {
   EXPECT_EQ(primitives[0]["attributes"], primitives[1]["attributes"]);
   EXPECT_EQ(primitives[2]["attributes"]["POSITION"], 0);
   EXPECT_EQ(primitives[2]["indices"], 2);
+}
+
+/// The triangle that is not turned keeps its normals at the vertices that both share.
+TEST_F(GltfEditTest, ATurnedTriangleGetsReversedCornersAndNegatedNormals) {
+  GlbFixture glb = square();
+  glb.accessor(glb.view(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}), 5126, 4, "VEC3");
+  write(glb,
+        test::mesh_of(R"({"attributes":{"POSITION":0,"NORMAL":2},"indices":1,"material":0})") + R"("materials":[{}],)");
+  for (Triangle* triangle : {&scene_.parts[0].mesh.triangles[1], &origin_.parts[0].primitives[0].vertices[1]})
+    std::swap((*triangle)[1], (*triangle)[2]);
+  GltfSurfaceEdit turned;
+  turned.turned = {0, 1};
+  turned.keeps_material = true;
+  const auto json = edit({turned});
+  EXPECT_EQ(json["materials"], ordered_json::parse("[{}]"));
+  const TriangleMesh mesh = read_gltf(out()).parts.at(0).mesh;
+  for (std::size_t t = 0; t < 2; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(mesh.corner(t, static_cast<int>(k)), scene_.parts[0].mesh.corner(t, static_cast<int>(k)));
+      EXPECT_EQ(mesh.normals.values[mesh.normals.indices[t][k]], (Vec3{0, 0, t == 0 ? 1.0 : -1.0}));
+    }
 }
 
 TEST_F(GltfEditTest, TheNormalMapOfTheFileStays) {

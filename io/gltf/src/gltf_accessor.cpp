@@ -201,8 +201,8 @@ std::vector<double> AccessorReader::raw_numbers(const tinygltf::Accessor& access
     fail(where, "componentType " + std::to_string(accessor.componentType) + " is not supported");
   std::optional<Elements> source;
   if (accessor.bufferView >= 0)
-    source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType, components, true,
-                      where);
+    source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType, components,
+                      true, where);
   spend(accessor.count, where);
   const auto width = static_cast<std::size_t>(components);
   const std::size_t step = component_size(accessor.componentType);
@@ -223,7 +223,8 @@ std::vector<std::byte> AccessorReader::bytes(int number, const std::string& wher
   if (size == 0 || source.count == 0) fail(place, "its type is not supported, or it has no elements");
   std::optional<Elements> stored;
   if (source.bufferView >= 0)
-    stored = elements(source.bufferView, source.byteOffset, source.count, source.componentType, components, true, place);
+    stored =
+        elements(source.bufferView, source.byteOffset, source.count, source.componentType, components, true, place);
   spend(source.count, place);
   std::vector<std::byte> bytes(source.count * size);
   const auto take = [&](std::size_t i, const unsigned char* at) { std::memcpy(bytes.data() + i * size, at, size); };

@@ -101,9 +101,8 @@ struct GltfVertexReader::File {
       components = std::max(components, static_cast<int>(components_of(reader.accessor(number, where))));
       reader.spend(request.max_points, where);
     }
-    const int view = extension->second.Get("bufferView").IsNumber()
-                         ? extension->second.Get("bufferView").GetNumberAsInt()
-                         : -1;
+    const int view =
+        extension->second.Get("bufferView").IsNumber() ? extension->second.Get("bufferView").GetNumberAsInt() : -1;
     const gltf::DracoMesh mesh =
         gltf::decode_draco(reader.view(view, where + ", Draco"), request, document.file + ": " + where);
     count = mesh.points;
@@ -111,10 +110,10 @@ struct GltfVertexReader::File {
       const int id = id_of(name);
       if (id < 0) continue;
       const tinygltf::Accessor& accessor = reader.accessor(number, where);
-      attributes.push_back({name, static_cast<std::uint32_t>(number),
-                            components_of(accessor) * gltf::component_size(accessor.componentType),
-                            encode(mesh.attributes.at(id), static_cast<std::size_t>(request.components.at(id)),
-                                   mesh.points, accessor)});
+      attributes.push_back(
+          {name, static_cast<std::uint32_t>(number),
+           components_of(accessor) * gltf::component_size(accessor.componentType),
+           encode(mesh.attributes.at(id), static_cast<std::size_t>(request.components.at(id)), mesh.points, accessor)});
     }
     return attributes;
   }

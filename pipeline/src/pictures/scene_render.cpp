@@ -130,7 +130,7 @@ struct TriangleSetup {
   Vec3 tangent, bitangent;
   bool has_uv = false, has_color_uv = false;
   double uv_area_per_cubic_depth = 0, color_uv_area_per_cubic_depth = 0;  // Of a sample.
-  std::array<bool, 3> border{};        ///< From corner k to the next one; of RenderMode::triangles.
+  std::array<bool, 3> border{};  ///< From corner k to the next one; of RenderMode::triangles.
 };
 
 class Pyramids {
@@ -272,7 +272,7 @@ void clip_near(std::vector<TriangleSetup>& triangles, const Camera& camera, doub
 }
 
 /// uv area under one sample, divided by depth³: on a plane at distance d a sample covers depth³ / (focal² d).
-double uv_area_per_cubic_depth(const TriangleSetup& t, Vec2 Vertex::* uv, const Camera& camera) {
+double uv_area_per_cubic_depth(const TriangleSetup& t, Vec2 Vertex::*uv, const Camera& camera) {
   const Vec3 twice = cross(t.v[1].world - t.v[0].world, t.v[2].world - t.v[0].world);
   const double volume = camera.focal * camera.focal * std::abs(dot(twice, t.v[0].world - camera.position));
   return volume > 0 ? std::abs(cross(t.v[1].*uv - t.v[0].*uv, t.v[2].*uv - t.v[0].*uv)) / volume : 0;

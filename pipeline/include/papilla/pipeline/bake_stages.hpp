@@ -78,7 +78,8 @@ constexpr Decision tessellate(const Wanted&, const Given& given) {
 constexpr Decision new_uv(const Wanted& wanted, const Given& given) {
   if (!given.left_out.empty()) return {false, given.left_out};
   if (!wanted.grain) return {false, k_no_grain};
-  if (given.uv != UvState::absent && wanted.uv == UvWish::keep) return {false, "its own uv is kept, as the material says"};
+  if (given.uv != UvState::absent && wanted.uv == UvWish::keep)
+    return {false, "its own uv is kept, as the material says"};
   if (given.uv != UvState::absent && wanted.uv == UvWish::renew) return {true, "the material asks for new uv"};
   switch (given.uv) {
     case UvState::usable: return {false, "its own uv is usable and kept"};
