@@ -33,7 +33,11 @@ inline int report_parse_error(const CLI::App& program, const CLI::ParseError& er
   std::ostringstream out, complaint;
   const bool is_wrong = program.exit(error, out, complaint) != 0;
   print_out(out.str());
-  std::fputs(shown_lines(complaint.str()).c_str(), stderr);
+  // Only the message has what was typed: its line feeds are no ends of lines.
+  std::string text = complaint.str();
+  const std::string message = error.what();
+  if (text.starts_with(message)) text = shown(message) + text.substr(message.size());
+  std::fputs(shown_lines(text).c_str(), stderr);
   return is_wrong ? k_exit_usage : k_exit_done;
 }
 

@@ -18,10 +18,11 @@ if(PAPILLA_SANITIZE)
   target_link_options(papilla_build_options INTERFACE -fsanitize=${PAPILLA_SANITIZE})
 endif()
 
-# papilla_module(NAME [DIRECTORY dir] SOURCES ... [PUBLIC libs] [PRIVATE libs])
-# A static library papilla::NAME whose public headers are those below include/.
+# papilla_module(NAME [PLAYER] SOURCES ... [PUBLIC libs] [PRIVATE libs])
+# A static library papilla::NAME whose public headers are those below include/. PLAYER: the player, which has a limit of
+# size, links it and leaves out the functions that it does not call.
 function(papilla_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "PLAYER" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target papilla_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(papilla::${name} ALIAS ${target})
@@ -34,6 +35,9 @@ function(papilla_module name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
                                   $<BUILD_INTERFACE:papilla_build_options>)
+  if(ARG_PLAYER)
+    target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections)
+  endif()
   install(TARGETS ${target} EXPORT papilla-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
   set_property(GLOBAL APPEND PROPERTY PAPILLA_COMPONENTS ${name})

@@ -46,6 +46,14 @@ std::array<double, 4> quaternion(const std::array<Vec3, 3>& a) {
   return q;
 }
 
+/// Without the last bits, which are noise: a file that is read and written again and again stays as it is.
+double without_noise(double value) {
+  constexpr double k_steps = 0x1p44;
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::round(mantissa * k_steps) / k_steps, exponent);
+}
+
 }  // namespace
 
 std::optional<Trs> decompose(const Transform& transform) {
@@ -62,6 +70,8 @@ std::optional<Trs> decompose(const Transform& transform) {
     trs.scale.z = -trs.scale.z;
   }
   trs.rotation = quaternion(axes);
+  for (double& component : trs.rotation) component = without_noise(component);
+  for (double* scale : {&trs.scale.x, &trs.scale.y, &trs.scale.z}) *scale = without_noise(*scale);
   return trs;
 }
 

@@ -16,6 +16,7 @@ struct Trs {
 };
 
 /// Takes an affine map apart; a mirroring one gets a negative z scale. Empty when it shears by more than 1e-4 rad.
+/// Rotation and scale are rounded to 2^-44 of their size.
 std::optional<Trs> decompose(const Transform& transform);
 
 }  // namespace papilla

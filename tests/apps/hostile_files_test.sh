@@ -11,7 +11,7 @@ fail() {
   failures=$((failures + 1))
 }
 
-readonly secret='top secret words'
+readonly secret='top:secret:words'  # One word: no line of a recipe library.
 printf '%s\n' "$secret" >secret.txt
 "$papilla" synthesize grain --kind leather --size 16 -o secret.png -q || fail "no picture"
 cp secret.png scene/grain.png

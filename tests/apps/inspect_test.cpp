@@ -3,6 +3,7 @@
 
 #include "io/scene_fixtures.hpp"
 #include "json/scene_json.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
 #include "text/scene_text.hpp"
 
 namespace papilla::app {
@@ -24,7 +25,8 @@ Scene tagged_scene() {
 }
 
 TEST(Inspect, ListsHapticTagsAsJson) {
-  const Json json = inspect_json(tagged_scene(), {}, {});
+  const Scene scene = tagged_scene();
+  const Json json = inspect_json(scene, part_statistics(scene), {});
   const Json& haptic = json["haptic"];
   ASSERT_EQ(haptic["tags"].size(), 1U);
   EXPECT_EQ(haptic["tags"][0]["material"], "grain");
@@ -38,12 +40,13 @@ TEST(Inspect, ListsHapticTagsAsJson) {
 }
 
 TEST(Inspect, ListsHapticTagsAsText) {
-  const std::string text = inspect_text(tagged_scene(), {}, {});
+  const Scene scene = tagged_scene(), untagged = test::rich_scene();
+  const std::string text = inspect_text(scene, part_statistics(scene), {});
   EXPECT_NE(text.find("1 haptic tags\n"), std::string::npos);
   EXPECT_NE(text.find("       22      900"), std::string::npos) << text;
   EXPECT_NE(text.find("640 x 480  grain\n"), std::string::npos) << text;
   EXPECT_NE(text.find("copyright: CC-BY somebody\n"), std::string::npos) << "on one line";
-  EXPECT_NE(inspect_text(test::rich_scene(), {}, {}).find("no haptic tag"), std::string::npos);
+  EXPECT_NE(inspect_text(untagged, part_statistics(untagged), {}).find("no haptic tag"), std::string::npos);
 }
 
 }  // namespace

@@ -64,9 +64,10 @@ texture    | dots --library lib.recipes -o made --size 8     | lib.recipes      
 weather    | scene.glb -c config.json                        | scene.glb config.json            | --output --json
 plan       | scene.glb -m rules.json --reach volume.json --view volume2.json | scene.glb rules.json volume.json volume2.json | --json
 bake       | scene.glb -m rules.json --library lib.recipes --reach volume.json --view volume2.json | scene.glb rules.json lib.recipes volume.json volume2.json | --output --json
-view       | scene.glb --no-open                             | scene.glb                        | --output --json
-evaluate   | unwrap one.obj -o made                          | one.obj                          | --json'
+view       | scene.glb --tags scene2.glb --no-open           | scene.glb scene2.glb             | --output --json
+evaluate   | param one.obj  -o made                          | one.obj                          | --json'
 cp volume.json volume2.json
+cp scene.glb scene2.glb
 
 while IFS='|' read -r verb arguments inputs outputs; do
   read -ra arguments <<<"$arguments"
@@ -97,7 +98,7 @@ while read -r verb; do
   while read -r option; do
     grep -qE -- " $option( |\$)" <<<"${row##*|}" || fail "the output $option of $verb is not tried"
   done < <("$papilla" "$verb" --help | sed -nE 's/^  (-[A-Za-z],)?(--[a-z-]+) (FILE|FILE\|-|OUT|PNG|HTML|[A-Z]\.csv)( .*| *)$/\2/p' |
-    grep -vE '^--(library|materials|layers|like)$')
+    grep -vE '^--(library|materials|layers|like|tags)$')
 done < <("$papilla" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z0-9-]*\) .*/\1/p')
 
 # Files of folders, and files that other files name.

@@ -196,7 +196,7 @@ TEST_F(GltfReader, PicturesOfAnyFormatStopNothing) {
   }
   const Scene both = read(triangle_glb(
       "",
-      R"("textures":[{"source":1,"extensions":{"KHR_texture_basisu":{"source":0},"EX_other":{}}}],"images":[{"uri":"data:image/ktx2;base64,q0tUWCAyMLs="},{"uri":"data:image/avif;base64,AAAAHGZ0eXBhdmlmAAAAAA=="}],)"));
+      R"("textures":[{"source":1,"extensions":{"KHR_texture_basisu":{"source":0},"EX_other":{}}}],"images":[{"uri":"data:image/ktx2;base64,q0tUWCAyMLsNChoK"},{"uri":"data:image/avif;base64,AAAAHGZ0eXBhdmlmAAAAAA=="}],)"));
   EXPECT_EQ(both.textures.at(0).image, 1U) << "what needs no extension comes first";
   EXPECT_EQ(both.textures[0].others.at(0).image, 0U);
   EXPECT_EQ(both.textures[0].extensions_json, R"({"EX_other":{}})");

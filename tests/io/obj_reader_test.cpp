@@ -184,7 +184,7 @@ TEST_F(ObjReader, TextIsNoPictureAndNoLibrary) {
   const std::string library = refusal("mtllib passwd\n" + obj);
   EXPECT_NE(library.find("is it a material library?"), std::string::npos) << library;
   EXPECT_EQ((picture + library).find("root:"), std::string::npos);
-  folder_.write("a.webp", "RIFF\x04\0\0\0WEBPVP8L");
+  folder_.write("a.webp", std::string("RIFF\x04\0\0\0WEBPVP8L", 16));
   folder_.write("a.mtl", "newmtl a\nmap_Kd a.webp\n");
   EXPECT_EQ(read("mtllib a.mtl\n" + obj).warnings.size(), 1U) << "a picture of a known format that can't be decoded";
 }

@@ -24,7 +24,8 @@ Materials demo_rules(const fs::path& data, const fs::path& folder) {
 
 Materials recipe_rules() {
   Materials rules;
-  for (const auto& [name, recipe] : RecipeLibrary::builtin().recipes()) {
+  const RecipeLibrary library = RecipeLibrary::builtin();
+  for (const auto& [name, recipe] : library.recipes()) {
     const bool felt = recipe.find("idtype=") != std::string::npos && recipe.find("idtype=ageing") == std::string::npos;
     if (!felt) continue;
     MaterialRule rule;

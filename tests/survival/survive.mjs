@@ -33,22 +33,22 @@ const blender = (extras) => () => run('blender', '-b', '--factory-startup', '-no
 
 /** What each tool must leave: how many tags are there of themselves, found again, and how far forces may be off, as a share
  * of their root mean square; of materials whose relief went with the extras there is no bound. */
-const EXACT = 0.001, QUANTIZED = 0.02, DRACO = 0.2;
+const EXACT = 0.001, ROUNDED = 0.005, QUANTIZED = 0.02, SIMPLIFIED = 0.2; // optimize moves surfaces by up to 1e-4 of the mesh.
 const all = felt.length;
 const tools = [
   { name: 'as it was written', make: () => writeFileSync(output, readFileSync(input)), kept: all, worst: EXACT },
   ...['copy', 'dedup', 'prune', 'weld', 'flatten', 'join'].map((c) => ({ name: `gltf-transform ${c}`, make: transform(c), kept: all, worst: EXACT })),
   ...['quantize', 'meshopt'].map((c) => ({ name: `gltf-transform ${c}`, make: transform(c), kept: all, worst: QUANTIZED })),
-  { name: 'gltf-transform draco', make: transform('draco'), kept: all, worst: DRACO },
+  { name: 'gltf-transform draco', make: transform('draco'), kept: all, worst: QUANTIZED },
   { name: 'gltf-transform webp', make: transform('webp'), kept: all, worst: EXACT },
-  { name: 'gltf-transform optimize', make: transform('optimize'), kept: all, worst: QUANTIZED },
+  { name: 'gltf-transform optimize', make: transform('optimize'), kept: all, worst: SIMPLIFIED },
   { name: 'gltfpack -ke', make: pack('-ke'), kept: all, worst: QUANTIZED },
   { name: 'gltfpack -ke -cc', make: pack('-ke', '-cc'), kept: all, worst: QUANTIZED },
   { name: 'gltfpack', make: pack(), kept: 0, restored: all, worst: QUANTIZED, reliefLost: true },
   { name: 'three.js', make: () => run('node', join(here, 'three.mjs'), input, output), kept: all, worst: EXACT },
-  { name: 'Blender, with extras', make: blender('1'), kept: all, worst: EXACT, needsBlender: true },
+  { name: 'Blender, with extras', make: blender('1'), kept: all, worst: ROUNDED, needsBlender: true },
   { name: 'Blender, without extras', make: blender('0'), kept: 0, restored: 0, refused: true, needsBlender: true },
-  { name: 'Blender, without extras, --tags', make: blender('0'), kept: 0, restored: all, worst: EXACT, tags: true, needsBlender: true },
+  { name: 'Blender, without extras, --tags', make: blender('0'), kept: 0, restored: all, worst: ROUNDED, tags: true, needsBlender: true },
 ];
 
 /** The force on every tick of the way, by material. */
@@ -64,11 +64,14 @@ function differences(before, after) {
   return felt.map((_, i) => rms(before[i].map((f, k) => f.map((value, axis) => value - after[i][k][axis]))) / rms(before[i]));
 }
 
-function play(tool) {
+/** Plays it, again when the machine paused the player: the force fades in anew after that. */
+function play(tool, left = 5) {
   const run = spawnSync(player, [output, '-q', '--trajectory', way, '--record', record, ...(tool.tags ? ['--tags', input] : []), '--json', '-'], { encoding: 'utf8' });
   if (run.status === 3) return { refusal: run.stderr.trim().split(': ').pop() };
   if (run.status !== 0) throw new Error(run.stderr.trim());
-  return { report: JSON.parse(run.stdout), forces: forcesOf(readFileSync(record, 'utf8')) };
+  const report = JSON.parse(run.stdout);
+  if (report.pauses.count > 0 && left > 0) return play(tool, left - 1);
+  return { report, forces: forcesOf(readFileSync(record, 'utf8')) };
 }
 
 const percent = (x) => (x === undefined ? '-' : `${(100 * x).toFixed(2)} %`);

@@ -72,7 +72,7 @@ namespace {
 std::string slope_line(const std::string& material, const GrainHeight& height) {
   const SlopeLimitResult& slopes = height.slopes;
   if (slopes.share_before == 0) return "";
-  return fmt::format(
+  return shown_format(
       "{}: slopes limited to {:.3g}: {:.3g} % of the relief was steeper, up to {:.3g}; now {:.3g} %; {:.3g} mm high "
       "instead of {:.3g}\n",
       material, height.max_slope, 100 * slopes.share_before, slopes.steepest_before, 100 * slopes.share_after,

@@ -35,14 +35,14 @@ std::string haptic_text(const Scene& scene) {
     if (!tag) continue;
     ++count;
     std::string relief = "-";
-    if (tag->height) relief = fmt::format("{} x {}", tag->height->size[0], tag->height->size[1]);
-    rows += fmt::format("{:>9} {:>8.4g} {:>9.3g} {:>9} {:>11}  {}\n", triangles[m], tag->stiffness, tag->damping,
-                        fmt::format("{:.2g}/{:.2g}", tag->static_friction, tag->dynamic_friction), relief,
-                        one_line(scene.materials[m].name));
+    if (tag->height) relief = shown_format("{} x {}", tag->height->size[0], tag->height->size[1]);
+    rows += shown_format("{:>9} {:>8.4g} {:>9.3g} {:>9} {:>11}  {}\n", triangles[m], tag->stiffness, tag->damping,
+                         shown_format("{:.2g}/{:.2g}", tag->static_friction, tag->dynamic_friction), relief,
+                         one_line(scene.materials[m].name));
   }
   if (count == 0) return "\nno haptic tag\n";
-  return fmt::format("\n{} haptic tags\n{:>9} {:>8} {:>9} {:>9} {:>11}  material\n", count, "triangles", "N/m", "N s/m",
-                     "friction", "relief") +
+  return shown_format("\n{} haptic tags\n{:>9} {:>8} {:>9} {:>9} {:>11}  material\n", count, "triangles", "N/m",
+                      "N s/m", "friction", "relief") +
          rows;
 }
 

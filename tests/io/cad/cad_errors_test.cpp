@@ -51,8 +51,9 @@ TEST_F(CadErrors, PartFilesLieInTheFolderOfTheFileThatNamesThem) {
   file.place(assembly, file.add("block", BRepPrimAPI_MakeBox(1, 2, 3).Shape()), gp_Trsf(), "one");
   file.write_step_with_part_files(folder_ / "inside/main.step");
   const std::string name = "inside/main.step", text = read_text(folder_ / name);
-  const std::size_t at = text.find("'file_"), end = text.find('\'', at + 1);
-  ASSERT_NE(at, std::string::npos) << "the file names no other one";
+  const std::size_t source = text.find("EXTERNAL_SOURCE(IDENTIFIER('"), at = text.find('\'', source),
+                    end = text.find('\'', at + 1);
+  ASSERT_NE(source, std::string::npos) << "the file names no other one";
   const std::string part = text.substr(at + 1, end - at - 1);
   ASSERT_TRUE(fs::exists(folder_ / "inside" / part)) << part;
   EXPECT_EQ(read_cad(folder_ / name).parts.size(), 1U) << "a part file beside it is read";
