@@ -306,6 +306,14 @@ TEST_F(GltfEditTest, TheNormalMapOfTheFileStays) {
   EXPECT_NE(result_.notes[0].find("keeps its own normal map"), std::string::npos);
 }
 
+TEST_F(GltfEditTest, ABufferWithoutDataIsReadAgain) {
+  const auto file = folder_.write("in.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":1}]})");
+  GltfOrigin origin;
+  const Scene scene = read_gltf(file, {}, &origin);
+  EXPECT_TRUE(write_edited_gltf(file, scene, origin, {}, out()).changes.empty());
+  EXPECT_NO_THROW(read_gltf(out()));
+}
+
 TEST_F(GltfEditTest, NothingWantedGivesTheSameDocument) {
   write(square(), two_meshes("", "") + R"("extras":1.0,)");
   EXPECT_EQ(edit({}).dump(), test::RawGltf(in()).json.dump());
