@@ -37,8 +37,12 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                                unsigned seed) {
   using namespace papilla::fuzz;
   Random random(seed);
-  if (size < 2 || !is_png(text_of(data + 1, size - 1)) || random.chance(0.1))
-    return mutate_bytes(data, size, max_size, random);
+  const bool png = size > 1 && is_png(text_of(data + 1, size - 1));
+  if (!png && random.chance(0.5)) {  // The samples of most formats come last.
+    const std::size_t head = size / 2;
+    return head + mutate_bytes(data + head, size - head, max_size - head, random);
+  }
+  if (!png || random.chance(0.1)) return mutate_bytes(data, size, max_size, random);
   std::string bytes(text_of(data + 1, size - 1));
   mutate_png(bytes, random);
   return store(static_cast<char>(data[0]) + bytes, data, size, max_size);

@@ -157,11 +157,16 @@ bool is_png(std::string_view bytes) { return bytes.starts_with(k_signature); }
 void mutate_png(std::string& bytes, Random& random) {
   std::vector<Chunk> chunks = chunks_of(bytes);
   if (chunks.empty()) return;
-  const std::size_t at = random.below(chunks.size());
+  // Most pictures without header or end are refused at once.
+  const bool keep_ends = chunks.size() > 2 && random.chance(0.9);
+  const std::size_t at = keep_ends ? 1 + random.below(chunks.size() - 2) : random.below(chunks.size());
   switch (random.below(8)) {
     case 0: mutate_header(chunks.front().data, random); break;
     case 1: chunks.insert(chunks.begin() + static_cast<std::ptrdiff_t>(at), Chunk(random.of(chunks))); break;
-    case 2: chunks.erase(chunks.begin() + static_cast<std::ptrdiff_t>(at)); break;
+    case 2:
+      if (chunks[at].name != "IDAT" || random.chance(0.1))
+        chunks.erase(chunks.begin() + static_cast<std::ptrdiff_t>(at));
+      break;
     case 3: chunks[at].data.resize(random.below(2 * chunks[at].data.size() + 2)); break;
     default:
       for (Chunk& chunk : chunks)

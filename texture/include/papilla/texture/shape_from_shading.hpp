@@ -35,9 +35,9 @@ struct ShadingOptions {
 /// `largest_piece_px`, and as many pixels to their left and above as there are steps, all that influence them; the
 /// result is that of the whole picture to the last bit, up to largest_piece_px steps. variational and pentland: waves
 /// longer than a few pixels of the picture at half of largest_piece_px a side come from that, the others from pieces
-/// with free borders that overlap by 128 pixels (a quarter of largest_piece_px, if that is less) and are mixed by linear
-/// ramps, across the borders of periodic pictures too. How much that differs from the whole is measured in the tests and
-/// the report of the benchmark.
+/// with free borders that overlap by 128 pixels (a quarter of largest_piece_px, if that is less) and are mixed by
+/// linear ramps, across the borders of periodic pictures too. How much that differs from the whole is measured in the
+/// tests and the report of the benchmark.
 
 /// What a shape-from-shading method returns.
 struct ShadingResult {
