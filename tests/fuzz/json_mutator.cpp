@@ -169,11 +169,12 @@ void copy_or_swap(Json& json, Random& random) {
            (same_key ? slot.key != target.key : slot.value->type() != target.value->type());
   });
   if (slots.empty()) return;
-  Json copy = *random.of(slots).value;
-  if (random.chance(0.5) && copy.is_primitive() && target.value->is_primitive())
-    std::swap(*random.of(slots).value, *target.value);
+  // A value must not be swapped with one that holds it.
+  Json& other = *random.of(slots).value;
+  if (random.chance(0.5) && other.is_primitive() && target.value->is_primitive())
+    std::swap(other, *target.value);
   else
-    *target.value = std::move(copy);
+    *target.value = Json(other);
 }
 
 void change_type(Json& json, Random& random) {
