@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -53,6 +55,21 @@ class GlbBuffer {
   std::size_t size_ = 0;
   Json views_ = Json::array(), accessors_ = Json::array();
 };
+
+/// Writes the container of glTF 2.0, 4.4.
+/// @param write_binary  writes `binary_size` bytes. @param further_chunks  whole ones, each with its header.
+/// @throws InvalidInput when it exceeds 4 GiB.
+void write_glb_container(std::ostream& out, const std::string& json, std::size_t binary_size,
+                         const std::function<void(std::ostream&)>& write_binary, std::string_view further_chunks = {});
+
+/// The largest "texCoord" of any texture in a part of a document, −1 without any texture.
+int largest_tex_coord(const GlbBuffer::Json& json);
+
+/// KHR_texture_transform.
+GlbBuffer::Json texture_transform_json(const UvTransform& transform);
+
+/// The tag as JSON; its picture, which may be long, is not parsed.
+GlbBuffer::Json haptic_json(const MaterialTag& tag);
 
 /// Vertex attributes that a material needs of the meshes that use it.
 struct MaterialNeeds {

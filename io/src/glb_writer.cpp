@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <ostream>
 #include <set>
 
@@ -215,32 +213,6 @@ void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
-constexpr std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
-
-void write_word(std::ostream& out, std::size_t value) {
-  const auto word = static_cast<std::uint32_t>(value);
-  out.write(reinterpret_cast<const char*>(&word), sizeof word);
-}
-
-/// The container of glTF 2.0, 4.4.
-void write_container(std::ostream& out, const std::string& json, const GlbBuffer& binary) {
-  constexpr std::size_t k_json = 0x4e4f534a, k_bin = 0x004e4942;
-  const std::size_t length = 12 + 8 + padded(json.size()) + (binary.size() == 0 ? 0 : 8 + padded(binary.size()));
-  if (length > std::numeric_limits<std::uint32_t>::max())
-    throw InvalidInput(fmt::format("write_glb: {} bytes exceed glTF's limit of 4 GiB", length));
-  out << "glTF";
-  write_word(out, 2);
-  write_word(out, length);
-  write_word(out, padded(json.size()));
-  write_word(out, k_json);
-  out << json << std::string(padded(json.size()) - json.size(), ' ');
-  if (binary.size() == 0) return;
-  write_word(out, padded(binary.size()));
-  write_word(out, k_bin);
-  binary.write(out);
-  out << std::string(padded(binary.size()) - binary.size(), '\0');
-}
-
 }  // namespace
 
 std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
@@ -267,7 +239,9 @@ std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::pa
   if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
   if (!materials.required().empty()) gltf["extensionsRequired"] = materials.required();
   const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
-  write_atomically(path, [&](std::ostream& out) { write_container(out, json, buffer); });
+  write_atomically(path, [&](std::ostream& out) {
+    write_glb_container(out, json, buffer.size(), [&](std::ostream& binary) { buffer.write(binary); });
+  });
   FormatKeeps keeps;
   keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
   keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;

@@ -12,7 +12,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/meshing/statistics.hpp"
-#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/measure_scene.hpp"
 #include "papilla/pipeline/repair_scene.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
@@ -74,6 +74,12 @@ Json histogram_json(const DistortionReport& report);
 
 /// {part, material, stage, run, reason} a line.
 Json plan_json(const std::vector<PartSurface>& surfaces);
+/// {part, material, mm_per_unit, flipped, degenerate, overlapping, note, lost[]} a line, of surfaces with grain.
+Json own_uv_json(const std::vector<PartSurface>& surfaces);
+/// {in_place, reason}.
+Json way_json(const BakeWay& way);
+/// {change, pointer} a line.
+Json changes_json(const std::vector<GltfChange>& changes);
 /// Plan, parts, materials, distortion, identical parts, perception, budget, losses, warnings, seconds.
 Json bake_json(const BakeResult& result, const BakeOptions& options);
 

@@ -334,11 +334,12 @@ std::vector<ReferencedFile> detach_images(Json& json, const std::filesystem::pat
 
 /// glTF lets buffers have no data, for extensions that bring their own; tinygltf refuses them. Gives them a byte.
 /// @returns the numbers of those buffers.
-std::set<int> fill_empty_buffers(Json& json, bool binary) {
+/// @param has_chunk  of binary data, which is the first buffer's.
+std::set<int> fill_empty_buffers(Json& json, bool has_chunk) {
   std::set<int> filled;
   const auto buffers = json.find("buffers");
   if (buffers == json.end() || !buffers->is_array()) return filled;
-  for (std::size_t i = binary ? 1 : 0; i < buffers->size(); ++i) {
+  for (std::size_t i = has_chunk ? 1 : 0; i < buffers->size(); ++i) {
     Json& buffer = (*buffers)[i];
     if (!buffer.is_object() || buffer.contains("uri")) continue;
     buffer = {{"byteLength", 1}, {"uri", k_one_byte}};
@@ -480,7 +481,8 @@ Document load_document(const std::filesystem::path& path) {
                            document.warnings);
   check_meshopt_numbers(json, document.file);
   const auto primitives = count_primitives(json);
-  document.empty_buffers = fill_empty_buffers(json, document.binary);
+  const bool has_chunk = document.binary && 20 + std::size_t{word(bytes, 12)} < word(bytes, 8);
+  document.empty_buffers = fill_empty_buffers(json, has_chunk);
   const std::vector<Indices> detached = detach_indices(json);
   const bool renamed = rename_picture_types(json);
   std::vector<ReferencedFile> buffers = detach_buffers(json, path), images = detach_images(json, path);
