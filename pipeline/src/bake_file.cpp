@@ -37,17 +37,43 @@ const BakedSurface* baked_surface(const BakeResult& result, const PartSurface& s
   return found == result.surfaces.end() ? nullptr : &*found;
 }
 
-/// What shall be written of each surface that a rule is assigned to.
+GltfSurfaceEdit turned_only(const PartSurface& surface) {
+  GltfSurfaceEdit edit;
+  edit.part = surface.part, edit.slot = surface.slot;
+  edit.turned = surface.turned;
+  edit.keeps_material = true;
+  return edit;
+}
+
+/// Turns the triangles of the origin that the plan turned in the scene.
+void turn_origin(const std::vector<PartSurface>& surfaces, GltfOrigin& origin) {
+  for (const PartSurface& surface : surfaces) {
+    if (surface.turned.empty()) continue;
+    std::size_t next = 0;  // Triangles of a surface are in the order of its primitives.
+    for (GltfOrigin::Primitive& primitive : origin.parts[surface.part].primitives) {
+      if (primitive.slot != surface.slot) continue;
+      for (Triangle& corners : primitive.vertices)
+        if (surface.turned[next++] != 0) std::swap(corners[1], corners[2]);
+    }
+  }
+}
+
+/// What shall be written of each surface that a rule is assigned to, or that is turned.
 std::vector<GltfSurfaceEdit> surface_edits(const BakeResult& result, const Materials& rules) {
   std::vector<GltfSurfaceEdit> edits;
   for (const PartSurface& surface : result.plan.surfaces) {
-    if (surface.material.empty()) continue;
+    if (surface.material.empty()) {
+      if (!surface.turned.empty()) edits.push_back(turned_only(surface));
+      continue;
+    }
     const MaterialRule& rule = rules.materials.at(surface.material);
     const BakedSurface* baked = baked_surface(result, surface);
     const Grain* grain = baked != nullptr ? &result.grains.at(rule.name) : nullptr;
     const double kept_mm_per_unit = baked != nullptr && baked->uv.empty() ? surface.uv_mm_per_unit : 0;
     GltfSurfaceEdit edit;
     edit.part = surface.part, edit.slot = surface.slot;
+    edit.turned = surface.turned;
+    edit.double_sided = surface.becomes_double_sided;
     edit.rule = rule.name;
     if (decision(surface.plan, Stage::tag).run) edit.tag = surface_tag(rule, grain, kept_mm_per_unit);
     if (rule.color) edit.base_color = linear_colour(*rule.color);
@@ -85,6 +111,7 @@ void edit_file(const std::filesystem::path& input, const std::filesystem::path& 
   bake.plan.in_place = true;
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, bake, progress);
   result.seconds["read"] = read_seconds;
+  turn_origin(result.plan.surfaces, origin);
   const Stopwatch write_clock;
   GltfEditResult edited =
       write_edited_gltf(input, std::move(result.scene), origin, surface_edits(result, rules), output);

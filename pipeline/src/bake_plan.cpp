@@ -10,6 +10,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/srgb.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/meshing/orient.hpp"
 #include "papilla/meshing/statistics.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"
@@ -120,6 +121,40 @@ bool is_clean(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triang
          s.flipped_edges == 0 && s.t_junctions == 0 && s.volume_mm3.value_or(1) > 0 && (cad || s.boundary_edges == 0);
 }
 
+bool is_double_sided(const Scene& scene, const PartSurface& surface) {
+  const std::vector<std::uint32_t>& materials = scene.parts[surface.part].materials;
+  return surface.slot < materials.size() && scene.materials[materials[surface.slot]].double_sided;
+}
+
+/// Turns the sheets over of which some has relief; they are turned as a whole, whatever shares them.
+void turn_sheets_with_relief(Scene& scene, BakePlan& plan) {
+  for (std::size_t i = 0; i < plan.sides.sheets.size(); ++i) {
+    const PartSheets& part = plan.sides.sheets[i];
+    TriangleMesh& mesh = scene.parts[part.part].mesh;
+    const auto has_relief = [&](const PartSurface& surface) {
+      return surface.part == part.part && decision(surface.plan, Stage::height).run;
+    };
+    std::vector<std::uint8_t> relief(mesh.triangles.size(), 0), ambiguous(mesh.triangles.size(), 0);
+    for (const PartSurface& surface : plan.surfaces)
+      if (has_relief(surface))
+        for (const std::uint32_t t : surface.triangles) relief[t] = 1;
+    leave_sheets(plan.sides, i, relief);
+    for (const SheetSide& sheet : part.sheets)
+      if (sheet.is_ambiguous())
+        for (const Index t : sheet.triangles) ambiguous[t] = 1;
+    for (PartSurface& surface : plan.surfaces) {
+      const auto any = [&](const std::vector<std::uint8_t>& flags) {
+        return std::any_of(surface.triangles.begin(), surface.triangles.end(),
+                           [&](std::uint32_t t) { return flags[t] != 0; });
+      };
+      if (has_relief(surface) && any(ambiguous)) surface.becomes_double_sided = !is_double_sided(scene, surface);
+      if (surface.part != part.part || part.turn.empty() || !any(part.turn)) continue;
+      for (const std::uint32_t t : surface.triangles) surface.turned.push_back(part.turn[t]);
+    }
+    if (!part.turn.empty()) turn_triangles(mesh, part.turn);
+  }
+}
+
 std::vector<PartSurface> split_by_slot(const Scene& scene) {
   std::vector<PartSurface> surfaces;
   for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
@@ -228,6 +263,7 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
   }
   plan.simplify_seconds = simplify_clock.seconds();
   plan.surfaces = plan_surfaces(scene, rules, plan.perception.parts, options.in_place);
+  if (options.in_place) turn_sheets_with_relief(scene, plan);
   plan.scene = std::move(scene);
   return plan;
 }

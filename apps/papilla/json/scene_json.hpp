@@ -42,7 +42,7 @@ Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene
 Json perception_json(const Scene& scene, const ScenePerception& perception);
 
 /// {seen_from, eye_mm, enclosure, open_components, facing_away, ambiguous, skipped, parts[] {part, open_components,
-/// facing_away, ambiguous, turned_triangles, reasons[]}}; null when sheets were kept as they are.
+/// facing_away, ambiguous, turned_triangles, left_facing_away, left_ambiguous, reasons[]}}; null when sheets were kept as they are.
 Json sides_json(const SceneSides& sides, const SceneSideOptions& options);
 /// {seam_mm, visible_mm, mean_jump_mm, max_jump_mm, mean_turn_deg, turned_mm, per_size}.
 Json seams_json(const SeamVisibility& seams);

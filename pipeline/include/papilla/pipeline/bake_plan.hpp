@@ -36,6 +36,8 @@ struct PartSurface {
   std::string uv_note;                   ///< What was found about its own uv.
   std::vector<std::string> lost;         ///< Its pictures that new uv leave without a place.
   bool is_left_out = false;              ///< With its whole part.
+  std::vector<std::uint8_t> turned;      ///< In place, per triangle, 1: turned over. Empty: none.
+  bool becomes_double_sided = false;     ///< In place: its material does.
   SurfacePlan plan;
   std::string label;  ///< "part", or "part/material" when the part has several materials.
 };
@@ -46,7 +48,9 @@ struct BakePlanOptions {
   std::optional<std::size_t> budget;  ///< Triangles that the scene may draw.
   SceneSideOptions sides;             ///< `perception.view` tells where eyes are when `inside` is not given.
   bool keep_copies = false;           ///< Identical parts are not made instances of one.
-  bool in_place = false;  ///< For an edit of the scene's file: nothing is shared, triangles and pictures stay.
+  /// For an edit of the scene's file: nothing is shared, pictures stay, and so do triangles but for sheets with relief
+  /// that face away, which would be felt inverted.
+  bool in_place = false;
 };
 
 /// A scene made ready to be baked, and what shall be done to each of its surfaces.
