@@ -136,14 +136,17 @@ void write_manifest(const Scene& scene, const GltfOrigin& origin, Json& json) {
 
 void edit_file(const std::filesystem::path& source, Scene& scene, const GltfOrigin& origin,
                std::vector<GltfSurfaceEdit> edits, const std::filesystem::path& output, GltfEditResult& result) {
-  GltfFile file(source);
+  GltfFile file(source, output);
+  if (file.drops_chunks())
+    result.notes.emplace_back(
+        "the file's chunks that glTF does not define are left out: a .gltf has no place for them");
   add_restored(file.json, scene, origin, edits);
   const WantedEdits wanted = by_primitive(origin, edits);
   const std::vector<EditedMaterial> materials = edit_materials(file, wanted, result.notes);
-  edit_primitives(file, {source, scene, origin}, wanted, materials);
+  edit_primitives(file, {source, scene, origin}, wanted, materials, result.notes);
   take_materials(file.json, origin, scene);
   write_manifest(scene, origin, file.json);
-  file.write(output);
+  file.write();
   compare(file.original(), file.json, "", result.changes);
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <functional>
 #include <ostream>
+#include <set>
 
 #include "glb_document.hpp"
 #include "papilla/core/atomic_file.hpp"
@@ -54,7 +55,8 @@ void redirect(Json& view, const std::vector<Moved>& moved) {
 
 }  // namespace
 
-GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
+GltfFile::GltfFile(const std::filesystem::path& path, const std::filesystem::path& output)
+    : path_(path), output_(output) {
   const std::string bytes = read_file(path);
   const bool binary = std::string_view(bytes).starts_with("glTF");
   if (binary)
@@ -62,9 +64,15 @@ GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
   else
     json = parse(bytes, path);
   original_ = json;
-  embed_buffers(!binary);
+  if (is_gltf_with_files(output)) {
+    files_.emplace(output);
+    keep_files();
+  } else {
+    embed_buffers(!binary);
+  }
   original_size_ = binary_.size();
-  embed_images();
+  if (!files_) embed_images();
+  note_pictures();
 }
 
 void GltfFile::read_binary(const std::string& bytes) {
@@ -101,7 +109,7 @@ std::string GltfFile::buffer_bytes(std::size_t number) const {
   return *std::move(bytes);
 }
 
-/// Buffers without data, which compression leaves, stay buffers of their own.
+/// Into the binary chunk. Buffers without data, which compression leaves, stay buffers of their own.
 void GltfFile::embed_buffers(bool all) {
   if (!json.contains("buffers")) return;
   const bool has_chunk = !binary_.empty() && !json["buffers"].empty() && !json["buffers"][0].contains("uri");
@@ -138,12 +146,11 @@ void GltfFile::embed_buffers(bool all) {
   }
 }
 
-/// Pictures that are missing stay named. The others are known by their bytes, so that none is added twice.
+/// Pictures that are missing stay named.
 void GltfFile::embed_images() {
   if (!json.contains("images")) return;
   for (std::size_t i = 0; i < json["images"].size(); ++i) {
     const Json& image = json["images"][i];
-    if (image.contains("bufferView")) note_view(image["bufferView"].get<std::size_t>());
     if (!is_file(image)) continue;
     const std::string place = path_.string() + ": at /images/" + std::to_string(i) + "/uri";
     const auto bytes = read_reference({path_.parent_path(), place, percent_decoded(image["uri"].get<std::string>())},
@@ -157,15 +164,67 @@ void GltfFile::embed_images() {
   }
 }
 
-void GltfFile::note_view(std::size_t number) {
+/// The binary chunk becomes the file of its buffer; without one, what is added gets a further buffer.
+void GltfFile::keep_files() {
+  std::set<std::string> names;
+  collect_uris(json, names);
+  for (const std::string& name : names) {
+    const std::string place = path_.string() + ": '" + one_line(name) + "'";
+    if (const auto source = resolve_reference({path_.parent_path(), place, name})) files_->copy(name, *source);
+  }
+  const std::size_t buffers = json.contains("buffers") ? json["buffers"].size() : 0;
+  const bool has_chunk = !binary_.empty() && buffers > 0 && !json["buffers"][0].contains("uri");
+  data_buffer_ = has_chunk ? 0 : buffers;
+  if (!has_chunk) binary_.clear();
+}
+
+/// Those that are missing stay named.
+void GltfFile::note_pictures() {
+  if (!json.contains("images")) return;
+  for (std::size_t i = 0; i < json["images"].size(); ++i) {
+    const Json& image = json["images"][i];
+    std::optional<std::string> file;
+    std::string_view bytes;
+    if (image.contains("bufferView")) {
+      bytes = view_bytes(image["bufferView"].get<std::size_t>());
+    } else if (is_file(image)) {
+      const std::string place = path_.string() + ": at /images/" + std::to_string(i) + "/uri";
+      file = read_reference({path_.parent_path(), place, percent_decoded(image["uri"].get<std::string>())},
+                            ReferenceContent::picture);
+      if (file) bytes = *file;
+    }
+    if (!bytes.empty()) pictures_.emplace(std::hash<std::string_view>{}(bytes), i);
+  }
+}
+
+/// Empty when they are in a file of their own.
+std::string_view GltfFile::view_bytes(std::size_t number) const {
   const Json& view = json.at("bufferViews").at(number);
   const auto offset = view.value("byteOffset", std::size_t{0}), length = view.at("byteLength").get<std::size_t>();
-  if (view.at("buffer") != 0 || offset > binary_.size() || length > binary_.size() - offset) return;
-  views_.emplace(std::hash<std::string_view>{}(std::string_view(binary_).substr(offset, length)), number);
+  if (view.at("buffer") != data_buffer_ || offset > binary_.size() || length > binary_.size() - offset) return {};
+  return std::string_view(binary_).substr(offset, length);
+}
+
+std::size_t GltfFile::add_picture(const EncodedImage& image) {
+  const std::string_view bytes(reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size());
+  const std::size_t hash = std::hash<std::string_view>{}(bytes);
+  const auto [begin, end] = pictures_.equal_range(hash);
+  for (auto known = begin; known != end; ++known)
+    if (json["images"][known->second].value("name", "") == image.name) return known->second;
+  Json entry = Json::object();
+  if (files_)
+    entry["uri"] = files_->add_picture(image);
+  else
+    entry["bufferView"] = add_view(bytes);
+  entry["mimeType"] = image.mime_type;
+  if (!image.name.empty()) entry["name"] = image.name;
+  json["images"].push_back(std::move(entry));
+  pictures_.emplace(hash, json["images"].size() - 1);
+  return json["images"].size() - 1;
 }
 
 std::size_t GltfFile::add_view(std::string_view bytes, int target, std::size_t stride) {
-  Json view = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
+  Json view = {{"buffer", data_buffer_}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
   if (stride > 0) view["byteStride"] = stride;
   if (target != 0) view["target"] = target;
   const std::size_t hash = std::hash<std::string_view>{}(bytes);
@@ -207,13 +266,20 @@ void GltfFile::forget_extension(const char* name) {
   }
 }
 
-void GltfFile::write(const std::filesystem::path& path) {
+void GltfFile::write() {
   if (binary_.size() > original_size_) {
-    if (!json.contains("buffers")) json["buffers"] = Json::array({Json::object()});
-    json["buffers"][0]["byteLength"] = binary_.size();
+    if (!json.contains("buffers")) json["buffers"] = Json::array();
+    if (json["buffers"].size() <= data_buffer_) json["buffers"].push_back(Json::object());
+    json["buffers"][data_buffer_]["byteLength"] = binary_.size();
+  }
+  if (files_) {
+    if (!binary_.empty()) json["buffers"][data_buffer_]["uri"] = files_->add_binary(binary_);
+    files_->write();
+    write_atomically(output_, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    return;
   }
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  write_atomically(path, [&](std::ostream& out) {
+  write_atomically(output_, [&](std::ostream& out) {
     write_glb_container(
         out, text, binary_.size(), [&](std::ostream& chunk) { chunk << binary_; }, further_chunks_);
   });

@@ -15,6 +15,7 @@ namespace {
 using Json = GltfFile::Json;
 
 constexpr const char *k_variants = "KHR_materials_variants", *k_transform = "KHR_texture_transform";
+constexpr const char* k_animated = "/target/extensions/KHR_animation_pointer/pointer";
 constexpr int k_most_channels = 8;  ///< A tag names one of 0..7.
 constexpr int k_triangles = 4;      ///< primitive.mode; strips and fans are 5 and 6.
 
@@ -30,6 +31,12 @@ Json* mappings_of(Json& primitive) {
   if (!primitive.contains("extensions") || !primitive["extensions"].contains(k_variants)) return nullptr;
   Json& variants = primitive["extensions"][k_variants];
   return variants.contains("mappings") ? &variants["mappings"] : nullptr;
+}
+
+/// The numbers of a material's coarser levels, or null.
+Json* levels_of(Json& material) {
+  static const Json::json_pointer ids("/extensions/MSFT_lod/ids");
+  return material.contains(ids) ? &material[ids] : nullptr;
 }
 
 /// Whether both make the same of a material. Edits of one rule differ in the scale of kept uv at most.
@@ -57,6 +64,11 @@ class MaterialEditor {
     choose_channels();
     std::set<std::size_t> taken;
     for (EditedMaterial& material : materials_) write(material, taken);
+    for (const EditedMaterial& material : materials_) {
+      link_levels(material);
+      if (material.original && *material.original != material.number)
+        copy_animations(*material.original, material.number);
+    }
     return std::move(materials_);
   }
 
@@ -70,17 +82,25 @@ class MaterialEditor {
         Json& json = primitive({m, p});
         const auto found = wanted.find({m, p});
         const GltfSurfaceEdit* edit = found == wanted.end() ? nullptr : found->second;
-        add_use({{m, p}, std::nullopt}, json, edit);
+        add_uses({{m, p}, std::nullopt}, json, edit);
         const Json* mappings = mappings_of(json);
         for (std::size_t i = 0; mappings != nullptr && i < mappings->size(); ++i)
-          add_use({{m, p}, i}, (*mappings)[i], edit);
+          add_uses({{m, p}, i}, (*mappings)[i], edit);
       }
   }
 
   /// @param owner  has the member "material".
-  void add_use(const MaterialUse& use, const Json& owner, const GltfSurfaceEdit* edit) {
-    std::optional<std::size_t> original;
-    if (owner.contains("material")) original = owner["material"].get<std::size_t>();
+  void add_uses(MaterialUse use, const Json& owner, const GltfSurfaceEdit* edit) {
+    if (!owner.contains("material")) return add_use(use, std::nullopt, edit);
+    const auto number = owner["material"].get<std::size_t>();
+    add_use(use, number, edit);
+    const Json* levels = levels_of(file_.json["materials"].at(number));
+    use.is_level = true;
+    for (std::size_t i = 0; levels != nullptr && i < levels->size(); ++i)
+      add_use(use, (*levels)[i].get<std::size_t>(), edit);
+  }
+
+  void add_use(const MaterialUse& use, std::optional<std::size_t> original, const GltfSurfaceEdit* edit) {
     if (edit == nullptr || edit->keeps_material) {
       if (!original) return;
       other_uses_.insert(*original);
@@ -170,6 +190,7 @@ class MaterialEditor {
       list.push_back(original ? Json(list.at(*original)) : Json::object());
       name_copy(material.edit->rule, original.has_value(), list.back());
       for (const MaterialUse& use : material.uses) {
+        if (use.is_level) continue;
         Json& owner = primitive(use.primitive);
         (use.mapping ? (*mappings_of(owner))[*use.mapping] : owner)["material"] = material.number;
       }
@@ -177,6 +198,38 @@ class MaterialEditor {
     Json json = list.at(material.number);
     edit(material, json);
     file_.json["materials"][material.number] = std::move(json);
+  }
+
+  /// The coarser levels of an edited material are those that were edited with it.
+  void link_levels(const EditedMaterial& material) {
+    if (!material.original) return;
+    Json* levels = levels_of(file_.json["materials"][material.number]);
+    for (std::size_t i = 0; levels != nullptr && i < levels->size(); ++i) {
+      Json& number = (*levels)[i];
+      const auto level = std::find_if(materials_.begin(), materials_.end(), [&](const EditedMaterial& m) {
+        return m.original == number.get<std::size_t>() && same_material(*m.edit, *material.edit);
+      });
+      if (level != materials_.end()) number = level->number;
+    }
+  }
+
+  /// KHR_animation_pointer: what moves a material moves its copy, too.
+  void copy_animations(std::size_t original, std::size_t copy) {
+    if (!file_.json.contains("animations")) return;
+    const Json::json_pointer place(k_animated);
+    const std::string from = "/materials/" + std::to_string(original) + "/";
+    for (Json& animation : file_.json["animations"]) {
+      if (!animation.contains("channels")) continue;
+      Json& channels = animation["channels"];
+      for (std::size_t i = 0, count = channels.size(); i < count; ++i) {
+        if (!channels[i].contains(place)) continue;
+        const std::string pointer = channels[i][place].get<std::string>();
+        if (!pointer.starts_with(from)) continue;
+        Json channel = channels[i];
+        channel[place] = "/materials/" + std::to_string(copy) + "/" + pointer.substr(from.size());
+        channels.push_back(std::move(channel));
+      }
+    }
   }
 
   /// Another name than any other material has, so that the tag can be found again by it.
@@ -267,11 +320,7 @@ class MaterialEditor {
   }
 
   std::size_t texture_of(const EncodedImage& image) {
-    Json picture = {
-        {"bufferView", file_.add_view({reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()})},
-        {"mimeType", image.mime_type},
-        {"name", image.name}};
-    const std::size_t source = file_.add("images", std::move(picture));
+    const std::size_t source = file_.add_picture(image);
     const std::size_t sampler = file_.add("samplers", {{"magFilter", 9729}, {"minFilter", 9987}});
     return file_.add("textures", {{"sampler", sampler}, {"source", source}, {"name", image.name}});
   }

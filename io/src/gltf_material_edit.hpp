@@ -20,10 +20,11 @@ using PrimitiveNumber = std::pair<std::uint32_t, std::uint32_t>;
 /// What primitives want; those that are missing stay as they are.
 using WantedEdits = std::map<PrimitiveNumber, const GltfSurfaceEdit*>;
 
-/// A use of a material: by a primitive, or by one of its variants.
+/// A use of a material: by a primitive, by one of its variants, or as a coarser level of that material.
 struct MaterialUse {
   PrimitiveNumber primitive;
   std::optional<std::size_t> mapping;  ///< Of KHR_materials_variants.
+  bool is_level = false;               ///< MSFT_lod of a material names it.
 };
 
 /// Uses of one material of the file that become one material by one edit.

@@ -160,8 +160,8 @@ void turn_element(const std::string& attribute, std::size_t bytes, char* at) {
 
 class PrimitiveEditor {
  public:
-  PrimitiveEditor(GltfFile& file, const GltfSource& source, const WantedEdits& wanted)
-      : file_(file), source_(source), wanted_(wanted) {}
+  PrimitiveEditor(GltfFile& file, const GltfSource& source, const WantedEdits& wanted, std::vector<std::string>& notes)
+      : file_(file), source_(source), wanted_(wanted), notes_(notes) {}
 
   void run(const std::vector<EditedMaterial>& materials) {
     std::map<std::string, VertexGroup> groups;
@@ -315,10 +315,21 @@ class PrimitiveEditor {
         for (auto& [name, accessor] : json["targets"][i].items()) accessor = targets[i].at(name);
     json["indices"] = indices;
     if (json.contains("mode")) json["mode"] = 4;  // Strips and fans are triangles now.
+    note_extensions(member.number);
     if (!is_compressed(member.number)) return;
     decoded_ = true;
     json["extensions"].erase(k_draco);
     if (json["extensions"].empty()) json.erase("extensions");
+  }
+
+  /// Extensions may name vertices or triangles; all but these are kept without knowing.
+  void note_extensions(PrimitiveNumber number) {
+    const Json& json = primitive(number);
+    if (!json.contains("extensions")) return;
+    for (const auto& [name, value] : json["extensions"].items())
+      if (name != k_draco && name != "KHR_materials_variants")
+        notes_.push_back("mesh " + std::to_string(number.first) + ", primitive " + std::to_string(number.second) +
+                         ": its extension " + name + " stays as it is, though vertices were added for the grain's uv");
   }
 
   void add_attributes(const Member& member, const VertexGroup& group) {
@@ -344,6 +355,7 @@ class PrimitiveEditor {
   GltfFile& file_;
   const GltfSource& source_;
   const WantedEdits& wanted_;
+  std::vector<std::string>& notes_;
   std::unique_ptr<GltfVertexReader> reader_;
   bool decoded_ = false;
 };
@@ -351,8 +363,8 @@ class PrimitiveEditor {
 }  // namespace
 
 void edit_primitives(GltfFile& file, const GltfSource& source, const WantedEdits& wanted,
-                     const std::vector<EditedMaterial>& materials) {
-  PrimitiveEditor(file, source, wanted).run(materials);
+                     const std::vector<EditedMaterial>& materials, std::vector<std::string>& notes) {
+  PrimitiveEditor(file, source, wanted, notes).run(materials);
 }
 
 }  // namespace papilla

@@ -18,8 +18,9 @@ struct GltfSource {
 };
 
 /// Gives the primitives that show the materials their new uv and tangents.
+/// @param notes  gets the extensions of primitives that may not fit any more.
 /// @throws IoError, InvalidInput as GltfVertexReader.
 void edit_primitives(GltfFile& file, const GltfSource& source, const WantedEdits& wanted,
-                     const std::vector<EditedMaterial>& materials);
+                     const std::vector<EditedMaterial>& materials, std::vector<std::string>& notes);
 
 }  // namespace papilla

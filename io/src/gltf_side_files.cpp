@@ -3,7 +3,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "papilla/core/atomic_file.hpp"
@@ -24,16 +23,6 @@ std::optional<std::string> present_content(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-void collect_uris(const Json& json, std::set<std::string>& uris) {
-  if (json.is_object())
-    if (const auto uri = json.find("uri"); uri != json.end() && uri->is_string()) {
-      const std::string& text = uri->get_ref<const std::string&>();
-      if (text.find(':') == std::string::npos) uris.insert(percent_decoded(text));
-    }
-  if (json.is_structured())
-    for (const Json& child : json) collect_uris(child, uris);
 }
 
 std::string plain(const std::string& name) {
@@ -57,6 +46,16 @@ std::string extension_of(const std::string& mime_type) {
 bool is_gltf_with_files(const fs::path& output) {
   const std::string extension = output.extension().string();
   return extension == ".gltf" || extension == ".GLTF";
+}
+
+void collect_uris(const Json& json, std::set<std::string>& uris) {
+  if (json.is_object())
+    if (const auto uri = json.find("uri"); uri != json.end() && uri->is_string()) {
+      const std::string& text = uri->get_ref<const std::string&>();
+      if (text.find(':') == std::string::npos) uris.insert(percent_decoded(text));
+    }
+  if (json.is_structured())
+    for (const Json& child : json) collect_uris(child, uris);
 }
 
 std::set<std::string> named_files(const fs::path& gltf) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ namespace papilla {
 
 /// Whether a file that is written becomes a .gltf with other files beside it; else it is one GLB.
 bool is_gltf_with_files(const std::filesystem::path& output);
+
+/// The relative paths that a part of a document names as "uri", percent encoding undone.
+void collect_uris(const nlohmann::ordered_json& json, std::set<std::string>& uris);
 
 /// The files beside a .gltf under construction. New ones are named after it, with letters, digits, '.', '_' and '-', so
 /// that their names are URIs as they are.

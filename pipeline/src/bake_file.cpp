@@ -24,7 +24,7 @@ Scene read_for_edit(const std::filesystem::path& input, const ReadOptions& optio
                     GltfOrigin* origin) {
   require_file(input);
   report_progress(progress, "read", 0);
-  Scene scene = read_gltf(input, {.tags = options.tags}, origin);
+  Scene scene = read_gltf(input, {.tags = options.tags, .coarser_parts = true}, origin);
   scene.losses.clear();
   report_progress(progress, "read", 1);
   return scene;

@@ -210,10 +210,44 @@ void drop_coverages(Node& node) {
   node.extras_json = extras.empty() ? "" : extras.dump();
 }
 
+/// The parts that flagged nodes show and no others do.
+std::vector<bool> parts_of_only(const Scene& scene, const std::vector<bool>& flagged) {
+  std::vector<bool> only(scene.parts.size(), false);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].part && flagged[i]) only[*scene.nodes[i].part] = true;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].part && !flagged[i]) only[*scene.nodes[i].part] = false;
+  return only;
+}
+
+std::set<std::uint32_t> parts_below(const Scene& scene, std::vector<std::uint32_t> nodes) {
+  std::vector<bool> below(scene.nodes.size(), false);
+  flag_below(scene, std::move(nodes), below);
+  std::set<std::uint32_t> parts;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (below[i] && scene.nodes[i].part) parts.insert(*scene.nodes[i].part);
+  return parts;
+}
+
+/// Gives the parts of coarser levels the name of the part whose levels they are, where it is one.
+/// @param only_lower  flags of the parts that no finest level shows.
+void name_coarser_parts(const Document& document, const std::vector<bool>& only_lower, Scene& scene) {
+  for (std::uint32_t i = 0; i < document.model.nodes.size(); ++i) {
+    const std::vector<std::uint32_t> ids = lower_levels(document, i);
+    if (ids.empty()) continue;
+    std::set<std::uint32_t> finest = parts_below(scene, {i});
+    std::erase_if(finest, [&](std::uint32_t part) { return only_lower[part]; });
+    if (finest.size() != 1) continue;
+    for (const std::uint32_t part : parts_below(scene, ids))
+      if (only_lower[part]) scene.parts[part].name = scene.parts[*finest.begin()].name;
+  }
+}
+
 /// Leaves out the coarser levels of detail (MSFT_lod): the nodes that a node lists as its lower levels, what stands
 /// below them, the parts that only they show, and the screen coverages in the node's extras. Noted in Scene::losses.
+/// @param keep_parts  GltfReadOptions::coarser_parts.
 /// @throws InvalidInput when a list names its own node or one that does not exist.
-void keep_finest_levels(const Document& document, Scene& scene, GltfOrigin& origin) {
+void keep_finest_levels(const Document& document, bool keep_parts, Scene& scene, GltfOrigin& origin) {
   std::vector<bool> lower(scene.nodes.size(), false);
   std::size_t levels = 0;
   for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {  // the scene may have more: instances
@@ -224,15 +258,14 @@ void keep_finest_levels(const Document& document, Scene& scene, GltfOrigin& orig
     flag_below(scene, ids, lower);
   }
   if (levels == 0) return;
-  std::vector<bool> only_lower(scene.parts.size(), false);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    if (scene.nodes[i].part && lower[i]) only_lower[*scene.nodes[i].part] = true;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    if (scene.nodes[i].part && !lower[i]) only_lower[*scene.nodes[i].part] = false;
+  const std::vector<bool> only_lower = parts_of_only(scene, lower);
+  if (keep_parts) name_coarser_parts(document, only_lower, scene);
   drop_nodes(scene, lower);
   drop(origin.nodes, lower);
-  drop_parts(scene, only_lower);
-  drop(origin.parts, only_lower);
+  if (!keep_parts) {
+    drop_parts(scene, only_lower);
+    drop(origin.parts, only_lower);
+  }
   scene.losses.push_back(std::to_string(levels) + " coarser levels of detail (" + k_extension + ")");
 }
 
@@ -426,7 +459,7 @@ Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& option
   std::iota(origin.nodes.begin(), origin.nodes.end(), 0U);
   read_roots(document, scene);
   expand_instances(document, reader, scene, origin);  // appends nodes: those of the file keep their numbers
-  keep_finest_levels(document, scene, origin);
+  keep_finest_levels(document, options.coarser_parts, scene, origin);
   note_losses(document, scene);
   read_asset(document, scene);
   try {

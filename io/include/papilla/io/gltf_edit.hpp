@@ -49,15 +49,18 @@ struct GltfEditResult {
 /// document changes that is not listed, every original bufferView keeps its bytes, new data follow behind.
 ///
 /// A tag goes into the material. Where others show the material, too, or tags differ, a copy is appended and named by
-/// the primitives, and by their variants (KHR_materials_variants). New uv are one more TEXCOORD of the primitives;
-/// where a vertex needs several, the attributes and morph targets of those that share its buffers are written anew with
-/// the vertex repeated at the end, in their component types. Primitives that get a normal map get TANGENT, too. Draco
-/// data that would have to change are written decoded. The list of tags (tag_manifest.hpp) is brought up to date. The
-/// same input gives the same bytes.
+/// the primitives, and by their variants (KHR_materials_variants); coarser materials (MSFT_lod) are tagged with theirs,
+/// and animations of a material (KHR_animation_pointer) move its copies, too. New uv are one more TEXCOORD of the
+/// primitives; where a vertex needs several, the attributes and morph targets of those that share its buffers are
+/// written anew with the vertex repeated at the end, in their component types. Primitives that get a normal map get
+/// TANGENT, too. Draco data that would have to change are written decoded. The list of tags (tag_manifest.hpp) is
+/// brought up to date. The same input gives the same bytes.
 /// @param source  what `scene` and `origin` were read from.
-/// @param output  a .glb.
+/// @param output  .gltf: with binary data and new pictures in files beside it, named after it, and copies of the files
+///         that the source names, at the same places below the output's folder. Any other name: one GLB.
 /// @throws IoError, InvalidInput as read_gltf(); InvalidInput naming the material whose extras are no object, or the
-///         primitive that has no free channel of texture coordinates.
+///         primitive that has no free channel of texture coordinates; IoError when a file beside a .gltf would replace
+///         one that the former .gltf of that name did not name.
 GltfEditResult write_edited_gltf(const std::filesystem::path& source, Scene scene, const GltfOrigin& origin,
                                  std::vector<GltfSurfaceEdit> edits, const std::filesystem::path& output);
 

@@ -14,6 +14,9 @@ struct GltfReadOptions {
   /// Channel 1 is, where the haptic tag of a material names a channel above 1, that one; the tag then says 1. For those
   /// who need the relief and no picture.
   bool tag_channel = false;
+  /// The parts of coarser levels of detail stay, without nodes that show them. One below a node that shows a single
+  /// part gets that part's name, so that rules for one hold for the other. For those who edit the file.
+  bool coarser_parts = false;
 };
 
 /// Reads a .glb or .gltf file: meshes, node tree, materials, textures, images (kept encoded), extras.
