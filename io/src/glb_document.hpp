@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "gltf_side_files.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/scene.hpp"
 
@@ -85,7 +86,9 @@ GlbBuffer::Json parse_scene_json(const std::string& text, const std::string& whe
 /// Writes images, samplers, textures and materials of a scene into a glTF document.
 class MaterialWriter {
  public:
-  MaterialWriter(const Scene& scene, GlbBuffer& buffer) : scene_(scene), buffer_(buffer) {}
+  /// @param files  gets the pictures; null: the buffer does.
+  MaterialWriter(const Scene& scene, GlbBuffer& buffer, GltfSideFiles* files)
+      : scene_(scene), buffer_(buffer), files_(files) {}
 
   void write(GlbBuffer::Json& gltf);
 
@@ -106,6 +109,7 @@ class MaterialWriter {
 
   const Scene& scene_;
   GlbBuffer& buffer_;
+  GltfSideFiles* files_;
   std::vector<std::optional<std::size_t>> image_number_;
   std::vector<MaterialNeeds> needs_;
   std::set<std::string> required_;

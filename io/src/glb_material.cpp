@@ -69,7 +69,12 @@ void MaterialWriter::write_images(Json& gltf) {
   for (std::size_t i = 0; i < scene_.images.size(); ++i) {
     const EncodedImage& image = scene_.images[i];
     if (image.bytes.empty()) continue;
-    Json json = {{"bufferView", buffer_.add_view(image.bytes, GlbBuffer::Target::none)}, {"mimeType", image.mime_type}};
+    Json json = Json::object();
+    if (files_ != nullptr)
+      json["uri"] = files_->add_picture(image);
+    else
+      json["bufferView"] = buffer_.add_view(image.bytes, GlbBuffer::Target::none);
+    json["mimeType"] = image.mime_type;
     add_name_and_extras(json, image.name, image.extras_json, fmt::format("image {}", i));
     image_number_[i] = gltf["images"].size();
     gltf["images"].push_back(std::move(json));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ostream>
 #include <set>
+#include <sstream>
 
 #include "glb_document.hpp"
 #include "papilla/core/atomic_file.hpp"
@@ -213,41 +214,65 @@ void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
+/// A scene as a glTF document.
+struct GltfDocument {
+  Json json;
+  GlbBuffer buffer;
+  std::vector<std::string> losses;
+
+  GltfDocument(const Scene& scene, const GlbWriteOptions& options, GltfSideFiles* files) : json{{"asset", Json()}} {
+    MaterialWriter materials(scene, buffer, files);
+    materials.write(json);
+    std::string asset_extras = scene.asset.extras_json;
+    NodeWriter(scene, options, materials.needs(), buffer, json).write(asset_extras);
+    json["asset"] = asset_of(scene, asset_extras);
+    if (!scene.asset.xmp_packets_json.empty())
+      json["extensions"]["KHR_xmp_json_ld"] = parse_scene_json(scene.asset.xmp_packets_json, "extensions");
+    std::vector<std::string> not_mirrored;
+    if (options.mirror_mpeg_haptics) not_mirrored = mirror_mpeg_haptics(json, buffer);
+    if (options.mirror_khr_physics) mirror_khr_physics(json, not_mirrored);
+    if (buffer.size() > 0) {
+      json["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
+      json["bufferViews"] = buffer.views();
+    }
+    if (!buffer.accessors().empty()) json["accessors"] = buffer.accessors();
+    std::set<std::string> extensions;
+    collect_extensions(json, extensions);
+    if (!extensions.empty()) json["extensionsUsed"] = extensions;
+    if (!materials.required().empty()) json["extensionsRequired"] = materials.required();
+    FormatKeeps keeps;
+    keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
+    keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
+    losses = scene_losses(scene, keeps);
+    losses.insert(losses.end(), not_mirrored.begin(), not_mirrored.end());
+  }
+};
+
 }  // namespace
 
 std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
                                    const GlbWriteOptions& options) {
-  Json gltf = {{"asset", Json()}};
-  GlbBuffer buffer;
-  MaterialWriter materials(scene, buffer);
-  materials.write(gltf);
-  std::string asset_extras = scene.asset.extras_json;
-  NodeWriter(scene, options, materials.needs(), buffer, gltf).write(asset_extras);
-  gltf["asset"] = asset_of(scene, asset_extras);
-  if (!scene.asset.xmp_packets_json.empty())
-    gltf["extensions"]["KHR_xmp_json_ld"] = parse_scene_json(scene.asset.xmp_packets_json, "extensions");
-  std::vector<std::string> not_mirrored;
-  if (options.mirror_mpeg_haptics) not_mirrored = mirror_mpeg_haptics(gltf, buffer);
-  if (options.mirror_khr_physics) mirror_khr_physics(gltf, not_mirrored);
-  if (buffer.size() > 0) {
-    gltf["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
-    gltf["bufferViews"] = buffer.views();
-  }
-  if (!buffer.accessors().empty()) gltf["accessors"] = buffer.accessors();
-  std::set<std::string> extensions;
-  collect_extensions(gltf, extensions);
-  if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
-  if (!materials.required().empty()) gltf["extensionsRequired"] = materials.required();
-  const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
+  GltfDocument document(scene, options, nullptr);
+  const std::string json = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
   write_atomically(path, [&](std::ostream& out) {
-    write_glb_container(out, json, buffer.size(), [&](std::ostream& binary) { buffer.write(binary); });
+    write_glb_container(out, json, document.buffer.size(),
+                        [&](std::ostream& binary) { document.buffer.write(binary); });
   });
-  FormatKeeps keeps;
-  keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
-  keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
-  std::vector<std::string> losses = scene_losses(scene, keeps);
-  losses.insert(losses.end(), not_mirrored.begin(), not_mirrored.end());
-  return losses;
+  return std::move(document.losses);
+}
+
+std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::path& path,
+                                    const GlbWriteOptions& options) {
+  GltfSideFiles files(path);
+  GltfDocument document(scene, options, &files);
+  if (document.buffer.size() > 0) {
+    std::ostringstream binary;
+    document.buffer.write(binary);
+    document.json["buffers"][0]["uri"] = files.add_binary(std::move(binary).str());
+  }
+  files.write();
+  write_atomically(path, document.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return std::move(document.losses);
 }
 
 }  // namespace papilla

@@ -159,7 +159,7 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
   result.seconds["read"] = read_seconds;
   const Stopwatch write_clock;
-  for (std::string& loss : write_glb(result.scene, output, options.write))
+  for (std::string& loss : write_scene(result.scene, output, options.write))
     result.scene.losses.push_back(std::move(loss));
   result.seconds["write"] = write_clock.seconds();
   result.seconds["total"] = total.seconds();

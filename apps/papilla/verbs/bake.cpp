@@ -11,7 +11,7 @@
 #include "options/side_option.hpp"
 #include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
-#include "papilla/io/glb_writer.hpp"
+#include "papilla/io/named_files.hpp"
 #include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "scene_output.hpp"
@@ -62,8 +62,8 @@ void write_report(const Options& options, const BakeResult& result, const VerbCo
 }
 
 Json run(const Options& options, VerbContext& context) {
-  if (fs::path(options.output).extension() != ".glb")
-    throw UsageError("--output: '" + options.output + "' must end in .glb");
+  if (const fs::path extension = fs::path(options.output).extension(); extension != ".glb" && extension != ".gltf")
+    throw UsageError("--output: '" + options.output + "' must end in .glb or .gltf");
   BakeFileOptions wanted = options.bake;
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options(options.output);
@@ -76,7 +76,7 @@ Json run(const Options& options, VerbContext& context) {
   wanted.bake.library = load_recipes(options.libraries);
   const BakeFileResult result = bake_file(options.input, options.output, rules, wanted, context.progress);
 
-  const std::size_t triangles = drawn_triangles(result.scene), bytes = fs::file_size(options.output);
+  const std::size_t triangles = drawn_triangles(result.scene), bytes = size_with_named_files(options.output);
   Json json = bake_json(result, wanted.bake);
   json["way"] = way_json(result.way);
   json["changes"] = changes_json(result.changes);
@@ -100,16 +100,18 @@ Json run(const Options& options, VerbContext& context) {
 
 void add_bake(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb =
-      add_verb(program,
-               {"bake", "The main job: grain and touch onto a scene, as one GLB; glTF keeps all else that it holds.",
-                "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
-               [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb = add_verb(
+      program,
+      {"bake", "The main job: grain and touch onto a scene, as glTF; a glTF scene keeps all else that it holds.",
+       "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
+      [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))
       ->type_name("FILE")
       ->required();
-  writes(verb->add_option("-o,--output", options->output, "GLB to write"))->type_name("OUT")->required();
+  writes(verb->add_option("-o,--output", options->output, "GLB to write, or .gltf with files beside it"))
+      ->type_name("OUT")
+      ->required();
   reads(verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
   verb->add_flag("--keep-copies", options->bake.bake.plan.keep_copies, "Do not make identical parts instances of one");

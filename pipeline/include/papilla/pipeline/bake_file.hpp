@@ -38,8 +38,10 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
 BakePlan plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
                    const ProgressCallback& progress = {});
 
-/// Reads, bakes and writes a GLB: bake_scene() with write_glb(), or write_edited_gltf().
-/// @throws as read_scene(), bake_scene(), write_glb(), write_edited_gltf().
+/// Reads, bakes and writes a .glb, or a .gltf with files beside it: bake_scene() with write_scene(), or
+/// write_edited_gltf(). In place sheets that face away are turned where they get relief, and those without a side become
+/// double sided there; all others stay and are counted in the plan's sides.
+/// @throws as read_scene(), bake_scene(), write_scene(), write_edited_gltf().
 BakeFileResult bake_file(const std::filesystem::path& input, const std::filesystem::path& output,
                          const Materials& rules, const BakeFileOptions& options, const ProgressCallback& progress = {});
 
