@@ -11,6 +11,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/gltf_vertices.hpp"
+#include "papilla/io/named_files.hpp"
 
 namespace papilla {
 namespace {
@@ -304,6 +305,149 @@ TEST_F(GltfEditTest, TheNormalMapOfTheFileStays) {
   EXPECT_EQ(json["materials"][1]["normalTexture"]["index"], 1);
   ASSERT_EQ(result_.notes.size(), 1U);
   EXPECT_NE(result_.notes[0].find("keeps its own normal map"), std::string::npos);
+}
+
+/// What keeps materials apart in files that are written anew would change how the material looks.
+TEST_F(GltfEditTest, ATagAloneChangesNothingThatIsSeen) {
+  write(square(), two_meshes(R"(,"material":0)", R"(,"material":1)") + R"("materials":[{},{}],)");
+  const auto json = edit({tagged(0, 0, "hard", 700), tagged(1, 0, "hard", 700)});
+  for (const auto& material : json["materials"]) {
+    EXPECT_TRUE(material.contains("extras"));
+    EXPECT_EQ(material.size(), 1U) << material;
+  }
+}
+
+TEST_F(GltfEditTest, CoarserMaterialsAreTaggedWithTheirs) {
+  write(square(), two_meshes(R"(,"material":0)", R"(,"material":2)") +
+                      R"("materials":[{"name":"fine","extensions":{"MSFT_lod":{"ids":[1,2]}}},{"name":"middle"},)"
+                      R"({"name":"coarse"}],"extensionsUsed":["MSFT_lod"],)");
+  const auto json = edit({tagged(0, 0, "hard", 700)});
+  ASSERT_EQ(json["materials"].size(), 4U);  // "coarse" is shown by the other mesh, too
+  EXPECT_TRUE(json["materials"][0]["extras"].contains("haptic"));
+  EXPECT_TRUE(json["materials"][1]["extras"].contains("haptic"));
+  EXPECT_FALSE(json["materials"][2].contains("extras"));
+  EXPECT_EQ(json["materials"][3]["name"], "coarse hard");
+  EXPECT_EQ(json["materials"][0]["extensions"]["MSFT_lod"]["ids"], ordered_json::parse("[1,3]"));
+}
+
+TEST_F(GltfEditTest, AnimationsOfAMaterialMoveItsCopy) {
+  GlbFixture glb = square();
+  glb.accessor(glb.view(std::vector<float>{0, 1}), 5126, 2, "SCALAR");
+  const auto channel = [](const char* pointer) {
+    return R"({"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":")" +
+           std::string(pointer) + R"("}}}})";
+  };
+  write(glb, two_meshes(R"(,"material":0)", R"(,"material":0)") +
+                 R"("materials":[{"name":"m"},{"name":"n"}],"extensionsUsed":["KHR_animation_pointer"],)"
+                 R"("animations":[{"samplers":[{"input":2,"output":2}],"channels":[)" +
+                 channel("/materials/0/alphaCutoff") + "," + channel("/materials/01/alphaCutoff") + "," +
+                 channel("/nodes/0/scale") + "]}],");
+  const auto json = edit({tagged(0, 0, "hard", 700)});
+  const auto& channels = json["animations"][0]["channels"];
+  ASSERT_EQ(channels.size(), 4U);
+  const ordered_json::json_pointer pointer("/target/extensions/KHR_animation_pointer/pointer");
+  EXPECT_EQ(channels[0][pointer], "/materials/0/alphaCutoff");
+  EXPECT_EQ(channels[3][pointer], "/materials/2/alphaCutoff");
+  EXPECT_TRUE(changed("/animations/0/channels/3"));
+}
+
+/// Its part has the rule of the finest level's, though its name is another one.
+TEST_F(GltfEditTest, CoarserLevelsAreReadForAnEdit) {
+  write(square(), R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"extensions":{"MSFT_lod":{"ids":[1]}}},)"
+                  R"({"mesh":1}],"meshes":[{"name":"seat","primitives":[{"attributes":{"POSITION":0},"indices":1}]},)"
+                  R"({"name":"seat_LOD1","primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+                  R"("extensionsUsed":["MSFT_lod"],)");
+  EXPECT_EQ(scene_.parts.size(), 1U);
+  scene_ = read_gltf(in(), {.coarser_parts = true}, &origin_);
+  ASSERT_EQ(scene_.parts.size(), 2U);
+  EXPECT_EQ(scene_.parts[1].name, "seat");
+  EXPECT_EQ(scene_.nodes.size(), 1U);
+  const auto json = edit({tagged(0, 0, "hard", 700), tagged(1, 0, "hard", 700)});
+  for (const auto& mesh : json["meshes"]) EXPECT_EQ(mesh["primitives"][0]["material"], 0);
+}
+
+/// A picture and a buffer in files, one of them in a folder below.
+class GltfFilesTest : public GltfEditTest {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_ / "a/maps");
+    std::filesystem::create_directories(folder_ / "b");
+    const std::vector<float> points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    folder_.write("a/shape.bin", {reinterpret_cast<const char*>(points.data()), 36});
+    folder_.write("a/maps/my map.png", k_png);
+    folder_.write("a/in.gltf",
+                  R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[)"
+                  R"({"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"materials":[{"name":"m"}],)"
+                  R"("images":[{"uri":"maps/my%20map.png"}],"accessors":[{"bufferView":0,"componentType":5126,)"
+                  R"("count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,)"
+                  R"("byteLength":36}],"buffers":[{"uri":"shape.bin","byteLength":36}]})");
+    scene_ = read_gltf(folder_ / "a/in.gltf", {}, &origin_);
+    relief_ = tagged(0, 0, "grain", 700);
+    relief_.uv = torn_uv(1);
+    relief_.normal_map = &map_;
+  }
+
+  GltfEditResult edit_to(const char* output) {
+    auto result = write_edited_gltf(folder_ / "a/in.gltf", scene_, origin_, {relief_}, folder_ / output);
+    const auto differences = test::unlisted_differences(folder_ / "a/in.gltf", folder_ / output, result.changes);
+    EXPECT_TRUE(differences.empty()) << differences.front();
+    return result;
+  }
+
+  static constexpr const char* k_png = "\x89PNG\r\n\x1a\n any";
+  const EncodedImage map_{"grain normal", "image/png", "", std::vector<std::byte>(16), ""};
+  GltfSurfaceEdit relief_;
+};
+
+TEST_F(GltfFilesTest, AreCopiedAndNewDataGetFilesOfTheirOwn) {
+  edit_to("b/out.gltf");
+  EXPECT_EQ(test::content_of(folder_ / "b/shape.bin"), test::content_of(folder_ / "a/shape.bin"));
+  EXPECT_EQ(test::content_of(folder_ / "b/maps/my map.png"), k_png);
+  EXPECT_EQ(test::content_of(folder_ / "b/out-grain_normal.png"), std::string(16, '\0'));
+  const auto json = test::RawGltf(folder_ / "b/out.gltf").json;
+  EXPECT_EQ(json["buffers"][0]["uri"], "shape.bin");
+  EXPECT_EQ(json["buffers"][1]["uri"], "out.bin");
+  EXPECT_EQ(json["images"][1]["uri"], "out-grain_normal.png");
+  EXPECT_EQ(read_gltf(folder_ / "b/out.gltf").parts.at(0).mesh.uv.values.size(), 3U);
+  EXPECT_EQ(named_files(folder_ / "b/out.gltf").size(), 4U);
+}
+
+TEST_F(GltfFilesTest, InTheSameFolderNothingIsCopied) {
+  edit_to("a/out.gltf");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "a"), {}), 6);
+}
+
+/// A new name also where the document names a file as the binary one would be called.
+TEST_F(GltfFilesTest, NewNamesAreFree) {
+  edit_to("b/shape.gltf");
+  EXPECT_EQ(test::RawGltf(folder_ / "b/shape.gltf").json["buffers"][1]["uri"], "shape-2.bin");
+}
+
+TEST_F(GltfFilesTest, FilesOfAnotherSceneStay) {
+  folder_.write("b/shape.bin", "another");
+  const std::string message = test::message_of<IoError>([&] { edit_to("b/out.gltf"); });
+  EXPECT_NE(message.find("shape.bin"), std::string::npos) << message;
+  EXPECT_EQ(test::content_of(folder_ / "b/shape.bin"), "another");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "b/out.gltf"));
+}
+
+TEST_F(GltfFilesTest, ThoseOfTheFormerOutputAreReplaced) {
+  edit_to("b/out.gltf");
+  folder_.write("b/out.bin", "old");
+  edit_to("b/out.gltf");
+  EXPECT_NE(test::content_of(folder_ / "b/out.bin"), "old");
+}
+
+TEST_F(GltfFilesTest, AGlbBecomesGltfAndBack) {
+  edit_to("b/one.glb");
+  const Scene one = read_gltf(folder_ / "b/one.glb", {}, &origin_);
+  const auto changes = write_edited_gltf(folder_ / "b/one.glb", one, origin_, {}, folder_ / "b/two.gltf").changes;
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].pointer, "/buffers/0/uri");
+  EXPECT_TRUE(test::unlisted_differences(folder_ / "b/one.glb", folder_ / "b/two.gltf", changes).empty());
+  const Scene two = read_gltf(folder_ / "b/two.gltf", {}, &origin_);
+  write_edited_gltf(folder_ / "b/two.gltf", two, origin_, {}, folder_ / "b/three.glb");
+  EXPECT_EQ(test::content_of(folder_ / "b/three.glb"), test::content_of(folder_ / "b/one.glb"));
 }
 
 TEST_F(GltfEditTest, ABufferWithoutDataIsReadAgain) {

@@ -10,9 +10,11 @@
 #include "io/gltf_comparison.hpp"
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/grain.hpp"
+#include "papilla_test/shapes.hpp"
 
 namespace papilla {
 namespace {
@@ -71,11 +73,13 @@ class BakeFileTest : public testing::Test {
 
   fs::path out() const { return folder_ / "out.glb"; }
 
-  BakeFileResult bake(const fs::path& file) {
-    BakeFileResult result = bake_file(file, out(), rules_, {});
+  BakeFileResult bake(const fs::path& file) { return bake(file, out()); }
+
+  BakeFileResult bake(const fs::path& file, const fs::path& output) {
+    BakeFileResult result = bake_file(file, output, rules_, {});
     EXPECT_TRUE(result.way.in_place);
     EXPECT_TRUE(result.scene.losses.empty());
-    const auto differences = test::unlisted_differences(file, out(), result.changes);
+    const auto differences = test::unlisted_differences(file, output, result.changes);
     EXPECT_TRUE(differences.empty()) << file << ": " << differences.front();
     return result;
   }
@@ -93,14 +97,20 @@ TEST_F(BakeFileTest, ConstantsChangeExtrasAndNothingElse) {
   const std::regex allowed(
       R"(/materials/\d+/extras(/haptic|/papilla)?(/\w+)*|/(nodes/\d+|asset)/extras(/haptic\w+)?(/.*)?)");
   const std::regex new_material(R"(/materials(/\d+)?|/meshes/\d+/primitives/\d+/material)"), container(k_container);
-  for (const fs::path& file : gltf_files()) {
-    const BakeFileResult result = bake(file);
-    for (const GltfChange& change : result.changes) {
-      EXPECT_TRUE(std::regex_match(change.pointer, allowed) || std::regex_match(change.pointer, new_material) ||
-                  (file.extension() == ".gltf" && std::regex_match(change.pointer, container)))
-          << file << ": " << change.kind << " " << change.pointer;
+  std::size_t number = 0;
+  for (const fs::path& file : gltf_files())
+    for (const std::string extension : {".glb", ".gltf"}) {
+      // A folder each: files of one name belong to different scenes.
+      const fs::path output = folder_ / std::to_string(number++) / ("out" + extension);
+      fs::create_directories(output.parent_path());
+      for (const GltfChange& change : bake(file, output).changes)
+        EXPECT_TRUE(
+            std::regex_match(change.pointer, allowed) || std::regex_match(change.pointer, new_material) ||
+            (file.extension() == ".gltf" && extension == ".glb" && std::regex_match(change.pointer, container)) ||
+            (file.extension() == ".glb" && extension == ".gltf" && change.pointer == "/buffers/0/uri"))
+            << file << ": " << change.kind << " " << change.pointer;
+      fs::remove_all(output.parent_path());
     }
-  }
 }
 
 /// The corners of every triangle of a part, as far as both files must agree.
@@ -158,6 +168,60 @@ TEST_F(BakeFileTest, NewUvBecomeOneMoreChannelAndAllElseStays) {
       }
     }
   }
+}
+
+/// The room [0, 1000]³ mm, its left and right wall facing out.
+fs::path room_file(const fs::path& folder) {
+  Scene scene;
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const struct {
+    const char* name;
+    Vec3 corner, a, b;
+  } walls[] = {{"floor", {}, x, y}, {"ceiling", {0, 0, 1000}, y, x}, {"left", {}, z, y}, {"right", {1000, 0, 0}, y, z},
+               {"front", {}, z, x}, {"back", {0, 1000, 0}, x, z}};
+  for (const auto& wall : walls) {
+    Part part;
+    part.name = wall.name;
+    part.mesh = test::plane(1000, 1000, 4, 4);
+    part.mesh.uv = {};
+    for (Vec3& p : part.mesh.positions) p = wall.corner + p.x * wall.a + p.y * wall.b;
+    Node node;
+    node.part = static_cast<std::uint32_t>(scene.parts.size());
+    scene.roots.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
+    scene.nodes.push_back(node);
+    scene.parts.push_back(std::move(part));
+  }
+  write_glb(scene, folder / "room.glb");
+  return folder / "room.glb";
+}
+
+Vec3 first_normal(const Scene& scene, const std::string& name) {
+  const auto part = std::find_if(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return p.name == name; });
+  const TriangleMesh& m = part->mesh;
+  const Vec3 flat = normalized(cross(m.corner(0, 1) - m.corner(0, 0), m.corner(0, 2) - m.corner(0, 0)));
+  EXPECT_GT(dot(flat, m.normals.values[m.normals.indices[0][0]]), 0.99) << name;
+  return flat;
+}
+
+TEST_F(BakeFileTest, SheetsAreTurnedWhereTheyGetRelief) {
+  assign("left", "grain");
+  assign("*", "hard");
+  const fs::path file = room_file(folder_.path());
+  const BakeFileResult result = bake(file);
+  const Scene before = read_gltf(file), after = read_gltf(out());
+  EXPECT_EQ(first_normal(after, "left"), -1.0 * first_normal(before, "left"));
+  EXPECT_EQ(first_normal(after, "right"), first_normal(before, "right"));
+  EXPECT_EQ(result.plan.sides.facing_away, 2U);
+  for (const PartSides& part : result.plan.sides.parts) {
+    EXPECT_EQ(part.left_facing_away, part.part == "right" ? 1U : 0U) << part.part;
+    EXPECT_EQ(part.turned_triangles, part.part == "left" ? 32U : 0U) << part.part;
+  }
+  const auto is_listed = [&](const std::string& pointer) {
+    return std::any_of(result.changes.begin(), result.changes.end(),
+                       [&](const GltfChange& change) { return change.pointer == pointer; });
+  };
+  EXPECT_TRUE(is_listed("/meshes/2/primitives/0/indices"));
+  EXPECT_FALSE(is_listed("/meshes/3/primitives/0/indices"));
 }
 
 TEST_F(BakeFileTest, InvalidFilesAreEditedOrRefused) {

@@ -436,6 +436,18 @@ void note_losses(const Document& document, Scene& scene) {
   scene.losses.insert(scene.losses.end(), extensions.begin(), extensions.end());
 }
 
+/// Gives the channel of the tag the number 1, and that one its number.
+void move_tag_channel(Material& material) {
+  if (!material.haptic || !material.haptic->height || material.haptic->height->tex_coord <= 1) return;
+  const int channel = std::exchange(material.haptic->height->tex_coord, 1);
+  for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                          &material.occlusion_texture, &material.emissive_texture}) {
+    if (!*reference) continue;
+    int& own = (*reference)->tex_coord;
+    own = own == channel ? 1 : own == 1 ? channel : own;
+  }
+}
+
 }  // namespace
 
 Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options, GltfOrigin* origin_of) {
@@ -451,9 +463,7 @@ Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& option
   GltfOrigin origin;
   origin.parts = gltf::read_parts(document, reader, options.tag_channel, scene);
   if (options.tag_channel)
-    for (Material& material : scene.materials)
-      if (material.haptic && material.haptic->height && material.haptic->height->tex_coord > 1)
-        material.haptic->height->tex_coord = 1;
+    for (Material& material : scene.materials) move_tag_channel(material);
   read_nodes(document, scene);
   origin.nodes.resize(scene.nodes.size());
   std::iota(origin.nodes.begin(), origin.nodes.end(), 0U);

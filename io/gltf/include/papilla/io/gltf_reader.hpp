@@ -11,8 +11,8 @@ namespace papilla {
 struct GltfReadOptions {
   /// A glTF file with the tags as they were, whose tags replace the list within the file; empty: that list is used.
   std::filesystem::path tags = {};
-  /// Channel 1 is, where the haptic tag of a material names a channel above 1, that one; the tag then says 1. For those
-  /// who need the relief and no picture.
+  /// Channel 1 is, where the haptic tag of a material names a channel above 1, that one: tag and pictures on it say 1,
+  /// and pictures on channel 1 the other's number. For those who show or touch and do not write.
   bool tag_channel = false;
   /// The parts of coarser levels of detail stay, without nodes that show them. One below a node that shows a single
   /// part gets that part's name, so that rules for one hold for the other. For those who edit the file.
