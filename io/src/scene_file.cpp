@@ -49,7 +49,7 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   if (extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off")
     return read_mesh_scene(extension, path, options);
   if (extension == ".glb" || extension == ".gltf") {
-    Scene scene = read_gltf(path, {.tags = options.tags});
+    Scene scene = read_gltf(path, {.tags = options.tags, .tag_channel = options.tag_channel});
     scene.up = options.up.value_or(scene.up);
     return scene;
   }
