@@ -342,6 +342,7 @@ TEST_F(GltfEditTest, AnimationsOfAMaterialMoveItsCopy) {
                  R"("animations":[{"samplers":[{"input":2,"output":2}],"channels":[)" +
                  channel("/materials/0/alphaCutoff") + "," + channel("/materials/01/alphaCutoff") + "," +
                  channel("/nodes/0/scale") + "]}],");
+  EXPECT_TRUE(scene_.warnings.empty()) << scene_.warnings.front();
   const auto json = edit({tagged(0, 0, "hard", 700)});
   const auto& channels = json["animations"][0]["channels"];
   ASSERT_EQ(channels.size(), 4U);
@@ -414,7 +415,8 @@ TEST_F(GltfFilesTest, AreCopiedAndNewDataGetFilesOfTheirOwn) {
 
 TEST_F(GltfFilesTest, InTheSameFolderNothingIsCopied) {
   edit_to("a/out.gltf");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "a"), {}), 6);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "a"), std::filesystem::directory_iterator()),
+            6);
 }
 
 /// A new name also where the document names a file as the binary one would be called.
