@@ -12,7 +12,6 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/core/one_line.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/referenced_file.hpp"
 
@@ -169,8 +168,13 @@ void GltfFile::keep_files() {
   std::set<std::string> names;
   collect_uris(json, names);
   for (const std::string& name : names) {
-    const std::string place = path_.string() + ": '" + one_line(name) + "'";
-    if (const auto source = resolve_reference({path_.parent_path(), place, name})) files_->copy(name, *source);
+    std::optional<std::filesystem::path> source;
+    try {
+      source = resolve_reference({path_.parent_path(), path_.string(), name});
+    } catch (const InvalidInput&) {
+      // Leads out of the folder. Buffers and pictures don't, the reader looks; what extensions name stays named.
+    }
+    if (source) files_->copy(name, *source);
   }
   const std::size_t buffers = json.contains("buffers") ? json["buffers"].size() : 0;
   const bool has_chunk = !binary_.empty() && buffers > 0 && !json["buffers"][0].contains("uri");
