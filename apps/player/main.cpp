@@ -195,7 +195,7 @@ int run(const Options& options) {
   const FileStamp stamp = stamp_of(options.file);
   HapticScene scene;
   {
-    const Scene read = read_gltf(options.file, {.tags = options.tags});
+    const Scene read = read_gltf(options.file, {.tags = options.tags, .tag_channel = true});
     scene = haptic_scene(read, options.file, scene_options(options, choice));
     report.tags = read.tags;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,9 +10,11 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "gltf_side_files.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/scene.hpp"
 
@@ -54,6 +57,21 @@ class GlbBuffer {
   Json views_ = Json::array(), accessors_ = Json::array();
 };
 
+/// Writes the container of glTF 2.0, 4.4.
+/// @param write_binary  writes `binary_size` bytes. @param further_chunks  whole ones, each with its header.
+/// @throws InvalidInput when it exceeds 4 GiB.
+void write_glb_container(std::ostream& out, const std::string& json, std::size_t binary_size,
+                         const std::function<void(std::ostream&)>& write_binary, std::string_view further_chunks = {});
+
+/// The largest "texCoord" of any texture in a part of a document, −1 without any texture.
+int largest_tex_coord(const GlbBuffer::Json& json);
+
+/// KHR_texture_transform.
+GlbBuffer::Json texture_transform_json(const UvTransform& transform);
+
+/// The tag as JSON; its picture, which may be long, is not parsed.
+GlbBuffer::Json haptic_json(const MaterialTag& tag);
+
 /// Vertex attributes that a material needs of the meshes that use it.
 struct MaterialNeeds {
   int tex_coords = 0;  ///< TEXCOORD_0 … that must be there.
@@ -68,7 +86,9 @@ GlbBuffer::Json parse_scene_json(const std::string& text, const std::string& whe
 /// Writes images, samplers, textures and materials of a scene into a glTF document.
 class MaterialWriter {
  public:
-  MaterialWriter(const Scene& scene, GlbBuffer& buffer) : scene_(scene), buffer_(buffer) {}
+  /// @param files  gets the pictures; null: the buffer does.
+  MaterialWriter(const Scene& scene, GlbBuffer& buffer, GltfSideFiles* files)
+      : scene_(scene), buffer_(buffer), files_(files) {}
 
   void write(GlbBuffer::Json& gltf);
 
@@ -89,6 +109,7 @@ class MaterialWriter {
 
   const Scene& scene_;
   GlbBuffer& buffer_;
+  GltfSideFiles* files_;
   std::vector<std::optional<std::size_t>> image_number_;
   std::vector<MaterialNeeds> needs_;
   std::set<std::string> required_;

@@ -21,16 +21,6 @@ double in_unit_range(double value, const std::string& where) {
   return std::clamp(value, 0.0, 1.0);
 }
 
-/// The largest "texCoord" anywhere in an extension's textures, −1 without any texture.
-int largest_tex_coord(const Json& json) {
-  int largest = -1;
-  if (json.is_object() && json.contains("index") && json["index"].is_number_integer())
-    largest = json.value("texCoord", 0);
-  if (json.is_structured())
-    for (const auto& child : json) largest = std::max(largest, largest_tex_coord(child));
-  return largest;
-}
-
 void add_name_and_extras(Json& json, const std::string& name, const std::string& extras, const std::string& where) {
   if (!name.empty()) json["name"] = name;
   if (!extras.empty()) json["extras"] = parse_scene_json(extras, where + ".extras");
@@ -49,15 +39,24 @@ constexpr double k_unseen_emission = 1.01e-4;  // A third of the first step of 8
 /// by their look would drop tags.
 double distinct_emission(std::size_t material) { return 1e-7 * static_cast<double>(1 + material % 1000); }
 
-Json texture_transform(const UvTransform& transform) {
+}  // namespace
+
+int largest_tex_coord(const Json& json) {
+  int largest = -1;
+  if (json.is_object() && json.contains("index") && json["index"].is_number_integer())
+    largest = json.value("texCoord", 0);
+  if (json.is_structured())
+    for (const auto& child : json) largest = std::max(largest, largest_tex_coord(child));
+  return largest;
+}
+
+Json texture_transform_json(const UvTransform& transform) {
   Json json = Json::object();
   if (!(transform.offset == Vec2{0, 0})) json["offset"] = {transform.offset.x, transform.offset.y};
   if (transform.rotation != 0) json["rotation"] = transform.rotation;
   if (!(transform.scale == Vec2{1, 1})) json["scale"] = {transform.scale.x, transform.scale.y};
   return json;
 }
-
-}  // namespace
 
 Json parse_scene_json(const std::string& text, const std::string& where) {
   Json json = Json::parse(text, nullptr, false);
@@ -70,7 +69,12 @@ void MaterialWriter::write_images(Json& gltf) {
   for (std::size_t i = 0; i < scene_.images.size(); ++i) {
     const EncodedImage& image = scene_.images[i];
     if (image.bytes.empty()) continue;
-    Json json = {{"bufferView", buffer_.add_view(image.bytes, GlbBuffer::Target::none)}, {"mimeType", image.mime_type}};
+    Json json = Json::object();
+    if (files_ != nullptr)
+      json["uri"] = files_->add_picture(image);
+    else
+      json["bufferView"] = buffer_.add_view(image.bytes, GlbBuffer::Target::none);
+    json["mimeType"] = image.mime_type;
     add_name_and_extras(json, image.name, image.extras_json, fmt::format("image {}", i));
     image_number_[i] = gltf["images"].size();
     gltf["images"].push_back(std::move(json));
@@ -131,13 +135,12 @@ Json MaterialWriter::reference(const TextureReference& reference, const char* fa
   Json json = {{"index", reference.texture}};
   if (reference.tex_coord != 0) json["texCoord"] = reference.tex_coord;
   if (*factor_name != '\0' && reference.factor != 1) json[factor_name] = reference.factor;
-  if (reference.transform) json["extensions"]["KHR_texture_transform"] = texture_transform(*reference.transform);
+  if (reference.transform) json["extensions"]["KHR_texture_transform"] = texture_transform_json(*reference.transform);
   needs.tex_coords = std::max(needs.tex_coords, reference.tex_coord + 1);
   return json;
 }
 
-/// The tag, whose picture is written as it is: only the document is turned into text.
-static Json haptic_json(const MaterialTag& tag) {
+Json haptic_json(const MaterialTag& tag) {
   MaterialTag without_picture = tag;
   if (tag.height) without_picture.height->uri.clear();
   Json json = Json::parse(to_json(without_picture));

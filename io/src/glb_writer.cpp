@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <ostream>
 #include <set>
+#include <sstream>
 
 #include "glb_document.hpp"
 #include "papilla/core/atomic_file.hpp"
@@ -215,65 +214,65 @@ void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
-constexpr std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
+/// A scene as a glTF document.
+struct GltfDocument {
+  Json json;
+  GlbBuffer buffer;
+  std::vector<std::string> losses;
 
-void write_word(std::ostream& out, std::size_t value) {
-  const auto word = static_cast<std::uint32_t>(value);
-  out.write(reinterpret_cast<const char*>(&word), sizeof word);
-}
-
-/// The container of glTF 2.0, 4.4.
-void write_container(std::ostream& out, const std::string& json, const GlbBuffer& binary) {
-  constexpr std::size_t k_json = 0x4e4f534a, k_bin = 0x004e4942;
-  const std::size_t length = 12 + 8 + padded(json.size()) + (binary.size() == 0 ? 0 : 8 + padded(binary.size()));
-  if (length > std::numeric_limits<std::uint32_t>::max())
-    throw InvalidInput(fmt::format("write_glb: {} bytes exceed glTF's limit of 4 GiB", length));
-  out << "glTF";
-  write_word(out, 2);
-  write_word(out, length);
-  write_word(out, padded(json.size()));
-  write_word(out, k_json);
-  out << json << std::string(padded(json.size()) - json.size(), ' ');
-  if (binary.size() == 0) return;
-  write_word(out, padded(binary.size()));
-  write_word(out, k_bin);
-  binary.write(out);
-  out << std::string(padded(binary.size()) - binary.size(), '\0');
-}
+  GltfDocument(const Scene& scene, const GlbWriteOptions& options, GltfSideFiles* files) : json{{"asset", Json()}} {
+    MaterialWriter materials(scene, buffer, files);
+    materials.write(json);
+    std::string asset_extras = scene.asset.extras_json;
+    NodeWriter(scene, options, materials.needs(), buffer, json).write(asset_extras);
+    json["asset"] = asset_of(scene, asset_extras);
+    if (!scene.asset.xmp_packets_json.empty())
+      json["extensions"]["KHR_xmp_json_ld"] = parse_scene_json(scene.asset.xmp_packets_json, "extensions");
+    std::vector<std::string> not_mirrored;
+    if (options.mirror_mpeg_haptics) not_mirrored = mirror_mpeg_haptics(json, buffer);
+    if (options.mirror_khr_physics) mirror_khr_physics(json, not_mirrored);
+    if (buffer.size() > 0) {
+      json["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
+      json["bufferViews"] = buffer.views();
+    }
+    if (!buffer.accessors().empty()) json["accessors"] = buffer.accessors();
+    std::set<std::string> extensions;
+    collect_extensions(json, extensions);
+    if (!extensions.empty()) json["extensionsUsed"] = extensions;
+    if (!materials.required().empty()) json["extensionsRequired"] = materials.required();
+    FormatKeeps keeps;
+    keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
+    keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
+    losses = scene_losses(scene, keeps);
+    losses.insert(losses.end(), not_mirrored.begin(), not_mirrored.end());
+  }
+};
 
 }  // namespace
 
 std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
                                    const GlbWriteOptions& options) {
-  Json gltf = {{"asset", Json()}};
-  GlbBuffer buffer;
-  MaterialWriter materials(scene, buffer);
-  materials.write(gltf);
-  std::string asset_extras = scene.asset.extras_json;
-  NodeWriter(scene, options, materials.needs(), buffer, gltf).write(asset_extras);
-  gltf["asset"] = asset_of(scene, asset_extras);
-  if (!scene.asset.xmp_packets_json.empty())
-    gltf["extensions"]["KHR_xmp_json_ld"] = parse_scene_json(scene.asset.xmp_packets_json, "extensions");
-  std::vector<std::string> not_mirrored;
-  if (options.mirror_mpeg_haptics) not_mirrored = mirror_mpeg_haptics(gltf, buffer);
-  if (options.mirror_khr_physics) mirror_khr_physics(gltf, not_mirrored);
-  if (buffer.size() > 0) {
-    gltf["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
-    gltf["bufferViews"] = buffer.views();
+  GltfDocument document(scene, options, nullptr);
+  const std::string json = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  write_atomically(path, [&](std::ostream& out) {
+    write_glb_container(out, json, document.buffer.size(),
+                        [&](std::ostream& binary) { document.buffer.write(binary); });
+  });
+  return std::move(document.losses);
+}
+
+std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::path& path,
+                                    const GlbWriteOptions& options) {
+  GltfSideFiles files(path);
+  GltfDocument document(scene, options, &files);
+  if (document.buffer.size() > 0) {
+    std::ostringstream binary;
+    document.buffer.write(binary);
+    document.json["buffers"][0]["uri"] = files.add_binary(std::move(binary).str());
   }
-  if (!buffer.accessors().empty()) gltf["accessors"] = buffer.accessors();
-  std::set<std::string> extensions;
-  collect_extensions(gltf, extensions);
-  if (!extensions.empty()) gltf["extensionsUsed"] = extensions;
-  if (!materials.required().empty()) gltf["extensionsRequired"] = materials.required();
-  const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
-  write_atomically(path, [&](std::ostream& out) { write_container(out, json, buffer); });
-  FormatKeeps keeps;
-  keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
-  keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
-  std::vector<std::string> losses = scene_losses(scene, keeps);
-  losses.insert(losses.end(), not_mirrored.begin(), not_mirrored.end());
-  return losses;
+  files.write();
+  write_atomically(path, document.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return std::move(document.losses);
 }
 
 }  // namespace papilla

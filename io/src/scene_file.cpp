@@ -49,7 +49,7 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   if (extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off")
     return read_mesh_scene(extension, path, options);
   if (extension == ".glb" || extension == ".gltf") {
-    Scene scene = read_gltf(path, {.tags = options.tags});
+    Scene scene = read_gltf(path, {.tags = options.tags, .tag_channel = options.tag_channel});
     scene.up = options.up.value_or(scene.up);
     return scene;
   }
@@ -72,12 +72,13 @@ std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::
                                      const WriteOptions& options) {
   const std::string extension = lower_extension(path);
   if (extension == ".glb") return write_glb(scene, path, options);
+  if (extension == ".gltf") return write_gltf(scene, path, options);
   if (extension == ".obj") return write_obj(scene, path);
   if (extension == ".off") return write_off(scene, path);
   if (extension == ".ply") return write_ply(scene, path);
   if (extension == ".stl") return write_stl(scene, path);
   throw InvalidInput(path.string() + ": the extension '" + extension +
-                     "' can't be written; .glb .obj .off .ply .stl can");
+                     "' can't be written; .glb .gltf .obj .off .ply .stl can");
 }
 
 }  // namespace papilla

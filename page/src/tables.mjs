@@ -51,9 +51,10 @@ function leftOut(rows) {
 /** Open parts that were turned towards those who see them, or have no side. */
 function sidesList({ seen_from: from, eye_mm: eye, parts }) {
   const seen = { inside: 'the given point', view: 'the view volume', room: 'the room', around: 'all around' }[from] ?? from;
+  const doubleSided = (part) => part.ambiguous - (part.left_ambiguous ?? 0);
   const line = (part) => `${part.part}: ${[part.turned_triangles && `${count(part.turned_triangles, 'triangle')} turned over`,
-    part.ambiguous && `${count(part.ambiguous, 'piece')} double sided`].filter(Boolean).join(', ')} (${part.reasons.join(', ').replaceAll('_', ' ')})`;
-  const changed = parts.filter((part) => part.turned_triangles || part.ambiguous);
+    doubleSided(part) && `${count(doubleSided(part), 'piece')} double sided`].filter(Boolean).join(', ')} (${part.reasons.join(', ').replaceAll('_', ' ')})`;
+  const changed = parts.filter((part) => part.turned_triangles || doubleSided(part));
   return element('div', { id: 'sides' }, element('h3', {}, 'Sides of open parts'),
     element('p', { class: 'note' }, `${count(parts.length, 'part')} with a border, looked at from ${seen}${eye ? ` (${eye.map(number).join(', ')} mm)` : ''}; ${changed.length || 'none'} changed.`),
     element('ul', {}, ...changed.map((part) => element('li', {}, line(part)))));

@@ -10,30 +10,44 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/srgb.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
+#include "papilla/meshing/orient.hpp"
 #include "papilla/meshing/statistics.hpp"
 #include "papilla/meshing/weld.hpp"
+#include "papilla/param/measure.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
 
 namespace papilla {
 namespace {
 
-/// A uv is taken as usable when at most this share of the surface's area has no, a degenerate or a mirrored image:
-/// a few bad triangles are hidden by grain, more of them are not.
+/// A uv is taken as usable when at most this share of the surface's area has no or a degenerate image: a few bad
+/// triangles are hidden by grain, more of them are not. Mirrored ones are as good as others: over a fold in uv grain
+/// goes on as in a mirror.
 constexpr double k_bad_uv_share = 0.02;
 /// Below this σ2/σ1 of the area-weighted mean Jacobian, grain would look smeared: the uv served another purpose.
 constexpr double k_worst_mean_stretch = 0.2;
 
+/// Share of the area of the uv that is covered more than once.
+/// @pre they have finite uv.
+double overlap_of_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  const TriangleMesh surface = extract_triangles(mesh, triangles);
+  return measure_distortion(surface, surface.uv, {}).overlap_area_fraction;
+}
+
 struct UvJudgement {
   UvState state = UvState::absent;
   double mm_per_unit = 0;
+  UvDefects defects;
   std::string note;
 };
+
+std::string percent(double share, const char* what) { return fmt::format("{:.3g} % {}", 100 * share, what); }
 
 UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
   const bool any =
       std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) { return mesh.uv.has_value(t); });
-  if (!any) return {UvState::absent, 0, "no uv"};
-  double area_3d = 0, area_uv = 0, positive = 0, negative = 0, bad = 0, stretched = 0;
+  if (!any) return {UvState::absent, 0, {}, "no uv"};
+  double area_3d = 0, area_uv = 0, mirrored = 0, bad = 0, stretched = 0;
+  std::vector<std::uint32_t> finite;
   for (const std::uint32_t t : triangles) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1) - a, c = mesh.corner(t, 2) - a;
     const double area = 0.5 * norm(cross(b, c));
@@ -50,7 +64,8 @@ UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
       bad += area;
       continue;
     }
-    (doubled > 0 ? positive : negative) += area;
+    finite.push_back(t);
+    if (doubled < 0) mirrored += area;
     area_uv += 0.5 * std::abs(doubled);
     // Singular values of the 3D -> uv map from its first fundamental form.
     const double length = norm(b);
@@ -61,17 +76,41 @@ UvJudgement judge_uv(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
     const double largest = 0.5 * trace + root;
     if (largest > 0 && det / largest < k_worst_mean_stretch) stretched += area;
   }
-  if (!(area_3d > 0)) return {UvState::unusable, 0, "the surface has no area"};
-  bad += std::min(positive, negative);
-  if (area_uv <= 0) return {UvState::unusable, 0, "its uv has no area"};
+  if (!(area_3d > 0)) return {UvState::absent, 0, {}, "the surface has no area"};
+  if (area_uv <= 0) return {UvState::absent, 0, {}, "its uv has no area"};
   const double mm_per_unit = std::sqrt((area_3d - bad > 0 ? area_3d - bad : area_3d) / area_uv);
-  if (bad > k_bad_uv_share * area_3d)
-    return {UvState::unusable, mm_per_unit,
-            fmt::format("{:.0f} % of its area has no, a degenerate or a mirrored uv", 100 * bad / area_3d)};
+  UvDefects defects{mirrored / area_3d, bad / area_3d, overlap_of_uv(mesh, finite)};
+  const std::string numbers =
+      fmt::format("{:.4g} mm per unit of its uv, {}, {}, {}", mm_per_unit, percent(defects.flipped, "flipped"),
+                  percent(defects.degenerate, "degenerate"), percent(defects.overlapping, "overlapping"));
+  if (defects.degenerate > k_bad_uv_share)
+    return {UvState::unusable, mm_per_unit, defects, numbers + ": too much has no or a degenerate uv"};
   if (stretched > 0.5 * area_3d)
-    return {UvState::unusable, mm_per_unit,
-            fmt::format("{:.0f} % of its area is stretched by more than 5:1 in its uv", 100 * stretched / area_3d)};
-  return {UvState::usable, mm_per_unit, fmt::format("{:.4g} mm per unit of its uv", mm_per_unit)};
+    return {UvState::unusable, mm_per_unit, defects,
+            numbers + fmt::format(": {:.0f} % of its area is stretched by more than 5:1", 100 * stretched / area_3d)};
+  return {UvState::usable, mm_per_unit, defects, numbers};
+}
+
+UvWish uv_wish(const std::string& unwrap) {
+  if (unwrap == "auto") return UvWish::automatic;
+  return unwrap == "keep" ? UvWish::keep : UvWish::renew;
+}
+
+/// The pictures on channel 0, which new uv take.
+std::vector<std::string> pictures_on_own_uv(const Scene& scene, const PartSurface& surface) {
+  std::vector<std::string> pictures;
+  const std::vector<std::uint32_t>& materials = scene.parts[surface.part].materials;
+  if (surface.slot >= materials.size()) return pictures;
+  const Material& material = scene.materials[materials[surface.slot]];
+  const auto add = [&](const std::optional<TextureReference>& reference, const char* what) {
+    if (reference && reference->tex_coord == 0) pictures.emplace_back(what);
+  };
+  add(material.base_color_texture, "base colour picture");
+  add(material.metallic_roughness_texture, "metallic-roughness picture");
+  add(material.occlusion_texture, "occlusion picture");
+  add(material.emissive_texture, "emissive picture");
+  add(material.normal_texture, "normal map");
+  return pictures;
 }
 
 /// Whether repair() has nothing to mend: a manifold without defects, oriented outward. Borders of meshes that were not
@@ -80,6 +119,40 @@ bool is_clean(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triang
   const MeshStatistics s = mesh_statistics(weld_equal(extract_triangles(mesh, triangles)).mesh);
   return s.nonmanifold_edges == 0 && s.degenerate_triangles == 0 && s.duplicate_triangles == 0 &&
          s.flipped_edges == 0 && s.t_junctions == 0 && s.volume_mm3.value_or(1) > 0 && (cad || s.boundary_edges == 0);
+}
+
+bool is_double_sided(const Scene& scene, const PartSurface& surface) {
+  const std::vector<std::uint32_t>& materials = scene.parts[surface.part].materials;
+  return surface.slot < materials.size() && scene.materials[materials[surface.slot]].double_sided;
+}
+
+/// Turns the sheets over of which some has relief; they are turned as a whole, whatever shares them.
+void turn_sheets_with_relief(Scene& scene, BakePlan& plan) {
+  for (std::size_t i = 0; i < plan.sides.sheets.size(); ++i) {
+    const PartSheets& part = plan.sides.sheets[i];
+    TriangleMesh& mesh = scene.parts[part.part].mesh;
+    const auto has_relief = [&](const PartSurface& surface) {
+      return surface.part == part.part && decision(surface.plan, Stage::height).run;
+    };
+    std::vector<std::uint8_t> relief(mesh.triangles.size(), 0), ambiguous(mesh.triangles.size(), 0);
+    for (const PartSurface& surface : plan.surfaces)
+      if (has_relief(surface))
+        for (const std::uint32_t t : surface.triangles) relief[t] = 1;
+    leave_sheets(plan.sides, i, relief);
+    for (const SheetSide& sheet : part.sheets)
+      if (sheet.is_ambiguous())
+        for (const Index t : sheet.triangles) ambiguous[t] = 1;
+    for (PartSurface& surface : plan.surfaces) {
+      const auto any = [&](const std::vector<std::uint8_t>& flags) {
+        return std::any_of(surface.triangles.begin(), surface.triangles.end(),
+                           [&](std::uint32_t t) { return flags[t] != 0; });
+      };
+      if (has_relief(surface) && any(ambiguous)) surface.becomes_double_sided = !is_double_sided(scene, surface);
+      if (surface.part != part.part || part.turn.empty() || !any(part.turn)) continue;
+      for (const std::uint32_t t : surface.triangles) surface.turned.push_back(part.turn[t]);
+    }
+    if (!part.turn.empty()) turn_triangles(mesh, part.turn);
+  }
 }
 
 std::vector<PartSurface> split_by_slot(const Scene& scene) {
@@ -138,28 +211,31 @@ std::vector<SharedPart> share_identical_parts(Scene& scene, const Materials& rul
 }
 
 std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rules,
-                                       const std::vector<PartPerception>& perception) {
+                                       const std::vector<PartPerception>& perception, bool in_place) {
   std::vector<PartSurface> surfaces = split_by_slot(scene);
   const bool cad = scene.format == "STEP" || scene.format == "IGES" || scene.format == "BREP";
   for (PartSurface& surface : surfaces) {
     const Part& part = scene.parts[surface.part];
     const MaterialRule* rule = assigned_rule(scene, part, surface.slot, rules);
     if (rule) surface.material = rule->name;
-    const UvJudgement uv = judge_uv(part.mesh, surface.triangles);
-    surface.uv_mm_per_unit = uv.mm_per_unit;
-    surface.uv_note = uv.note;
     const bool grain = rule && !rule->texture.empty();
+    const UvJudgement uv = grain ? judge_uv(part.mesh, surface.triangles) : UvJudgement{};
+    surface.uv_mm_per_unit = uv.mm_per_unit;
+    surface.uv_defects = uv.defects;
+    surface.uv_note = uv.note;
     const bool feel =
         grain || (rule && (rule->stiffness || rule->static_friction || rule->dynamic_friction || rule->damping));
     Given given{cad, uv.state};
+    given.in_place = in_place;
     if (!perception.empty()) {
       given.left_out = perception[surface.part].left_out;
       given.is_only_seen = perception[surface.part].is_only_seen;
     }
-    if (grain && uv.state != UvState::usable && given.left_out.empty())
-      given.is_clean = is_clean(part.mesh, surface.triangles, cad);
+    const Wanted wanted{grain, feel, grain ? uv_wish(rule->unwrap) : UvWish::automatic};
+    if (stage_rules::repair(wanted, given).run) given.is_clean = is_clean(part.mesh, surface.triangles, cad);
     surface.is_left_out = !given.left_out.empty();
-    surface.plan = make_plan({grain, feel}, given);
+    surface.plan = make_plan(wanted, given);
+    if (!in_place && decision(surface.plan, Stage::unwrap).run) surface.lost = pictures_on_own_uv(scene, surface);
   }
   return surfaces;
 }
@@ -167,8 +243,9 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rule
 BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options,
                    const ProgressCallback& progress) {
   BakePlan plan;
-  plan.sides = turn_sheets(scene, options.sides, options.perception.view);
-  plan.shared = share_identical_parts(scene, rules);
+  plan.sides = options.in_place ? find_sides(scene, options.sides, options.perception.view)
+                                : turn_sheets(scene, options.sides, options.perception.view);
+  if (!options.in_place && !options.keep_copies) plan.shared = share_identical_parts(scene, rules);
   const Stopwatch perception_clock;
   plan.perception = measure_perception(scene, options.perception, progress);
   plan.perception_seconds = perception_clock.seconds();
@@ -185,7 +262,8 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
     }
   }
   plan.simplify_seconds = simplify_clock.seconds();
-  plan.surfaces = plan_surfaces(scene, rules, plan.perception.parts);
+  plan.surfaces = plan_surfaces(scene, rules, plan.perception.parts, options.in_place);
+  if (options.in_place) turn_sheets_with_relief(scene, plan);
   plan.scene = std::move(scene);
   return plan;
 }

@@ -30,6 +30,7 @@ struct Work {
   const MaterialRule* rule = nullptr;
   TriangleMesh mesh;  ///< uv: repeats of the grain when new, as they were when kept.
   BakedSurface report;
+  const Work* equal_to = nullptr;  ///< An earlier one of the same mesh and rule, which gets new uv for both.
   double repair = 0, charts = 0, unwrap = 0, measure = 0;
 };
 
@@ -70,7 +71,9 @@ std::string charts_by_method(const std::vector<ChartChoice>& choices) {
 }
 
 void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, const Grain& grain) {
-  const std::string& wanted = work.rule->unwrap;
+  // "keep" gets here where there is nothing to keep.
+  const bool is_method = unwrap_methods().contains(work.rule->unwrap);
+  const std::string wanted = is_method ? work.rule->unwrap : "auto";
   context.part = work.surface->label;
   context.tile_mm = options.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
   options.method.method = unwrap_methods().at(wanted);
@@ -121,6 +124,7 @@ void process(Work& work, const PartContext& context, const UnwrapOptions& option
              const std::map<std::string, Grain>& grains) {
   const PartSurface& surface = *work.surface;
   work.report.part = surface.part;
+  work.report.slot = surface.slot;
   work.report.label = surface.label;
   work.report.material = surface.material;
   if (runs(surface, Stage::unwrap)) {
@@ -171,26 +175,19 @@ class SceneMaterials {
     if (rule.roughness) material.roughness = *rule.roughness;
     if (rule.metallic) material.metallic = *rule.metallic;
 
-    MaterialTag tag;
-    if (grain) {
-      const Grain& relief = result_.grains.at(rule.name);
-      tag = relief.tag;
-      if (kept_mm_per_unit > 0)
-        attach_to_kept_uv(material, tag, relief, kept_mm_per_unit);
-      else
-        attach_to_new_uv(material, relief);
-    }
-    apply_constants(rule, tag, grain ? result_.grains.at(rule.name).stiffness_factor : 1);
+    const Grain* relief = grain ? &result_.grains.at(rule.name) : nullptr;
+    if (relief != nullptr && kept_mm_per_unit > 0)
+      attach_to_kept_uv(material, *relief, kept_mm_per_unit);
+    else if (relief != nullptr)
+      attach_to_new_uv(material, *relief);
     material.haptic.reset();
-    if (felt) material.haptic = std::move(tag);
+    if (felt) material.haptic = surface_tag(rule, relief, kept_mm_per_unit);
     note_origin(material, rule, original_name);
     scene_.materials.push_back(std::move(material));
     result_.mm_per_uv.resize(scene_.materials.size());
-    if (grain) {
-      const Grain& relief = result_.grains.at(rule.name);
-      result_.mm_per_uv.back() =
-          kept_mm_per_unit > 0 ? Vec2{kept_mm_per_unit, kept_mm_per_unit} : Vec2{relief.size_mm[0], relief.size_mm[1]};
-    }
+    if (relief != nullptr)
+      result_.mm_per_uv.back() = kept_mm_per_unit > 0 ? Vec2{kept_mm_per_unit, kept_mm_per_unit}
+                                                      : Vec2{relief->size_mm[0], relief->size_mm[1]};
     return static_cast<std::uint32_t>(scene_.materials.size() - 1);
   }
 
@@ -218,14 +215,10 @@ class SceneMaterials {
   }
 
   /// Kept uv: a texture transform brings them to repeats of the grain.
-  void attach_to_kept_uv(Material& material, MaterialTag& tag, const Grain& grain, double mm_per_unit) {
-    UvTransform transform;
-    transform.scale = {mm_per_unit / grain.size_mm[0], mm_per_unit / grain.size_mm[1]};
+  void attach_to_kept_uv(Material& material, const Grain& grain, double mm_per_unit) {
     if (material.normal_texture)
       scene_.losses.push_back("material '" + material.name + "': its normal map is replaced by that of the grain");
-    attach_pictures(material, grain, transform);
-    tag.height->uv_transform.scale = transform.scale;
-    tag.height->metres_per_uv = {mm_per_unit * k_metres_per_mm, mm_per_unit * k_metres_per_mm};
+    attach_pictures(material, grain, transform_to_repeats(grain, mm_per_unit));
   }
 
   void attach_pictures(Material& material, const Grain& grain, std::optional<UvTransform> transform) {
@@ -372,6 +365,45 @@ void reassemble(Scene& scene, const std::vector<PartSurface>& surfaces, std::vec
   }
 }
 
+/// Finds surfaces that get the same new uv, bit for bit.
+void find_equal(std::vector<Work>& works) {
+  std::map<std::tuple<const MaterialRule*, std::size_t, double>, std::vector<const Work*>> known;
+  for (Work& work : works) {
+    if (!runs(*work.surface, Stage::unwrap)) continue;
+    double sum = 0;
+    for (const Vec3& p : work.mesh.positions) sum += p.x + 2 * p.y + 3 * p.z;
+    std::vector<const Work*>& candidates = known[{work.rule, work.mesh.triangles.size(), sum}];
+    const auto equal = std::find_if(candidates.begin(), candidates.end(), [&](const Work* other) {
+      return other->mesh.positions == work.mesh.positions && other->mesh.triangles == work.mesh.triangles;
+    });
+    if (equal == candidates.end())
+      candidates.push_back(&work);
+    else
+      work.equal_to = *equal;
+  }
+}
+
+void take_over(const Work& source, Work& work) {
+  const PartSurface& surface = *work.surface;
+  work.mesh = source.mesh;
+  work.report = source.report;
+  work.report.part = surface.part, work.report.slot = surface.slot;
+  work.report.label = surface.label;
+  work.report.same_as = source.report.label;
+}
+
+/// Adds up what the surfaces took.
+void finish(std::vector<Work>& works, BakeResult& result) {
+  for (Work& work : works) {
+    result.seconds["repair"] += work.repair;
+    result.seconds["charts"] += work.charts;
+    result.seconds["unwrap"] += work.unwrap;
+    result.seconds["measure"] += work.measure;
+    if (const auto warning = chevron_warning(work.report)) result.scene.warnings.push_back(*warning);
+    result.surfaces.push_back(std::move(work.report));
+  }
+}
+
 }  // namespace
 
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
@@ -397,26 +429,39 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   double triangles = 0;
   for (const PartSurface& surface : surfaces) {
     if (!runs(surface, Stage::measure)) continue;
-    works.push_back({&surface, &rules.materials.at(surface.material), {}, {}, 0, 0, 0, 0});
+    works.emplace_back();
+    works.back().surface = &surface;
+    works.back().rule = &rules.materials.at(surface.material);
     triangles += static_cast<double>(surface.triangles.size());
   }
+  for (Work& work : works) {
+    // A whole part keeps the numbers of its vertices, so that it is mapped as by unwrap_scene().
+    const TriangleMesh& mesh = result.scene.parts[work.surface->part].mesh;
+    const std::vector<std::uint32_t>& own = work.surface->triangles;
+    work.mesh = own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own);
+  }
+  if (options.plan.in_place && !options.plan.keep_copies) find_equal(works);
   SharedProgress done(progress, "surfaces", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
     Work& work = works[i];
-    const TriangleMesh& mesh = result.scene.parts[work.surface->part].mesh;
-    const std::vector<std::uint32_t>& own = work.surface->triangles;
     try {
-      // A whole part keeps the numbers of its vertices, so that it is mapped as by unwrap_scene().
-      work.mesh = own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own);
-      process(work, context, options.unwrap, result.grains);
+      if (work.equal_to == nullptr) process(work, context, options.unwrap, result.grains);
     } catch (const SolverFailure& error) {
       throw SolverFailure("part '" + work.surface->label + "': " + error.what());
     } catch (const InvalidInput& error) {
       throw InvalidInput("part '" + work.surface->label + "': " + error.what());
     }
-    done.add(static_cast<double>(own.size()));
+    done.add(static_cast<double>(work.surface->triangles.size()));
   });
 
+  if (options.plan.in_place) {
+    for (Work& work : works)
+      if (work.equal_to != nullptr) take_over(*work.equal_to, work);
+    for (Work& work : works)
+      if (runs(*work.surface, Stage::unwrap)) work.report.uv = std::move(work.mesh.uv);
+    finish(works, result);
+    return result;
+  }
   reassemble(result.scene, surfaces, works);
   SceneMaterials materials(result, rules);
   std::vector<std::pair<const PartSurface*, std::uint32_t>> chosen;
@@ -431,14 +476,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   drop_unused_materials(result);
   make_names_unique(result.scene.materials);
   drop_unused_textures(result.scene);
-  for (Work& work : works) {
-    result.seconds["repair"] += work.repair;
-    result.seconds["charts"] += work.charts;
-    result.seconds["unwrap"] += work.unwrap;
-    result.seconds["measure"] += work.measure;
-    if (const auto warning = chevron_warning(work.report)) result.scene.warnings.push_back(*warning);
-    result.surfaces.push_back(std::move(work.report));
-  }
+  finish(works, result);
   return result;
 }
 

@@ -275,4 +275,21 @@ void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffnes
   if (rule.force_shading) tag.force_shading = *rule.force_shading;
 }
 
+UvTransform transform_to_repeats(const Grain& grain, double mm_per_unit) {
+  UvTransform transform;
+  transform.scale = {mm_per_unit / grain.size_mm[0], mm_per_unit / grain.size_mm[1]};
+  return transform;
+}
+
+MaterialTag surface_tag(const MaterialRule& rule, const Grain* grain, double kept_mm_per_unit) {
+  MaterialTag tag = grain != nullptr ? grain->tag : MaterialTag();
+  if (grain != nullptr && kept_mm_per_unit > 0) {
+    const double metres = kept_mm_per_unit * k_metres_per_mm;
+    tag.height->uv_transform.scale = transform_to_repeats(*grain, kept_mm_per_unit).scale;
+    tag.height->metres_per_uv = {metres, metres};
+  }
+  apply_constants(rule, tag, grain != nullptr ? grain->stiffness_factor : 1);
+  return tag;
+}
+
 }  // namespace papilla

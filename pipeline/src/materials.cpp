@@ -158,7 +158,7 @@ MaterialRule read_material(const Value& value, const std::string& name, const st
     value.fail("dynamicFriction must not exceed staticFriction");
   if (const auto v = value.get("height")) rule.height = read_height(*v);
   if (const auto v = value.get("unwrap"))
-    rule.unwrap = v->one_of({"auto", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
+    rule.unwrap = v->one_of({"auto", "keep", "new", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
   if (const auto v = value.get("color")) rule.color = v->hex_colour();
   return rule;

@@ -14,11 +14,6 @@
 namespace papilla {
 namespace {
 
-struct FoundSides {
-  SceneSides summary;
-  std::vector<std::pair<std::uint32_t, MeshSheets>> parts;  ///< Parts with sheets, ascending.
-};
-
 PartSides summary_of(const Part& part, const MeshSheets& mesh) {
   PartSides sides;
   sides.part = part.name;
@@ -34,48 +29,16 @@ PartSides summary_of(const Part& part, const MeshSheets& mesh) {
   return sides;
 }
 
-FoundSides find(const Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
-  FoundSides found;
-  if (options.keep) return found;
-  const Stopwatch clock;
-  const std::vector<PlacedMesh> uses = placed_meshes(scene, instances(scene));
-  SheetSides sides;
-  try {
-    sides = find_sheet_sides(uses, {options.inside, {view.begin(), view.end()}});
-  } catch (const InvalidInput& error) {
-    found.summary.skipped = error.what();
-    return found;
-  }
-  std::unordered_map<const TriangleMesh*, MeshSheets*> of_mesh;
-  for (MeshSheets& mesh : sides.meshes)
-    if (!mesh.sheets.empty()) of_mesh.emplace(mesh.mesh, &mesh);
-  SceneSides& summary = found.summary;
-  summary.viewpoint = sides.viewpoint;
-  summary.eye = sides.eye;
-  summary.enclosure = sides.enclosure;
-  for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
-    const auto mesh = of_mesh.find(&scene.parts[p].mesh);
-    if (mesh == of_mesh.end()) continue;
-    summary.parts.push_back(summary_of(scene.parts[p], *mesh->second));
-    summary.open_components += summary.parts.back().open_components;
-    summary.facing_away += summary.parts.back().facing_away;
-    summary.ambiguous += summary.parts.back().ambiguous;
-    found.parts.emplace_back(p, std::move(*mesh->second));
-  }
-  summary.seconds = clock.seconds();
-  return found;
-}
-
 /// Makes materials double sided where a part has a sheet without side.
 class DoubleSides {
  public:
   DoubleSides(Scene& scene, bool add_materials) : scene_(scene), add_materials_(add_materials) {}
 
-  void add(std::uint32_t part, const MeshSheets& mesh) {
-    for (const SheetSide& sheet : mesh.sheets)
+  void add(const PartSheets& part) {
+    const std::vector<std::uint32_t>& slot = scene_.parts[part.part].mesh.material;
+    for (const SheetSide& sheet : part.sheets)
       if (sheet.is_ambiguous())
-        for (const Index t : sheet.triangles)
-          slots_.emplace(part, mesh.mesh->material.empty() ? 0 : mesh.mesh->material[t]);
+        for (const Index t : sheet.triangles) slots_.emplace(part.part, slot.empty() ? 0 : slot[t]);
   }
 
   void apply() {
@@ -120,18 +83,59 @@ class DoubleSides {
 }  // namespace
 
 SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
-  return find(scene, options, view).summary;
+  SceneSides found;
+  if (options.keep) return found;
+  const Stopwatch clock;
+  const std::vector<PlacedMesh> uses = placed_meshes(scene, instances(scene));
+  SheetSides sides;
+  try {
+    sides = find_sheet_sides(uses, {options.inside, {view.begin(), view.end()}});
+  } catch (const InvalidInput& error) {
+    found.skipped = error.what();
+    return found;
+  }
+  std::unordered_map<const TriangleMesh*, MeshSheets*> of_mesh;
+  for (MeshSheets& mesh : sides.meshes)
+    if (!mesh.sheets.empty()) of_mesh.emplace(mesh.mesh, &mesh);
+  found.viewpoint = sides.viewpoint;
+  found.eye = sides.eye;
+  found.enclosure = sides.enclosure;
+  for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
+    const auto mesh = of_mesh.find(&scene.parts[p].mesh);
+    if (mesh == of_mesh.end()) continue;
+    found.parts.push_back(summary_of(scene.parts[p], *mesh->second));
+    found.open_components += found.parts.back().open_components;
+    found.facing_away += found.parts.back().facing_away;
+    found.ambiguous += found.parts.back().ambiguous;
+    found.sheets.push_back({p, std::move(mesh->second->sheets), std::move(mesh->second->turn)});
+  }
+  found.seconds = clock.seconds();
+  return found;
 }
 
 SceneSides turn_sheets(Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
-  FoundSides found = find(scene, options, view);
+  SceneSides found = find_sides(scene, options, view);
   DoubleSides double_sides(scene, options.add_materials);
-  for (const auto& [part, mesh] : found.parts) {
-    double_sides.add(part, mesh);
-    if (!mesh.turn.empty()) turn_triangles(scene.parts[part].mesh, mesh.turn);
+  for (const PartSheets& part : found.sheets) {
+    double_sides.add(part);
+    if (!part.turn.empty()) turn_triangles(scene.parts[part.part].mesh, part.turn);
   }
   double_sides.apply();
-  return std::move(found.summary);
+  return found;
+}
+
+void leave_sheets(SceneSides& sides, std::size_t number, const std::vector<std::uint8_t>& flags) {
+  PartSides& summary = sides.parts[number];
+  PartSheets& part = sides.sheets[number];
+  for (const SheetSide& sheet : part.sheets) {
+    if (std::any_of(sheet.triangles.begin(), sheet.triangles.end(), [&](Index t) { return flags[t] != 0; })) continue;
+    summary.left_facing_away += sheet.faces_away;
+    summary.left_ambiguous += sheet.is_ambiguous();
+    if (!part.turn.empty())
+      for (const Index t : sheet.triangles) part.turn[t] = 0;
+  }
+  summary.turned_triangles = static_cast<std::size_t>(std::count(part.turn.begin(), part.turn.end(), 1));
+  if (summary.turned_triangles == 0) part.turn.clear();
 }
 
 }  // namespace papilla

@@ -13,6 +13,7 @@
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/gltf_reader.hpp"
+#include "papilla/io/named_files.hpp"
 
 namespace papilla {
 namespace {
@@ -228,6 +229,23 @@ TEST_F(GlbWriter, MirrorsNothingOfMeshesOfSeveralMaterials) {
   EXPECT_FALSE(gltf["meshes"][0].contains("extensions"));
   scene.materials[0].extras_json.clear();
   EXPECT_FALSE(document(scene, {.mirror_mpeg_haptics = true, .mirror_khr_physics = true}).contains("extensions"));
+}
+
+TEST_F(GlbWriter, AGltfWithFilesBesideItIsTheSameScene) {
+  const Scene scene = test::rich_scene(), one = round_trip(scene);
+  const test::TemporaryFolder folder;
+  write_gltf(scene, folder / "my dash.gltf");
+  const auto names = named_files(folder / "my dash.gltf");
+  EXPECT_TRUE(names.contains("my_dash.bin"));
+  EXPECT_GT(names.size(), 1U) << "pictures";
+  EXPECT_EQ(folder.files(), names.size() + 1);
+  const Scene two = read_gltf(folder / "my dash.gltf");
+  ASSERT_EQ(two.parts.size(), one.parts.size());
+  for (std::size_t p = 0; p < one.parts.size(); ++p)
+    EXPECT_EQ(two.parts[p].mesh.positions, one.parts[p].mesh.positions);
+  ASSERT_EQ(two.images.size(), one.images.size());
+  for (std::size_t i = 0; i < one.images.size(); ++i) EXPECT_EQ(two.images[i].bytes, one.images[i].bytes);
+  EXPECT_EQ(two.losses, one.losses);
 }
 
 TEST_F(GlbWriter, LevelsOfDetailAreNodesThatNoSceneNames) {

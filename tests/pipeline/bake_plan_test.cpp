@@ -58,16 +58,65 @@ TEST(Surfaces, MeasureTheScaleOfUsableUv) {
   EXPECT_DOUBLE_EQ(surfaces[0].uv_mm_per_unit, 40);
 }
 
-TEST(Surfaces, ReplaceUvThatIsCollapsedMirroredStretchedOrNotANumber) {
+TEST(Surfaces, ReplaceUvThatIsCollapsedStretchedOrNotANumber) {
   const Materials file = rules();
   Scene scene;
-  scene.parts = {square("dash 1", 1), square("dash 2", 1), square("dash 3", 1), square("dash 4", 1)};
+  scene.parts = {square("dash 1", 1), square("dash 2", 1), square("dash 3", 1)};
   for (Vec2& uv : scene.parts[0].mesh.uv.values) uv.y = 0;
-  scene.parts[1].mesh.uv.values[3] = {1, 0};  // mirrors the second triangle
-  for (Vec2& uv : scene.parts[2].mesh.uv.values) uv.y *= 0.1;
-  scene.parts[3].mesh.uv.values[2].x = std::numeric_limits<double>::quiet_NaN();
+  for (Vec2& uv : scene.parts[1].mesh.uv.values) uv.y *= 0.1;
+  scene.parts[2].mesh.uv.values[2].x = std::numeric_limits<double>::quiet_NaN();
   for (const PartSurface& surface : plan_surfaces(scene, file))
     EXPECT_TRUE(decision(surface.plan, Stage::unwrap).run) << surface.label << ": " << surface.uv_note;
+}
+
+TEST(Surfaces, KeepMirroredUvAndSayHowMuchIs) {
+  Scene scene;
+  scene.parts = {square("dash", 1)};
+  scene.parts[0].mesh.uv.values[3] = {1, 0};  // folds the second triangle over the first
+  const PartSurface surface = plan_surfaces(scene, rules()).at(0);
+  EXPECT_FALSE(decision(surface.plan, Stage::unwrap).run);
+  EXPECT_DOUBLE_EQ(surface.uv_defects.flipped, 0.5);
+  EXPECT_DOUBLE_EQ(surface.uv_defects.degenerate, 0);
+  EXPECT_NEAR(surface.uv_defects.overlapping, 1, 1e-3);
+  EXPECT_NE(surface.uv_note.find("50 % flipped"), std::string::npos) << surface.uv_note;
+}
+
+TEST(Surfaces, DoWithUvAsTheMaterialSays) {
+  Materials file = rules();
+  Scene scene;
+  scene.parts = {square("dash good", 1), square("dash stretched", 1), square("dash none", 0)};
+  for (Vec2& uv : scene.parts[1].mesh.uv.values) uv.y *= 0.1;
+  const auto unwraps = [&](const std::string& wish) {
+    file.materials["grain"].unwrap = wish;
+    std::vector<bool> result;
+    for (const PartSurface& surface : plan_surfaces(scene, file))
+      result.push_back(decision(surface.plan, Stage::unwrap).run);
+    return result;
+  };
+  EXPECT_EQ(unwraps("auto"), (std::vector{false, true, true}));
+  EXPECT_EQ(unwraps("keep"), (std::vector{false, false, true}));
+  EXPECT_EQ(unwraps("new"), (std::vector{true, true, true}));
+  EXPECT_EQ(unwraps("lscm"), (std::vector{true, true, true}));
+}
+
+TEST(Surfaces, SayWhatNewUvCost) {
+  Materials file = rules();
+  file.materials["grain"].unwrap = "new";
+  Scene scene;
+  scene.parts = {square("dash", 1)};
+  scene.parts[0].materials = {0};
+  scene.materials.resize(1);
+  scene.materials[0].base_color_texture.emplace();
+  scene.materials[0].normal_texture.emplace().tex_coord = 1;
+  EXPECT_EQ(plan_surfaces(scene, file).at(0).lost, (std::vector<std::string>{"base colour picture"}));
+  EXPECT_TRUE(plan_surfaces(scene, file, {}, true).at(0).lost.empty());
+}
+
+TEST(Surfaces, AreNotRepairedInPlace) {
+  Scene scene;
+  scene.parts = {square("dash", 0)};
+  EXPECT_TRUE(decision(plan_surfaces(scene, rules()).at(0).plan, Stage::repair).run);
+  EXPECT_FALSE(decision(plan_surfaces(scene, rules(), {}, true).at(0).plan, Stage::repair).run);
 }
 
 TEST(Surfaces, APartWithTwoMaterialsHasTwoSurfaces) {

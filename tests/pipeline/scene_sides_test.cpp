@@ -97,6 +97,24 @@ TEST(SceneSides, WallsAreTurnedAndStayTurned) {
   EXPECT_EQ(first_normal(scene.parts[3]), (Vec3{1, 0, 0}));
 }
 
+TEST(SceneSides, SheetsWithoutAFlagAreLeft) {
+  Scene scene = room();
+  turn_all(scene.parts[2].mesh);
+  turn_all(scene.parts[3].mesh);
+  SceneSides sides = find_sides(scene);
+  ASSERT_EQ(sides.facing_away, 2u);
+  ASSERT_EQ(sides.sheets[2].part, 2u);
+  std::vector<std::uint8_t> flags(scene.parts[2].mesh.triangles.size(), 0);
+  leave_sheets(sides, 2, flags);
+  EXPECT_EQ(sides.parts[2].left_facing_away, 1u);
+  EXPECT_EQ(sides.parts[2].turned_triangles, 0u);
+  EXPECT_TRUE(sides.sheets[2].turn.empty());
+  flags[7] = 1;
+  leave_sheets(sides, 3, flags);
+  EXPECT_EQ(sides.parts[3].left_facing_away, 0u);
+  EXPECT_EQ(sides.parts[3].turned_triangles, 32u) << "the whole sheet";
+}
+
 TEST(SceneSides, AmbiguousSheetsBecomeDoubleSided) {
   Scene scene = room();
   scene.materials.emplace_back().name = "net";

@@ -89,6 +89,29 @@ Json plan_json(const std::vector<PartSurface>& surfaces) {
   return stages;
 }
 
+Json own_uv_json(const std::vector<PartSurface>& surfaces) {
+  Json json = Json::array();
+  for (const PartSurface& surface : surfaces)
+    if (!surface.uv_note.empty())
+      json.push_back({{"part", surface.label},
+                      {"material", surface.material},
+                      {"mm_per_unit", surface.uv_mm_per_unit},
+                      {"flipped", surface.uv_defects.flipped},
+                      {"degenerate", surface.uv_defects.degenerate},
+                      {"overlapping", surface.uv_defects.overlapping},
+                      {"note", surface.uv_note},
+                      {"lost", surface.lost}});
+  return json;
+}
+
+Json way_json(const BakeWay& way) { return {{"in_place", way.in_place}, {"reason", way.reason}}; }
+
+Json changes_json(const std::vector<GltfChange>& changes) {
+  Json json = Json::array();
+  for (const GltfChange& change : changes) json.push_back({{"change", change.kind}, {"pointer", change.pointer}});
+  return json;
+}
+
 Json bake_json(const BakeResult& result, const BakeOptions& options) {
   Json json;
   json["plan"] = plan_json(result.plan.surfaces);
@@ -98,6 +121,7 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
                              {"material", surface.material},
                              {"unwrap", surface.method},
                              {"reason", surface.reason},
+                             {"same_as", surface.same_as.empty() ? Json(nullptr) : Json(surface.same_as)},
                              {"charts", surface.charts},
                              {"seam_mm", surface.seam_mm},
                              {"grain_continued_mm", surface.grain_continued_mm},
@@ -106,6 +130,7 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
                              {"distortion", distortion_json(surface.distortion)}});
   json["materials"] = Json::array();
   for (const auto& [name, grain] : result.grains) json["materials"].push_back(grain_json(name, grain));
+  json["uv"] = own_uv_json(result.plan.surfaces);
   json["distortion"] = total_json(result.surfaces);
   json["sides"] = sides_json(result.plan.sides, options.plan.sides);
   json["losses"] = result.scene.losses;

@@ -12,7 +12,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/meshing/statistics.hpp"
-#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/measure_scene.hpp"
 #include "papilla/pipeline/repair_scene.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
@@ -42,7 +42,7 @@ Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene
 Json perception_json(const Scene& scene, const ScenePerception& perception);
 
 /// {seen_from, eye_mm, enclosure, open_components, facing_away, ambiguous, skipped, parts[] {part, open_components,
-/// facing_away, ambiguous, turned_triangles, reasons[]}}; null when sheets were kept as they are.
+/// facing_away, ambiguous, turned_triangles, left_facing_away, left_ambiguous, reasons[]}}; null when sheets were kept as they are.
 Json sides_json(const SceneSides& sides, const SceneSideOptions& options);
 /// {seam_mm, visible_mm, mean_jump_mm, max_jump_mm, mean_turn_deg, turned_mm, per_size}.
 Json seams_json(const SeamVisibility& seams);
@@ -74,6 +74,12 @@ Json histogram_json(const DistortionReport& report);
 
 /// {part, material, stage, run, reason} a line.
 Json plan_json(const std::vector<PartSurface>& surfaces);
+/// {part, material, mm_per_unit, flipped, degenerate, overlapping, note, lost[]} a line, of surfaces with grain.
+Json own_uv_json(const std::vector<PartSurface>& surfaces);
+/// {in_place, reason}.
+Json way_json(const BakeWay& way);
+/// {change, pointer} a line.
+Json changes_json(const std::vector<GltfChange>& changes);
 /// Plan, parts, materials, distortion, identical parts, perception, budget, losses, warnings, seconds.
 Json bake_json(const BakeResult& result, const BakeOptions& options);
 

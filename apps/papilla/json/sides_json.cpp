@@ -48,6 +48,8 @@ Json sides_json(const SceneSides& sides, const SceneSideOptions& options) {
                              {"facing_away", part.facing_away},
                              {"ambiguous", part.ambiguous},
                              {"turned_triangles", part.turned_triangles},
+                             {"left_facing_away", part.left_facing_away},
+                             {"left_ambiguous", part.left_ambiguous},
                              {"reasons", std::move(reasons)}});
   }
   return json;

@@ -25,7 +25,7 @@ SceneSideOptions SideOption::options(const std::string& output) const {
   SceneSideOptions options;
   options.keep = keep;
   if (!inside.empty()) options.inside = parse_vector("--inside", inside);
-  options.add_materials = extension == ".glb" || extension == ".GLB";
+  options.add_materials = extension == ".glb" || extension == ".GLB" || extension == ".gltf" || extension == ".GLTF";
   return options;
 }
 

@@ -44,7 +44,7 @@ void write_report_page(const std::filesystem::path& glb, Json report, const std:
     const ColorImage& photograph = grains.at(material["name"].get<std::string>()).photograph;
     material["photo"] = encode_base64(encode_png(shrink(photograph, k_photo_px)));
   }
-  const Scene scene = read_gltf(glb);
+  const Scene scene = read_gltf(glb, {.tag_channel = true});
   write_page({glb.filename().string(), page_scene(scene, glb, {}, progress).json, std::move(report)}, page);
 }
 

@@ -7,6 +7,18 @@
 
 namespace papilla::app {
 
+std::string way_line(const BakeWay& way) {
+  return shown_format("{}: {}\n", way.in_place ? "edited in place" : "written anew", way.reason);
+}
+
+std::string changes_line(const std::vector<GltfChange>& changes) {
+  if (changes.empty()) return "";
+  std::map<std::string, std::size_t> count;
+  for (const GltfChange& change : changes) ++count[change.kind];
+  return shown_format("members of the document: {} added, {} changed, {} removed; all else is as it was\n",
+                      count["added"], count["changed"], count["removed"]);
+}
+
 std::string plan_table(const std::vector<PartSurface>& surfaces) {
   std::size_t width = 4, material_width = 8;
   for (const PartSurface& surface : surfaces) {
@@ -31,6 +43,9 @@ std::string plan_table(const std::vector<PartSurface>& surfaces) {
                         stages.empty() ? "nothing to do" : stages);
     for (const auto& [reason, names] : skipped)
       out += shown_format("{:<{}}  without {}: {}\n", "", width, names, reason);
+    if (!surface.uv_note.empty()) out += shown_format("{:<{}}  own uv: {}\n", "", width, surface.uv_note);
+    for (const std::string& picture : surface.lost)
+      out += shown_format("{:<{}}  lost with new uv: {}\n", "", width, picture);
   }
   return out;
 }

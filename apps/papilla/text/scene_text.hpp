@@ -6,7 +6,7 @@
 
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/meshing/statistics.hpp"
-#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/measure_scene.hpp"
 #include "papilla/pipeline/repair_scene.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
@@ -39,7 +39,11 @@ std::string distortion_csv(const SceneDistortion& distortion);
 /// How the area spreads over symmetric Dirichlet, as bars.
 std::string histogram_text(const DistortionReport& report);
 
-/// One row a surface, the stages that run, and why the others do not.
+/// Whether a file is edited or written anew, and why.
+std::string way_line(const BakeWay& way);
+/// How much of an edited file is new or other; empty when it was written anew.
+std::string changes_line(const std::vector<GltfChange>& changes);
+/// One row a surface, the stages that run, why the others do not, what its own uv are like and what new ones cost.
 std::string plan_table(const std::vector<PartSurface>& surfaces);
 /// A row a part that is left out or has uses that are; empty when there is none.
 std::string left_out_table(const Scene& scene, const ScenePerception& perception);

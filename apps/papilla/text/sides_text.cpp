@@ -41,25 +41,38 @@ std::string count_text(std::size_t count, std::size_t all) {
   return all == 1 ? "" : shown_format(" ({} of {} pieces)", count, all);
 }
 
+/// What was done to `count` sheets, `left` of which stay as they are.
+std::string done_text(std::size_t count, std::size_t left, const char* done) {
+  if (count == 0) return "";
+  return left == 0 ? shown_format(" ({})", done) : shown_format(" ({} {}, {} left)", count - left, done, left);
+}
+
 }  // namespace
 
 std::string sides_text(const SceneSides& sides, bool turned) {
   if (!sides.skipped.empty()) return shown_format("the sides of open parts were not looked at: {}\n", sides.skipped);
   if (sides.open_components == 0) return "";
-  std::string text = shown_format("{} open pieces in {} parts, looked at {}: {} face away{}, {} without a side{}\n",
-                                  sides.open_components, sides.parts.size(), viewpoint_text(sides), sides.facing_away,
-                                  turned && sides.facing_away > 0 ? " and were turned" : "", sides.ambiguous,
-                                  turned && sides.ambiguous > 0 ? ", double sided" : "");
+  std::size_t left_facing_away = 0, left_ambiguous = 0;
+  for (const PartSides& part : sides.parts)
+    left_facing_away += part.left_facing_away, left_ambiguous += part.left_ambiguous;
+  std::string text =
+      shown_format("{} open pieces in {} parts, looked at {}: {} face away{}, {} without a side{}\n",
+                   sides.open_components, sides.parts.size(), viewpoint_text(sides), sides.facing_away,
+                   turned ? done_text(sides.facing_away, left_facing_away, "turned") : "", sides.ambiguous,
+                   turned ? done_text(sides.ambiguous, left_ambiguous, "double sided") : "");
   for (const PartSides& part : sides.parts) {
-    if (part.facing_away > 0)
-      text += shown_format("  {}: {}{}: {}\n", turned ? "turned" : "faces away", part.part,
-                           count_text(part.facing_away, part.open_components), reasons_text(part, false));
-    else if (part.turned_triangles > 0)
+    const auto add = [&](const char* done, std::size_t count, bool ambiguous) {
+      if (count > 0)
+        text += shown_format("  {}: {}{}: {}\n", done, part.part, count_text(count, part.open_components),
+                             reasons_text(part, ambiguous));
+    };
+    if (part.facing_away == 0 && part.turned_triangles > 0)
       text += shown_format("  {}: {} triangles of {} run against the rest\n", turned ? "turned" : "faces away",
                            part.turned_triangles, part.part);
-    if (part.ambiguous > 0)
-      text += shown_format("  {}: {}{}: {}\n", turned ? "double sided" : "no side", part.part,
-                           count_text(part.ambiguous, part.open_components), reasons_text(part, true));
+    add(turned ? "turned" : "faces away", part.facing_away - part.left_facing_away, false);
+    add("left facing away, it has no relief", part.left_facing_away, false);
+    add(turned ? "double sided" : "no side", part.ambiguous - part.left_ambiguous, true);
+    add("left without a side, it has no relief", part.left_ambiguous, true);
   }
   return text;
 }

@@ -11,8 +11,8 @@
 #include "options/side_option.hpp"
 #include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
-#include "papilla/io/glb_writer.hpp"
-#include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/io/named_files.hpp"
+#include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "scene_output.hpp"
 #include "shown_format.hpp"
@@ -30,7 +30,7 @@ struct Options {
   std::string input, materials, output, report;
   std::vector<std::string> libraries, mirrors;
   bool pictures = false;
-  BakeOptions bake;
+  BakeFileOptions bake;
   PerceptionOption perception;
   SideOption sides;
   SceneOptions scene;
@@ -62,35 +62,34 @@ void write_report(const Options& options, const BakeResult& result, const VerbCo
 }
 
 Json run(const Options& options, VerbContext& context) {
-  if (fs::path(options.output).extension() != ".glb")
-    throw UsageError("--output: '" + options.output + "' must end in .glb");
-  BakeOptions bake = options.bake;
-  bake.plan.perception = options.perception.options();
-  bake.plan.sides = options.sides.options(options.output);
+  if (const fs::path extension = fs::path(options.output).extension(); extension != ".glb" && extension != ".gltf")
+    throw UsageError("--output: '" + options.output + "' must end in .glb or .gltf");
+  BakeFileOptions wanted = options.bake;
+  wanted.bake.plan.perception = options.perception.options();
+  wanted.bake.plan.sides = options.sides.options(options.output);
+  wanted.read = options.scene.read_options();
+  wanted.write = options.write_options();
+  wanted.for_pictures = options.pictures;
   if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
   const Stopwatch total;
   const Materials rules = read_materials(options.materials);
-  bake.library = load_recipes(options.libraries);
-  Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
-  const double read_seconds = total.seconds();
-  BakeResult result = bake_scene(std::move(scene), rules, bake, context.progress);
-  result.seconds["read"] = read_seconds;
-  const Stopwatch write_clock;
-  for (const std::string& loss : write_glb(result.scene, options.output, options.write_options()))
-    result.scene.losses.push_back(loss);
-  result.seconds["write"] = write_clock.seconds();
-  result.seconds["total"] = total.seconds();
+  wanted.bake.library = load_recipes(options.libraries);
+  const BakeFileResult result = bake_file(options.input, options.output, rules, wanted, context.progress);
 
-  const std::size_t triangles = drawn_triangles(result.scene), bytes = fs::file_size(options.output);
-  Json json = bake_json(result, bake);
+  const std::size_t triangles = drawn_triangles(result.scene), bytes = size_with_named_files(options.output);
+  Json json = bake_json(result, wanted.bake);
+  json["way"] = way_json(result.way);
+  json["changes"] = changes_json(result.changes);
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
-  context.console.print(sides_text(result.plan.sides, true) + left_out_table(result.scene, result.plan.perception));
+  context.console.print(way_line(result.way) + sides_text(result.plan.sides, true) +
+                        left_out_table(result.scene, result.plan.perception));
   if (const auto& budget = result.plan.budget)
-    context.console.print(shown_format("budget of {} triangles: {} within {:.3g} mm{}\n", *bake.plan.budget,
+    context.console.print(shown_format("budget of {} triangles: {} within {:.3g} mm{}\n", *wanted.bake.plan.budget,
                                        budget->triangles, budget->tolerance_mm,
                                        budget->reached ? "" : "; borders, seams and features allow no fewer"));
   context.console.print(bake_table(result));
   print_notes(result.scene, context.console);
+  context.console.print(changes_line(result.changes));
   context.console.print(
       shown_format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
   if (!options.report.empty()) write_report(options, result, context, total, json);
@@ -101,18 +100,22 @@ Json run(const Options& options, VerbContext& context) {
 
 void add_bake(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"bake", "The main job: grain and touch onto a scene, as one GLB.",
-                             "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
-                            [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb = add_verb(
+      program,
+      {"bake", "The main job: grain and touch onto a scene, as glTF; a glTF scene keeps all else that it holds.",
+       "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
+      [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))
       ->type_name("FILE")
       ->required();
-  writes(verb->add_option("-o,--output", options->output, "GLB to write"))->type_name("OUT")->required();
+  writes(verb->add_option("-o,--output", options->output, "GLB to write, or .gltf with files beside it"))
+      ->type_name("OUT")
+      ->required();
   reads(verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
-  verb->add_option("--budget", options->bake.plan.budget,
+  verb->add_flag("--keep-copies", options->bake.bake.plan.keep_copies, "Do not make identical parts instances of one");
+  verb->add_option("--budget", options->bake.bake.plan.budget,
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

@@ -18,22 +18,29 @@ struct Options {
   PerceptionOption perception;
   SideOption sides;
   SceneOptions scene;
+  bool keep_copies = false;
 };
 
 Json run(const Options& options, VerbContext& context) {
-  const BakePlanOptions wanted{options.perception.options(), {}, options.sides.options()};
+  BakeFileOptions wanted;
+  wanted.read = options.scene.read_options();
+  wanted.bake.plan.perception = options.perception.options();
+  wanted.bake.plan.sides = options.sides.options();
+  wanted.bake.plan.keep_copies = options.keep_copies;
   const Materials rules = read_materials(options.materials);
-  const BakePlan plan = plan_bake(read_scene(options.input, options.scene.read_options(), context.progress), rules,
-                                  wanted, context.progress);
-  context.console.print(plan_table(plan.surfaces) + sides_text(plan.sides, true) +
+  const BakeWay way = bake_way(options.input, wanted);
+  const BakePlan plan = plan_file(options.input, rules, wanted, context.progress);
+  context.console.print(way_line(way) + plan_table(plan.surfaces) + sides_text(plan.sides, true) +
                         left_out_table(plan.scene, plan.perception));
   print_notes(plan.scene, context.console);
   Json json{{"scene", options.input}, {"materials", options.materials}, {"stages", plan_json(plan.surfaces)}};
+  json["way"] = way_json(way);
+  json["uv"] = own_uv_json(plan.surfaces);
   json["identical_parts"] = shared_parts_json(plan.shared, plan.scene);
-  json["sides"] = sides_json(plan.sides, wanted.sides);
+  json["sides"] = sides_json(plan.sides, wanted.bake.plan.sides);
   json["losses"] = plan.scene.losses;
   json["warnings"] = plan.scene.warnings;
-  if (wanted.perception.asked()) json["perception"] = perception_json(plan.scene, plan.perception);
+  if (wanted.bake.plan.perception.asked()) json["perception"] = perception_json(plan.scene, plan.perception);
   return json;
 }
 
@@ -47,6 +54,7 @@ void add_plan(CLI::App& program) {
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json"))->type_name("FILE")->required();
+  verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->perception.add_to(*verb);
   options->sides.add_to(*verb);
   options->scene.add_to(*verb);

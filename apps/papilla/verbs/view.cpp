@@ -30,8 +30,9 @@ struct Options {
 };
 
 PageScene scene_of(const std::string& file, const Options& options, const VerbContext& context) {
-  return page_scene(read_scene(file, options.scene.read_options(), context.progress), file, options.page,
-                    context.progress);
+  ReadOptions read = options.scene.read_options();
+  read.tag_channel = true;
+  return page_scene(read_scene(file, read, context.progress), file, options.page, context.progress);
 }
 
 PageContent content_of(const std::string& file, Json scene) {

@@ -64,6 +64,14 @@ std::optional<MeshoptView> meshopt_view(const tinygltf::BufferView& view) {
   return std::nullopt;
 }
 
+bool is_unsigned(int component_type) {
+  return component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+         component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+}  // namespace
+
 std::size_t component_size(int component_type) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -75,14 +83,6 @@ std::size_t component_size(int component_type) {
     default: return 0;
   }
 }
-
-bool is_unsigned(int component_type) {
-  return component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-         component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-         component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-}
-
-}  // namespace
 
 double normalize(double value, int component_type) {
   switch (component_type) {
@@ -168,9 +168,12 @@ AccessorReader::Elements AccessorReader::elements(int view_number, std::size_t o
   return {bytes.data() + offset, stride};
 }
 
-void AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, int components, std::vector<double>& values,
-                                  const std::string& where) {
+/// Calls use(index, element) for the elements that replace others.
+template <class Use>
+void AccessorReader::for_each_sparse(const tinygltf::Accessor& accessor, int components, const std::string& where,
+                                     Use use) {
   const auto& sparse = accessor.sparse;
+  if (!sparse.isSparse) return;
   const std::string place = where + ", sparse";
   if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count)
     fail(place, "count " + std::to_string(sparse.count) + " is not in 1.." + std::to_string(accessor.count));
@@ -185,9 +188,7 @@ void AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, int compon
     const auto index = static_cast<std::size_t>(load(where_to.at(i), sparse.indices.componentType));
     if (index >= accessor.count)
       fail(place, "index " + std::to_string(index) + " is not below " + std::to_string(accessor.count));
-    for (std::size_t k = 0; k < static_cast<std::size_t>(components); ++k)
-      values[index * static_cast<std::size_t>(components) + k] =
-          load(what.at(i) + k * component_size(accessor.componentType), accessor.componentType);
+    use(index, what.at(i));
   }
 }
 
@@ -198,23 +199,38 @@ std::vector<double> AccessorReader::raw_numbers(const tinygltf::Accessor& access
   if (accessor.count == 0) fail(where, "the accessor's count is 0");
   if (component_size(accessor.componentType) == 0)
     fail(where, "componentType " + std::to_string(accessor.componentType) + " is not supported");
-  const auto width = static_cast<std::size_t>(components);
-  if (accessor.bufferView < 0) {
-    spend(accessor.count, where);
-    std::vector<double> values(accessor.count * width, 0.0);
-    if (accessor.sparse.isSparse) apply_sparse(accessor, components, values, where);
-    return values;
-  }
-  const Elements source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType,
-                                   components, true, where);
+  std::optional<Elements> source;
+  if (accessor.bufferView >= 0)
+    source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType, components,
+                      true, where);
   spend(accessor.count, where);
-  std::vector<double> values(accessor.count * width);
+  const auto width = static_cast<std::size_t>(components);
   const std::size_t step = component_size(accessor.componentType);
-  for (std::size_t i = 0; i < accessor.count; ++i)
-    for (std::size_t k = 0; k < width; ++k)
-      values[i * width + k] = load(source.at(i) + k * step, accessor.componentType);
-  if (accessor.sparse.isSparse) apply_sparse(accessor, components, values, where);
+  std::vector<double> values(accessor.count * width, 0.0);
+  const auto take = [&](std::size_t i, const unsigned char* at) {
+    for (std::size_t k = 0; k < width; ++k) values[i * width + k] = load(at + k * step, accessor.componentType);
+  };
+  for (std::size_t i = 0; source && i < accessor.count; ++i) take(i, source->at(i));
+  for_each_sparse(accessor, components, where, take);
   return values;
+}
+
+std::vector<std::byte> AccessorReader::bytes(int number, const std::string& where) {
+  const std::string place = where + ", accessor " + std::to_string(number);
+  const tinygltf::Accessor& source = accessor(number, where);
+  const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(source.type));
+  const std::size_t size = component_size(source.componentType) * static_cast<std::size_t>(std::max(components, 0));
+  if (size == 0 || source.count == 0) fail(place, "its type is not supported, or it has no elements");
+  std::optional<Elements> stored;
+  if (source.bufferView >= 0)
+    stored =
+        elements(source.bufferView, source.byteOffset, source.count, source.componentType, components, true, place);
+  spend(source.count, place);
+  std::vector<std::byte> bytes(source.count * size);
+  const auto take = [&](std::size_t i, const unsigned char* at) { std::memcpy(bytes.data() + i * size, at, size); };
+  for (std::size_t i = 0; stored && i < source.count; ++i) take(i, stored->at(i));
+  for_each_sparse(source, components, place, take);
+  return bytes;
 }
 
 std::vector<double> AccessorReader::numbers(int number, int components, const std::string& where) {

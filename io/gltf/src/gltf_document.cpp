@@ -334,11 +334,12 @@ std::vector<ReferencedFile> detach_images(Json& json, const std::filesystem::pat
 
 /// glTF lets buffers have no data, for extensions that bring their own; tinygltf refuses them. Gives them a byte.
 /// @returns the numbers of those buffers.
-std::set<int> fill_empty_buffers(Json& json, bool binary) {
+/// @param has_chunk  of binary data, which is the first buffer's.
+std::set<int> fill_empty_buffers(Json& json, bool has_chunk) {
   std::set<int> filled;
   const auto buffers = json.find("buffers");
   if (buffers == json.end() || !buffers->is_array()) return filled;
-  for (std::size_t i = binary ? 1 : 0; i < buffers->size(); ++i) {
+  for (std::size_t i = has_chunk ? 1 : 0; i < buffers->size(); ++i) {
     Json& buffer = (*buffers)[i];
     if (!buffer.is_object() || buffer.contains("uri")) continue;
     buffer = {{"byteLength", 1}, {"uri", k_one_byte}};
@@ -367,6 +368,28 @@ bool rename_picture_types(Json& json) {
     renamed = true;
   }
   return renamed;
+}
+
+/// tinygltf complains about channels that name no node, as those of KHR_animation_pointer. Takes them out of the text:
+/// animations are only counted.
+/// @returns whether there was any.
+bool drop_channels_without_node(Json& json) {
+  const auto animations = json.find("animations");
+  if (animations == json.end() || !animations->is_array()) return false;
+  const auto has_no_node = [](const Json& channel) {
+    const auto target = channel.is_object() ? channel.find("target") : channel.end();
+    return target != channel.end() && target->is_object() && !target->contains("node");
+  };
+  bool dropped = false;
+  for (Json& animation : *animations) {
+    if (!animation.is_object() || !animation.contains("channels") || !animation["channels"].is_array()) continue;
+    Json kept = Json::array();
+    for (Json& channel : animation["channels"])
+      if (!has_no_node(channel)) kept.push_back(std::move(channel));
+    dropped = dropped || kept.size() != animation["channels"].size();
+    animation["channels"] = std::move(kept);
+  }
+  return dropped;
 }
 
 /// Where a primitive's indices are.
@@ -480,11 +503,12 @@ Document load_document(const std::filesystem::path& path) {
                            document.warnings);
   check_meshopt_numbers(json, document.file);
   const auto primitives = count_primitives(json);
-  document.empty_buffers = fill_empty_buffers(json, document.binary);
+  const bool has_chunk = document.binary && 20 + std::size_t{word(bytes, 12)} < word(bytes, 8);
+  document.empty_buffers = fill_empty_buffers(json, has_chunk);
   const std::vector<Indices> detached = detach_indices(json);
-  const bool renamed = rename_picture_types(json);
+  const bool renamed = rename_picture_types(json), dropped = drop_channels_without_node(json);
   std::vector<ReferencedFile> buffers = detach_buffers(json, path), images = detach_images(json, path);
-  if (!document.empty_buffers.empty() || !detached.empty() || renamed || !buffers.empty() || !images.empty())
+  if (!document.empty_buffers.empty() || !detached.empty() || renamed || dropped || !buffers.empty() || !images.empty())
     bytes = with_json(bytes, document.binary, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 
   tinygltf::TinyGLTF loader = make_loader();

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/io/gltf_origin.hpp"
 #include "papilla/io/scene.hpp"
 
 namespace papilla::gltf {
@@ -29,6 +30,9 @@ struct Document {
 /// @throws IoError, InvalidInput as read_gltf().
 Document load_document(const std::filesystem::path& path);
 
+/// Bytes of one component; 0 when the type is unknown.
+std::size_t component_size(int component_type);
+
 /// glTF 2.0, 3.11: how a normalized integer becomes a real number. Floats stay as they are.
 double normalize(double value, int component_type);
 
@@ -43,6 +47,10 @@ class AccessorReader {
   /// @param where       how messages name the use, for example "mesh 0, primitive 1, POSITION".
   /// @throws InvalidInput naming file, use, accessor and reason; also when a number is not finite.
   std::vector<double> numbers(int accessor, int components, const std::string& where);
+
+  /// The elements as they are stored, one after the other without gaps, those of sparse accessors at their places.
+  /// @pre no matrices.
+  std::vector<std::byte> bytes(int accessor, const std::string& where);
 
   /// The elements of a scalar accessor of unsigned integers.
   std::vector<std::uint32_t> indices(int accessor, const std::string& where);
@@ -64,8 +72,8 @@ class AccessorReader {
                                        const std::string& where) const;
   Elements elements(int view, std::size_t offset, std::size_t count, int component_type, int components, bool strided,
                     const std::string& where);
-  void apply_sparse(const tinygltf::Accessor& accessor, int components, std::vector<double>& values,
-                    const std::string& where);
+  template <class Use>
+  void for_each_sparse(const tinygltf::Accessor& accessor, int components, const std::string& where, Use use);
   std::vector<double> raw_numbers(const tinygltf::Accessor& accessor, int components, const std::string& where);
 
   const Document& document_;
@@ -83,6 +91,9 @@ void read_materials(const Document& document, AccessorReader& reader, Scene& sce
 
 /// Turns the meshes of a document into the parts of a scene, in the same order.
 /// Adds a default material when a primitive names none. @pre `scene.materials` have been read.
-void read_parts(const Document& document, AccessorReader& reader, Scene& scene);
+/// @param tag_channel  GltfReadOptions::tag_channel.
+/// @returns GltfOrigin::parts.
+std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReader& reader, bool tag_channel,
+                                         Scene& scene);
 
 }  // namespace papilla::gltf

@@ -29,6 +29,7 @@ struct Vertices {
 /// The part under construction; attribute values follow the order of first use.
 struct PartBuilder {
   Part part;
+  GltfOrigin::Part origin;
   VertexWelder welder;
   bool has_normals = false;
   std::vector<std::uint8_t> carries;  ///< Per triangle: k_uv, k_uv1, k_colors of its primitive.
@@ -75,10 +76,11 @@ std::optional<int> attribute(const tinygltf::Primitive& primitive, const char* n
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(const Document& document, AccessorReader& reader, Scene& scene)
-      : document_(document), reader_(reader), scene_(scene) {}
+  PrimitiveReader(const Document& document, AccessorReader& reader, bool tag_channel, Scene& scene)
+      : document_(document), reader_(reader), tag_channel_(tag_channel), scene_(scene) {}
 
-  void read(const tinygltf::Primitive& primitive, const std::string& where, PartBuilder& builder) {
+  void read(const tinygltf::Primitive& primitive, std::uint32_t number, const std::string& where,
+            PartBuilder& builder) {
     const auto position = attribute(primitive, "POSITION");
     if (!position) {
       scene_.losses.push_back(where + " has no positions and draws nothing");
@@ -95,7 +97,10 @@ class PrimitiveReader {
       vertices = read_vertices(primitive, *position, where);
       triangles = read_triangles(primitive, vertices.count, where);
     }
-    append(vertices, triangles, material_slot(primitive.material, where, builder.part), builder);
+    const std::uint32_t slot = material_slot(primitive.material, where, builder);
+    const auto first = static_cast<std::uint32_t>(builder.part.mesh.triangles.size());
+    append(vertices, triangles, slot, builder);
+    builder.origin.primitives.push_back({number, slot, first, std::move(triangles)});
   }
 
  private:
@@ -116,7 +121,7 @@ class PrimitiveReader {
     vertices.count = vertices.positions.size() / 3;
     vertices.normals = optional_numbers(primitive, "NORMAL", 3, vertices.count, where);
     vertices.uv = optional_numbers(primitive, "TEXCOORD_0", 2, vertices.count, where);
-    vertices.uv1 = optional_numbers(primitive, "TEXCOORD_1", 2, vertices.count, where);
+    vertices.uv1 = optional_numbers(primitive, channel_1(primitive.material).c_str(), 2, vertices.count, where);
     if (const auto color = attribute(primitive, "COLOR_0")) {
       vertices.color_components = reader_.accessor(*color, where).type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
       vertices.colors = optional_numbers(primitive, "COLOR_0", vertices.color_components, vertices.count, where);
@@ -135,10 +140,11 @@ class PrimitiveReader {
   /// KHR_draco_mesh_compression: the stream's attributes stand in for the accessors', triangles for any mode.
   void read_compressed(const tinygltf::Primitive& primitive, const tinygltf::Value& extension, const std::string& where,
                        Vertices& vertices, std::vector<Triangle>& triangles) {
+    const std::string uv1 = channel_1(primitive.material);
     std::vector<CompressedAttribute> attributes = {{"POSITION", 3, &vertices.positions},
                                                    {"NORMAL", 3, &vertices.normals},
                                                    {"TEXCOORD_0", 2, &vertices.uv},
-                                                   {"TEXCOORD_1", 2, &vertices.uv1},
+                                                   {uv1.c_str(), 2, &vertices.uv1},
                                                    {"COLOR_0", 4, &vertices.colors}};
     if (const auto color = attribute(primitive, "COLOR_0")) {
       vertices.color_components = reader_.accessor(*color, where).type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
@@ -215,7 +221,16 @@ class PrimitiveReader {
     return triangles_of(primitive.mode, corners);
   }
 
-  std::uint32_t material_slot(int material, const std::string& where, Part& part) {
+  /// The attribute that becomes TriangleMesh::uv1.
+  std::string channel_1(int material) const {
+    if (!tag_channel_ || material < 0 || static_cast<std::size_t>(material) >= scene_.materials.size())
+      return "TEXCOORD_1";
+    const auto& tag = scene_.materials[static_cast<std::size_t>(material)].haptic;
+    return "TEXCOORD_" + std::to_string(tag && tag->height ? std::max(tag->height->tex_coord, 1) : 1);
+  }
+
+  std::uint32_t material_slot(int material, const std::string& where, PartBuilder& builder) {
+    Part& part = builder.part;
     const std::size_t count = document_.model.materials.size();
     if (material >= static_cast<int>(count))
       throw InvalidInput(document_.file + ": " + where + ": material " + std::to_string(material) + " does not exist");
@@ -223,6 +238,7 @@ class PrimitiveReader {
     const auto found = std::find(part.materials.begin(), part.materials.end(), number);
     if (found != part.materials.end()) return static_cast<std::uint32_t>(found - part.materials.begin());
     part.materials.push_back(number);
+    builder.origin.materials.push_back(material >= 0 ? std::optional(number) : std::nullopt);
     return static_cast<std::uint32_t>(part.materials.size() - 1);
   }
 
@@ -271,6 +287,7 @@ class PrimitiveReader {
 
   const Document& document_;
   AccessorReader& reader_;
+  bool tag_channel_;
   Scene& scene_;
   std::optional<std::uint32_t> default_material_;
 };
@@ -331,12 +348,15 @@ void note_losses(const tinygltf::Primitive& primitive, const std::string& where,
 
 }  // namespace
 
-void read_parts(const Document& document, AccessorReader& reader, Scene& scene) {
-  PrimitiveReader primitives(document, reader, scene);
+std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReader& reader, bool tag_channel,
+                                         Scene& scene) {
+  PrimitiveReader primitives(document, reader, tag_channel, scene);
+  std::vector<GltfOrigin::Part> origins;
   std::set<std::string> losses;
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
     const tinygltf::Mesh& mesh = document.model.meshes[m];
     PartBuilder builder;
+    builder.origin.mesh = static_cast<std::uint32_t>(m);
     builder.part.name = mesh.name;
     builder.part.extras_json = mesh.extras_json_string;
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
@@ -350,11 +370,13 @@ void read_parts(const Document& document, AccessorReader& reader, Scene& scene) 
         continue;
       }
       note_losses(primitive, where, losses);
-      primitives.read(primitive, where, builder);
+      primitives.read(primitive, static_cast<std::uint32_t>(p), where, builder);
     }
+    origins.push_back(std::move(builder.origin));
     scene.parts.push_back(finish(std::move(builder)));
   }
   scene.losses.insert(scene.losses.end(), losses.begin(), losses.end());
+  return origins;
 }
 
 }  // namespace papilla::gltf

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -93,7 +94,8 @@ class InstanceReader {
   AccessorReader& reader_;
 };
 
-void add_children(std::vector<Transform> places, std::uint32_t number, const std::string& where, Scene& scene) {
+void add_children(std::vector<Transform> places, std::uint32_t number, const std::string& where, Scene& scene,
+                  GltfOrigin& origin) {
   const auto part = scene.nodes[number].part;
   scene.nodes[number].part.reset();
   for (Transform& place : places) {
@@ -105,6 +107,7 @@ void add_children(std::vector<Transform> places, std::uint32_t number, const std
     child.local = place;
     scene.nodes[number].children.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
     scene.nodes.push_back(std::move(child));
+    origin.nodes.push_back(number);
   }
 }
 
@@ -112,7 +115,7 @@ void add_children(std::vector<Transform> places, std::uint32_t number, const std
 /// itself. Attributes of the instances other than their places are losses.
 /// @pre scene.nodes are the document's, in the same order.
 /// @throws InvalidInput when the attributes differ in number, or a place is not finite.
-void expand_instances(const Document& document, AccessorReader& reader, Scene& scene) {
+void expand_instances(const Document& document, AccessorReader& reader, Scene& scene, GltfOrigin& origin) {
   InstanceReader instances(document, reader);
   std::set<std::string> lost;
   for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {
@@ -122,7 +125,8 @@ void expand_instances(const Document& document, AccessorReader& reader, Scene& s
     const std::string where = "node " + std::to_string(i) + ", EXT_mesh_gpu_instancing";
     const tinygltf::Value& attributes = extension->second.Get("attributes");
     if (!attributes.IsObject()) throw InvalidInput(document.file + ": " + where + ": attributes are missing");
-    add_children(instances.read(attributes, where), static_cast<std::uint32_t>(i), document.file + ": " + where, scene);
+    add_children(instances.read(attributes, where), static_cast<std::uint32_t>(i), document.file + ": " + where, scene,
+                 origin);
     for (const std::string& name : attributes.Keys())
       if (name != "TRANSLATION" && name != "ROTATION" && name != "SCALE") lost.insert("instances' attribute " + name);
   }
@@ -206,10 +210,44 @@ void drop_coverages(Node& node) {
   node.extras_json = extras.empty() ? "" : extras.dump();
 }
 
+/// The parts that flagged nodes show and no others do.
+std::vector<bool> parts_of_only(const Scene& scene, const std::vector<bool>& flagged) {
+  std::vector<bool> only(scene.parts.size(), false);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].part && flagged[i]) only[*scene.nodes[i].part] = true;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].part && !flagged[i]) only[*scene.nodes[i].part] = false;
+  return only;
+}
+
+std::set<std::uint32_t> parts_below(const Scene& scene, std::vector<std::uint32_t> nodes) {
+  std::vector<bool> below(scene.nodes.size(), false);
+  flag_below(scene, std::move(nodes), below);
+  std::set<std::uint32_t> parts;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (below[i] && scene.nodes[i].part) parts.insert(*scene.nodes[i].part);
+  return parts;
+}
+
+/// Gives the parts of coarser levels the name of the part whose levels they are, where it is one.
+/// @param only_lower  flags of the parts that no finest level shows.
+void name_coarser_parts(const Document& document, const std::vector<bool>& only_lower, Scene& scene) {
+  for (std::uint32_t i = 0; i < document.model.nodes.size(); ++i) {
+    const std::vector<std::uint32_t> ids = lower_levels(document, i);
+    if (ids.empty()) continue;
+    std::set<std::uint32_t> finest = parts_below(scene, {i});
+    std::erase_if(finest, [&](std::uint32_t part) { return only_lower[part]; });
+    if (finest.size() != 1) continue;
+    for (const std::uint32_t part : parts_below(scene, ids))
+      if (only_lower[part]) scene.parts[part].name = scene.parts[*finest.begin()].name;
+  }
+}
+
 /// Leaves out the coarser levels of detail (MSFT_lod): the nodes that a node lists as its lower levels, what stands
 /// below them, the parts that only they show, and the screen coverages in the node's extras. Noted in Scene::losses.
+/// @param keep_parts  GltfReadOptions::coarser_parts.
 /// @throws InvalidInput when a list names its own node or one that does not exist.
-void keep_finest_levels(const Document& document, Scene& scene) {
+void keep_finest_levels(const Document& document, bool keep_parts, Scene& scene, GltfOrigin& origin) {
   std::vector<bool> lower(scene.nodes.size(), false);
   std::size_t levels = 0;
   for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {  // the scene may have more: instances
@@ -220,13 +258,14 @@ void keep_finest_levels(const Document& document, Scene& scene) {
     flag_below(scene, ids, lower);
   }
   if (levels == 0) return;
-  std::vector<bool> only_lower(scene.parts.size(), false);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    if (scene.nodes[i].part && lower[i]) only_lower[*scene.nodes[i].part] = true;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    if (scene.nodes[i].part && !lower[i]) only_lower[*scene.nodes[i].part] = false;
+  const std::vector<bool> only_lower = parts_of_only(scene, lower);
+  if (keep_parts) name_coarser_parts(document, only_lower, scene);
   drop_nodes(scene, lower);
-  drop_parts(scene, only_lower);
+  drop(origin.nodes, lower);
+  if (!keep_parts) {
+    drop_parts(scene, only_lower);
+    drop(origin.parts, only_lower);
+  }
   scene.losses.push_back(std::to_string(levels) + " coarser levels of detail (" + k_extension + ")");
 }
 
@@ -397,9 +436,21 @@ void note_losses(const Document& document, Scene& scene) {
   scene.losses.insert(scene.losses.end(), extensions.begin(), extensions.end());
 }
 
+/// Gives the channel of the tag the number 1, and that one its number.
+void move_tag_channel(Material& material) {
+  if (!material.haptic || !material.haptic->height || material.haptic->height->tex_coord <= 1) return;
+  const int channel = std::exchange(material.haptic->height->tex_coord, 1);
+  for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                          &material.occlusion_texture, &material.emissive_texture}) {
+    if (!*reference) continue;
+    int& own = (*reference)->tex_coord;
+    own = own == channel ? 1 : own == 1 ? channel : own;
+  }
+}
+
 }  // namespace
 
-Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options) {
+Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options, GltfOrigin* origin_of) {
   Document document = gltf::load_document(path);
   Scene scene;
   scene.format = "glTF";
@@ -409,11 +460,16 @@ Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& option
   scene.warnings = std::move(document.warnings);
   AccessorReader reader(document);
   gltf::read_materials(document, reader, scene);
-  gltf::read_parts(document, reader, scene);
+  GltfOrigin origin;
+  origin.parts = gltf::read_parts(document, reader, options.tag_channel, scene);
+  if (options.tag_channel)
+    for (Material& material : scene.materials) move_tag_channel(material);
   read_nodes(document, scene);
+  origin.nodes.resize(scene.nodes.size());
+  std::iota(origin.nodes.begin(), origin.nodes.end(), 0U);
   read_roots(document, scene);
-  expand_instances(document, reader, scene);  // appends nodes: those of the file keep their numbers
-  keep_finest_levels(document, scene);
+  expand_instances(document, reader, scene, origin);  // appends nodes: those of the file keep their numbers
+  keep_finest_levels(document, options.coarser_parts, scene, origin);
   note_losses(document, scene);
   read_asset(document, scene);
   try {
@@ -425,6 +481,7 @@ Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& option
   // Names, addresses and keys come from the file.
   for (std::vector<std::string>* lines : {&scene.losses, &scene.warnings})
     for (std::string& line : *lines) line = one_line(line);
+  if (origin_of != nullptr) *origin_of = std::move(origin);
   return scene;
 }
 

@@ -17,8 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* k_manifest = "hapticManifest";
-constexpr const char* k_node_tags = "hapticMaterials";
 constexpr int k_version = 1;
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -196,7 +194,7 @@ void add_tag_manifest(const Scene& scene, std::string& asset_extras_json, std::v
     json[name] = std::move(member);
     extras = text_of(json);
   };
-  add(asset_extras_json, k_manifest, Json::parse(to_json(manifest)));
+  add(asset_extras_json, k_tag_manifest, Json::parse(to_json(manifest)));
   std::map<std::uint32_t, std::map<std::uint32_t, double>> areas;
   for (const Instance& instance : instances(scene)) {
     const Part& part = scene.parts[instance.part];
@@ -214,7 +212,7 @@ void add_tag_manifest(const Scene& scene, std::string& asset_extras_json, std::v
 }
 
 std::optional<TagManifest> take_tag_manifest(Scene& scene) {
-  const Json own = take_member(scene.asset.extras_json, k_manifest);
+  const Json own = take_member(scene.asset.extras_json, k_tag_manifest);
   TagManifest of_nodes;
   for (Node& node : scene.nodes) try {
       if (const Json tags = take_member(node.extras_json, k_node_tags); !tags.is_null())
@@ -226,10 +224,10 @@ std::optional<TagManifest> take_tag_manifest(Scene& scene) {
       std::vector<HapticWarning> warnings;
       TagManifest manifest = manifest_of(own, warnings);
       for (const HapticWarning& warning : warnings)
-        scene.warnings.push_back(std::string(k_manifest) + ": " + warning.message);
+        scene.warnings.push_back(std::string(k_tag_manifest) + ": " + warning.message);
       return manifest;
     } catch (const std::exception& error) {
-      scene.warnings.push_back(std::string("asset.extras.") + k_manifest +
+      scene.warnings.push_back(std::string("asset.extras.") + k_tag_manifest +
                                ": can't be read: " + first_line(error.what()));
     }
   if (of_nodes.materials.empty()) return std::nullopt;

@@ -278,7 +278,7 @@ HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, 
 }
 
 HapticScene load_haptic_scene(const std::filesystem::path& path, const HapticSceneOptions& options) {
-  return haptic_scene(read_gltf(path), path, options);
+  return haptic_scene(read_gltf(path, {.tag_channel = true}), path, options);
 }
 
 LargestMaterial largest_material(const HapticScene& scene) {

@@ -105,6 +105,7 @@ struct ShadedMaterial {
   double roughness = 0.8, metallic = 0;
   double opacity = 1;
   std::shared_ptr<const MipPyramid> color_map = {}, normal_map = {};
+  int color_channel = 0, channel = 0;  ///< Of the uv for colour, and for all else.
   UvTransform color_transform = {}, normal_transform = {};
   double normal_scale = 1;
   Vec2 mm_per_uv = {};
@@ -112,7 +113,7 @@ struct ShadedMaterial {
 
 struct Vertex {
   Vec3 world, normal;
-  Vec2 uv;
+  Vec2 uv, color_uv;
   double x = 0, y = 0, inverse_depth = 0;
 };
 
@@ -127,9 +128,9 @@ struct TriangleSetup {
   const ShadedMaterial* material = nullptr;
   double doubled_area = 0;  // in samples, signed
   Vec3 tangent, bitangent;
-  bool has_uv = false;
-  double uv_area_per_cubic_depth = 0;  // Of a sample.
-  std::array<bool, 3> border{};        ///< From corner k to the next one; of RenderMode::triangles.
+  bool has_uv = false, has_color_uv = false;
+  double uv_area_per_cubic_depth = 0, color_uv_area_per_cubic_depth = 0;  // Of a sample.
+  std::array<bool, 3> border{};  ///< From corner k to the next one; of RenderMode::triangles.
 };
 
 class Pyramids {
@@ -137,7 +138,7 @@ class Pyramids {
   explicit Pyramids(const Scene& scene) : scene_(scene), color_(scene.textures.size()), raw_(scene.textures.size()) {}
 
   std::shared_ptr<const MipPyramid> get(const std::optional<TextureReference>& reference, bool color) {
-    if (!reference || reference->texture >= scene_.textures.size() || reference->tex_coord != 0) return nullptr;
+    if (!reference || reference->texture >= scene_.textures.size() || reference->tex_coord > 1) return nullptr;
     const auto& image = scene_.textures[reference->texture].image;
     if (!image || *image >= scene_.images.size()) return nullptr;
     auto& slot = (color ? color_ : raw_)[reference->texture];
@@ -167,6 +168,9 @@ ShadedMaterial shaded_material(const Scene& scene, std::size_t index, const Scen
   shaded.metallic = material.metallic;
   if (index < options.mm_per_uv.size()) shaded.mm_per_uv = options.mm_per_uv[index];
   if (options.mode == RenderMode::triangles) return {.color = k_clay};
+  if (material.normal_texture) shaded.channel = material.normal_texture->tex_coord;
+  if (material.haptic && material.haptic->height) shaded.channel = material.haptic->height->tex_coord;
+  if (material.base_color_texture) shaded.color_channel = material.base_color_texture->tex_coord;
   if (options.mode != RenderMode::material) return shaded;
   if (material.alpha_mode == "BLEND") shaded.opacity = std::clamp(material.base_color[3], 0.0, 1.0);
   shaded.color_map = pyramids.get(material.base_color_texture, true);
@@ -231,7 +235,7 @@ Camera place_camera(const Scene& scene, const std::vector<TriangleSetup>& triang
 
 Vertex between(const Vertex& a, const Vertex& b, double t) {
   const auto mix = [&](auto member) { return (1 - t) * (a.*member) + t * (b.*member); };
-  return {mix(&Vertex::world), mix(&Vertex::normal), mix(&Vertex::uv)};
+  return {mix(&Vertex::world), mix(&Vertex::normal), mix(&Vertex::uv), mix(&Vertex::color_uv)};
 }
 
 /// Clips all triangles at the plane `near` before the camera.
@@ -267,10 +271,10 @@ void clip_near(std::vector<TriangleSetup>& triangles, const Camera& camera, doub
 }
 
 /// uv area under one sample, divided by depth³: on a plane at distance d a sample covers depth³ / (focal² d).
-double uv_area_per_cubic_depth(const TriangleSetup& t, const Camera& camera) {
+double uv_area_per_cubic_depth(const TriangleSetup& t, Vec2 Vertex::*uv, const Camera& camera) {
   const Vec3 twice = cross(t.v[1].world - t.v[0].world, t.v[2].world - t.v[0].world);
   const double volume = camera.focal * camera.focal * std::abs(dot(twice, t.v[0].world - camera.position));
-  return volume > 0 ? std::abs(cross(t.v[1].uv - t.v[0].uv, t.v[2].uv - t.v[0].uv)) / volume : 0;
+  return volume > 0 ? std::abs(cross(t.v[1].*uv - t.v[0].*uv, t.v[2].*uv - t.v[0].*uv)) / volume : 0;
 }
 
 void project(const Camera& camera, Vertex& vertex) {
@@ -311,16 +315,18 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
   Vec3 color = material.color;
   if (options.mode == RenderMode::checker) {
     color = checker_color(t, uv, options.checker_mm);
-  } else if (t.has_uv) {
+  } else {
     const double depth = dot(position - camera.position, camera.forward);
-    const double uv_area = t.uv_area_per_cubic_depth * depth * depth * depth;
-    if (material.color_map) {
+    if (material.color_map && t.has_color_uv) {
+      const Vec2 color_uv = mix(&Vertex::color_uv);
+      const double uv_area = t.color_uv_area_per_cubic_depth * depth * depth * depth;
       const UvTransform& map = material.color_transform;
       const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.color_map->texel_count();
-      const Vec3 texel = material.color_map->sample(transform_uv(map, uv), texels);
+      const Vec3 texel = material.color_map->sample(transform_uv(map, color_uv), texels);
       color = {color.x * texel.x, color.y * texel.y, color.z * texel.z};
     }
-    if (material.normal_map && norm(t.tangent) > 0) {
+    if (material.normal_map && t.has_uv && norm(t.tangent) > 0) {
+      const double uv_area = t.uv_area_per_cubic_depth * depth * depth * depth;
       const UvTransform& map = material.normal_transform;
       const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.normal_map->texel_count();
       const Vec3 texel = material.normal_map->sample(transform_uv(map, uv), texels);
@@ -416,10 +422,13 @@ std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vecto
       TriangleSetup t;
       const std::uint32_t slot = mesh.material.empty() ? 0 : mesh.material[i];
       t.material = slot < part.materials.size() ? &materials[part.materials[slot]] : &plain;
-      t.has_uv = mesh.uv.has_value(i);
+      const auto& uv = t.material->channel == 1 ? mesh.uv1 : mesh.uv;
+      const auto& color_uv = t.material->color_channel == 1 ? mesh.uv1 : mesh.uv;
+      t.has_uv = uv.has_value(i), t.has_color_uv = color_uv.has_value(i);
       for (std::size_t k = 0; k < 3; ++k) {
         t.v[k].world = transform_point(world, mesh.positions[mesh.triangles[i][k]]);
-        if (t.has_uv) t.v[k].uv = mesh.uv.values[mesh.uv.indices[i][k]];
+        if (t.has_uv) t.v[k].uv = uv.values[uv.indices[i][k]];
+        if (t.has_color_uv) t.v[k].color_uv = color_uv.values[color_uv.indices[i][k]];
       }
       const Vec3 flat = normalized(cross(t.v[1].world - t.v[0].world, t.v[2].world - t.v[0].world));
       for (std::size_t k = 0; k < 3; ++k) {
@@ -496,7 +505,8 @@ ColorImage render_scene(const Scene& scene, const SceneViewOptions& options) {
     for (Vertex& v : t.v) project(camera, v);
     t.doubled_area =
         cross(Vec2{t.v[1].x - t.v[0].x, t.v[1].y - t.v[0].y}, Vec2{t.v[2].x - t.v[0].x, t.v[2].y - t.v[0].y});
-    if (t.has_uv) t.uv_area_per_cubic_depth = uv_area_per_cubic_depth(t, camera);
+    if (t.has_uv) t.uv_area_per_cubic_depth = uv_area_per_cubic_depth(t, &Vertex::uv, camera);
+    if (t.has_color_uv) t.color_uv_area_per_cubic_depth = uv_area_per_cubic_depth(t, &Vertex::color_uv, camera);
   }
   std::erase_if(triangles, [](const TriangleSetup& t) { return !(std::abs(t.doubled_area) > 0); });
   sort_transparent(triangles);

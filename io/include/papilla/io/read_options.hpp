@@ -18,6 +18,7 @@ struct ReadOptions {
   double angle_deg = 20;       ///< CAD surfaces: largest angle between neighbouring normals.
   double max_edge_mm = 0;      ///< CAD surfaces: longest edge of a triangle; 0: any.
   std::filesystem::path tags;  ///< glTF: GltfReadOptions::tags.
+  bool tag_channel = false;    ///< glTF: GltfReadOptions::tag_channel.
 };
 
 }  // namespace papilla

@@ -18,6 +18,13 @@
 
 namespace papilla {
 
+/// Shares of a surface's area, or of that of its uv, in [0, 1].
+struct UvDefects {
+  double flipped = 0;      ///< Mirrored; charts of symmetric parts often are, and serve as well as others.
+  double degenerate = 0;   ///< Without uv, or with a triangle of uv without area.
+  double overlapping = 0;  ///< Of the uv: covered more than once, which pictures that tile don't mind.
+};
+
 /// The triangles of one part that share one material: what a rule is assigned to and a plan is made for.
 struct PartSurface {
   std::uint32_t part = 0;
@@ -25,8 +32,12 @@ struct PartSurface {
   std::vector<std::uint32_t> triangles;  ///< Of the part's mesh, ascending.
   std::string material;                  ///< Name of an entry of Materials::materials; empty: nothing is assigned.
   double uv_mm_per_unit = 0;             ///< Millimetres of surface per unit of its own uv; 0 without uv.
+  UvDefects uv_defects;                  ///< Of its own uv.
   std::string uv_note;                   ///< What was found about its own uv.
+  std::vector<std::string> lost;         ///< Its pictures that new uv leave without a place.
   bool is_left_out = false;              ///< With its whole part.
+  std::vector<std::uint8_t> turned;      ///< In place, per triangle, 1: turned over. Empty: none.
+  bool becomes_double_sided = false;     ///< In place: its material does.
   SurfacePlan plan;
   std::string label;  ///< "part", or "part/material" when the part has several materials.
 };
@@ -36,6 +47,10 @@ struct BakePlanOptions {
   PerceptionOptions perception;       ///< Parts to be left out.
   std::optional<std::size_t> budget;  ///< Triangles that the scene may draw.
   SceneSideOptions sides;             ///< `perception.view` tells where eyes are when `inside` is not given.
+  bool keep_copies = false;           ///< Identical parts are not made instances of one.
+  /// For an edit of the scene's file: nothing is shared, pictures stay, and so do triangles but for sheets with relief
+  /// that face away, which would be felt inverted.
+  bool in_place = false;
 };
 
 /// A scene made ready to be baked, and what shall be done to each of its surfaces.
@@ -58,8 +73,9 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
 
 /// The decisions for a scene as it is: nothing is shared, left out or simplified.
 /// @param perception Of the scene's parts; empty when nothing was asked.
+/// @param in_place As in BakePlanOptions.
 std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rules,
-                                       const std::vector<PartPerception>& perception = {});
+                                       const std::vector<PartPerception>& perception = {}, bool in_place = false);
 
 /// The rule that `rules` assign to a part's material slot by the names of part and material and by colour, or nullptr.
 const MaterialRule* assigned_rule(const Scene& scene, const Part& part, std::size_t slot, const Materials& rules);

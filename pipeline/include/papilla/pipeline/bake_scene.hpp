@@ -25,8 +25,9 @@ struct BakeOptions {
 
 /// A surface with grain, as it was baked.
 struct BakedSurface {
-  std::uint32_t part = 0;
+  std::uint32_t part = 0, slot = 0;  ///< As in PartSurface.
   std::string label, material;
+  std::string same_as;         ///< In place: the label of the equal surface whose new uv these are; or empty.
   std::string method, reason;  ///< Of the unwrap; "kept" when its own uv stays.
   std::uint32_t charts = 0;
   double seam_mm = 0;
@@ -34,12 +35,13 @@ struct BakedSurface {
   SeamVisibility seams;           ///< For the grain's tile, a grain being an eighth of it.
   std::vector<std::string> notes;
   DistortionReport distortion;
-  TriangleMesh mesh;  ///< The surface with uv in millimetres.
+  TriangleMesh mesh;         ///< The surface with uv in millimetres.
+  CornerAttribute<Vec2> uv;  ///< In place: the new uv in repeats of the grain; empty when its own stay.
 };
 
 struct BakeResult {
-  BakePlan plan;                          ///< Without its scene.
-  Scene scene;                            ///< With uv, textures and haptic tags; ready to be written.
+  BakePlan plan;  ///< Without its scene.
+  Scene scene;    ///< With uv, textures and haptic tags; ready to be written. In place: as it was.
   std::map<std::string, Grain> grains;    ///< By material.
   std::vector<BakedSurface> surfaces;     ///< Those with grain.
   std::vector<Vec2> mm_per_uv;            ///< Per material of `scene`; 0 when unknown.

@@ -14,10 +14,18 @@ namespace papilla {
 enum class Stage { tessellate, repair, charts, unwrap, measure, analyze, height, normal_map, tag };
 inline constexpr std::size_t k_stage_count = 9;
 
+/// Which uv the grain of a surface shall have.
+enum class UvWish {
+  automatic,  ///< Its own where they are usable.
+  keep,       ///< Its own, whatever they are like.
+  renew       ///< New ones: a method is named, or just new ones are wanted.
+};
+
 /// What the user wants of a surface.
 struct Wanted {
   bool grain = false;  ///< Its material has a picture of grain.
   bool feel = false;   ///< Its material has haptic constants or grain.
+  UvWish uv = UvWish::automatic;
 };
 
 /// Why a part is left out: nobody gets at it.
@@ -42,6 +50,7 @@ struct Given {
   bool is_clean = false;           ///< Its mesh is manifold and without defects.
   std::string_view left_out = {};  ///< reason_of() when the part is left out: then nothing but tessellation runs.
   bool is_only_seen = false;       ///< The part stays because it is seen, but it can't be reached.
+  bool in_place = false;           ///< The file is edited: triangles stay as they are.
 };
 
 struct Decision {
@@ -69,6 +78,9 @@ constexpr Decision tessellate(const Wanted&, const Given& given) {
 constexpr Decision new_uv(const Wanted& wanted, const Given& given) {
   if (!given.left_out.empty()) return {false, given.left_out};
   if (!wanted.grain) return {false, k_no_grain};
+  if (given.uv != UvState::absent && wanted.uv == UvWish::keep)
+    return {false, "its own uv is kept, as the material says"};
+  if (given.uv != UvState::absent && wanted.uv == UvWish::renew) return {true, "the material asks for new uv"};
   switch (given.uv) {
     case UvState::usable: return {false, "its own uv is usable and kept"};
     case UvState::unusable: return {true, "its own uv is not usable"};
@@ -79,6 +91,7 @@ constexpr Decision new_uv(const Wanted& wanted, const Given& given) {
 
 constexpr Decision repair(const Wanted& wanted, const Given& given) {
   const Decision uv = new_uv(wanted, given);
+  if (uv.run && given.in_place) return {false, "the file is edited in place: its triangles stay"};
   return uv.run && given.is_clean ? Decision{false, "its mesh has no defect"} : uv;
 }
 

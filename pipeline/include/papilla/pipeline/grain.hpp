@@ -70,6 +70,13 @@ double default_max_slope(double static_friction);
 /// @throws IoError, InvalidInput naming the picture or the place in the recipe.
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin());
 
+/// The tag of a surface: of its grain, which may be null, and the rule's constants.
+/// @param kept_mm_per_unit  of uv that stay, on which a transform brings the grain to its scale; 0: the uv are repeats.
+MaterialTag surface_tag(const MaterialRule& rule, const Grain* grain, double kept_mm_per_unit);
+
+/// The transform of uv of `mm_per_unit` to repeats of the grain.
+UvTransform transform_to_repeats(const Grain& grain, double mm_per_unit);
+
 /// Copies the rule's haptic constants into a tag. @param stiffness_factor  multiplies the stiffness, the rule's or the
 /// tag's own.
 void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor = 1);

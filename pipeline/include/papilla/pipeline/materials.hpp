@@ -34,7 +34,7 @@ struct MaterialRule {
   std::optional<FrictionTag> friction_model;
   std::optional<bool> force_shading;
   HeightRule height;
-  std::string unwrap = "auto";  ///< auto, triplanar, lscm.
+  std::string unwrap = "auto";  ///< auto, keep, new, or a method of unwrap_methods(), which gives new uv.
   std::string show = "auto";  ///< auto (coloured pictures), picture (as base colour), relief (keep the part's colour).
   std::optional<std::string> color;  ///< "#RRGGBB" base colour instead of the scene's own.
   std::optional<double> roughness, metallic;

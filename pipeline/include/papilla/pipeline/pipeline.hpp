@@ -31,6 +31,7 @@
 /// oneapi::tbb::global_control. No function prints, and none keeps state between calls.
 
 #include "papilla/io/scene_file.hpp"
+#include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/measure_scene.hpp"

@@ -29,6 +29,14 @@ struct PartSides {
   std::size_t ambiguous = 0;         ///< Of these: have no side.
   std::size_t turned_triangles = 0;  ///< To make all but the ambiguous ones face those who see them.
   std::vector<SideReason> reasons;   ///< Of all of them, each once, ascending.
+  std::size_t left_facing_away = 0, left_ambiguous = 0;  ///< Of the above: those that leave_sheets() left as they are.
+};
+
+/// The sheets of one part, triangle by triangle.
+struct PartSheets {
+  std::uint32_t part = 0;
+  std::vector<SheetSide> sheets;
+  std::vector<std::uint8_t> turn;  ///< As MeshSheets::turn.
 };
 
 /// What is known of the sides of a scene's sheets.
@@ -38,6 +46,7 @@ struct SceneSides {
   double enclosure = 0;          ///< Of Viewpoint::room.
   std::vector<PartSides> parts;  ///< Those with sheets, in the order of Scene::parts.
   std::size_t open_components = 0, facing_away = 0, ambiguous = 0;  ///< Of all parts.
+  std::vector<PartSheets> sheets;                                   ///< Of `parts`.
   std::string skipped;  ///< Why nothing was looked at, though it was to be: coordinates beyond what sight lines carry.
   double seconds = 0;
 };
@@ -52,5 +61,9 @@ SceneSides find_sides(const Scene& scene, const SceneSideOptions& options = {}, 
 /// made, so that new uv are not mirrored; uv that a turned sheet has already keep their place and become mirrored.
 /// @throws InvalidInput as find_sides().
 SceneSides turn_sheets(Scene& scene, const SceneSideOptions& options = {}, std::span<const Volume> view = {});
+
+/// Takes back the turning of the sheets of one part of which no triangle is flagged, and counts them as left.
+/// @param number Index into `sides.parts` and `sides.sheets`. @param flags One a triangle of the part.
+void leave_sheets(SceneSides& sides, std::size_t number, const std::vector<std::uint8_t>& flags);
 
 }  // namespace papilla

@@ -3,13 +3,20 @@
 
 #include <filesystem>
 
+#include "papilla/io/gltf_origin.hpp"
 #include "papilla/io/scene.hpp"
 
 namespace papilla {
 
 struct GltfReadOptions {
   /// A glTF file with the tags as they were, whose tags replace the list within the file; empty: that list is used.
-  std::filesystem::path tags;
+  std::filesystem::path tags = {};
+  /// Channel 1 is, where the haptic tag of a material names a channel above 1, that one: tag and pictures on it say 1,
+  /// and pictures on channel 1 the other's number. For those who show or touch and do not write.
+  bool tag_channel = false;
+  /// The parts of coarser levels of detail stay, without nodes that show them. One below a node that shows a single
+  /// part gets that part's name, so that rules for one hold for the other. For those who edit the file.
+  bool coarser_parts = false;
 };
 
 /// Reads a .glb or .gltf file: meshes, node tree, materials, textures, images (kept encoded), extras.
@@ -34,6 +41,7 @@ struct GltfReadOptions {
 /// @throws IoError when the file can't be read; InvalidInput naming file, place and reason when it is no
 ///         valid glTF 2, truncated, or needs an extension that is not supported; or when the file of the options has
 ///         no haptic tag.
-Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options = {});
+/// @param origin  when given, gets where parts and nodes stand in the file.
+Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options = {}, GltfOrigin* origin = nullptr);
 
 }  // namespace papilla

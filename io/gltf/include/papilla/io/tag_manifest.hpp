@@ -12,6 +12,9 @@
 
 namespace papilla {
 
+/// The members of extras that hold it: of the asset, and of nodes.
+inline constexpr const char *k_tag_manifest = "hapticManifest", *k_node_tags = "hapticMaterials";
+
 /// A second account of the haptic tags of a file, by which tags that other programs drop or merge are missed and found
 /// again: asset.extras.hapticManifest, and in short extras.hapticMaterials of every node that shows a tagged material.
 struct TagManifest {

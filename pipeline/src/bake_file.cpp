@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/bake_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "papilla/core/read_file.hpp"
+#include "papilla/core/trace.hpp"
+#include "papilla/core/units.hpp"
+#include "papilla/io/gltf_reader.hpp"
+
+namespace papilla {
+namespace {
+
+bool is_gltf(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".glb" || extension == ".gltf";
+}
+
+/// What the scene can't hold stays in the file.
+Scene read_for_edit(const std::filesystem::path& input, const ReadOptions& options, const ProgressCallback& progress,
+                    GltfOrigin* origin) {
+  require_file(input);
+  report_progress(progress, "read", 0);
+  Scene scene = read_gltf(input, {.tags = options.tags, .coarser_parts = true}, origin);
+  scene.losses.clear();
+  report_progress(progress, "read", 1);
+  return scene;
+}
+
+const BakedSurface* baked_surface(const BakeResult& result, const PartSurface& surface) {
+  const auto found = std::find_if(result.surfaces.begin(), result.surfaces.end(), [&](const BakedSurface& s) {
+    return s.part == surface.part && s.slot == surface.slot;
+  });
+  return found == result.surfaces.end() ? nullptr : &*found;
+}
+
+GltfSurfaceEdit turned_only(const PartSurface& surface) {
+  GltfSurfaceEdit edit;
+  edit.part = surface.part, edit.slot = surface.slot;
+  edit.turned = surface.turned;
+  edit.keeps_material = true;
+  return edit;
+}
+
+/// Turns the triangles of the origin that the plan turned in the scene.
+void turn_origin(const std::vector<PartSurface>& surfaces, GltfOrigin& origin) {
+  for (const PartSurface& surface : surfaces) {
+    if (surface.turned.empty()) continue;
+    std::size_t next = 0;  // Triangles of a surface are in the order of its primitives.
+    for (GltfOrigin::Primitive& primitive : origin.parts[surface.part].primitives) {
+      if (primitive.slot != surface.slot) continue;
+      for (Triangle& corners : primitive.vertices)
+        if (surface.turned[next++] != 0) std::swap(corners[1], corners[2]);
+    }
+  }
+}
+
+/// What shall be written of each surface that a rule is assigned to, or that is turned.
+std::vector<GltfSurfaceEdit> surface_edits(const BakeResult& result, const Materials& rules) {
+  std::vector<GltfSurfaceEdit> edits;
+  for (const PartSurface& surface : result.plan.surfaces) {
+    if (surface.material.empty()) {
+      if (!surface.turned.empty()) edits.push_back(turned_only(surface));
+      continue;
+    }
+    const MaterialRule& rule = rules.materials.at(surface.material);
+    const BakedSurface* baked = baked_surface(result, surface);
+    const Grain* grain = baked != nullptr ? &result.grains.at(rule.name) : nullptr;
+    const double kept_mm_per_unit = baked != nullptr && baked->uv.empty() ? surface.uv_mm_per_unit : 0;
+    GltfSurfaceEdit edit;
+    edit.part = surface.part, edit.slot = surface.slot;
+    edit.turned = surface.turned;
+    edit.double_sided = surface.becomes_double_sided;
+    edit.rule = rule.name;
+    if (decision(surface.plan, Stage::tag).run) edit.tag = surface_tag(rule, grain, kept_mm_per_unit);
+    if (rule.color) edit.base_color = linear_colour(*rule.color);
+    edit.roughness = rule.roughness, edit.metallic = rule.metallic;
+    if (grain != nullptr) {
+      edit.normal_map = &grain->normal_png;
+      if (grain->picture) edit.picture = &*grain->picture;
+      if (kept_mm_per_unit > 0) edit.transform = transform_to_repeats(*grain, kept_mm_per_unit);
+      edit.uv = baked->uv;
+    }
+    edits.push_back(std::move(edit));
+  }
+  return edits;
+}
+
+/// The file as it is written, with the scale of each material's grain.
+void read_again(const std::filesystem::path& output, BakeResult& result) {
+  std::vector<std::string> warnings = std::move(result.scene.warnings);
+  result.scene = read_gltf(output, {.tag_channel = true});
+  result.scene.losses.clear();
+  result.scene.warnings = std::move(warnings);
+  result.mm_per_uv.clear();
+  for (const Material& material : result.scene.materials)
+    result.mm_per_uv.push_back(
+        material.haptic && material.haptic->height ? k_mm_per_metre * material.haptic->height->metres_per_uv : Vec2{});
+}
+
+void edit_file(const std::filesystem::path& input, const std::filesystem::path& output, const Materials& rules,
+               const BakeFileOptions& options, const ProgressCallback& progress, BakeFileResult& result) {
+  const Stopwatch total;
+  GltfOrigin origin;
+  Scene scene = read_for_edit(input, options.read, progress, &origin);
+  const double read_seconds = total.seconds();
+  BakeOptions bake = options.bake;
+  bake.plan.in_place = true;
+  static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, bake, progress);
+  result.seconds["read"] = read_seconds;
+  turn_origin(result.plan.surfaces, origin);
+  const Stopwatch write_clock;
+  GltfEditResult edited =
+      write_edited_gltf(input, std::move(result.scene), origin, surface_edits(result, rules), output);
+  result.seconds["write"] = write_clock.seconds();
+  result.scene = std::move(edited.scene);
+  result.changes = std::move(edited.changes);
+  for (std::string& note : edited.notes) result.scene.warnings.push_back(std::move(note));
+  if (options.for_pictures) read_again(output, result);
+  result.seconds["total"] = total.seconds();
+}
+
+}  // namespace
+
+BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options) {
+  if (!is_gltf(input)) return {false, "the input is no glTF file"};
+  if (options.read.up && *options.read.up != UpAxis::y) return {false, "the scene is to be turned"};
+  if (options.bake.plan.budget) return {false, "triangles are to be reduced"};
+  const PerceptionOptions& perception = options.bake.plan.perception;
+  if (perception.leave_out_unreachable || perception.leave_out_unseen) return {false, "parts are to be left out"};
+  if (options.write.mirror_mpeg_haptics || options.write.mirror_khr_physics)
+    return {false, "tags are to be mirrored in extensions"};
+  return {true, "only tags and what the grain needs are added"};
+}
+
+BakePlan plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
+                   const ProgressCallback& progress) {
+  BakePlanOptions plan = options.bake.plan;
+  plan.in_place = bake_way(input, options).in_place;
+  Scene scene =
+      plan.in_place ? read_for_edit(input, options.read, progress, nullptr) : read_scene(input, options.read, progress);
+  return plan_bake(std::move(scene), rules, plan, progress);
+}
+
+BakeFileResult bake_file(const std::filesystem::path& input, const std::filesystem::path& output,
+                         const Materials& rules, const BakeFileOptions& options, const ProgressCallback& progress) {
+  BakeFileResult result;
+  result.way = bake_way(input, options);
+  if (result.way.in_place) {
+    edit_file(input, output, rules, options, progress, result);
+    return result;
+  }
+  const Stopwatch total;
+  Scene scene = read_scene(input, options.read, progress);
+  const double read_seconds = total.seconds();
+  static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
+  result.seconds["read"] = read_seconds;
+  const Stopwatch write_clock;
+  for (std::string& loss : write_scene(result.scene, output, options.write))
+    result.scene.losses.push_back(std::move(loss));
+  result.seconds["write"] = write_clock.seconds();
+  result.seconds["total"] = total.seconds();
+  return result;
+}
+
+}  // namespace papilla

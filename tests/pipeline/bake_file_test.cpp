@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/bake_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <regex>
+
+#include "io/glb_fixture.hpp"
+#include "io/gltf_comparison.hpp"
+#include "io/gltf_feature_files.hpp"
+#include "io/temporary_folder.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/io/glb_writer.hpp"
+#include "papilla/io/gltf_reader.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/meshing/orient.hpp"
+#include "papilla/texture/grain.hpp"
+#include "papilla_test/shapes.hpp"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the Khronos validator said of a file, where that stands beside it.
+bool is_known_as_invalid(const fs::path& file) {
+  const fs::path report = file.string() + ".report.json";
+  return fs::exists(report) && nlohmann::json::parse(read_file(report)).at("issues").at("numErrors") > 0;
+}
+
+/// GltfFeatureFiles and what other programs wrote: files of data/exchange, and of the folder named by
+/// PAPILLA_SHARED_DATA.
+/// @param valid  false: those that are invalid and read nonetheless.
+std::vector<fs::path> gltf_files(bool valid = true) {
+  static const test::TemporaryFolder generated;
+  std::vector<fs::path> files;
+  if (valid) {
+    files = test::GltfFeatureFiles::write(generated.path());
+    for (const char* name : {"exchange/vent.glb", "exchange/vent.gltf"}) files.push_back(fs::path(PAPILLA_DATA) / name);
+  }
+  const char* shared = std::getenv("PAPILLA_SHARED_DATA");
+  if (shared == nullptr) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(shared)) {
+    const fs::path& file = entry.path();
+    if (file.extension() != ".glb" && file.extension() != ".gltf") continue;
+    if (is_known_as_invalid(file) == valid) continue;
+    try {
+      read_gltf(file);
+      files.push_back(file);
+    } catch (const Error&) {  // Invalid ones are refused, which others test.
+    }
+  }
+  return files;
+}
+
+class BakeFileTest : public testing::Test {
+ protected:
+  BakeFileTest() {
+    GrainOptions options;
+    options.size_px = 32;
+    write_grey_image(folder_ / "grain.png", synthesize_grain(GrainKind::spheres6, options).picture, 8);
+    MaterialRule grain;
+    grain.name = "grain";
+    grain.texture = folder_ / "grain.png";
+    grain.size_mm[0] = grain.size_mm[1] = 40;
+    grain.stiffness = 900;
+    MaterialRule hard;
+    hard.name = "hard";
+    hard.stiffness = 2000;
+    rules_.materials = {{"grain", grain}, {"hard", hard}};
+  }
+
+  void assign(const std::string& part, const std::string& material) {
+    AssignRule rule;
+    rule.part = part;
+    rule.material = material;
+    rules_.assign.push_back(rule);
+  }
+
+  fs::path out() const { return folder_ / "out.glb"; }
+
+  BakeFileResult bake(const fs::path& file) { return bake(file, out()); }
+
+  BakeFileResult bake(const fs::path& file, const fs::path& output) {
+    BakeFileResult result = bake_file(file, output, rules_, {});
+    EXPECT_TRUE(result.way.in_place);
+    EXPECT_TRUE(result.scene.losses.empty());
+    const auto differences = test::unlisted_differences(file, output, result.changes);
+    EXPECT_TRUE(differences.empty()) << file << ": " << differences.front();
+    return result;
+  }
+
+  const test::TemporaryFolder folder_;
+  Materials rules_;
+};
+
+/// Where a file becomes one GLB, buffers and pictures move into it.
+const std::string k_container =
+    R"(/buffers.*|/bufferViews(/\d+(/(buffer|byteOffset|extensions/.*))?)?|/images/\d+/\w+)";
+
+TEST_F(BakeFileTest, ConstantsChangeExtrasAndNothingElse) {
+  assign("*", "hard");
+  const std::regex allowed(
+      R"(/materials/\d+/extras(/haptic|/papilla)?(/\w+)*|/(nodes/\d+|asset)/extras(/haptic\w+)?(/.*)?)");
+  const std::regex new_material(R"(/materials(/\d+)?|/meshes/\d+/primitives/\d+/material)"), container(k_container);
+  std::size_t number = 0;
+  for (const fs::path& file : gltf_files())
+    for (const std::string extension : {".glb", ".gltf"}) {
+      // A folder each: files of one name belong to different scenes.
+      const fs::path output = folder_ / std::to_string(number++) / ("out" + extension);
+      fs::create_directories(output.parent_path());
+      for (const GltfChange& change : bake(file, output).changes)
+        EXPECT_TRUE(
+            std::regex_match(change.pointer, allowed) || std::regex_match(change.pointer, new_material) ||
+            (file.extension() == ".gltf" && extension == ".glb" && std::regex_match(change.pointer, container)) ||
+            (file.extension() == ".glb" && extension == ".gltf" && change.pointer == "/buffers/0/uri"))
+            << file << ": " << change.kind << " " << change.pointer;
+      fs::remove_all(output.parent_path());
+    }
+}
+
+/// The corners of every triangle of a part, as far as both files must agree.
+void expect_same_triangles(const Part& before, const Part& after, const fs::path& file) {
+  const TriangleMesh &a = before.mesh, &b = after.mesh;
+  ASSERT_EQ(a.triangles.size(), b.triangles.size()) << file << ": " << before.name;
+  for (std::size_t t = 0; t < a.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(a.corner(t, static_cast<int>(k)), b.corner(t, static_cast<int>(k))) << file;
+      const auto expect_same = [&](const auto& x, const auto& y) {
+        if (x.has_value(t)) {
+          ASSERT_TRUE(y.has_value(t)) << file;
+          ASSERT_EQ(x.values[x.indices[t][k]], y.values[y.indices[t][k]]) << file;
+        }
+      };
+      expect_same(a.normals, b.normals);
+      expect_same(a.uv, b.uv);
+      expect_same(a.colors, b.colors);
+    }
+}
+
+bool is_flat(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a) == 0; }
+
+/// A flag a triangle of the part.
+std::vector<std::uint8_t> turned_triangles(const BakeFileResult& result, std::uint32_t part, std::size_t count) {
+  std::vector<std::uint8_t> turned(count, 0);
+  for (const PartSurface& surface : result.plan.surfaces)
+    for (std::size_t i = 0; surface.part == part && i < surface.turned.size(); ++i)
+      turned[surface.triangles[i]] = surface.turned[i];
+  return turned;
+}
+
+/// What the reader leaves out, beside the new channel.
+std::vector<std::string> losses_of(const fs::path& file) {
+  std::vector<std::string> losses = read_gltf(file).losses;
+  std::erase_if(losses, [](const std::string& loss) { return loss.starts_with("TEXCOORD_"); });
+  return losses;
+}
+
+TEST_F(BakeFileTest, NewUvBecomeOneMoreChannelAndAllElseStays) {
+  rules_.materials.at("grain").unwrap = "triplanar";
+  assign("*", "grain");
+  for (const fs::path& file : gltf_files()) {
+    const BakeFileResult result = bake(file);
+    Scene before = read_gltf(file, {.coarser_parts = true});
+    const Scene after = read_gltf(out(), {.tag_channel = true, .coarser_parts = true});
+    for (std::uint32_t p = 0; p < before.parts.size(); ++p)
+      turn_triangles(before.parts[p].mesh, turned_triangles(result, p, before.parts[p].mesh.triangles.size()));
+    ASSERT_EQ(before.parts.size(), after.parts.size()) << file;
+    EXPECT_EQ(before.nodes.size(), after.nodes.size()) << file;
+    EXPECT_EQ(losses_of(file), losses_of(out())) << file;
+    for (std::size_t p = 0; p < before.parts.size(); ++p) {
+      const Part& part = after.parts[p];
+      expect_same_triangles(before.parts[p], part, file);
+      for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
+        const Vec3 a = part.mesh.corner(t, 0), b = part.mesh.corner(t, 1), c = part.mesh.corner(t, 2);
+        const Material& material =
+            after.materials[part.materials[part.mesh.material.empty() ? 0 : part.mesh.material[t]]];
+        ASSERT_TRUE(material.haptic && material.haptic->height) << file << ": " << part.name;
+        const auto& uv = material.haptic->height->tex_coord == 1 ? part.mesh.uv1 : part.mesh.uv;
+        ASSERT_TRUE(uv.has_value(t)) << file << ": " << part.name;
+        const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+        const bool is_degenerate = norm(cross(b - a, c - a)) <= std::max(1e-3, 1e-4 * longest) * longest;
+        const Triangle& i = uv.indices[t];
+        EXPECT_TRUE(is_degenerate || !is_flat(uv.values[i[0]], uv.values[i[1]], uv.values[i[2]]))
+            << file << ": " << part.name;
+      }
+    }
+  }
+}
+
+/// The room [0, 1000]³ mm, its left and right wall facing out.
+fs::path room_file(const fs::path& folder) {
+  Scene scene;
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const struct {
+    const char* name;
+    Vec3 corner, a, b;
+  } walls[] = {{"floor", {}, x, y}, {"ceiling", {0, 0, 1000}, y, x}, {"left", {}, z, y}, {"right", {1000, 0, 0}, y, z},
+               {"front", {}, z, x}, {"back", {0, 1000, 0}, x, z}};
+  for (const auto& wall : walls) {
+    Part part;
+    part.name = wall.name;
+    part.mesh = test::plane(1000, 1000, 4, 4);
+    part.mesh.uv = {};
+    for (Vec3& p : part.mesh.positions) p = wall.corner + p.x * wall.a + p.y * wall.b;
+    Node node;
+    node.part = static_cast<std::uint32_t>(scene.parts.size());
+    scene.roots.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
+    scene.nodes.push_back(node);
+    scene.parts.push_back(std::move(part));
+  }
+  write_glb(scene, folder / "room.glb");
+  return folder / "room.glb";
+}
+
+Vec3 first_normal(const Scene& scene, const std::string& name) {
+  const auto part = std::find_if(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return p.name == name; });
+  const TriangleMesh& m = part->mesh;
+  const Vec3 flat = normalized(cross(m.corner(0, 1) - m.corner(0, 0), m.corner(0, 2) - m.corner(0, 0)));
+  EXPECT_GT(dot(flat, m.normals.values[m.normals.indices[0][0]]), 0.99) << name;
+  return flat;
+}
+
+TEST_F(BakeFileTest, SheetsAreTurnedWhereTheyGetRelief) {
+  assign("left", "grain");
+  assign("*", "hard");
+  const fs::path file = room_file(folder_.path());
+  const BakeFileResult result = bake(file);
+  const Scene before = read_gltf(file), after = read_gltf(out());
+  EXPECT_EQ(first_normal(after, "left"), -1.0 * first_normal(before, "left"));
+  EXPECT_EQ(first_normal(after, "right"), first_normal(before, "right"));
+  EXPECT_EQ(result.plan.sides.facing_away, 2U);
+  for (const PartSides& part : result.plan.sides.parts) {
+    EXPECT_EQ(part.left_facing_away, part.part == "right" ? 1U : 0U) << part.part;
+    EXPECT_EQ(part.turned_triangles, part.part == "left" ? 32U : 0U) << part.part;
+  }
+  const auto is_listed = [&](const std::string& pointer) {
+    return std::any_of(result.changes.begin(), result.changes.end(),
+                       [&](const GltfChange& change) { return change.pointer == pointer; });
+  };
+  EXPECT_TRUE(is_listed("/meshes/2/primitives/0/indices"));
+  EXPECT_FALSE(is_listed("/meshes/3/primitives/0/indices"));
+}
+
+TEST_F(BakeFileTest, InvalidFilesAreEditedOrRefused) {
+  assign("*", "grain");
+  for (const fs::path& file : gltf_files(false)) try {
+      bake(file);
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << file;
+    }
+}
+
+TEST_F(BakeFileTest, ABakedFileIsBakedAgainWithoutGrowingChannels) {
+  rules_.materials.at("grain").unwrap = "triplanar";
+  assign("*", "grain");
+  const fs::path once = folder_ / "once.glb";
+  bake_file(fs::path(PAPILLA_DATA) / "exchange/vent.glb", once, rules_, {});
+  const BakeFileResult twice = bake(once);
+  const std::regex grown(R"(/(materials|textures|images|samplers|meshes|nodes|asset)\b.*)");
+  for (const GltfChange& change : twice.changes) {
+    EXPECT_FALSE(change.kind == "added" && std::regex_match(change.pointer, grown)) << change.pointer;
+    EXPECT_FALSE(change.pointer.ends_with("/texCoord")) << change.pointer;
+  }
+}
+
+TEST_F(BakeFileTest, OtherInputAndWhatChangesMeshesIsWrittenAnew) {
+  BakeFileOptions options;
+  EXPECT_TRUE(bake_way("a.glb", options).in_place);
+  EXPECT_TRUE(bake_way("a.GLTF", options).in_place);
+  EXPECT_FALSE(bake_way("a.step", options).in_place);
+  options.bake.plan.budget = 1000;
+  EXPECT_FALSE(bake_way("a.glb", options).in_place);
+  options.bake.plan.budget.reset();
+  options.read.up = UpAxis::z;
+  EXPECT_FALSE(bake_way("a.glb", options).in_place);
+  options.read.up.reset();
+  options.bake.plan.perception.leave_out_unseen = true;
+  EXPECT_FALSE(bake_way("a.glb", options).in_place);
+  options.bake.plan.perception.leave_out_unseen = false;
+  options.write.mirror_khr_physics = true;
+  EXPECT_FALSE(bake_way("a.glb", options).in_place);
+}
+
+}  // namespace
+}  // namespace papilla
