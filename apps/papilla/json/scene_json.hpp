@@ -74,6 +74,8 @@ Json histogram_json(const DistortionReport& report);
 
 /// {part, material, stage, run, reason} a line.
 Json plan_json(const std::vector<PartSurface>& surfaces);
+/// {for, surfaces, uses, problem} a rule or layer.
+Json rules_json(const std::vector<RuleUse>& uses);
 /// Plan, parts, materials, distortion, identical parts, perception, budget, losses, warnings, seconds.
 Json bake_json(const BakeResult& result, const BakeOptions& options);
 

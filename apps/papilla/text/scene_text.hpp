@@ -41,6 +41,8 @@ std::string histogram_text(const DistortionReport& report);
 
 /// One row a surface, the stages that run, and why the others do not.
 std::string plan_table(const std::vector<PartSurface>& surfaces);
+/// One row a rule: how many surfaces it took, and with all instances how many uses of them.
+std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules);
 /// A row a part that is left out or has uses that are; empty when there is none.
 std::string left_out_table(const Scene& scene, const ScenePerception& perception);
 /// One row a surface with grain.

@@ -6,6 +6,7 @@
 #include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "option_checks.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
@@ -83,6 +84,7 @@ Json run(const Options& options, VerbContext& context) {
 
   const std::size_t triangles = drawn_triangles(result.scene), bytes = fs::file_size(options.output);
   Json json = bake_json(result, bake);
+  json["rules"] = rules_json(result.plan.rules);
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
   context.console.print(sides_text(result.plan.sides, true) + left_out_table(result.scene, result.plan.perception));
   if (const auto& budget = result.plan.budget)
@@ -115,16 +117,17 @@ void add_bake(CLI::App& program) {
   verb->add_option("--budget", options->bake.plan.budget,
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   verb->add_option(
           "--mirror", options->mirrors,
           "Repeat what the haptic tags say in drafts of others' extensions, as far as they have a place for it")
       ->type_name("NAME")
-      ->check(CLI::IsMember({k_mpeg, k_khr}));
+      ->transform(one_of({k_mpeg, k_khr}));
   auto* const report = writes_into(verb->add_option("--report", options->report,
                                                     "Folder for a page to look at (index.html) and report.json"),
                                    {"index.html", "report.json"})
                            ->type_name("DIR");
+  verb->add_flag("--strict", options->bake.plan.strict, "Refuse rules that take no surface");
   verb->add_flag("--pictures", options->pictures,
                  "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")
       ->needs(report);

@@ -14,7 +14,7 @@ namespace papilla::cad {
 struct CadDocument {
   Handle(TDocStd_Document) document;
   std::string format;       ///< "STEP", "IGES", "BREP".
-  std::string unit = "mm";  ///< The file's own.
+  std::string unit = "mm (assumed)";  ///< The file's own, when it states one.
   double millimetres_per_unit = 1;
   StepMetadata metadata;
 };
