@@ -66,6 +66,7 @@ std::string path_of(const Scene& scene, const std::vector<Visit>& visits, std::s
   std::string path;
   for (; at != k_no_parent; at = visits[at].parent) {
     const std::string step = step_of(scene, visits[at]);
+    if (visits[at].parent == k_no_parent && step == k_turn_node_name && !path.empty()) break;
     path = path.empty() ? step : step + "/" + path;
   }
   return path;

@@ -4,11 +4,15 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "papilla/io/scene.hpp"
 
 namespace papilla {
+
+/// Name of the root that write_glb() adds to turn Z up to Y up; paths leave it out, so that they stay over re-import.
+inline constexpr std::string_view k_turn_node_name = "Z up to Y up";
 
 /// Where a node stands in the hierarchy.
 struct NodePlace {
