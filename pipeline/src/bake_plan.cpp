@@ -161,9 +161,9 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& ass
 BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options,
                    const ProgressCallback& progress) {
   BakePlan plan;
+  plan.sides = turn_sheets(scene, options.sides, options.perception.view);
   Assignment assignment = assign_materials(scene, rules);
   note_rules(assignment, options.strict, scene, plan);
-  plan.sides = turn_sheets(scene, options.sides, options.perception.view);
   plan.shared = share_identical_parts(scene, assignment);
   const Stopwatch perception_clock;
   plan.perception = measure_perception(scene, options.perception, progress);

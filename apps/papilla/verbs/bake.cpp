@@ -105,7 +105,7 @@ void add_bake(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"bake", "The main job: grain and touch onto a scene, as one GLB.",
-                             "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
+                             "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report"},
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))

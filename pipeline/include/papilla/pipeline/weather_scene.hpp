@@ -20,7 +20,7 @@ namespace papilla {
 struct WeatherLayer {
   std::string recipe;
   std::vector<std::string> materials{"*"};  ///< Shell patterns, one of which the material's name must fit.
-  SurfaceSelector where;                    ///< Must fit, too.
+  SurfaceSelector where{};                  ///< Must fit, too.
 };
 
 /// CONFIG of the verb weather.
