@@ -322,6 +322,7 @@ int main(int argc, char** argv) {
       .add_option(
           "--device", options.device,
           "sim[:PRESET] or hid[:VID:PID[:SERIAL]]; hid takes the first force device; presets: " + preset_names())
+      ->type_name("DEVICE|{sim,hid}")
       ->capture_default_str();
   program
       .add_option(

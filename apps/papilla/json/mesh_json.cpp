@@ -212,6 +212,21 @@ Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statist
   return json;
 }
 
+Json nodes_json(const std::vector<SurfacePlace>& places) {
+  const auto first = [](const std::vector<std::string>& names) {
+    return names.empty() ? Json(nullptr) : Json(names.front());
+  };
+  Json nodes = Json::array();
+  for (const SurfacePlace& place : places)
+    nodes.push_back({{"part", first(place.parts)},
+                     {"node", first(place.nodes)},
+                     {"layers", place.layers},
+                     {"cad_materials", place.cad_materials},
+                     {"colour", first(place.colours)},
+                     {"material", first(place.materials)}});
+  return nodes;
+}
+
 Json tessellation_json(const Scene& scene, const CadReport& report) {
   const std::vector<std::size_t> uses = uses_of_parts(scene);
   std::map<std::string, const CadPartReport*> measured;

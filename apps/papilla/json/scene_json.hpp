@@ -57,6 +57,8 @@ Json budget_json(const Scene& scene, std::size_t wanted, const BudgetResult& bud
 Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statistics,
                   const std::optional<ScenePerception>& perception, const Json& sides);
 
+/// {part, node, layers[], cad_materials[], colour, material} a surface and use.
+Json nodes_json(const std::vector<SurfacePlace>& places);
 Json tessellation_json(const Scene& scene, const CadReport& report);
 Json repair_json(const RepairSceneResult& result, const RepairSceneOptions& options);
 Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options);

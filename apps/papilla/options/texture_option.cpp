@@ -107,8 +107,10 @@ void TextureOption::add_to(CLI::App& verb) {
       ->delimiter('x')
       ->check(in_range(1, 65536))
       ->type_name("N[xN]");
+  std::string channel_names = "all";
+  for (int c = 0; c < k_channels; ++c) channel_names += "," + std::string(to_string(static_cast<Channel>(c)));
   verb.add_option("--channels", channels_, "Channels separated by commas, or all")
-      ->type_name("LIST")
+      ->type_name("LIST|{" + channel_names + "}")
       ->capture_default_str();
   verb.add_option("--bits", files.bits, "8 or 16 (PNG), 32 (EXR); colours have 8")
       ->transform(one_of({"8", "16", "32"}))
@@ -142,7 +144,7 @@ void TextureOption::add_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_option("--list", list,
                   "Print types, functions, recipes, categories of recipes, reference, or the parameters of a type")
-      ->type_name("WHAT")
+      ->type_name("WHAT|{types,functions,recipes,categories,reference}")
       ->expected(0, 1)
       ->default_str("types");
   verb.add_option("--suggest", suggest, "Print recipes that suit a material of this name")->type_name("NAME");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "json/scene_json.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/io/node_places.hpp"
@@ -82,6 +84,26 @@ std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& 
   text += haptic_text(scene);
   if (!scene.asset.copyright.empty()) text += "\ncopyright: " + one_line(scene.asset.copyright) + "\n";
   if (perception) text += perception_text(scene, *perception);
+  return text;
+}
+
+std::string nodes_text(const std::vector<SurfacePlace>& places) {
+  const auto joined = [](const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list.empty() ? "-" : list;
+  };
+  std::size_t width = 4, part_width = 4;
+  for (const SurfacePlace& place : places) {
+    width = std::clamp(joined(place.nodes).size(), width, std::size_t{60});
+    part_width = std::clamp(place.parts.front().size(), part_width, std::size_t{30});
+  }
+  std::string text =
+      shown_format("\n{:<{}}  {:<{}}  colour   material; layers; CAD material\n", "node", width, "part", part_width);
+  for (const SurfacePlace& place : places)
+    text +=
+        shown_format("{:<{}}  {:<{}}  {:<7}  {}; {}; {}\n", joined(place.nodes), width, place.parts.front(), part_width,
+                     joined(place.colours), joined(place.materials), joined(place.layers), joined(place.cad_materials));
   return text;
 }
 

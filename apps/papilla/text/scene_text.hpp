@@ -22,6 +22,8 @@ std::string counters_row(const std::string& name, const MeshStatistics& statisti
 /// What `inspect` says of a scene.
 std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& statistics,
                          const std::optional<ScenePerception>& perception, const SceneSides& sides);
+/// A row a surface and use, with the names that rules select by.
+std::string nodes_text(const std::vector<SurfacePlace>& places);
 std::string tessellation_text(const Scene& scene, const CadReport& report);
 std::string repair_text(const RepairSceneResult& result);
 std::string simplify_text(const SimplifySceneResult& result, const SimplifySceneOptions& options);

@@ -103,10 +103,11 @@ Json run(const Options& options, VerbContext& context) {
 
 void add_bake(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"bake", "The main job: grain and touch onto a scene, as one GLB.",
-                             "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report"},
-                            [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb =
+      add_verb(program,
+               {"bake", "The main job: grain and touch onto a scene, as one GLB.",
+                "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report"},
+               [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))
       ->type_name("FILE")
