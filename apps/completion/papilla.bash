@@ -12,7 +12,12 @@ _papilla_options() {
 
 # Prints the choices of option $1 as the help text on stdin names them: "--progress TEXT:{auto,json,none}".
 _papilla_choices() {
-  sed -n "s/^  \([^ ]*,\)\?$1[, ][^{]*{\([^}]*\)}.*/\2/p" | head -n 1 | tr ',' '\n' | sed 's/->.*//'
+  sed -n "s/^  \([^ ]*,\)\?$1[, ][^{]*{\([^}]*\)}.*/\2/p" | head -n 1 | tr ',' '\n'
+}
+
+# Prints the choices of the first positional as the help text on stdin names them.
+_papilla_first_choices() {
+  sed -n '/^Positionals:/,/^$/s/^  [^ ]* [^{]*{\([^}]*\)}.*/\1/p' | head -n 1 | tr ',' '\n'
 }
 
 _papilla() {
@@ -25,9 +30,14 @@ _papilla() {
     verbs=''
   fi
 
-  if [[ $previous == -* ]]; then words=$(_papilla_choices "$previous" <<<"$help"); fi
+  if [[ $previous == -* ]]; then
+    words=$(_papilla_choices "$previous" <<<"$help")
+    # A list of choices goes on behind its last comma.
+    if [[ -n $words && $current == *,* ]]; then words=$(sed "s|^|${current%,*},|" <<<"$words"); fi
+  fi
   if [[ -z $words && $current == -* ]]; then words=$(_papilla_options <<<"$help"); fi
   if [[ -z $words && $COMP_CWORD -eq 1 ]]; then words=$verbs; fi
+  if [[ -z $words && $COMP_CWORD -eq 2 ]]; then words=$(_papilla_first_choices <<<"$help"); fi
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
 }
 

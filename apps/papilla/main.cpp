@@ -55,15 +55,16 @@ int main(int argc, char** argv) {
   add_view(program);
   add_evaluate(program);
 
+  const bool as_json = wants_json_on_stdout(argc, argv);
   program.parse_complete_callback([&] { refuse_no_numbers(program); });
   try {
     try {
       program.parse(argc, argv);
       return verb_exit_code();
     } catch (const CLI::ParseError& error) {
-      return report_parse_error(program, error);
+      return report_parse_error(program, error, as_json);
     }
   } catch (...) {
-    return report_exception("papilla");
+    return report_exception("papilla", as_json);
   }
 }

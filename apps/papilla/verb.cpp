@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "file_options.hpp"
+#include "option_checks.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
@@ -135,7 +136,7 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
   verb->add_flag("-q,--quiet", common->quiet, "Print nothing but errors")->group("Common");
   verb->add_option("--threads", common->threads, "Use N threads; 0 takes all cores")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024))
+      ->check(in_range(0, 1024))
       ->group("Common");
   verb->add_option("--seed", common->seed, "Seed of everything random")
       ->type_name("N")
@@ -145,11 +146,11 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
                    "What a picture may take, like 512M or 2G; default: half of the machine's memory. Larger ones are "
                    "read in bands or refused")
       ->transform(CLI::AsSizeValue(false))
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->type_name("SIZE")
       ->group("Common");
   verb->add_option("--progress", common->progress, "auto (a line on a terminal), json (a JSON object a line), none")
-      ->check(CLI::IsMember({"auto", "json", "none"}))
+      ->transform(one_of({"auto", "json", "none"}))
       ->capture_default_str()
       ->group("Common");
   verb->callback([verb, common, body = std::move(body)] {

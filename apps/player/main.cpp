@@ -26,6 +26,7 @@
 #include "json_text.hpp"
 #include "live_publisher.hpp"
 #include "live_socket.hpp"
+#include "option_checks.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/file_guard.hpp"
 #include "papilla/core/read_file.hpp"
@@ -321,6 +322,7 @@ int main(int argc, char** argv) {
       .add_option(
           "--device", options.device,
           "sim[:PRESET] or hid[:VID:PID[:SERIAL]]; hid takes the first force device; presets: " + preset_names())
+      ->type_name("DEVICE|{sim,hid}")
       ->capture_default_str();
   program
       .add_option(
@@ -332,32 +334,30 @@ int main(int argc, char** argv) {
       ->expected(3);
   program.add_option("--rate", options.rate_hz, "Ticks per second")
       ->type_name("HZ")
-      ->check(CLI::Range(100.0, 20000.0))
+      ->check(app::in_range(100.0, 20000.0))
       ->capture_default_str();
   program.add_option("--seconds", options.seconds, "Length of the run; default: of the trajectory, or 2")
       ->type_name("S")
-      ->check(CLI::Range(1e-3, k_longest_seconds));
+      ->check(app::in_range(1e-3, k_longest_seconds));
   app::reads(program.add_option("--trajectory", options.trajectory,
                                 "The hand as CSV: t,x,y,z in seconds and metres; default: press 1 mm "
                                 "into the largest tagged surface and move there"))
       ->type_name("T.csv");
   program.add_option("--motion", options.motion, "How the hand moves without a trajectory")
-      ->check(CLI::IsMember({"stroke", "circle", "slide", "tap"}))
+      ->transform(app::one_of({"stroke", "circle", "slide", "tap"}))
       ->capture_default_str();
-  program.add_option("--seed", options.seed, "Of the random slide")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  program.add_option("--seed", options.seed, "Of the random slide")->check(app::not_negative())->capture_default_str();
   program
       .add_option("--speed", options.speed,
                   "Of the hand; finer relief than the rate can carry at this speed is left out")
       ->type_name("M/S")
-      ->check(CLI::Range(1e-3, 2.0))
+      ->check(app::in_range(1e-3, 2.0))
       ->capture_default_str();
   program
       .add_option("--reach", options.reach_mm,
                   "Load only what is this near to the trajectory or to --origin; default: all, or 150 around --origin")
       ->type_name("MM")
-      ->check(CLI::Range(1.0, 1e5));
+      ->check(app::in_range(1.0, 1e5));
   app::writes(program.add_option("--record", options.record,
                                  "Write hand, probe, proxy and force of every tick; can be played again as T.csv"))
       ->type_name("R.csv");
@@ -365,12 +365,12 @@ int main(int argc, char** argv) {
       .add_option("--probe-radius", options.probe_radius_mm,
                   "Radius of the probe, default: the device's, 0.5; 0: a point")
       ->type_name("MM")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(app::in_range(0.0, 100.0));
   program.add_flag("--passivity-control", options.passivity,
                    "Soften a contact that gives energy to the hand, beside the limit of stiffness");
   program.add_option("--watchdog", options.watchdog_ms, "Age of a position from which on there is no force")
       ->type_name("MS")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(app::in_range(1.0, 1000.0))
       ->capture_default_str();
   auto* const live =
       app::writes(
@@ -391,12 +391,13 @@ int main(int argc, char** argv) {
   program.footer(
       "Example:\n  papilla-player cockpit.glb --device sim:touch --seconds 2 --json -\n"
       "Exit codes: 0 done, 2 usage, 3 input, 5 device.");
+  const bool as_json = app::wants_json_on_stdout(argc, argv);
   try {
     try {
       program.parse(argc, argv);
       app::refuse_no_numbers(program);
     } catch (const CLI::ParseError& error) {
-      return app::report_parse_error(program, error);
+      return app::report_parse_error(program, error, as_json);
     }
     app::declare_files(program);
     if (options.list) return list_devices(options);
@@ -404,6 +405,6 @@ int main(int argc, char** argv) {
     if (file->empty()) throw app::UsageError("a FILE is required");
     return run(options);
   } catch (...) {
-    return app::report_exception("papilla-player");
+    return app::report_exception("papilla-player", as_json);
   }
 }

@@ -14,6 +14,7 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/io/tag_manifest.hpp"
 #include "scene_losses.hpp"
 #include "trs.hpp"
@@ -177,7 +178,7 @@ class NodeWriter {
     Json roots = Json::array();
     for (const std::uint32_t root : scene_.roots) roots.push_back(*node_number_[root]);
     if (scene_.up != UpAxis::y && !roots.empty()) {
-      Json turn = {{"name", "Z up to Y up"}};
+      Json turn = {{"name", k_turn_node_name}};
       add_transform(to_y_up(scene_.up), "write_glb", turn);
       turn["children"] = std::move(roots);
       roots = Json::array({gltf_["nodes"].size()});

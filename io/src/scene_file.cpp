@@ -39,7 +39,7 @@ Scene read_mesh_scene(const std::string& extension, const std::filesystem::path&
                 : extension == ".obj" ? read_obj(path, options)
                 : extension == ".ply" ? read_ply(path, options)
                                       : read_off(path, options);
-  if (!options.millimetres_per_unit) warn_of_doubtful_unit(scene);
+  if (!options.millimetres_per_unit) hint_at_unit(scene, path.stem().string());
   return scene;
 }
 

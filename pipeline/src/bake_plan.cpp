@@ -9,6 +9,7 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/srgb.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/meshing/orient.hpp"
 #include "papilla/meshing/statistics.hpp"
@@ -155,7 +156,7 @@ void turn_sheets_with_relief(Scene& scene, BakePlan& plan) {
   }
 }
 
-std::vector<PartSurface> split_by_slot(const Scene& scene) {
+std::vector<PartSurface> split_by_slot(const Scene& scene, const Assignment& assignment) {
   std::vector<PartSurface> surfaces;
   for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
     const Part& part = scene.parts[p];
@@ -167,7 +168,7 @@ std::vector<PartSurface> split_by_slot(const Scene& scene) {
       surface.part = p;
       surface.slot = slot;
       surface.triangles = std::move(triangles);
-      surface.label = part.name;
+      surface.label = assignment.parts[p].is_split ? part.id : shown_name(part);
       if (by_slot.size() > 1)
         surface.label +=
             "/" + (slot < part.materials.size() ? scene.materials[part.materials[slot]].name : std::to_string(slot));
@@ -175,6 +176,17 @@ std::vector<PartSurface> split_by_slot(const Scene& scene) {
     }
   }
   return surfaces;
+}
+
+/// What the rules took, and warnings of those that took nothing.
+void note_rules(const Assignment& assignment, bool strict, Scene& scene, BakePlan& plan) {
+  const std::vector<std::string> problems = problems_of(assignment.uses, "rule", "/assign");
+  if (strict && !problems.empty())
+    throw InvalidInput(fmt::format("{}{}", problems.front(),
+                                   problems.size() > 1 ? fmt::format("; {} more rules", problems.size() - 1) : ""));
+  scene.warnings.insert(scene.warnings.end(), problems.begin(), problems.end());
+  plan.rules = assignment.uses;
+  plan.split = assignment.split;
 }
 
 }  // namespace
@@ -192,31 +204,13 @@ std::array<double, 4> linear_colour(const std::string& hex) {
   return {channel(1), channel(3), channel(5), 1};
 }
 
-const MaterialRule* assigned_rule(const Scene& scene, const Part& part, std::size_t slot, const Materials& rules) {
-  const Material* material = slot < part.materials.size() ? &scene.materials[part.materials[slot]] : nullptr;
-  const AssignRule* assigned =
-      match_rule(rules, part.name, material ? hex_colour(material->base_color) : "", material ? material->name : "");
-  return assigned && !assigned->material.empty() ? &rules.materials.at(assigned->material) : nullptr;
-}
-
-std::vector<SharedPart> share_identical_parts(Scene& scene, const Materials& rules) {
-  std::map<std::vector<const MaterialRule*>, std::uint64_t> numbers;
-  return share_identical_parts(scene, [&](std::uint32_t number) {
-    const Part& part = scene.parts[number];
-    std::vector<const MaterialRule*> assigned;
-    for (std::size_t slot = 0; slot < std::max<std::size_t>(part.materials.size(), 1); ++slot)
-      assigned.push_back(assigned_rule(scene, part, slot, rules));
-    return numbers.try_emplace(assigned, numbers.size()).first->second;
-  });
-}
-
-std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rules,
+std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& assignment,
                                        const std::vector<PartPerception>& perception, bool in_place) {
-  std::vector<PartSurface> surfaces = split_by_slot(scene);
+  std::vector<PartSurface> surfaces = split_by_slot(scene, assignment);
   const bool cad = scene.format == "STEP" || scene.format == "IGES" || scene.format == "BREP";
   for (PartSurface& surface : surfaces) {
     const Part& part = scene.parts[surface.part];
-    const MaterialRule* rule = assigned_rule(scene, part, surface.slot, rules);
+    const MaterialRule* rule = assignment.parts[surface.part].rule_of(surface.slot);
     if (rule) surface.material = rule->name;
     const bool grain = rule && !rule->texture.empty();
     const UvJudgement uv = grain ? judge_uv(part.mesh, surface.triangles) : UvJudgement{};
@@ -245,7 +239,9 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
   BakePlan plan;
   plan.sides = options.in_place ? find_sides(scene, options.sides, options.perception.view)
                                 : turn_sheets(scene, options.sides, options.perception.view);
-  if (!options.in_place && !options.keep_copies) plan.shared = share_identical_parts(scene, rules);
+  Assignment assignment = assign_materials(scene, rules);
+  note_rules(assignment, options.strict, scene, plan);
+  if (!options.in_place && !options.keep_copies) plan.shared = share_identical_parts(scene, assignment);
   const Stopwatch perception_clock;
   plan.perception = measure_perception(scene, options.perception, progress);
   plan.perception_seconds = perception_clock.seconds();
@@ -262,7 +258,7 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
     }
   }
   plan.simplify_seconds = simplify_clock.seconds();
-  plan.surfaces = plan_surfaces(scene, rules, plan.perception.parts, options.in_place);
+  plan.surfaces = plan_surfaces(scene, assignment, plan.perception.parts, options.in_place);
   if (options.in_place) turn_sheets_with_relief(scene, plan);
   plan.scene = std::move(scene);
   return plan;

@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/near_name.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/tag_limits.hpp"
@@ -113,8 +115,16 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   std::error_code error;
   if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
     return computed_source(rule, library);
-  Picture picture = read_picture(rule.texture);
-  return {std::move(picture.grey), std::move(picture.color)};
+  try {
+    Picture picture = read_picture(rule.texture);
+    return {std::move(picture.grey), std::move(picture.color)};
+  } catch (const IoError& unread) {
+    std::vector<std::string_view> recipes;
+    for (const auto& [name, recipe] : library.recipes()) recipes.push_back(name);
+    throw IoError("material '" + rule.name + "', texture: " + unread.what() + did_you_mean(rule.recipe, recipes));
+  } catch (const InvalidInput& unread) {
+    throw InvalidInput("material '" + rule.name + "', texture: " + unread.what());
+  }
 }
 
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "papilla/core/error.hpp"
+#include "papilla/io/node_places.hpp"
 
 namespace papilla {
 
@@ -15,7 +16,7 @@ std::vector<MeshStatistics> part_statistics(const Scene& scene, const ProgressCa
     try {
       result[i] = mesh_statistics(scene.parts[i].mesh);
     } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
+      throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }
   });
   report_progress(progress, "measure", 1);

@@ -2,7 +2,6 @@
 #include "papilla/pipeline/unwrap_method.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <queue>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/glob.hpp"
 
 namespace papilla {
 namespace {
@@ -64,7 +64,7 @@ std::vector<Index> path_between(const TriangleMesh& mesh, const Neighbours& neig
 }  // namespace
 
 bool is_for_part(const std::string& pattern, const std::string& part) {
-  return pattern.empty() || ::fnmatch(pattern.c_str(), part.c_str(), 0) == 0;
+  return pattern.empty() || matches_glob(pattern, part);
 }
 
 LevyPin pin_on(const TriangleMesh& mesh, const PlacedPin& pin) { return {nearest_vertex(mesh, pin.position), pin.uv}; }

@@ -7,6 +7,7 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/meshing/deviation.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 
@@ -23,7 +24,7 @@ std::vector<RepairResult> repair_parts(Scene& scene, const RepairOptions& option
     try {
       results[i] = repair(std::move(scene.parts[i].mesh), repair_options);
     } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
+      throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }
     scene.parts[i].mesh = std::move(results[i].mesh);
     done.add(1);
@@ -65,7 +66,7 @@ RepairSceneResult repair_scene(Scene scene, const RepairSceneOptions& options, c
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
     result.max_deviation_mm = std::max(result.max_deviation_mm, result.parts[i].max_deviation_mm);
     result.weld_tolerance_mm = std::max(result.weld_tolerance_mm, result.parts[i].weld_tolerance_mm);
-    if (!result.parts[i].settled) result.unsettled.push_back(scene.parts[i].name);
+    if (!result.parts[i].settled) result.unsettled.push_back(shown_name(scene.parts[i]));
   }
   if (options.verify) result.measured_deviation_mm = measured_deviation(originals, scene);
   result.scene = std::move(scene);

@@ -8,6 +8,7 @@
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/meshing/orient.hpp"
 #include "placed_meshes.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 PartSides summary_of(const Part& part, const MeshSheets& mesh) {
   PartSides sides;
-  sides.part = part.name;
+  sides.part = shown_name(part);
   sides.open_components = mesh.sheets.size();
   std::set<SideReason> reasons;
   for (const SheetSide& sheet : mesh.sheets) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "papilla/core/error.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/simplify.hpp"
 
@@ -32,7 +33,7 @@ std::vector<SimplifyResult> simplify_parts(const Scene& scene, const SimplifySce
     try {
       results[i] = simplify_part(scene.parts[i].mesh, options);
     } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
+      throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }
     done.add(1);
   });
@@ -148,7 +149,7 @@ std::vector<LevelReport> add_levels(Scene& scene, std::span<const TriangleMesh> 
     try {
       levels[i] = coarser_levels(originals[i], scene.parts[i].mesh.triangles.size(), wanted, simplify);
     } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
+      throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }
   });
   std::vector<LevelReport> reports;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "papilla/core/error.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/pack.hpp"
@@ -155,12 +156,12 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
   for (const Part& part : parts) triangles += static_cast<double>(part.mesh.triangles.size());
   SharedProgress done(progress, "unwrap", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
-    const std::string place = "part '" + parts[p].name + "': ";
+    const std::string place = "part '" + shown_name(parts[p]) + "': ";
     const auto size = static_cast<double>(parts[p].mesh.triangles.size());
     start[p] = clock.seconds();
     try {
       PartContext context = shared_context;
-      context.part = parts[p].name;
+      context.part = shown_name(parts[p]);
       result.parts[p] = unwrap_part(parts[p].mesh, context, options);
     } catch (const SolverFailure& error) {
       result.parts[p].failure = place + error.what();

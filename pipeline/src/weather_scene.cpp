@@ -22,6 +22,7 @@
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/roughness.hpp"
 #include "weather/atlas_uv.hpp"
+#include "weather/layered_materials.hpp"
 #include "weather/surface_atlas.hpp"
 #include "weather/surface_texels.hpp"
 
@@ -38,13 +39,31 @@ struct PaintedMaterial {
   WeatheredMaterial report;
 };
 
+/// Which parts the nodes show, and which materials the parts.
+std::vector<std::uint32_t> shown_materials(const Scene& scene) {
+  std::vector<std::uint32_t> shown;
+  for (const Node& node : scene.nodes) shown.push_back(node.part.value_or(std::uint32_t(-1)));
+  for (const Part& part : scene.parts) shown.insert(shown.end(), part.materials.begin(), part.materials.end());
+  return shown;
+}
+
 }  // namespace
 
 struct WeatherCache::State {
   std::map<std::string, PaintedMaterial> painted;
   std::map<std::string, std::shared_ptr<const MaterialSurface>> surfaces;
-  std::size_t texels = 0;  ///< Of the surfaces.
+  std::size_t texels = 0;            ///< Of the surfaces.
+  std::vector<std::uint32_t> shown;  ///< What both were made for: shown_materials().
   std::set<fs::path> files;
+
+  /// Forgets what was made for other surfaces: the layers may lie elsewhere than before.
+  void expect(const Scene& scene) {
+    std::vector<std::uint32_t> now = shown_materials(scene);
+    if (now == shown) return;
+    painted.clear(), surfaces.clear();
+    texels = 0;
+    shown = std::move(now);
+  }
 };
 
 namespace {
@@ -59,6 +78,7 @@ constexpr double k_common_friction = 0.4;
 struct Job {
   const Scene& scene;
   const WeatherConfig& config;
+  const std::vector<std::vector<std::uint32_t>>& layers;  ///< Of every material.
   const RecipeLibrary& library;
   double time;
   WeatherCache::State& cache;
@@ -375,7 +395,8 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
                                    std::vector<std::optional<HeightTag>>& heights) {
   const Material& before = job.scene.materials[index];
   const std::optional<MaterialTag>& tag = before.haptic;
-  const std::string recipe = layered_recipe(job.config, before.name, tag ? tag->dynamic_friction : k_common_friction);
+  const std::string recipe =
+      layered_recipe(job.config, job.layers[index], tag ? tag->dynamic_friction : k_common_friction);
   WeatheredMaterial report;
   report.name = before.name, report.recipe = recipe;
   if (recipe.empty()) return report;
@@ -436,13 +457,19 @@ WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, dou
   }
   note_files();
   WeatherResult result;
-  result.scene = scene;
+  const LayeredScene layered = layer_materials(scene, config);
+  const Scene& before = layered.scene ? *layered.scene : scene;
+  cache.state().expect(before);
+  result.scene = before;
+  result.layers = layered.uses;
+  for (std::string& problem : problems_of(layered.uses, "layer", "/layers"))
+    result.scene.warnings.push_back(std::move(problem));
   Pictures pictures(result);
-  Job job{scene, config, library, time, cache.state(), progress, instances(scene), {}};
+  Job job{before, config, layered.layers, library, time, cache.state(), progress, instances(before), {}};
   std::vector<NewUv> uv;
   std::vector<AtlasMaterial> with_atlas;
-  std::vector<std::optional<HeightTag>> heights(scene.materials.size());
-  for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
+  std::vector<std::optional<HeightTag>> heights(before.materials.size());
+  for (std::uint32_t m = 0; m < before.materials.size(); ++m) {
     job.material = m;
     report_material(job, 0);
     result.materials.push_back(weather_material(result, m, job, pictures, uv, with_atlas, heights));
@@ -451,6 +478,19 @@ WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, dou
   for (std::size_t m = 0; m < heights.size(); ++m)
     if (heights[m]) assign_relief(result.scene.materials[m], std::move(*heights[m]));
   return result;
+}
+
+std::string reason_for_no_paint(const WeatherResult& result) {
+  const auto any = [&](auto&& is_so) { return std::any_of(result.materials.begin(), result.materials.end(), is_so); };
+  if (any([](const WeatheredMaterial& m) { return m.painted(); })) return "";
+  if (result.materials.empty()) return "has no material that a layer could lie on";
+  const std::vector<Part>& parts = result.scene.parts;
+  if (std::all_of(parts.begin(), parts.end(), [](const Part& part) { return part.mesh.uv.indices.empty(); }))
+    return "has no texture coordinates, which the layers need; 'papilla unwrap' makes them";
+  if (any([](const WeatheredMaterial& m) { return !m.skipped.empty(); }))
+    return "no surface that a layer lies on has texture coordinates, which it needs; 'papilla unwrap' makes them";
+  const std::vector<std::string> problems = problems_of(result.layers, "layer", "/layers");
+  return "no layer lies on any surface" + (problems.empty() ? "" : "; " + problems.front());
 }
 
 WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time,

@@ -7,6 +7,7 @@
 
 #include "colours.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/near_name.hpp"
 
 namespace papilla::procedural_detail {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "compiler.hpp"
+#include "papilla/core/near_name.hpp"
 
 namespace papilla::procedural_detail {
 namespace {

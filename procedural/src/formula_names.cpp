@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "papilla/core/near_name.hpp"
+
 namespace papilla::procedural_detail {
 namespace {
 

@@ -9,6 +9,7 @@
 
 #include "evaluator.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/near_name.hpp"
 #include "papilla/procedural/texture.hpp"
 
 namespace papilla {
@@ -124,12 +125,15 @@ std::string_view to_string(Channel channel) noexcept { return k_names[static_cas
 
 Channel channel_named(std::string_view name) {
   if (name == "height") return Channel::bump;
-  std::string known;
+  std::string list;
+  std::vector<std::string_view> known{"height"};
   for (std::size_t c = 0; c < k_channels; ++c) {
     if (k_names[c] == name) return static_cast<Channel>(c);
-    known += (c ? ", " : "") + std::string(k_names[c]);
+    list += (c ? ", " : "") + std::string(k_names[c]);
+    known.emplace_back(k_names[c]);
   }
-  throw InvalidInput("unknown channel '" + std::string(name) + "'; known are " + known + " and height (bump)");
+  throw InvalidInput("unknown channel '" + std::string(name) + "'" + did_you_mean(name, known) + "; known are " + list +
+                     " and height (bump)");
 }
 
 RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOptions& options) {

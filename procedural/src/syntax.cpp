@@ -2,7 +2,6 @@
 #include "syntax.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
@@ -12,21 +11,6 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-
-/// Levenshtein's distance of short words.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 char closing(char open) { return open == '(' ? ')' : open == '[' ? ']' : '>'; }
 
@@ -110,21 +94,6 @@ bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= 200 && is_letter(text.front()) &&
          std::all_of(text.begin(), text.end(),
                      [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '.'; });
-}
-
-std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known) {
-  std::string_view best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  if (word.size() > 40) return "";
-  for (const std::string_view candidate : known) {
-    if (candidate.size() > 40) continue;
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
-      best = candidate;
-    }
-  }
-  return best.empty() ? "" : "; did you mean " + in_quotes(best) + "?";
 }
 
 RecipeSyntax split_recipe(Piece recipe, const Origin& origin) {

@@ -49,7 +49,4 @@ std::string in_quotes(std::string_view text);
 
 bool is_name(std::string_view text);
 
-/// The choices closest in spelling come first: "; did you mean 'scale'?", or nothing.
-std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known);
-
 }  // namespace papilla::procedural_detail

@@ -32,6 +32,19 @@ expect() {
 cat >"$folder/papilla" <<'PROGRAM'
 #!/bin/sh
 case "$1" in
+  measure) cat <<'TEXT'
+Usage: papilla measure [OPTIONS] KIND
+
+Positionals:
+  KIND TEXT:{area,angle} REQUIRED
+                              What to measure
+  FILE TEXT                   The {file}
+
+Options:
+  --only TEXT:{fractal,class} ...
+                              Parts
+TEXT
+  ;;
   inspect) cat <<'TEXT'
 What a file holds
 Usage: papilla inspect [OPTIONS] FILE
@@ -57,6 +70,7 @@ Options:
 
 Subcommands:
   inspect                     What a file holds
+  measure                     Numbers
   plan                        What bake would do
   synthesize                  Fractal surfaces
 
@@ -66,7 +80,7 @@ TEXT
 esac
 PROGRAM
 chmod +x "$folder/papilla"
-expect 'inspect plan synthesize' "$folder/papilla" ''
+expect 'inspect measure plan synthesize' "$folder/papilla" ''
 expect 'plan' "$folder/papilla" p
 expect '--help --version' "$folder/papilla" --
 expect '--help --method --progress' "$folder/papilla" inspect --
@@ -74,9 +88,31 @@ expect 'auto json none' "$folder/papilla" inspect --progress ''
 expect 'triplanar' "$folder/papilla" inspect a.stl -m t
 expect 'lscm triplanar' "$folder/papilla" inspect --method ''
 expect '' "$folder/papilla" inspect ''
+expect 'area angle' "$folder/papilla" measure ''
+expect 'angle' "$folder/papilla" measure an
+expect '' "$folder/papilla" measure area ''
+expect 'class' "$folder/papilla" measure area --only c
+expect 'fractal,class' "$folder/papilla" measure area --only fractal,c
 expect '' "$folder/missing" ''
 
+# The choices of the real programs: expect_choices PROGRAM VERB OPTION CHOICES
+expect_choices() {
+  [[ $(basename "$1") == papilla ]] || return 0
+  expect "$4" "$1" "$2" "$3" ''
+}
 for program in "$@"; do
+  expect_choices "$program" unwrap --charts 'auto keep'
+  expect_choices "$program" unwrap --layout 'atlas tile'
+  expect_choices "$program" unwrap --grain 'up longest'
+  expect_choices "$program" unwrap --solver 'hermitian cgal gauss-newton gradient-descent direct gauss-seidel'
+  expect_choices "$program" inspect --unit 'file mm cm m in ft'
+  expect_choices "$program" height --method 'auto variational pentland tsai-shah intensity'
+  expect_choices "$program" texture --bits '8 16 32'
+  if [[ $(basename "$program") == papilla ]]; then
+    expect 'lscm' "$program" unwrap --method ls
+    expect 'tessellation' "$program" evaluate tes
+    expect 'grain fractal' "$program" synthesize ''
+  fi
   expect '--help' "$program" --hel
   for verb in $(completed "$program" ''); do
     expect '--json' "$program" "$verb" --jso

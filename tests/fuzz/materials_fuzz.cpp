@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "fuzz_input.hpp"
 #include "materials_mutator.hpp"
-#include "papilla/pipeline/materials.hpp"
+#include "papilla/pipeline/assignment.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace papilla;
   const auto path = fuzz::write_input("input.json", fuzz::text_of(data, size));
   fuzz::expect_read([&] {
     const Materials file = read_materials(path);
-    if (const AssignRule* rule = match_rule(file, "dash left", "#202020", "Leather"); rule != nullptr)
-      fuzz::require(rule->material.empty() || file.materials.contains(rule->material), "a rule names a material");
+    Part part;
+    part.name = "dash left";
+    part.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    part.mesh.triangles = {{0, 1, 2}};
+    Scene scene = single_part_scene(std::move(part), "fuzz");
+    for (const RuleUse& use : assign_materials(scene, file).uses)
+      fuzz::require(use.problem.empty() == (use.surfaces > 0), "a rule takes a surface or says why not");
   });
   return 0;
 }

@@ -23,6 +23,8 @@ const JsonGrammar& materials_grammar() {
                                     {"texture", {"grain.png"}},
                                     {"material", {"grain", "chrome"}},
                                     {"part", {"*", "p", "q*", "[a"}},
+                                    {"node", {"**", "*", "a/**/b", ""}},
+                                    {"layer", {"*", "hidden"}},
                                     {"color", {"#000000", "#FFffFF", "#20a0ff"}},
                                     {"cad_colour", {"#ffffff", "#202020"}},
                                     {"gltf_material", {"*", "Leather", "L?ather", ""}}},
@@ -32,8 +34,8 @@ const JsonGrammar& materials_grammar() {
           "forceShading":true,"height":{"method":"auto","depth_mm":0.3,"scale":1,"max_slope":0.5},"unwrap":"auto",
           "show":"picture","color":"#808080","roughness":0.5,"metallic":0,"$comment":"c"},
         "chrome":{"stiffness":2000,"color":"#808080"}},
-        "assign":[{"part":"*","cad_colour":"#ffffff","gltf_material":"*","material":"grain","$comment":"c"},
-          {"part":"q","material":null}]})")};
+        "assign":[{"part":"*","cad_colour":"#ffffff","gltf_material":"*","node":"**","not":{"layer":"hidden"},
+          "material":"grain","$comment":"c"},{"part":"q","material":null}]})")};
   return grammar;
 }
 
@@ -53,6 +55,7 @@ void repair_materials(Json& rules) {
   for (Json& rule : rules["assign"]) {
     const bool empty = rule.is_object() && rule.contains("material") && rule["material"].is_null();
     fit_json(rule, sample["assign"][0], grammar);
+    if (rule.contains("not") && rule["not"].empty()) rule.erase("not");
     if (!rule.contains("part") && !rule.contains("cad_colour") && !rule.contains("gltf_material")) rule["part"] = "*";
     if (!rule.contains("material") || !rules["materials"].contains(rule["material"].get<std::string>()) || empty)
       rule["material"] = empty || rules["materials"].empty() ? Json() : Json(rules["materials"].begin().key());

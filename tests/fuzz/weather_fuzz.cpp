@@ -11,9 +11,12 @@ const papilla::fuzz::JsonGrammar& grammar() {
   using papilla::fuzz::Json;
   static const papilla::fuzz::JsonGrammar made{
       {{"size", 16, 8192}, {"atlas", 64, 8192}, {"sky_rays", 1, 4096}, {"depth_mm", 1e-6, 100}, {"time", 0, 1}},
-      {{"recipe", {"rust", "dirt|amount=.5", "formula|bump=u"}}, {"materials", {"*", "Leather*", "[a"}}},
+      {{"recipe", {"rust", "dirt|amount=.5", "formula|bump=u"}},
+       {"materials", {"*", "Leather*", "[a"}},
+       {"node", {"**", "a/*"}},
+       {"part", {"*"}}},
       Json::parse(R"({"$comment":"c","size":256,"atlas":1024,"time":[0,0.5,1],"depth_mm":0.2,"sky_rays":16,
-        "libraries":["weather.recipes"],"layers":[{"recipe":"rust","materials":["*"]}]})")};
+        "libraries":["weather.recipes"],"layers":[{"recipe":"rust","materials":["*"],"node":"**","not":{"part":"q*"}}]})")};
   return made;
 }
 
@@ -30,6 +33,7 @@ void repair(papilla::fuzz::Json& config) {
     if (!layer.is_object()) layer = Json::object();
     if (!layer.contains("recipe")) layer["recipe"] = "rust";
     papilla::fuzz::fit_json(layer, sample["layers"][0], grammar());
+    if (layer.contains("not") && layer["not"].empty()) layer.erase("not");
   }
   config["layers"] = layers;
   if (libraries.is_array() &&
@@ -45,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::expect_read([&] {
     const WeatherConfig config = read_weather_config(path);
     fuzz::require(!config.layers.empty() && !config.times.empty(), "a configuration has layers and times");
-    layered_recipe(config, "Leather", 0.5);
+    layered_recipe(config, {0}, 0.5);
   });
   return 0;
 }

@@ -41,7 +41,7 @@ TEST(Surfaces, LeaveOutWhatAPartDoesNotNeed) {
   Scene scene;
   scene.format = "STL";
   scene.parts = {square("dash", 0), square("knob", 0), square("floor", 0)};
-  const auto surfaces = plan_surfaces(scene, file);
+  const auto surfaces = plan_surfaces(scene, assign_materials(scene, file));
   ASSERT_EQ(surfaces.size(), 3U);
   EXPECT_TRUE(decision(surfaces[0].plan, Stage::unwrap).run);
   EXPECT_FALSE(decision(surfaces[1].plan, Stage::unwrap).run);
@@ -53,7 +53,7 @@ TEST(Surfaces, MeasureTheScaleOfUsableUv) {
   const Materials file = rules();
   Scene scene;
   scene.parts = {square("dash", 0.25)};
-  const auto surfaces = plan_surfaces(scene, file);
+  const auto surfaces = plan_surfaces(scene, assign_materials(scene, file));
   EXPECT_FALSE(decision(surfaces[0].plan, Stage::unwrap).run);
   EXPECT_DOUBLE_EQ(surfaces[0].uv_mm_per_unit, 40);
 }
@@ -65,7 +65,7 @@ TEST(Surfaces, ReplaceUvThatIsCollapsedStretchedOrNotANumber) {
   for (Vec2& uv : scene.parts[0].mesh.uv.values) uv.y = 0;
   for (Vec2& uv : scene.parts[1].mesh.uv.values) uv.y *= 0.1;
   scene.parts[2].mesh.uv.values[2].x = std::numeric_limits<double>::quiet_NaN();
-  for (const PartSurface& surface : plan_surfaces(scene, file))
+  for (const PartSurface& surface : plan_surfaces(scene, assign_materials(scene, file)))
     EXPECT_TRUE(decision(surface.plan, Stage::unwrap).run) << surface.label << ": " << surface.uv_note;
 }
 
@@ -128,7 +128,7 @@ TEST(Surfaces, APartWithTwoMaterialsHasTwoSurfaces) {
   scene.parts = {square("dash", 0)};
   scene.parts[0].materials = {1, 0};
   scene.parts[0].mesh.material = {1, 0};
-  const auto surfaces = plan_surfaces(scene, file);
+  const auto surfaces = plan_surfaces(scene, assign_materials(scene, file));
   ASSERT_EQ(surfaces.size(), 2U);
   EXPECT_EQ(surfaces[0].label, "dash/b");
   EXPECT_EQ(surfaces[0].triangles, (std::vector<std::uint32_t>{1}));

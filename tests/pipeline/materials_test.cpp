@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "papilla/core/error.hpp"
+#include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/grain.hpp"
 
 namespace papilla {
@@ -91,10 +92,51 @@ TEST_F(MaterialsTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {
   const Materials file = read(R"({"materials": {"a": {}, "b": {}, "c": {}}, "assign": [
       {"part": "dash*", "cad_colour": "#000000", "material": "a"}, {"part": "dash_?", "material": "b"},
       {"gltf_material": "Lea*", "material": "c"}]})");
-  EXPECT_EQ(match_rule(file, "dash_1", "#000000", "")->material, "a");
-  EXPECT_EQ(match_rule(file, "dash_1", "#ffffff", "")->material, "b");
-  EXPECT_EQ(match_rule(file, "dash_12", "#ffffff", "Leather")->material, "c");
-  EXPECT_EQ(match_rule(file, "seat", "#000000", "Wood"), nullptr);
+  const auto material_of = [&](const char* part, double grey, const char* material) -> std::string {
+    Part square;
+    square.name = part;
+    square.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    square.mesh.triangles = {{0, 1, 2}};
+    square.materials = {0};
+    Scene scene = single_part_scene(std::move(square), "test");
+    scene.materials.resize(1);
+    scene.materials[0].name = material;
+    scene.materials[0].base_color = {grey, grey, grey, 1};
+    const MaterialRule* rule = assign_materials(scene, file).parts.at(0).rule_of(0);
+    return rule != nullptr ? rule->name : "none";
+  };
+  EXPECT_EQ(material_of("dash_1", 0, ""), "a");
+  EXPECT_EQ(material_of("dash_1", 1, ""), "b");
+  EXPECT_EQ(material_of("dash_12", 1, "Leather"), "c");
+  EXPECT_EQ(material_of("seat", 0, "Wood"), "none");
+}
+
+TEST_F(MaterialsTest, ReadsAllThatARuleCanSelectBy) {
+  const Materials file = read(R"({"materials": {"a": {}}, "assign": [
+      {"mesh": "m", "node": "a/**/b", "instance": "i", "assembly": "s", "layer": "l", "cad_material": "steel",
+       "not": {"part": "p"}, "material": "a"},
+      {"not": [{"part": "p"}, {"layer": "hidden"}], "material": null}]})");
+  EXPECT_EQ(text_of(file.assign.at(0)),
+            "mesh 'm', node 'a/**/b', instance 'i', assembly 's', layer 'l', cad_material 'steel', not part 'p'");
+  EXPECT_EQ(text_of(file.assign.at(1)), "not part 'p', not layer 'hidden'");
+  const auto of = [&](const std::string& rule) {
+    return complaint(R"({"materials": {"leather": {}}, "assign": [)" + rule + "]}");
+  };
+  EXPECT_NE(of(R"({"not": {}, "material": null})").find("at /assign/0/not: selects nothing"), std::string::npos);
+  EXPECT_NE(of(R"({"not": {"not": {"part": "a"}}, "material": null})").find("/assign/0/not: unknown key 'not'"),
+            std::string::npos);
+  EXPECT_NE(of(R"({"nodes": "a", "material": null})").find("unknown key 'nodes'; did you mean 'node'?"),
+            std::string::npos);
+  EXPECT_NE(of(R"({"part": "a", "material": "lether"})").find("no material 'lether'; did you mean 'leather'?"),
+            std::string::npos);
+}
+
+TEST_F(MaterialsTest, RangesAreWrittenAsPeopleDo) {
+  EXPECT_NE(complaint(R"({"materials": {"a": {"stiffness": 1e9}}})").find("1000000000 must be from 0.001 to 1000000"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"stribeckVelocity": 0}}})").find("0 must be from 0.000001 to 10"),
+            std::string::npos);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"unwrap": "lscn"}}})").find("; did you mean 'lscm'?"), std::string::npos);
 }
 
 TEST_F(MaterialsTest, NamesTheJsonPointerOfWhatIsWrong) {

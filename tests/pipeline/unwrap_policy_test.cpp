@@ -36,7 +36,9 @@ std::size_t expect_same_uv(const fs::path& file, double chord_mm) {
   Scene scene = read_scene(file, read);
   for (Part& part : scene.parts) part.mesh.uv = {};  // All of them are to be mapped anew.
   const BakeResult baked = bake_scene(scene, grain_everywhere());
-  share_identical_parts(scene, grain_everywhere());
+  const Materials rules = grain_everywhere();
+  Assignment assignment = assign_materials(scene, rules);
+  share_identical_parts(scene, assignment);
   UnwrapOptions options;
   options.layout = UvLayout::tile;
   options.tile_mm = {k_tile_mm, k_tile_mm};

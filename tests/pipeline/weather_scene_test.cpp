@@ -338,6 +338,77 @@ TEST(Weather, LeavesAloneWhatNoLayerFits) {
   EXPECT_EQ(result.images, 0);
 }
 
+/// Two squares of one material, side by side, shown by the nodes "left" and "right" below "table".
+Scene table() {
+  TriangleMesh mesh;
+  add_square(mesh, 0, 0, true);
+  Scene scene = scene_of(mesh);
+  scene.parts[0].name = "top";
+  Node left, right, root;
+  left.name = "left", left.part = 0;
+  right.name = "right", right.part = 0;
+  right.local[3] = 5000;
+  root.name = "table", root.children = {1, 2};
+  scene.nodes = {root, left, right};
+  scene.roots = {0};
+  assign_part_ids(scene);
+  return scene;
+}
+
+int red_of_use(const Scene& scene, std::uint32_t node) {
+  const Part& part = scene.parts[scene.nodes[node].part.value()];
+  const Material& material = scene.materials[part.materials.at(0)];
+  if (!material.base_color_texture) return -1;
+  const Texture& texture = scene.textures[material.base_color_texture->texture];
+  return decode_color_image(scene.images[*texture.image].bytes, "map").pixels[0];
+}
+
+TEST(Weather, ALayerMayLieOnOneUseOfAMaterial) {
+  WeatherConfig config;
+  config.size = 16;
+  WeatherLayer white{"base|colorfunction=white", {"paint"}, {}}, black{"base|colorfunction=black", {"*"}, {}};
+  white.where.node = "table/right";
+  black.where.except.resize(1);
+  black.where.except[0].instance = "right";
+  config.layers = {white, black};
+  WeatherCache cache;
+  const Scene scene = table();
+  const WeatherResult result = weather_scene(scene, config, 1, cache);
+  EXPECT_EQ(red_of_use(result.scene, 1), 0);
+  EXPECT_EQ(red_of_use(result.scene, 2), 255);
+  ASSERT_EQ(result.scene.materials.size(), 2U);
+  EXPECT_EQ(result.scene.materials[1].name, "paint 2");
+  EXPECT_EQ(result.layers[0].surfaces, 1U);
+  EXPECT_EQ(result.layers[1].uses, 1U);
+  EXPECT_EQ(reason_for_no_paint(result), "");
+  // What was painted for other surfaces is not taken for these.
+  config.layers[0].where.node = "table/left";
+  config.layers[1].where.except[0].instance = "left";
+  const WeatherResult exchanged = weather_scene(scene, config, 1, cache);
+  EXPECT_EQ(red_of_use(exchanged.scene, 1), 255);
+  EXPECT_EQ(red_of_use(exchanged.scene, 2), 0);
+}
+
+TEST(Weather, SaysWhyNothingIsPainted) {
+  WeatherConfig config;
+  config.size = 16;
+  config.layers = {{"dust", {"piant"}, {}}};
+  Scene scene = table();
+  EXPECT_EQ(reason_for_no_paint(weather_scene(scene, config, 1)),
+            "no layer lies on any surface; layer 1 (/layers/0): materials 'piant' matches nothing; did you mean "
+            "'paint'?");
+  config.layers[0].materials = {"*"};
+  config.layers[0].where.instance = "lefd";
+  const WeatherResult none = weather_scene(scene, config, 1);
+  EXPECT_EQ(none.scene.warnings.at(0), "layer 1 (/layers/0): instance 'lefd' matches nothing; did you mean 'left'?");
+  config.layers[0].where = {};
+  scene.parts[0].mesh.uv = {};
+  EXPECT_NE(reason_for_no_paint(weather_scene(scene, config, 1)).find("has no texture coordinates"), std::string::npos);
+  scene.materials.clear();
+  scene.parts[0].materials.clear();
+  EXPECT_NE(reason_for_no_paint(weather_scene(scene, config, 1)).find("has no material"), std::string::npos);
+}
+
 TEST(Weather, ConfigurationErrorsNameTheKey) {
   const auto path =
       std::filesystem::temp_directory_path() / ("papilla-weather-" + std::to_string(::getpid()) + ".json");
@@ -354,6 +425,10 @@ TEST(Weather, ConfigurationErrorsNameTheKey) {
   EXPECT_NE(refusal("{\"layers\":[{\"recipes\":\"dust\"}]}").find("at /layers/0"), std::string::npos);
   EXPECT_NE(refusal("{").find("no JSON"), std::string::npos);
   EXPECT_NE(refusal("{\"a\\nb\":1}").find("at /a\\nb: unknown key"), std::string::npos);
+  EXPECT_NE(refusal("{\"layers\":[{\"recipe\":\"dust\",\"nodes\":\"a\"}]}").find("did you mean 'node'?"),
+            std::string::npos);
+  EXPECT_NE(refusal("{\"layrs\":[]}").find("unknown key 'layrs'; did you mean 'layers'?"), std::string::npos);
+  EXPECT_NE(refusal("{\"size\":1}").find("1 must be from 16 to 8192"), std::string::npos);
   EXPECT_EQ(refusal("{\"time\":[0,1],\"layers\":[{\"recipe\":\"dust\"}]}"), "");
   std::filesystem::remove(path);
 }

@@ -112,6 +112,16 @@ Json changes_json(const std::vector<GltfChange>& changes) {
   return json;
 }
 
+Json rules_json(const std::vector<RuleUse>& uses) {
+  Json rules = Json::array();
+  for (const RuleUse& use : uses)
+    rules.push_back({{"for", use.selector},
+                     {"surfaces", use.surfaces},
+                     {"uses", use.uses},
+                     {"problem", use.problem.empty() ? Json(nullptr) : Json(use.problem)}});
+  return rules;
+}
+
 Json bake_json(const BakeResult& result, const BakeOptions& options) {
   Json json;
   json["plan"] = plan_json(result.plan.surfaces);

@@ -6,6 +6,7 @@
 #include "json/scene_json.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "tags_json.hpp"
 
@@ -25,7 +26,7 @@ Json parts_json(const Scene& scene, const std::vector<MeshStatistics>& statistic
   Json parts = Json::array();
   for (std::size_t i = 0; i < scene.parts.size(); ++i) {
     const MeshStatistics& s = statistics[i];
-    Json part{{"name", scene.parts[i].name}};
+    Json part{{"name", shown_name(scene.parts[i])}};
     part.update(counters_json(s));
     part["material"] = material_names(scene, scene.parts[i]);
     part["instances"] = uses[i];
@@ -167,7 +168,7 @@ Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene
   for (const SharedPart& part : shared)
     json.push_back({{"part", part.name},
                     {"id", part.id},
-                    {"copy_of", scene.parts[part.original].name},
+                    {"copy_of", shown_name(scene.parts[part.original])},
                     {"max_distance_mm", part.max_distance_mm}});
   return json;
 }
@@ -175,7 +176,7 @@ Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene
 Json perception_json(const Scene& scene, const ScenePerception& perception) {
   Json json = Json::array();
   for (std::size_t p = 0; p < perception.parts.size(); ++p)
-    json.push_back(perception_json(scene.parts[p].name, perception.parts[p]));
+    json.push_back(perception_json(shown_name(scene.parts[p]), perception.parts[p]));
   return json;
 }
 
@@ -183,7 +184,7 @@ Json budget_json(const Scene& scene, std::size_t wanted, const BudgetResult& bud
                  const std::vector<SimplifyResult>& parts, const std::vector<std::size_t>& triangles_after) {
   Json list = Json::array();
   for (std::size_t i = 0; i < parts.size(); ++i)
-    list.push_back(simplified_part_json(scene.parts[i].name, parts[i], triangles_after[i]));
+    list.push_back(simplified_part_json(shown_name(scene.parts[i]), parts[i], triangles_after[i]));
   return {{"wanted", wanted},
           {"triangles", budget.triangles},
           {"reached", budget.reached},
@@ -211,6 +212,21 @@ Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statist
   return json;
 }
 
+Json nodes_json(const std::vector<SurfacePlace>& places) {
+  const auto first = [](const std::vector<std::string>& names) {
+    return names.empty() ? Json(nullptr) : Json(names.front());
+  };
+  Json nodes = Json::array();
+  for (const SurfacePlace& place : places)
+    nodes.push_back({{"part", first(place.parts)},
+                     {"node", first(place.nodes)},
+                     {"layers", place.layers},
+                     {"cad_materials", place.cad_materials},
+                     {"colour", first(place.colours)},
+                     {"material", first(place.materials)}});
+  return nodes;
+}
+
 Json tessellation_json(const Scene& scene, const CadReport& report) {
   const std::vector<std::size_t> uses = uses_of_parts(scene);
   std::map<std::string, const CadPartReport*> measured;
@@ -220,7 +236,7 @@ Json tessellation_json(const Scene& scene, const CadReport& report) {
     const Part& part = scene.parts[i];
     Json materials = Json::array();
     for (const std::uint32_t m : part.materials) materials.push_back(scene.materials[m].name);
-    parts.push_back({{"name", part.name},
+    parts.push_back({{"name", shown_name(part)},
                      {"id", part.id},
                      {"triangles", part.mesh.triangles.size()},
                      {"vertices", part.mesh.positions.size()},
@@ -281,7 +297,7 @@ Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions
   if (options.levels.asked()) json["levels"] = Json::array();
   for (const LevelReport& level : result.levels)
     if (level.level > 0)
-      json["levels"].push_back({{"part", scene.parts[level.part].name},
+      json["levels"].push_back({{"part", shown_name(scene.parts[level.part])},
                                 {"level", level.level},
                                 {"tolerance_mm", level.tolerance_mm},
                                 {"triangles", level.triangles},
@@ -292,7 +308,7 @@ Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
     const SimplifyResult& part = result.parts[i];
     if (part.triangles_before == 0) continue;
-    json["parts"].push_back(simplified_part_json(scene.parts[i].name, part, result.triangles[i]));
+    json["parts"].push_back(simplified_part_json(shown_name(scene.parts[i]), part, result.triangles[i]));
     json["parts"].back()["stop"] = to_string(part.stop);
     json["parts"].back()["trace"] = trace_json(part.trace);
   }

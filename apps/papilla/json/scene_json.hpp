@@ -42,7 +42,8 @@ Json shared_parts_json(const std::vector<SharedPart>& shared, const Scene& scene
 Json perception_json(const Scene& scene, const ScenePerception& perception);
 
 /// {seen_from, eye_mm, enclosure, open_components, facing_away, ambiguous, skipped, parts[] {part, open_components,
-/// facing_away, ambiguous, turned_triangles, left_facing_away, left_ambiguous, reasons[]}}; null when sheets were kept as they are.
+/// facing_away, ambiguous, turned_triangles, left_facing_away, left_ambiguous, reasons[]}}; null when sheets were kept
+/// as they are.
 Json sides_json(const SceneSides& sides, const SceneSideOptions& options);
 /// {seam_mm, visible_mm, mean_jump_mm, max_jump_mm, mean_turn_deg, turned_mm, per_size}.
 Json seams_json(const SeamVisibility& seams);
@@ -57,6 +58,8 @@ Json budget_json(const Scene& scene, std::size_t wanted, const BudgetResult& bud
 Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statistics,
                   const std::optional<ScenePerception>& perception, const Json& sides);
 
+/// {part, node, layers[], cad_materials[], colour, material} a surface and use.
+Json nodes_json(const std::vector<SurfacePlace>& places);
 Json tessellation_json(const Scene& scene, const CadReport& report);
 Json repair_json(const RepairSceneResult& result, const RepairSceneOptions& options);
 Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options);
@@ -80,6 +83,8 @@ Json own_uv_json(const std::vector<PartSurface>& surfaces);
 Json way_json(const BakeWay& way);
 /// {change, pointer} a line.
 Json changes_json(const std::vector<GltfChange>& changes);
+/// {for, surfaces, uses, problem} a rule or layer.
+Json rules_json(const std::vector<RuleUse>& uses);
 /// Plan, parts, materials, distortion, identical parts, perception, budget, losses, warnings, seconds.
 Json bake_json(const BakeResult& result, const BakeOptions& options);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "json/scene_json.hpp"
+#include "papilla/io/node_places.hpp"
 
 namespace papilla::app {
 namespace {
@@ -16,7 +17,7 @@ Json parts_json(const UnwrapResult& result) {
     const UnwrappedPart& part = result.parts[p];
     Json notes = Json::array();
     for (const ChartNote& note : part.flattening.notes) notes.push_back(note.reason);
-    parts.push_back({{"name", result.scene.parts[p].name},
+    parts.push_back({{"name", shown_name(result.scene.parts[p])},
                      {"triangles", result.scene.parts[p].mesh.triangles.size()},
                      {"method", part.method},
                      {"reason", part.reason.empty() ? Json() : Json(part.reason)},

@@ -10,6 +10,7 @@
 
 #include "exit_code.hpp"
 #include "file_options.hpp"
+#include "option_checks.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
 
@@ -124,7 +125,7 @@ void PerceptionOption::add_to(CLI::App& verb, bool can_leave_out) {
       ->group("Leave out");
   verb.add_option("--view-samples", samples, "Points looked at on every use of a part")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(in_range(1, 1'000'000))
       ->capture_default_str()
       ->group("Leave out");
   if (!can_leave_out) return;
@@ -132,7 +133,7 @@ void PerceptionOption::add_to(CLI::App& verb, bool can_leave_out) {
                   "unreachable, unseen, or both: then parts that can be neither touched nor seen")
       ->type_name("WHAT,...")
       ->delimiter(',')
-      ->check(CLI::IsMember({"unreachable", "unseen"}))
+      ->transform(one_of({"unreachable", "unseen"}))
       ->group("Leave out");
 }
 

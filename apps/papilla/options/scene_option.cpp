@@ -4,6 +4,7 @@
 #include <map>
 
 #include "file_options.hpp"
+#include "option_checks.hpp"
 #include "papilla/core/units.hpp"
 
 namespace papilla::app {
@@ -20,28 +21,28 @@ const std::map<std::string, double> k_units = {
 
 void SceneOptions::add_to(CLI::App& verb) {
   auto* chord = verb.add_option("--chord,--sag", chord_mm, "CAD: largest distance between surface and triangles, mm")
-                    ->check(CLI::Range(1e-6, 1e3))
+                    ->check(in_range(1e-6, 1e3))
                     ->capture_default_str()
                     ->group("Input");
   verb.add_option("--angle", angle_deg, "CAD: largest angle between neighbouring normals, degrees")
-      ->check(CLI::Range(0.1, 90.0))
+      ->check(in_range(0.1, 90.0))
       ->capture_default_str()
       ->group("Input");
   verb.add_option("--quality", quality,
                   "CAD: chord by name: extra-coarse 1, coarse 0.5, medium 0.2, fine 0.1, extra-fine 0.02 mm")
-      ->check(CLI::IsMember({"extra-coarse", "coarse", "medium", "fine", "extra-fine"}))
+      ->transform(one_of({"extra-coarse", "coarse", "medium", "fine", "extra-fine"}))
       ->excludes(chord)
       ->group("Input");
   verb.add_option("--max-edge", max_edge_mm, "CAD: longest edge of a triangle, mm; 0: any")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str()
       ->group("Input");
   verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY, OFF), or instead of a CAD file's own")
-      ->check(CLI::IsMember({"file", "mm", "cm", "m", "in", "ft"}))
+      ->transform(one_of({"file", "mm", "cm", "m", "in", "ft"}))
       ->capture_default_str()
       ->group("Input");
   verb.add_option("--up", up, "Upward axis: as the file's format has it, or given")
-      ->check(CLI::IsMember({"file", "y", "z"}))
+      ->transform(one_of({"file", "y", "z"}))
       ->capture_default_str()
       ->group("Input");
   reads(verb.add_option("--tags", tags,

@@ -7,6 +7,7 @@
 
 #include "exit_code.hpp"
 #include "file_options.hpp"
+#include "option_checks.hpp"
 #include "options/vector_option.hpp"
 
 namespace papilla::app {
@@ -32,35 +33,35 @@ void HeightOption::add_to(CLI::App& verb) {
   writes(verb.add_option("--normal", normal_, "Write the glTF normal map of the relief too"))->type_name("FILE");
   verb.add_option("--pitch", options_.height.pitch_mm, "Millimetres per pixel; default from the file's resolution")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   verb.add_option("--depth", options_.height.depth_mm, "Peak to valley")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   verb.add_option("--method", method_, "How grey becomes height")
-      ->check(CLI::IsMember({"auto", "variational", "pentland", "tsai-shah", "intensity"}))
+      ->transform(one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"}))
       ->capture_default_str();
   verb.add_option("--light", light_, "Direction to the light: x right, y down, z to the viewer")
-      ->type_name("auto|X,Y,Z")
+      ->type_name("X,Y,Z|{auto}")
       ->capture_default_str();
   verb.add_option("--periodic", periodic_, "Whether the height shall tile; auto looks whether the picture does")
-      ->check(CLI::IsMember({"auto", "yes", "no"}))
+      ->transform(one_of({"auto", "yes", "no"}))
       ->capture_default_str();
   verb.add_option("--roughness", roughness_,
                   "With a lattice: relief and roughness as one (whole), or the relief of the symmetric part with no "
                   "roughness, the residual, or a synthesized surface like it")
-      ->check(CLI::IsMember({"whole", "none", "residual", "synthesized"}))
+      ->transform(one_of({"whole", "none", "residual", "synthesized"}))
       ->capture_default_str();
   verb.add_option("--cut", cut_, "Leave out shorter waves; auto: two ticks of the device at --speed")
-      ->type_name("auto|none|MM")
+      ->type_name("MM|{auto,none}")
       ->capture_default_str();
   verb.add_option("--rate", rate_hz_, "Of the device, for --cut auto")
       ->type_name("HZ")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   verb.add_option("--speed", speed_mm_per_s_, "Of the hand, for --cut auto")
       ->type_name("MM/S")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   verb.add_flag("--tile", options_.height.tile,
                 "One tile of the lattice, exactly periodic whatever its angle; its roughness is synthesized");
@@ -104,49 +105,51 @@ void TextureOption::add_to(CLI::App& verb) {
   verb.add_option("--size", size_, "Texels a side, or width and height")
       ->expected(1, 2)
       ->delimiter('x')
-      ->check(CLI::Range(1, 65536))
+      ->check(in_range(1, 65536))
       ->type_name("N[xN]");
+  std::string channel_names = "all";
+  for (int c = 0; c < k_channels; ++c) channel_names += "," + std::string(to_string(static_cast<Channel>(c)));
   verb.add_option("--channels", channels_, "Channels separated by commas, or all")
-      ->type_name("LIST")
+      ->type_name("LIST|{" + channel_names + "}")
       ->capture_default_str();
   verb.add_option("--bits", files.bits, "8 or 16 (PNG), 32 (EXR); colours have 8")
-      ->check(CLI::IsMember({8, 16, 32}))
+      ->transform(one_of({"8", "16", "32"}))
       ->capture_default_str();
   verb.add_flag("--normalize", files.normalize, "Stretch every channel to its full range");
   verb.add_flag("--normal", files.normal_map, "Write the glTF normal map of the height too");
   verb.add_option("--size-mm", files.size_mm, "Side of the picture, for the normal map")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->type_name("MM")
       ->capture_default_str();
   verb.add_option("--depth-mm", files.depth_mm, "Height of 1, for the normal map")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->type_name("MM")
       ->capture_default_str();
   verb.add_option("--time", files.time, "0 new to 1 worn")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(in_range(0.0, 1.0))
       ->type_name("T")
       ->capture_default_str();
   CLI::Option* steps = verb.add_option("--steps", files.steps, "A series of pictures from time 0 to 1")
-                           ->check(CLI::Range(1, 9999))
+                           ->check(in_range(1, 9999))
                            ->type_name("N");
   verb.add_flag("--video", files.video, "The series as an animated GIF, lit, too")->needs(steps);
   verb.add_flag("--seamless", files.seamless, "The pictures tile");
   reads(verb.add_option("--library", libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
   verb.add_option("--sheet", sheet, "A contact sheet: of all types, or of the library")
-      ->check(CLI::IsMember({"types", "library"}));
+      ->transform(one_of({"types", "library"}));
   verb.add_option("--tile", tile_px, "Texels a side of a picture on the sheet")
-      ->check(CLI::Range(8, 1024))
+      ->check(in_range(8, 1024))
       ->type_name("N")
       ->capture_default_str();
   verb.add_option("--list", list,
                   "Print types, functions, recipes, categories of recipes, reference, or the parameters of a type")
-      ->type_name("WHAT")
+      ->type_name("WHAT|{types,functions,recipes,categories,reference}")
       ->expected(0, 1)
       ->default_str("types");
   verb.add_option("--suggest", suggest, "Print recipes that suit a material of this name")->type_name("NAME");
   verb.add_option("--mutate", files.mutation, "Change the recipe's numbers by up to this share; --seed chooses")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(in_range(0.0, 1.0))
       ->type_name("SHARE");
 }
 

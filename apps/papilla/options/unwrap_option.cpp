@@ -9,7 +9,9 @@
 #include <map>
 
 #include "exit_code.hpp"
+#include "option_checks.hpp"
 #include "options/vector_option.hpp"
+#include "papilla/core/near_name.hpp"
 
 namespace papilla::app {
 namespace {
@@ -92,49 +94,42 @@ std::pair<std::string, double> parse_density(const std::string& text) {
 void check_part(const std::string& option, const std::string& pattern, const std::string& file, const Scene& scene) {
   if (pattern.empty() && scene.parts.size() != 1)
     throw UsageError(fmt::format("{}: {} has {} parts, say which by @PART", option, file, scene.parts.size()));
-  if (std::none_of(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return is_for_part(pattern, p.name); }))
-    throw UsageError(option + ": " + file + " has no part named '" + pattern + "'");
-}
-
-template <class Value>
-CLI::Option* add_choice(CLI::App* verb, const std::string& name, Value& value,
-                        const std::map<std::string, Value>& choices, const std::string& help) {
-  std::string names;
-  for (const auto& choice : choices) names += (names.empty() ? "" : "|") + choice.first;
-  return verb->add_option(name, value, help)
-      ->transform(CLI::CheckedTransformer(choices, CLI::ignore_case).description(""))
-      ->type_name(names);
+  if (std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return is_for_part(pattern, p.name); }))
+    return;
+  std::vector<std::string_view> known;
+  for (const Part& part : scene.parts) known.emplace_back(part.name);
+  throw UsageError(option + ": " + file + " has no part named '" + pattern + "'" + did_you_mean(pattern, known));
 }
 
 /// What only some methods know; the help names them.
 void add_method_options(CLI::App& verb, UnwrapOption& options) {
   MethodOptions& m = options.unwrap.method;
   verb.add_option("--iterations", m.iterations, "Of best, maillot, levy (rounds), arap: at most so many")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   verb.add_option("--tolerance", m.tolerance, "Of the same: stop when the error falls by less than this fraction")
-      ->check(CLI::Range(1e-15, 0.999));
+      ->check(in_range(1e-15, 0.999));
   verb.add_option("--time-limit", m.time_limit_s, "Of best, maillot, levy: stop iterating a chart after so long")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->type_name("S");
   verb.add_option("--phi", m.maillot.length_weight, "Of maillot: weight of lengths against areas")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(in_range(0.0, 1.0))
       ->capture_default_str();
   verb.add_flag("--allow-flips", m.maillot.allow_flips, "Of maillot: let triangles turn over, as the source does");
-  add_choice<MaillotStart>(&verb, "--start", m.maillot.start,
+  add_choice<MaillotStart>(verb, "--start", m.maillot.start,
                            {{"coarse-to-fine", MaillotStart::coarse_to_fine}, {"conformal", MaillotStart::conformal}},
                            "Of maillot: the map to start from; coarse-to-fine (default) is valid on every disk");
-  add_choice<LevyWeights>(&verb, "--weights", m.levy.weights,
+  add_choice<LevyWeights>(verb, "--weights", m.levy.weights,
                           {{"uniform", LevyWeights::uniform},
                            {"cotangent", LevyWeights::cotangent},
                            {"mean-value", LevyWeights::mean_value}},
                           "Of levy's smoothness; default: mean-value");
-  add_choice<LevyBorder>(&verb, "--border", m.levy.border, {{"convex", LevyBorder::convex}, {"free", LevyBorder::free}},
+  add_choice<LevyBorder>(verb, "--border", m.levy.border, {{"convex", LevyBorder::convex}, {"free", LevyBorder::free}},
                          "Of levy; default: free");
-  add_choice<LevyCoupling>(&verb, "--coupling", m.levy.coupling,
+  add_choice<LevyCoupling>(verb, "--coupling", m.levy.coupling,
                            {{"conformal", LevyCoupling::conformal}, {"orthogonal", LevyCoupling::orthogonal}},
                            "Of levy: conformal (default) is linear, orthogonal alternates between u and v");
   const auto weight = [&](const char* name, double& value, const char* help) {
-    verb.add_option(name, value, help)->check(CLI::NonNegativeNumber)->capture_default_str();
+    verb.add_option(name, value, help)->check(not_negative())->capture_default_str();
   };
   weight("--smoothness", m.levy.smoothness, "Of levy: weight of smooth interpolation");
   weight("--orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
@@ -144,13 +139,13 @@ void add_method_options(CLI::App& verb, UnwrapOption& options) {
   verb.add_option("--iso-line", options.iso_lines,
                   "Of levy: the vertices on the shortest path of edges through these places share their u, or v")
       ->type_name("u|v[=MM]:X,Y,Z;X,Y,Z...[@PART]");
-  add_choice<IntermediateShape>(&verb, "--shape", m.intermediate.shape,
+  add_choice<IntermediateShape>(verb, "--shape", m.intermediate.shape,
                                 {{"sphere", IntermediateShape::sphere},
                                  {"cylinder", IntermediateShape::cylinder},
                                  {"cone", IntermediateShape::cone},
                                  {"box", IntermediateShape::box}},
                                 "Of intermediate; default: box");
-  add_choice<IntermediateRule>(&verb, "--rule", m.intermediate.rule,
+  add_choice<IntermediateRule>(verb, "--rule", m.intermediate.rule,
                                {{"reflected-ray", IntermediateRule::reflected_ray},
                                 {"object-normal", IntermediateRule::object_normal},
                                 {"object-centroid", IntermediateRule::object_centroid},
@@ -203,23 +198,23 @@ PlacedIsoLine parse_iso_line(const std::string& text) {
 
 void UnwrapOption::add_to(CLI::App& verb) {
   add_choice<UnwrapMethod>(
-      &verb, "--method", unwrap.method.method, unwrap_methods(),
+      verb, "--method", unwrap.method.method, unwrap_methods(),
       "auto (default): chart by chart, the cheapest that does it well; best: lowest distortion, no flips, no "
       "overlap; lscm, levy: conformal; maillot, arap: lengths and areas; tutte, mvc: border on a circle; natural: the "
       "CAD surface's parameters; "
-      "triplanar, planar, intermediate: projections; environment: sphere map, for previews")
-      ->type_name("NAME");
-  add_choice<ChartSource>(&verb, "--charts", unwrap.method.charts,
+      "triplanar, planar, intermediate: projections; environment: sphere map, for previews");
+  add_choice<ChartSource>(verb, "--charts", unwrap.method.charts,
                           {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
                           "auto (default): segment the surface; keep: each component is one chart");
   verb.add_option(
           "--solver", solver,
           "lscm: hermitian (default), cgal; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")
+      ->transform(one_of({"hermitian", "cgal", "gauss-newton", "gradient-descent", "direct", "gauss-seidel"}))
       ->type_name("NAME");
   add_method_options(verb, *this);
   verb.add_option("--feature-angle", unwrap.method.segmentation.feature_angle_deg,
                   "Edges bent by more degrees part charts")
-      ->check(CLI::Range(1.0, 180.0))
+      ->check(in_range(1.0, 180.0))
       ->type_name("DEG")
       ->capture_default_str();
   verb.add_option_function<double>(
@@ -230,31 +225,31 @@ void UnwrapOption::add_to(CLI::App& verb) {
           },
           "What seams cost against distortion: 0.01 cuts generously, 0.5 hardly ever; default: 0.03, and on parts of "
           "up to 50,000 triangles 0.01 or 0.1 where that is the better bargain")
-      ->check(CLI::Range(0.0, 1e6));
-  add_choice<UvLayout>(&verb, "--layout", unwrap.layout, {{"atlas", UvLayout::atlas}, {"tile", UvLayout::tile}},
+      ->check(in_range(0.0, 1e6));
+  add_choice<UvLayout>(verb, "--layout", unwrap.layout, {{"atlas", UvLayout::atlas}, {"tile", UvLayout::tile}},
                        "atlas (default): no two charts overlap; tile: the grain goes on over seams");
   verb.add_option("--tile", tile, "Size of the grain's repeat: charts keep its phase")
       ->expected(2)
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(in_range(0.0, 1e6))
       ->type_name("MM");
   verb.add_option("--grain", grain, "Direction of the grain: up (default), longest: along each part, or a vector")
-      ->type_name("up|longest|X,Y,Z");
+      ->type_name("X,Y,Z|{up,longest}");
   verb.add_option("--grain-size", unwrap.grain_mm,
                   "Size of one grain, by which seams are judged; default: an eighth of the tile")
-      ->check(CLI::Range(1e-6, 1e6))
+      ->check(in_range(1e-6, 1e6))
       ->type_name("MM");
   verb.add_option("--texture-px", texture_px,
                   "Add a second set of uv for one texture of so many texels a side in which nothing overlaps")
-      ->check(CLI::Range(16, 65536))
+      ->check(in_range(16, 65536))
       ->type_name("PX");
   verb.add_option("--gutter-px", gutter_px, "Texels between charts there")
-      ->check(CLI::Range(0.0, 16384.0))
+      ->check(in_range(0.0, 16384.0))
       ->type_name("PX")
       ->capture_default_str();
   verb.add_option("--density", density, "Texel density there of parts by name (* and ? match), relative to 1")
       ->type_name("PART=FACTOR");
   verb.add_option("--gutter", unwrap.gutter_mm, "Least distance of charts in the atlas; default: 0.5 % of its side")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(in_range(0.0, 1e6))
       ->type_name("MM");
 }
 

@@ -15,6 +15,7 @@
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/decode_grey16.hpp"
 #include "papilla/io/height_source.hpp"
+#include "papilla/io/node_places.hpp"
 
 namespace papilla::app {
 namespace {
@@ -82,7 +83,7 @@ std::vector<ShownPart> show_parts(const Scene& scene, double keep, const Progres
     try {
       shown[i] = show_part(scene, scene.parts[i], keep);
     } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + scene.parts[i].name + "': " + error.what());
+      throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }
     ++done;
   });
@@ -211,7 +212,7 @@ PageScene page_scene(const Scene& scene, const std::filesystem::path& file, cons
       error_mm = std::max(error_mm, mesh.error_mm);
     }
     parts.push_back(
-        {{"name", scene.parts[i].name},
+        {{"name", shown_name(scene.parts[i])},
          {"triangles", scene.parts[i].mesh.triangles.size()},
          {"meshes", std::move(meshes)},
          {"distortion", shown_uv(scene.parts[i].mesh) ? distortion_json(shown[i].distortion) : Json(nullptr)}});

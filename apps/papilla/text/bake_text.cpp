@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "papilla/io/node_places.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
 
@@ -61,7 +62,7 @@ std::string left_out_table(const Scene& scene, const ScenePerception& perception
     std::string_view reason = part.left_out;
     for (std::size_t i = 0; reason.empty() && i < perception.uses.size(); ++i)
       if (perception.uses[i].part == p) reason = perception.of_use[i].left_out;
-    table += shown_format("left out: {}{}: {}\n", scene.parts[p].name, uses, reason);
+    table += shown_format("left out: {}{}: {}\n", shown_name(scene.parts[p]), uses, reason);
   }
   return table;
 }
@@ -79,7 +80,31 @@ std::string slope_line(const std::string& material, const GrainHeight& height) {
       height.depth_mm, height.unlimited_depth_mm);
 }
 
+/// What became of the surfaces when none has grain.
+std::string surfaces_without_grain(const std::vector<PartSurface>& surfaces) {
+  const auto count = [&](auto&& is_so) {
+    return static_cast<std::size_t>(std::count_if(surfaces.begin(), surfaces.end(), is_so));
+  };
+  const std::size_t assigned = count([](const PartSurface& s) { return !s.material.empty(); });
+  const std::size_t felt = count([](const PartSurface& s) { return decision(s.plan, Stage::tag).run; });
+  if (assigned == 0) return "no rule took a surface: none gets a material\n";
+  return shown_format("no surface gets grain; {} of {} get constants of touch\n", felt, surfaces.size());
+}
+
 }  // namespace
+
+std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules) {
+  if (uses.empty()) return "no rules: 'assign' is empty\n";
+  std::size_t width = 8;
+  for (const AssignRule& rule : rules.assign) width = std::clamp(rule.material.size(), width, std::size_t{24});
+  std::string out = shown_format("\nrule  {:<{}}  {:>8}  {:>8}  for\n", "material", width, "surfaces", "uses");
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const std::string& material = rules.assign.at(i).material;
+    out += shown_format("{:>4}  {:<{}}  {:>8}  {:>8}  {}\n", i + 1, material.empty() ? "-" : material, width,
+                        uses[i].surfaces, uses[i].uses, uses[i].selector);
+  }
+  return out;
+}
 
 std::string bake_table(const BakeResult& result) {
   std::size_t width = 4, material_width = 8;
@@ -100,7 +125,7 @@ std::string bake_table(const BakeResult& result) {
                           surface.notes.front());
   }
   for (const auto& [name, grain] : result.grains) out += slope_line(name, grain.height);
-  if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
+  if (result.surfaces.empty()) out = surfaces_without_grain(result.plan.surfaces);
   return out;
 }
 

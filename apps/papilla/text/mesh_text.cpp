@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "json/scene_json.hpp"
 #include "papilla/core/one_line.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
@@ -13,10 +16,11 @@ std::string perception_text(const Scene& scene, const ScenePerception& perceptio
   for (std::size_t p = 0; p < perception.parts.size(); ++p) {
     const PartPerception& part = perception.parts[p];
     const auto cell = [](bool known, std::size_t count) { return known ? std::to_string(count) : std::string("-"); };
-    text += shown_format(
-        "{:>9} {:>8} {:>7} {:>9}  {}\n", part.instances, cell(part.in_reach.has_value(), part.instances_in_reach),
-        cell(part.visible_fraction.has_value(), part.instances_seen),
-        part.visible_fraction ? shown_format("{:.1f} %", 100 * *part.visible_fraction) : "-", scene.parts[p].name);
+    text += shown_format("{:>9} {:>8} {:>7} {:>9}  {}\n", part.instances,
+                         cell(part.in_reach.has_value(), part.instances_in_reach),
+                         cell(part.visible_fraction.has_value(), part.instances_seen),
+                         part.visible_fraction ? shown_format("{:.1f} %", 100 * *part.visible_fraction) : "-",
+                         shown_name(scene.parts[p]));
   }
   return text;
 }
@@ -67,7 +71,7 @@ std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& 
   std::string text = shown_format("{}, units {}, {} parts, {:.4g} x {:.4g} x {:.4g} mm\n\n", scene.format, scene.unit,
                                   scene.parts.size(), size.x, size.y, size.z);
   text += header_row();
-  for (std::size_t i = 0; i < statistics.size(); ++i) text += counters_row(scene.parts[i].name, statistics[i]);
+  for (std::size_t i = 0; i < statistics.size(); ++i) text += counters_row(shown_name(scene.parts[i]), statistics[i]);
   if (statistics.size() > 1) text += counters_row("all parts", total_statistics(statistics));
   if (!scene.materials.empty()) text += shown_format("\n{} materials\n", scene.materials.size());
   for (const Material& material : scene.materials) {
@@ -83,11 +87,32 @@ std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& 
   return text;
 }
 
+std::string nodes_text(const std::vector<SurfacePlace>& places) {
+  const auto joined = [](const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list.empty() ? "-" : list;
+  };
+  std::size_t width = 4, part_width = 4;
+  for (const SurfacePlace& place : places) {
+    width = std::clamp(joined(place.nodes).size(), width, std::size_t{60});
+    part_width = std::clamp(place.parts.front().size(), part_width, std::size_t{30});
+  }
+  std::string text =
+      shown_format("\n{:<{}}  {:<{}}  colour   material; layers; CAD material\n", "node", width, "part", part_width);
+  for (const SurfacePlace& place : places)
+    text +=
+        shown_format("{:<{}}  {:<{}}  {:<7}  {}; {}; {}\n", joined(place.nodes), width, place.parts.front(), part_width,
+                     joined(place.colours), joined(place.materials), joined(place.layers), joined(place.cad_materials));
+  return text;
+}
+
 std::string tessellation_text(const Scene& scene, const CadReport& report) {
   const std::vector<std::size_t> uses = uses_of_parts(scene);
   std::string text = shown_format("{:>10} {:>9}  part\n", "triangles", "instances");
   for (std::size_t i = 0; i < scene.parts.size(); ++i)
-    text += shown_format("{:>10} {:>9}  {}\n", scene.parts[i].mesh.triangles.size(), uses[i], scene.parts[i].name);
+    text +=
+        shown_format("{:>10} {:>9}  {}\n", scene.parts[i].mesh.triangles.size(), uses[i], shown_name(scene.parts[i]));
   text += shown_format("{} triangles in {} parts, {} of {} CAD faces failed, largest deviation {:.3g} mm\n",
                        report.triangles, scene.parts.size(), report.failed_faces.size(), report.faces,
                        report.max_deviation_mm);
@@ -122,9 +147,10 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
   text += shown_format("{:>10} {:>10} {:>12}  part\n", "before", "after", "deviation mm");
   for (std::size_t i = 0; i < result.parts.size(); ++i)
     if (const SimplifyResult& part = result.parts[i]; part.triangles_before > 0)
-      text += simplified_row(part.triangles_before, result.triangles[i], part.deviation.bound(), scene.parts[i].name);
+      text += simplified_row(part.triangles_before, result.triangles[i], part.deviation.bound(),
+                             shown_name(scene.parts[i]));
   for (const LevelReport& level : result.levels) {
-    const std::string& name = scene.parts[level.part].name;
+    const std::string& name = shown_name(scene.parts[level.part]);
     if (level.level > 0)
       text += simplified_row(level.triangles_before, level.triangles, level.max_deviation_mm,
                              shown_format("{} level {}", name, level.level));
@@ -144,7 +170,7 @@ std::string unwrap_remarks(const UnwrapResult& result) {
       text += shown_format(
           "part '{}': charts end at {} edges of triangles that are wound against each other; papilla repair turns "
           "them\n",
-          result.scene.parts[p].name, part.opposed_edges);
+          shown_name(result.scene.parts[p]), part.opposed_edges);
     if (!part.reason.empty() && part.failure.empty()) text += shown_format("{}: {}\n", part.method, part.reason);
     if (!part.failure.empty()) text += shown_format("not unwrapped: {}\n", part.failure);
     if (!part.flattening.notes.empty())

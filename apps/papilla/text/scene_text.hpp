@@ -22,6 +22,8 @@ std::string counters_row(const std::string& name, const MeshStatistics& statisti
 /// What `inspect` says of a scene.
 std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& statistics,
                          const std::optional<ScenePerception>& perception, const SceneSides& sides);
+/// A row a surface and use, with the names that rules select by.
+std::string nodes_text(const std::vector<SurfacePlace>& places);
 std::string tessellation_text(const Scene& scene, const CadReport& report);
 std::string repair_text(const RepairSceneResult& result);
 std::string simplify_text(const SimplifySceneResult& result, const SimplifySceneOptions& options);
@@ -45,6 +47,8 @@ std::string way_line(const BakeWay& way);
 std::string changes_line(const std::vector<GltfChange>& changes);
 /// One row a surface, the stages that run, why the others do not, what its own uv are like and what new ones cost.
 std::string plan_table(const std::vector<PartSurface>& surfaces);
+/// One row a rule: how many surfaces it took, and with all instances how many uses of them.
+std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules);
 /// A row a part that is left out or has uses that are; empty when there is none.
 std::string left_out_table(const Scene& scene, const ScenePerception& perception);
 /// One row a surface with grain.

@@ -4,6 +4,7 @@
 
 #include "file_options.hpp"
 #include "json/texture_json.hpp"
+#include "option_checks.hpp"
 #include "text/texture_text.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -49,25 +50,25 @@ void add_analyze(CLI::App& program) {
   reads(verb->add_option("image", options->image, "Picture"))->required()->type_name("IMAGE");
   verb->add_option("--pitch", options->survey.pitch_mm, "Millimetres per pixel; default from the file's resolution")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   verb->add_option("--only", options->only, "Parts to analyse")
       ->delimiter(',')
-      ->check(CLI::IsMember({"fractal", "symmetry", "class"}))
+      ->transform(one_of({"fractal", "symmetry", "class"}))
       ->capture_default_str();
   writes_into(verb->add_option("--pictures", options->pictures,
                                "Write the strip of the symmetry, the log-log plot and the polar Hurst plot into DIR"),
               {"symmetry.png"})
       ->type_name("DIR");
   verb->add_option("--lattice", options->lattice, "How minima become a lattice")
-      ->check(CLI::IsMember({"best", "projection"}))
+      ->transform(one_of({"best", "projection"}))
       ->capture_default_str();
   verb->add_option("--feature", options->feature, "Distortion of the feature matrix; absolute is slow")
-      ->check(CLI::IsMember({"squared", "absolute"}))
+      ->transform(one_of({"squared", "absolute"}))
       ->capture_default_str();
   verb->add_flag("--force-lattice", options->force_lattice, "Take the best lattice even if it is not significant");
   verb->add_option("--pattern", options->pattern,
                    "strip adds the frieze group of a strip along x, rosette the group about the middle of the picture")
-      ->check(CLI::IsMember({"plane", "strip", "rosette"}))
+      ->transform(one_of({"plane", "strip", "rosette"}))
       ->capture_default_str();
 }
 

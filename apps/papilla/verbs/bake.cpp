@@ -6,6 +6,7 @@
 #include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "option_checks.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
@@ -80,6 +81,7 @@ Json run(const Options& options, VerbContext& context) {
   Json json = bake_json(result, wanted.bake);
   json["way"] = way_json(result.way);
   json["changes"] = changes_json(result.changes);
+  json["rules"] = rules_json(result.plan.rules);
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
   context.console.print(way_line(result.way) + sides_text(result.plan.sides, true) +
                         left_out_table(result.scene, result.plan.perception));
@@ -103,7 +105,7 @@ void add_bake(CLI::App& program) {
   CLI::App* verb = add_verb(
       program,
       {"bake", "The main job: grain and touch onto a scene, as glTF; a glTF scene keeps all else that it holds.",
-       "papilla bake data/cockpit.step -m demo/materials.json -o cockpit.glb --report report"},
+       "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report"},
       [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))
@@ -118,16 +120,17 @@ void add_bake(CLI::App& program) {
   verb->add_option("--budget", options->bake.bake.plan.budget,
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   verb->add_option(
           "--mirror", options->mirrors,
           "Repeat what the haptic tags say in drafts of others' extensions, as far as they have a place for it")
       ->type_name("NAME")
-      ->check(CLI::IsMember({k_mpeg, k_khr}));
+      ->transform(one_of({k_mpeg, k_khr}));
   auto* const report = writes_into(verb->add_option("--report", options->report,
                                                     "Folder for a page to look at (index.html) and report.json"),
                                    {"index.html", "report.json"})
                            ->type_name("DIR");
+  verb->add_flag("--strict", options->bake.bake.plan.strict, "Refuse rules that take no surface");
   verb->add_flag("--pictures", options->pictures,
                  "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")
       ->needs(report);

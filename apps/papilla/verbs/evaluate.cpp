@@ -9,6 +9,7 @@
 #include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/evaluation_json.hpp"
+#include "option_checks.hpp"
 #include "options/scene_option.hpp"
 #include "verb.hpp"
 #include "verbs.hpp"
@@ -82,7 +83,7 @@ void add_evaluate(CLI::App& program) {
   }
   names.emplace_back(k_stability);
   help += " stability (every method on input made to break it; takes no file)";
-  verb->add_option("kind", options->evaluate.kind, help)->type_name("KIND")->check(CLI::IsMember(names))->required();
+  verb->add_option("kind", options->evaluate.kind, help)->type_name("KIND")->transform(one_of(names))->required();
   reads(
       verb->add_option("file", options->evaluate.files,
                        "Files to read; without, inputs of its own: disks, solids, fractal surfaces, lattices, reliefs"))
@@ -93,14 +94,14 @@ void add_evaluate(CLI::App& program) {
       ->required();
   verb->add_option("--repeats", options->evaluate.repeats,
                    "Measure this often when the time allows it; medians are drawn")
-      ->check(CLI::Range(1, 1000))
+      ->check(in_range(1, 1000))
       ->capture_default_str();
   verb->add_option(
           "--seconds", options->seconds,
           fmt::format("Time for each file, {:g} when not given, {:g} for stability: nothing begins that is not "
                       "expected to end in time, and what is left out for it is named",
                       EvaluateOptions{}.seconds, k_stability_seconds))
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(in_range(1e-3, 1e6));
   options->read.add_to(*verb);
 }
 

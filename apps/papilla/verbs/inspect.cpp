@@ -19,6 +19,7 @@ namespace {
 
 struct Options {
   std::string file, picture;
+  bool nodes = false;
   PerceptionOption perception;
   SideOption sides;
   SceneOptions read;
@@ -33,9 +34,11 @@ Json run(const Options& options, VerbContext& context) {
   if (wanted.asked()) perception = measure_perception(scene, wanted, context.progress);
   const SceneSides sides = find_sides(scene, look, wanted.view);
   context.console.print(inspect_text(scene, statistics, perception, sides));
+  if (options.nodes) context.console.print(nodes_text(surface_places(scene)));
   print_notes(scene, context.console);
   Json json{{"file", options.file}};
   json.update(inspect_json(scene, statistics, perception, sides_json(sides, look)));
+  if (options.nodes) json["nodes"] = nodes_json(surface_places(scene));
   if (!options.picture.empty()) {
     write_color_image(options.picture, render_scene(scene, {.mode = RenderMode::triangles}));
     json["picture"] = options.picture;
@@ -56,6 +59,8 @@ void add_inspect(CLI::App& program) {
   writes(verb->add_option("--picture", options->picture,
                           "Picture of the scene with its triangles; red: edges of one triangle"))
       ->type_name("PNG");
+  verb->add_flag("--nodes", options->nodes,
+                 "List all that rules can select by: the path of every use of a part, its layers and materials");
   options->perception.add_to(*verb, false);
   options->sides.add_to(*verb, false);
   options->read.add_to(*verb);

@@ -8,9 +8,12 @@
 #include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "option_checks.hpp"
 #include "options/scene_option.hpp"
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/near_name.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "scene_output.hpp"
 #include "shown_format.hpp"
@@ -50,8 +53,12 @@ Gate parse_gate(const std::string& text) {
 double gated_value(const DistortionReport& distortion, const std::string& name) {
   for (const auto& [known, number] : distortion_numbers(distortion))
     if (known == name) return std::visit([](auto value) { return static_cast<double>(value); }, number);
-  throw UsageError("--fail-above: the report has no number '" + name +
-                   "'; it has, for example, symmetric_dirichlet.mean");
+  const auto numbers = distortion_numbers(distortion);
+  std::vector<std::string_view> known;
+  for (const auto& number : numbers) known.push_back(number.first);
+  const std::string near = did_you_mean(name, known);
+  throw UsageError("--fail-above: the report has no number '" + name + "'" +
+                   (near.empty() ? "; it has, for example, symmetric_dirichlet.mean" : near));
 }
 
 Json check_gates(const std::vector<Gate>& gates, const DistortionReport& distortion, VerbContext& context) {
@@ -70,7 +77,7 @@ Json check_gates(const std::vector<Gate>& gates, const DistortionReport& distort
 Json parts_json(const Scene& scene, const MeasureOptions& options) {
   Json parts = Json::array();
   for (const Part& part : scene.parts) {
-    Json entry = {{"name", part.name}};
+    Json entry = {{"name", shown_name(part)}};
     if (part.mesh.uv.empty())
       entry["without_uv"] = part.mesh.triangles.size();
     else
@@ -129,18 +136,18 @@ void add_measure(CLI::App& program) {
       ->type_name("FILE");
   verb->add_flag("--histogram", options->histogram, "Print how the area is spread over distortion");
   verb->add_option("--worst", options->worst, "Symmetric Dirichlet distortion at the end of the colours")
-      ->check(CLI::Range(4.0001, 1e6))
+      ->check(in_range(4.0001, 1e6))
       ->capture_default_str();
   writes(verb->add_option("--csv", options->csv, "Write a line per triangle"))->type_name("FILE");
   verb->add_option("--fail-above", options->gates, "Exit with 1 when the number NAME of the report exceeds VALUE")
       ->type_name("NAME=VALUE");
   verb->add_option("--texture-px", options->texture_px, "Side of the texture in texels, for the texel density")
-      ->check(CLI::Range(1.0, 1e6))
+      ->check(in_range(1.0, 1e6))
       ->type_name("PX")
       ->capture_default_str();
   verb->add_option("--uv-per-texture", options->uv_per_texture,
                    "uv units that one texture covers: 1, or millimetres when uv are in millimetres")
-      ->check(CLI::Range(1e-9, 1e9))
+      ->check(in_range(1e-9, 1e9))
       ->type_name("UV")
       ->capture_default_str();
   options->scene.add_to(*verb);

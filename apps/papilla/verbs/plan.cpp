@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <memory>
 
+#include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "options/perception_option.hpp"
@@ -15,6 +17,7 @@ namespace {
 
 struct Options {
   std::string input, materials;
+  bool strict = false;
   PerceptionOption perception;
   SideOption sides;
   SceneOptions scene;
@@ -30,17 +33,23 @@ Json run(const Options& options, VerbContext& context) {
   const Materials rules = read_materials(options.materials);
   const BakeWay way = bake_way(options.input, wanted);
   const BakePlan plan = plan_file(options.input, rules, wanted, context.progress);
-  context.console.print(way_line(way) + plan_table(plan.surfaces) + sides_text(plan.sides, true) +
-                        left_out_table(plan.scene, plan.perception));
+  context.console.print(way_line(way) + plan_table(plan.surfaces) + rules_table(plan.rules, rules) +
+                        sides_text(plan.sides, true) + left_out_table(plan.scene, plan.perception));
   print_notes(plan.scene, context.console);
   Json json{{"scene", options.input}, {"materials", options.materials}, {"stages", plan_json(plan.surfaces)}};
   json["way"] = way_json(way);
   json["uv"] = own_uv_json(plan.surfaces);
+  json["rules"] = rules_json(plan.rules);
   json["identical_parts"] = shared_parts_json(plan.shared, plan.scene);
   json["sides"] = sides_json(plan.sides, wanted.bake.plan.sides);
   json["losses"] = plan.scene.losses;
   json["warnings"] = plan.scene.warnings;
   if (wanted.bake.plan.perception.asked()) json["perception"] = perception_json(plan.scene, plan.perception);
+  const auto took_nothing = [](const RuleUse& rule) { return !rule.problem.empty(); };
+  if (options.strict && std::any_of(plan.rules.begin(), plan.rules.end(), took_nothing)) {
+    context.exit_code = k_exit_input;
+    json["error"] = "a rule takes no surface";
+  }
   return json;
 }
 
@@ -50,11 +59,12 @@ void add_plan(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"plan", "Show what bake would do, surface by surface, and why; writes nothing.",
-                             "papilla plan data/cockpit.step -m data/cockpit.materials.json"},
+                             "papilla plan data/cockpit.step -m examples/materials.json"},
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json"))->type_name("FILE")->required();
   verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
+  verb->add_flag("--strict", options->strict, "Exit with 3 when a rule takes no surface");
   options->perception.add_to(*verb);
   options->sides.add_to(*verb);
   options->scene.add_to(*verb);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "option_checks.hpp"
 #include "papilla/pipeline/prepare_file.hpp"
 
 #include <memory>
@@ -42,23 +43,23 @@ void add_prepare(CLI::App& program) {
   reads(verb->add_option("image", options->image, "Picture"))->required()->type_name("IMAGE");
   writes(verb->add_option("-o,--output", options->output, "Prepared picture, 16 bit"))->required()->type_name("FILE");
   verb->add_option("--borders", options->borders, "How borders are matched")
-      ->check(CLI::IsMember({"auto", "none", "cut", "mirror"}))
+      ->transform(one_of({"auto", "none", "cut", "mirror"}))
       ->capture_default_str();
   verb->add_option("--plasticity", options->prepare.prepare.plasticity, "Raise fine detail by this factor")
-      ->check(CLI::Range(0.0, 4.0))
+      ->check(in_range(0.0, 4.0))
       ->capture_default_str();
   verb->add_option("--flatten", options->prepare.prepare.flatten_px,
                    "Standard deviation of the blur that finds gradients; default from the picture and its lattice")
       ->type_name("PX")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   verb->add_flag("--keep-gradients", options->keep_gradients, "Leave gradients of brightness and contrast");
   verb->add_flag("--keep-contrast", options->keep_contrast, "Leave the range of the grey values");
   verb->add_option("--size", options->prepare.width_px, "Scale the result to N pixels across")
       ->type_name("N")
-      ->check(CLI::Range(16, 16384));
+      ->check(in_range(16, 16384));
   verb->add_option("--pitch", options->prepare.pitch_mm, "Millimetres per pixel; default from the file's resolution")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
 }
 
 }  // namespace papilla::app

@@ -3,6 +3,7 @@
 
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "option_checks.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
 #include "scene_output.hpp"
@@ -46,15 +47,15 @@ void add_repair(CLI::App& program) {
       ->required();
   verb->add_option("--weld", options->repair.repair.weld_mm, "Weld tolerance; default: 1e-6 of each part's diagonal")
       ->type_name("MM")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   verb->add_option("--stitch", options->repair.repair.stitch_mm,
                    "Widest gap between faces to close; default: 2e-4 of each part's diagonal, 0: none")
       ->type_name("MM")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   verb->add_option("--fill-holes", options->repair.repair.fill_holes_mm,
                    "Fill holes that fit into a box of this diagonal")
       ->type_name("MM")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   verb->add_flag("--verify", options->repair.verify, "Measure the deviation from the input, not only bound it");
   verb->add_flag("--keep-copies", options->repair.keep_copies, "Do not make identical parts instances of one");
   options->sides.add_to(*verb);

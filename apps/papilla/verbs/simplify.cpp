@@ -7,6 +7,7 @@
 #include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "option_checks.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "scene_output.hpp"
@@ -66,24 +67,24 @@ void add_goals(CLI::App& verb, Options& options) {
   LevelOptions& levels = simplify.levels;
   verb.add_option("--tolerance", simplify.tolerance_mm, "Largest distance between input and result")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   verb.add_option("--ratio", simplify.ratio, "Stop each part at this share of its triangles")
       ->type_name("R")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(in_range(0.0, 1.0));
   verb.add_option("--budget", simplify.budget,
                   "Triangles that the scene may draw: the smallest common tolerance that meets it")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   auto* number =
       verb.add_option("--lod", levels.count,
                       "So many coarser levels, each within four times the tolerance of the last; one that has not a "
                       "tenth fewer triangles is left out, and said so")
           ->type_name("N")
-          ->check(CLI::Range(1, 8));
+          ->check(in_range(1, 8));
   verb.add_option("--lod-tolerances", levels.tolerances_mm, "Coarser levels within these ascending tolerances")
       ->type_name("MM,MM,...")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->excludes(number);
   verb.add_flag("--lod-nodes", options.as_nodes, "Levels as nodes NAME_LOD0, NAME_LOD1, ... instead of MSFT_lod");
 }
@@ -103,12 +104,12 @@ void add_simplify(CLI::App& program) {
   add_goals(*verb, *options);
   verb->add_option("--passes", options->simplify.simplify.passes, "1 is fastest, 4 leaves fewest triangles")
       ->type_name("N")
-      ->check(CLI::Range(1, 6))
+      ->check(in_range(1, 6))
       ->capture_default_str();
   verb->add_option("--feature-angle", options->simplify.simplify.feature_angle_deg,
                    "Sharper edges stay edges; 180: none")
       ->type_name("DEG")
-      ->check(CLI::Range(0.0, 180.0))
+      ->check(in_range(0.0, 180.0))
       ->capture_default_str();
   verb->add_flag("--lock-border", options->simplify.simplify.lock_border, "Keep every border vertex");
   verb->add_flag("--merge-faces", options->merge_faces, "Simplify over the borders of CAD faces and file groups");

@@ -3,6 +3,7 @@
 
 #include "file_options.hpp"
 #include "json/texture_json.hpp"
+#include "option_checks.hpp"
 #include "options/vector_option.hpp"
 #include "papilla/io/image_file.hpp"
 #include "text/texture_text.hpp"
@@ -42,7 +43,7 @@ void add_synthesize(CLI::App& program) {
                             [options](VerbContext& context) { return run(*options, context); });
   std::vector<std::string> kinds;
   for (const std::string_view name : grain_names()) kinds.emplace_back(name);
-  verb->add_option("what", options->what, "grain or fractal")->required()->check(CLI::IsMember({"grain", "fractal"}));
+  verb->add_option("what", options->what, "grain or fractal")->required()->transform(one_of({"grain", "fractal"}));
   writes(
       verb->add_option("-o,--output", options->output, "Picture: the lit grain, or the fractal surface as grey values"))
       ->required()
@@ -54,20 +55,20 @@ void add_synthesize(CLI::App& program) {
       ->type_name("N");
   verb->add_option("--size-mm", options->synthesis.size_mm, "Side of the tile")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   verb->add_option("--height-mm", options->synthesis.height_mm, "Peak to valley")
       ->type_name("MM")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
-  verb->add_option("--kind", options->kind, "Grain")->check(CLI::IsMember(kinds))->capture_default_str();
+  verb->add_option("--kind", options->kind, "Grain")->transform(one_of(kinds))->capture_default_str();
   verb->add_option("--light", options->light, "Grain: direction to the light, x right, y down, z to the viewer")
       ->type_name("X,Y,Z");
   verb->add_option(
           "--method", options->method,
           "Fractal: exact (fractional Brownian surface), spectral (tiles, smoother), brownian-surface (midpoint "
           "displacement), cho (its three-step variant), brownian-graph (one row)")
-      ->check(CLI::IsMember({"exact", "spectral", "brownian-surface", "cho", "brownian-graph"}))
+      ->transform(one_of({"exact", "spectral", "brownian-surface", "cho", "brownian-graph"}))
       ->capture_default_str();
   CLI::Option* hurst =
       verb->add_option("--hurst", options->synthesis.hurst, "Fractal: H in (0, 1); the dimension is 3 - H")

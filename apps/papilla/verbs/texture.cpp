@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "exit_code.hpp"
 #include "json/texture_json.hpp"
 #include "options/texture_option.hpp"
 #include "page/sheet_page.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/near_name.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/reference.hpp"
@@ -56,7 +58,11 @@ Json print_list(const std::string& what, const RecipeLibrary& library, const Con
     for (const auto& [name, recipe] : library.recipes()) add(name, recipe);
   } else {
     const TypeInfo* type = find_type(what);
-    if (!type) throw InvalidInput("texture --list: there is no type '" + what + "'");
+    if (!type) {
+      std::vector<std::string_view> known = {"types", "functions", "recipes", "categories", "reference"};
+      for (const TypeInfo& other : texture_types()) known.emplace_back(other.name);
+      throw UsageError("--list: there is no type '" + what + "'" + did_you_mean(what, known));
+    }
     for (const auto& parameters : {type->parameters, common_parameters()})
       for (const ParameterInfo& p : parameters) add(p.name, std::string(p.preset) + "  " + std::string(p.note));
   }

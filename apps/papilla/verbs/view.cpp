@@ -7,6 +7,7 @@
 #include "file_options.hpp"
 #include "http/browser.hpp"
 #include "live/follow.hpp"
+#include "option_checks.hpp"
 #include "options/scene_option.hpp"
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
@@ -107,11 +108,11 @@ void add_view(CLI::App& program) {
           ->excludes(output);
   verb->add_option("--port", options->port, "Of the page that follows; 0 takes any that is free")
       ->type_name("N")
-      ->check(CLI::Range(0, 65535))
+      ->check(in_range(0, 65535))
       ->needs(follow);
   verb->add_option("--triangles", options->page.triangles, "Triangles to show; more are simplified for the page")
       ->type_name("N")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   options->scene.add_to(*verb);
 }

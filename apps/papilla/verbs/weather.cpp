@@ -64,7 +64,7 @@ void add_weather(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"weather", "Ages a scene: layers of dirt, rust, snow and wear over its materials",
-                             "papilla weather house.glb -c weather.json -o old-house.glb"},
+                             "papilla weather data/exchange/vent.glb -c examples/weather.json -o old-vent.glb"},
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("scene", options->scene, "Scene with uv"))->required()->type_name("SCENE");
   reads(verb->add_option("-c,--layers", options->build.config,
@@ -82,6 +82,7 @@ void add_weather(CLI::App& program) {
       ->needs(report);
   verb->add_flag("--video", options->build.video, "The series as an animated GIF in the page's folder, too")
       ->needs(report);
+  verb->add_flag("--strict", options->build.strict, "Refuse layers that lie on no surface");
   verb->add_flag("--live", options->live,
                  "Stay, and build again whenever CONFIG, a library or a picture of it is saved");
   options->read.add_to(*verb);

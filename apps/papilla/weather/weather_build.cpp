@@ -5,6 +5,7 @@
 
 #include "json/scene_json.hpp"
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/animation_file.hpp"
@@ -51,6 +52,14 @@ void write_report(const WeatherBuildOptions& options, const std::string& scene_f
     write(fmt::format("time.{:04}.png", step), views[step].picture);
 }
 
+/// A row a layer: on how many surfaces it lies.
+std::string layers_text(const std::vector<RuleUse>& layers) {
+  std::string text = shown_format("layer  {:>8}  {:>8}  for\n", "surfaces", "uses");
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    text += shown_format("{:>5}  {:>8}  {:>8}  {}\n", i + 1, layers[i].surfaces, layers[i].uses, layers[i].selector);
+  return text;
+}
+
 }  // namespace
 
 WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live, const VerbContext& context) {
@@ -60,12 +69,18 @@ WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live
   std::vector<WeatherView> views;
   for (std::size_t step = 0; step < config.times.size(); ++step) {
     WeatherResult result = weather_scene(scene_, config, config.times[step], cache_, context.progress);
+    if (const std::string reason = reason_for_no_paint(result); !reason.empty())
+      throw InvalidInput(file_ + ", with " + options.config + ": " + reason);
+    const std::vector<std::string> problems = problems_of(result.layers, "layer", "/layers");
+    if (options.strict && !problems.empty()) throw InvalidInput(options.config + ": " + problems.front());
+    if (step == 0) context.console.print(layers_text(result.layers));
     const std::string file = file_of(options.output, step, config.times.size());
     write_output(result.scene, file, context.console);
     context.console.print(shown_format("{}: time {:.2f}, {} maps, {} of them alike\n", file, config.times[step],
                                        result.images, result.duplicates_removed));
     if (!options.report.empty()) views.push_back({config.times[step], view_of(result.scene)});
     build.materials = std::move(result.materials);
+    build.layers = std::move(result.layers);
     build.images += result.images;
     build.duplicates_removed += result.duplicates_removed;
     build.painted += result.painted;
@@ -80,11 +95,9 @@ WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live
 }
 
 Json weather_build_json(const WeatherBuild& build) {
-  Json json{{"materials", Json::array()},
-            {"images", build.images},
-            {"duplicates_removed", build.duplicates_removed},
-            {"painted", build.painted},
-            {"files", Json::array()}};
+  Json json{{"materials", Json::array()}, {"layers", rules_json(build.layers)},
+            {"images", build.images},     {"duplicates_removed", build.duplicates_removed},
+            {"painted", build.painted},   {"files", Json::array()}};
   for (const WeatheredMaterial& material : build.materials) json["materials"].push_back(weather_json(material));
   for (const WeatherBuild::File& file : build.files)
     json["files"].push_back({{"file", file.file}, {"time", file.time}});

@@ -17,10 +17,12 @@ namespace papilla::app {
 struct WeatherBuildOptions {
   std::string config, output, report;  ///< The page's folder; empty: no page.
   bool pictures = false, video = false;
+  bool strict = false;  ///< A layer that lies on no surface is an error.
 };
 
 struct WeatherBuild {
   std::vector<WeatheredMaterial> materials;  ///< At the last time.
+  std::vector<RuleUse> layers;
   int images = 0, duplicates_removed = 0, painted = 0;
   struct File {
     std::string file;
@@ -38,7 +40,8 @@ class WeatherBuilder {
   WeatherBuilder(std::string file, Scene scene) : file_(std::move(file)), scene_(std::move(scene)) {}
 
   /// @param live the page reads itself again every two seconds.
-  /// @throws IoError, InvalidInput as read_weather_config(), weather_scene() and write_scene().
+  /// @throws IoError, InvalidInput as read_weather_config(), weather_scene() and write_scene(), and when nothing would
+  /// be painted: nothing is written then.
   WeatherBuild build(const WeatherBuildOptions& options, bool live, const VerbContext& context);
 
   /// All that was ever read beside the configuration.

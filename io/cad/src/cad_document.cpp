@@ -212,7 +212,7 @@ void read_iges(const std::filesystem::path& path, CadDocument& result, const Pro
     throw InvalidInput(path.string() + ": IGES file is damaged (its sections can't be parsed)");
   const Handle(TCollection_HAsciiString) unit_name = reader.IGESModel()->GlobalSection().UnitName();
   result.millimetres_per_unit = reader.IGESModel()->GlobalSection().UnitValue();
-  result.unit = unit_name.IsNull() ? "mm" : unit_name->ToCString();
+  result.unit = unit_name.IsNull() ? "mm (assumed)" : unit_name->ToCString();
   std::transform(result.unit.begin(), result.unit.end(), result.unit.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const Handle(OcctProgress) indicator = new OcctProgress(progress, "read", 0, 0.3);

@@ -150,7 +150,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   }
   if (report.triangles == 0) throw InvalidInput(path.string() + ": none of its faces can be tessellated");
   warn_of_faces(report, tree.scene);
-  if (unit != tree.scene.millimetres_per_unit) rescale(tree.scene, report, unit);
+  if (options.millimetres_per_unit) rescale(tree.scene, report, unit);
   report.seconds_convert = watch.restart();
   report_progress(progress, "convert", 1);
   return std::move(tree.scene);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "papilla/core/error.hpp"
+#include "papilla/io/node_places.hpp"
 
 namespace papilla {
 namespace {
@@ -55,11 +56,17 @@ std::vector<Visit> walk(const Scene& scene) {
   return visits;
 }
 
+/// What a node is called in paths.
+std::string step_of(const Scene& scene, const Visit& visit) {
+  const std::string& name = scene.nodes[visit.node].name;
+  return name.empty() ? "#" + std::to_string(visit.sibling) : name;
+}
+
 std::string path_of(const Scene& scene, const std::vector<Visit>& visits, std::size_t at) {
   std::string path;
   for (; at != k_no_parent; at = visits[at].parent) {
-    const std::string& name = scene.nodes[visits[at].node].name;
-    const std::string step = name.empty() ? "#" + std::to_string(visits[at].sibling) : name;
+    const std::string step = step_of(scene, visits[at]);
+    if (visits[at].parent == k_no_parent && step == k_turn_node_name && !path.empty()) break;
     path = path.empty() ? step : step + "/" + path;
   }
   return path;
@@ -129,6 +136,20 @@ void assign_part_ids(Scene& scene) {
   for (std::size_t i = 0; i < scene.parts.size(); ++i)
     if (!named[i]) scene.parts[i].id = names.next(scene.parts[i].name);
 }
+
+std::vector<NodePlace> node_places(const Scene& scene) {
+  std::vector<NodePlace> places(scene.nodes.size());
+  const std::vector<Visit> visits = walk(scene);
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    NodePlace& place = places[visits[i].node];
+    place.name = step_of(scene, visits[i]);
+    place.path = path_of(scene, visits, i);
+    if (visits[i].parent != k_no_parent) place.parent = visits[visits[i].parent].node;
+  }
+  return places;
+}
+
+const std::string& shown_name(const Part& part) { return part.name.empty() ? part.id : part.name; }
 
 Scene single_part_scene(Part part, std::string format) {
   Scene scene;

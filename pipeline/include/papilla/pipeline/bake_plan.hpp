@@ -10,6 +10,7 @@
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/meshing/triangle_budget.hpp"
+#include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/bake_stages.hpp"
 #include "papilla/pipeline/materials.hpp"
 #include "papilla/pipeline/perception.hpp"
@@ -39,7 +40,7 @@ struct PartSurface {
   std::vector<std::uint8_t> turned;      ///< In place, per triangle, 1: turned over. Empty: none.
   bool becomes_double_sided = false;     ///< In place: its material does.
   SurfacePlan plan;
-  std::string label;  ///< "part", or "part/material" when the part has several materials.
+  std::string label;  ///< "part", or "part/material" when the part has several materials; without a name its path.
 };
 
 /// What comes before the baking of surfaces.
@@ -51,6 +52,7 @@ struct BakePlanOptions {
   /// For an edit of the scene's file: nothing is shared, pictures stay, and so do triangles but for sheets with relief
   /// that face away, which would be felt inverted.
   bool in_place = false;
+  bool strict = false;  ///< A rule that takes no surface is an error.
 };
 
 /// A scene made ready to be baked, and what shall be done to each of its surfaces.
@@ -58,6 +60,8 @@ struct BakePlan {
   Scene scene;  ///< Sheets turned; identical parts that are assigned the same rules are shared; within the budget.
   SceneSides sides;
   std::vector<PartSurface> surfaces;
+  std::vector<RuleUse> rules;    ///< Of every entry of Materials::assign; problems are warnings of the scene, too.
+  std::vector<SplitPart> split;  ///< Before identical parts were shared.
   std::vector<SharedPart> shared;
   ScenePerception perception;
   std::optional<BudgetResult> budget;         ///< Without its parts' meshes.
@@ -67,21 +71,15 @@ struct BakePlan {
 
 /// Finds the surfaces of a scene, assigns the rules and decides for every surface which stages it needs. Nothing is
 /// computed that a decision does not rest on.
-/// @throws InvalidInput as measure_perception() and fit_scene_to_budget().
+/// @throws InvalidInput as measure_perception() and fit_scene_to_budget(), and for strict rules.
 BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options = {},
                    const ProgressCallback& progress = {});
 
 /// The decisions for a scene as it is: nothing is shared, left out or simplified.
-/// @param perception Of the scene's parts; empty when nothing was asked.
+/// @param assignment Of the scene's parts. @param perception Of them; empty when nothing was asked.
 /// @param in_place As in BakePlanOptions.
-std::vector<PartSurface> plan_surfaces(const Scene& scene, const Materials& rules,
+std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& assignment,
                                        const std::vector<PartPerception>& perception = {}, bool in_place = false);
-
-/// The rule that `rules` assign to a part's material slot by the names of part and material and by colour, or nullptr.
-const MaterialRule* assigned_rule(const Scene& scene, const Part& part, std::size_t slot, const Materials& rules);
-
-/// Makes identical parts that are assigned the same rules one part, so that each class is baked once.
-std::vector<SharedPart> share_identical_parts(Scene& scene, const Materials& rules);
 
 /// "#rrggbb" in sRGB of a linear colour.
 std::string hex_colour(const std::array<double, 4>& linear);

@@ -5,10 +5,10 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/pipeline/surface_selector.hpp"
 
 namespace papilla {
 
@@ -40,12 +40,9 @@ struct MaterialRule {
   std::optional<double> roughness, metallic;
 };
 
-/// One entry of "assign". The fields that are given must all match; the first matching rule wins.
-struct AssignRule {
-  std::optional<std::string> part;           ///< Shell pattern of the part's name.
-  std::optional<std::string> cad_colour;     ///< "#rrggbb", sRGB.
-  std::optional<std::string> gltf_material;  ///< Shell pattern of the material's name.
-  std::string material;                      ///< Name of an entry of "materials"; empty: leave the part alone.
+/// One entry of "assign"; the first one that fits a surface wins.
+struct AssignRule : SurfaceSelector {
+  std::string material;  ///< Name of an entry of "materials"; empty: leave the surface alone.
 };
 
 struct Materials {
@@ -56,9 +53,5 @@ struct Materials {
 /// Reads MATERIALS.json; relative picture names are taken from the file's own folder.
 /// @throws IoError, InvalidInput naming the file and the JSON pointer of the offending value.
 Materials read_materials(const std::filesystem::path& path);
-
-/// The first rule that matches, or nullptr. `colour` is "#rrggbb".
-const AssignRule* match_rule(const Materials& file, std::string_view part, std::string_view colour,
-                             std::string_view material);
 
 }  // namespace papilla

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,13 +12,15 @@
 
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
+#include "papilla/pipeline/surface_selector.hpp"
 
 namespace papilla {
 
-/// A recipe that is laid over the materials whose names fit one of the shell patterns.
+/// A recipe that is laid over the surfaces that are selected.
 struct WeatherLayer {
   std::string recipe;
-  std::vector<std::string> materials{"*"};
+  std::vector<std::string> materials{"*"};  ///< Shell patterns, one of which the material's name must fit.
+  SurfaceSelector where{};                  ///< Must fit, too.
 };
 
 /// CONFIG of the verb weather.
@@ -38,9 +41,8 @@ struct WeatherConfig {
 /// @throws IoError, InvalidInput naming file and key.
 WeatherConfig read_weather_config(const std::filesystem::path& path);
 
-/// The layers that fit a material of that name, over its own colour, friction and stiffness, as one recipe; empty when
-/// none fits.
-std::string layered_recipe(const WeatherConfig& config, const std::string& material, double friction);
+/// The layers of these numbers over a material's own colour, friction and stiffness, as one recipe; empty without any.
+std::string layered_recipe(const WeatherConfig& config, const std::vector<std::uint32_t>& layers, double friction);
 
 /// The atlas of a material that was cut into charts.
 struct WeatheredAtlas {
@@ -68,7 +70,9 @@ struct WeatheredMaterial {
 
 struct WeatherResult {
   Scene scene;
-  std::vector<WeatheredMaterial> materials;  ///< As in the scene before.
+  /// Of the scene. Behind those that it had before come copies of the ones that layers lie on only here and there.
+  std::vector<WeatheredMaterial> materials;
+  std::vector<RuleUse> layers;  ///< Of every layer; problems are warnings of the scene, too.
   int images = 0, duplicates_removed = 0;
   int painted = 0;  ///< Materials that were computed; the others came out of the cache.
 };
@@ -94,6 +98,9 @@ class WeatherCache {
  private:
   std::unique_ptr<State> state_;
 };
+
+/// Why nothing was painted: no layer fits a surface, or those it fits have no uv. Empty when something was.
+std::string reason_for_no_paint(const WeatherResult& result);
 
 /// Lays the layers over the materials' own colour and the relief of their own normal maps at one time; each material
 /// gets a base colour and a normal map, and the friction and stiffness of its haptic tag follow the means of the

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "papilla/io/scene.hpp"
+#include "papilla/pipeline/materials.hpp"
+#include "papilla/pipeline/shared_parts.hpp"
+#include "papilla/pipeline/surface_selector.hpp"
+
+namespace papilla {
+
+/// What the surfaces of a part get.
+struct AssignedPart {
+  std::vector<const MaterialRule*> rules;  ///< By slot; nullptr: left alone.
+  bool is_split = false;                   ///< It shows some of the uses of a part; its name alone does not tell which.
+
+  /// nullptr also for slots beyond the list.
+  const MaterialRule* rule_of(std::uint32_t slot) const { return slot < rules.size() ? rules[slot] : nullptr; }
+};
+
+/// Which material every surface gets.
+struct Assignment {
+  std::vector<AssignedPart> parts;
+  std::vector<SplitPart> split;  ///< Parts that were made because uses get different materials.
+  std::vector<RuleUse> uses;     ///< Of every entry of Materials::assign.
+};
+
+/// Assigns every surface the material of the first rule that fits it. Parts whose uses get different ones are split.
+/// @param rules Must stay as long as the result. @throws InvalidInput as instances().
+Assignment assign_materials(Scene& scene, const Materials& rules);
+
+/// Makes identical parts that are assigned the same rules one part, so that each class is baked once. The assignment's
+/// parts follow; its list of split ones stays as it was.
+std::vector<SharedPart> share_identical_parts(Scene& scene, Assignment& assignment);
+
+}  // namespace papilla

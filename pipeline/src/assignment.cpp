@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/assignment.hpp"
+
+#include <fmt/core.h>
+
+#include <map>
+#include <set>
+#include <utility>
+
+namespace papilla {
+namespace {
+
+/// What one rule fits, and what it took.
+struct RuleCount {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> fitting, taken;  ///< Part and slot.
+  std::size_t uses = 0;
+};
+
+std::string problem_of(const AssignRule& rule, const RuleCount& count, const std::vector<SurfacePlace>& places) {
+  if (!count.taken.empty()) return "";
+  if (count.fitting.empty()) return reason_for_nothing(rule, places);
+  return fmt::format("{} takes nothing: rules before it take all {} surfaces that it matches", text_of(rule),
+                     count.fitting.size());
+}
+
+}  // namespace
+
+Assignment assign_materials(Scene& scene, const Materials& rules) {
+  std::map<std::string, std::uint32_t> label_of{{"", 0}};
+  std::vector<const MaterialRule*> rule_of_label{nullptr};
+  for (const auto& [name, rule] : rules.materials) {
+    label_of[name] = static_cast<std::uint32_t>(rule_of_label.size());
+    rule_of_label.push_back(&rule);
+  }
+  const std::vector<SurfacePlace> places = surface_places(scene);
+  std::vector<RuleCount> counts(rules.assign.size());
+  std::vector<std::uint32_t> labels(places.size(), 0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    bool is_taken = false;
+    for (std::size_t r = 0; r < rules.assign.size(); ++r) {
+      if (!fits(rules.assign[r], places[i])) continue;
+      const std::pair surface{places[i].part, places[i].slot};
+      counts[r].fitting.insert(surface);
+      if (std::exchange(is_taken, true)) continue;
+      counts[r].taken.insert(surface);
+      ++counts[r].uses;
+      labels[i] = label_of.at(rules.assign[r].material);
+    }
+  }
+  Assignment result;
+  for (std::size_t r = 0; r < rules.assign.size(); ++r)
+    result.uses.push_back({text_of(rules.assign[r]), counts[r].taken.size(), counts[r].uses,
+                           problem_of(rules.assign[r], counts[r], places)});
+  LabelledParts labelled = split_by_label(scene, places, labels);
+  result.split = std::move(labelled.split);
+  for (const std::vector<std::uint32_t>& slots : labelled.labels) {
+    std::vector<const MaterialRule*>& assigned = result.parts.emplace_back().rules;
+    for (const std::uint32_t label : slots) assigned.push_back(rule_of_label[label]);
+  }
+  for (const SplitPart& split : result.split)
+    result.parts[split.part].is_split = result.parts[split.original].is_split = true;
+  return result;
+}
+
+std::vector<SharedPart> share_identical_parts(Scene& scene, Assignment& assignment) {
+  std::map<std::vector<const MaterialRule*>, std::uint64_t> numbers;
+  const std::vector<SharedPart> shared = share_identical_parts(scene, [&](std::uint32_t part) {
+    return numbers.try_emplace(assignment.parts.at(part).rules, numbers.size()).first->second;
+  });
+  std::set<std::uint32_t> copies;
+  for (const SharedPart& part : shared) copies.insert(part.number);
+  std::vector<AssignedPart> kept;
+  for (std::uint32_t p = 0; p < assignment.parts.size(); ++p)
+    if (!copies.contains(p)) kept.push_back(std::move(assignment.parts[p]));
+  assignment.parts = std::move(kept);
+  return shared;
+}
+
+}  // namespace papilla

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/pipeline/surface_selector.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "papilla/core/glob.hpp"
+#include "papilla/core/near_name.hpp"
+#include "papilla/core/one_line.hpp"
+#include "papilla/core/srgb.hpp"
+#include "papilla/io/node_places.hpp"
+#include "papilla/pipeline/bake_plan.hpp"
+
+namespace papilla {
+namespace {
+
+bool equals(const std::string& wanted, const std::string& name) { return wanted == name; }
+
+/// A key of a selector: its pattern, the names that it is compared with, and how.
+struct Field {
+  const char* key;
+  std::optional<std::string> SurfaceSelector::*pattern;
+  std::vector<std::string> SurfacePlace::*names;
+  bool (*fits)(const std::string& pattern, const std::string& name);
+};
+
+constexpr std::array<Field, 9> k_fields = {{
+    {"part", &SurfaceSelector::part, &SurfacePlace::parts, matches_glob},
+    {"mesh", &SurfaceSelector::mesh, &SurfacePlace::meshes, matches_glob},
+    {"node", &SurfaceSelector::node, &SurfacePlace::nodes, matches_path_glob},
+    {"instance", &SurfaceSelector::instance, &SurfacePlace::instances, matches_glob},
+    {"assembly", &SurfaceSelector::assembly, &SurfacePlace::assemblies, matches_glob},
+    {"layer", &SurfaceSelector::layer, &SurfacePlace::layers, matches_glob},
+    {"cad_material", &SurfaceSelector::cad_material, &SurfacePlace::cad_materials, matches_glob},
+    {"cad_colour", &SurfaceSelector::cad_colour, &SurfacePlace::colours, equals},
+    {"gltf_material", &SurfaceSelector::gltf_material, &SurfacePlace::materials, matches_glob},
+}};
+
+bool fits_field(const Field& field, const std::string& pattern, const SurfacePlace& place) {
+  const std::vector<std::string>& names = place.*field.names;
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return field.fits(pattern, name); });
+}
+
+/// Whether all fields fit; exceptions are not looked at.
+bool fits_fields(const SurfaceSelector& selector, const SurfacePlace& place) {
+  return std::all_of(k_fields.begin(), k_fields.end(), [&](const Field& field) {
+    const auto& pattern = selector.*field.pattern;
+    return !pattern || fits_field(field, *pattern, place);
+  });
+}
+
+/// Adds what the extras of a CAD file's part or node say of layers and of the physical material.
+void add_cad_names(const std::string& extras_json, SurfacePlace& place) {
+  if (extras_json.find("\"layers\"") == std::string::npos && extras_json.find("\"cad_material\"") == std::string::npos)
+    return;
+  const auto extras = nlohmann::json::parse(extras_json, nullptr, false);
+  if (!extras.is_object()) return;
+  if (const auto layers = extras.find("layers"); layers != extras.end() && layers->is_array())
+    for (const auto& layer : *layers)
+      if (layer.is_string()) place.layers.push_back(layer.get<std::string>());
+  if (const auto material = extras.find("cad_material"); material != extras.end() && material->is_object())
+    if (const auto name = material->find("name"); name != material->end() && name->is_string())
+      place.cad_materials.push_back(name->get<std::string>());
+}
+
+std::vector<std::uint32_t> used_slots(const TriangleMesh& mesh) {
+  if (mesh.material.empty()) return {0};
+  std::vector<std::uint8_t> used;
+  for (const std::uint32_t slot : mesh.material) {
+    if (slot >= used.size()) used.resize(slot + std::size_t{1}, 0);
+    used[slot] = 1;
+  }
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t slot = 0; slot < used.size(); ++slot)
+    if (used[slot] != 0) slots.push_back(slot);
+  return slots;
+}
+
+/// "; did you mean ..." of the names that a field is compared with.
+std::string near_name(const Field& field, const std::string& pattern, const std::vector<SurfacePlace>& places) {
+  std::set<std::string_view> names;
+  for (const SurfacePlace& place : places) names.insert((place.*field.names).begin(), (place.*field.names).end());
+  if (field.fits == matches_path_glob) {
+    const std::string anywhere = "**/" + pattern;
+    if (std::any_of(names.begin(), names.end(),
+                    [&](std::string_view name) { return matches_path_glob(anywhere, std::string(name)); }))
+      return "; did you mean '" + shown(anywhere) + "'?";
+  }
+  if (names.empty()) return "; the scene has none";
+  return did_you_mean(pattern, {names.begin(), names.end()});
+}
+
+std::string quoted_field(const Field& field, const std::string& pattern) {
+  return std::string(field.key) + " '" + shown(pattern) + "'";
+}
+
+}  // namespace
+
+bool SurfaceSelector::is_empty() const {
+  return except.empty() && std::none_of(k_fields.begin(), k_fields.end(),
+                                        [&](const Field& field) { return (this->*field.pattern).has_value(); });
+}
+
+std::vector<SurfacePlace> surface_places(const Scene& scene) {
+  const std::vector<NodePlace> nodes = node_places(scene);
+  std::vector<std::vector<std::uint32_t>> slots;
+  for (const Part& part : scene.parts) slots.push_back(used_slots(part.mesh));
+  std::vector<SurfacePlace> places;
+  const auto add = [&](SurfacePlace place) {
+    const Part& part = scene.parts[place.part];
+    place.parts = {shown_name(part)};
+    if (!part.name.empty()) place.meshes = {part.name};
+    add_cad_names(part.extras_json, place);
+    for (const std::uint32_t slot : slots[place.part]) {
+      SurfacePlace& surface = places.emplace_back(place);
+      surface.slot = slot;
+      if (slot >= part.materials.size()) continue;
+      const Material& material = scene.materials[part.materials[slot]];
+      surface.colours = {hex_colour(material.base_color)};
+      surface.materials = {material.name};
+    }
+  };
+  std::vector<std::uint8_t> is_shown(scene.parts.size(), 0);
+  for (const Instance& use : instances(scene)) {
+    SurfacePlace place;
+    place.part = use.part;
+    place.node = use.node;
+    place.nodes = {nodes[use.node].path};
+    place.instances = {nodes[use.node].name};
+    for (std::optional<std::uint32_t> n = use.node; n; n = nodes[*n].parent) {
+      if (*n != use.node) place.assemblies.push_back(nodes[*n].name);
+      add_cad_names(scene.nodes[*n].extras_json, place);
+    }
+    is_shown[use.part] = 1;
+    add(std::move(place));
+  }
+  for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
+    SurfacePlace place;
+    place.part = p;
+    if (is_shown[p] == 0) add(std::move(place));
+  }
+  return places;
+}
+
+bool fits(const SurfaceSelector& selector, const SurfacePlace& place) {
+  return fits_fields(selector, place) && std::none_of(selector.except.begin(), selector.except.end(),
+                                                      [&](const SurfaceSelector& other) { return fits(other, place); });
+}
+
+std::string text_of(const SurfaceSelector& selector) {
+  std::string text;
+  for (const Field& field : k_fields)
+    if (const auto& pattern = selector.*field.pattern)
+      text += (text.empty() ? "" : ", ") + quoted_field(field, *pattern);
+  for (const SurfaceSelector& other : selector.except) text += (text.empty() ? "not " : ", not ") + text_of(other);
+  return text;
+}
+
+std::string reason_for_nothing(const SurfaceSelector& selector, const std::vector<SurfacePlace>& places) {
+  for (const Field& field : k_fields) {
+    const auto& pattern = selector.*field.pattern;
+    if (!pattern || std::any_of(places.begin(), places.end(),
+                                [&](const SurfacePlace& place) { return fits_field(field, *pattern, place); }))
+      continue;
+    return quoted_field(field, *pattern) + " matches nothing" + near_name(field, *pattern, places);
+  }
+  const bool are_excepted = std::any_of(places.begin(), places.end(),
+                                        [&](const SurfacePlace& place) { return fits_fields(selector, place); });
+  return text_of(selector) + (are_excepted ? " leaves nothing" : " matches nothing together");
+}
+
+std::vector<std::string> problems_of(const std::vector<RuleUse>& uses, const std::string& what,
+                                     const std::string& pointer) {
+  std::vector<std::string> problems;
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (!uses[i].problem.empty())
+      problems.push_back(what + " " + std::to_string(i + 1) + " (" + pointer + "/" + std::to_string(i) +
+                         "): " + uses[i].problem);
+  return problems;
+}
+
+LabelledParts split_by_label(Scene& scene, const std::vector<SurfacePlace>& places,
+                             const std::vector<std::uint32_t>& label) {
+  LabelledParts result;
+  result.labels.resize(scene.parts.size());
+  using Labels = std::vector<std::uint32_t>;
+  std::map<std::pair<std::uint32_t, Labels>, std::uint32_t> made;
+  std::set<std::string> ids;
+  for (const Part& part : scene.parts) ids.insert(part.id);
+  std::vector<std::uint8_t> is_taken(scene.parts.size(), 0);
+  for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+    const SurfacePlace& first = places[begin];
+    Labels labels(std::max<std::size_t>(scene.parts[first.part].materials.size(), 1), 0);
+    for (end = begin; end < places.size() && places[end].part == first.part && places[end].node == first.node; ++end) {
+      if (places[end].slot >= labels.size()) labels.resize(places[end].slot + std::size_t{1}, 0);
+      labels[places[end].slot] = label[end];
+    }
+    const auto [it, is_new] = made.try_emplace({first.part, labels}, first.part);
+    if (is_new && is_taken[first.part] != 0) {
+      it->second = static_cast<std::uint32_t>(scene.parts.size());
+      Part copy = scene.parts[first.part];
+      copy.id = first.nodes.front();
+      while (!ids.insert(copy.id).second) copy.id += "~";
+      scene.parts.push_back(std::move(copy));
+      result.labels.emplace_back();
+      result.split.push_back({it->second, first.part});
+    }
+    is_taken[first.part] = 1;
+    if (first.node) scene.nodes[*first.node].part = it->second;
+    result.labels[it->second] = std::move(labels);
+  }
+  return result;
+}
+
+}  // namespace papilla

@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What the programs say to wrong words, and with which exit code: words_test.sh PAPILLA PLAYER DATA_FOLDER OUTPUT_FOLDER
+set -uo pipefail
+papilla=$1 player=$2 data=$3 out=$4
+rm -rf "$out"
+mkdir -p "$out"
+failures=0
+
+fail() {
+  printf '%s\n' "$1"
+  failures=$((failures + 1))
+}
+
+# says TEXT CODE COMMAND...: standard error has TEXT and the exit code is CODE.
+says() {
+  local text=$1 code=$2 got
+  shift 2
+  "$@" >"$out/stdout" 2>"$out/stderr"
+  got=$?
+  ((got == code)) || fail "${*:2}: exit code $got, expected $code"
+  grep -qF -- "$text" "$out/stderr" || fail "${*:2}: expected '$text', got '$(head -n 1 "$out/stderr")'"
+}
+
+verbs=$("$papilla" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z0-9-]*\) .*/\1/p')
+[[ $(wc -w <<<"$verbs") -ge 16 ]] || fail "only these verbs: $verbs"
+
+says "unknown verb 'bogus'; did you mean 'bake'?" 2 "$papilla" bogus
+says "unknown verb 'unwarp'; did you mean 'unwrap'?" 2 "$papilla" unwarp in.stl
+for verb in $verbs; do
+  says "$verb: unknown option '--quite'; did you mean '--quiet'?" 2 "$papilla" "$verb" --quite
+  says "--progress: 'jsn' is none of auto,json,none; did you mean 'json'?" 2 "$papilla" "$verb" --progress jsn
+  says "--threads: -1 is not from 0 to 1024" 2 "$papilla" "$verb" --threads -1
+  # An object with the error on standard output, one line on standard error.
+  "$papilla" "$verb" --bogus --json - >"$out/error.json" 2>/dev/null
+  grep -q "\"error\": \"$verb: unknown option '--bogus'" "$out/error.json" || fail "$verb --json -: no error in JSON"
+done
+says "bake: unknown option '--materals'; did you mean '--materials'?" 2 "$papilla" bake a.stl --materals=b.json -o c.glb
+says "--method: 'lscn' is none of" 2 "$papilla" unwrap a.stl -o b.glb --method lscn
+says "did you mean 'lscm'?" 2 "$papilla" unwrap a.stl -o b.glb --method lscn
+says "--chord: 0 is not from 0.000001 to 1000" 2 "$papilla" inspect a.stl --chord 0
+says "--budget: -5 is not above 0" 2 "$papilla" bake a.stl -m b.json -o c.glb --budget -5
+says "--weld: 'x' is no number" 2 "$papilla" repair a.stl -o b.stl --weld x
+says "evaluate" 2 "$papilla" evaluate tesselation -o "$out/evaluation"
+says "did you mean 'tessellation'?" 2 "$papilla" evaluate tesselation -o "$out/evaluation"
+says "unknown option '--devise'; did you mean '--device'?" 2 "$player" --devise sim
+says "--motion: 'strok' is none of stroke,circle,slide,tap; did you mean 'stroke'?" 2 "$player" a.glb --motion strok
+
+"$papilla" inspect "$out/missing.stl" --json - >"$out/error.json" 2>/dev/null
+[[ $? -eq 3 ]] || fail "a missing file is no input error"
+grep -q '"error": ".*missing.stl' "$out/error.json" || fail "inspect --json -: $(cat "$out/error.json")"
+grep -q '"exit_code": 3' "$out/error.json" || fail "inspect --json -: no exit code"
+"$player" "$out/missing.glb" --json - 2>/dev/null | grep -q '"error"' || fail "player --json -: no error"
+
+# A picture of grain that is not there, of which material?
+cat >"$out/materials.json" <<'JSON'
+{"materials": {"hide": {"texture": "lether", "size_mm": [40, 40]}}, "assign": [{"part": "*", "material": "hide"}]}
+JSON
+says "material 'hide', texture: " 3 "$papilla" bake "$data/exchange/slider.stl" -m "$out/materials.json" -o "$out/a.glb"
+says "did you mean 'leather'?" 3 "$papilla" bake "$data/exchange/slider.stl" -m "$out/materials.json" -o "$out/a.glb"
+
+# Rules that take nothing: a warning, or with --strict an error.
+cat >"$out/rules.json" <<'JSON'
+{"materials": {"hard": {"stiffness": 2000}}, "assign": [{"part": "vent_salt*", "material": "hard"}]}
+JSON
+line="rule 1 (/assign/0): part 'vent_salt*' matches nothing; did you mean 'vent_slat'?"
+"$papilla" plan "$data/exchange/vent.glb" -m "$out/rules.json" >"$out/plan.txt" || fail "plan: exit code $?"
+grep -qF "warning: $line" "$out/plan.txt" || fail "plan: no warning"
+"$papilla" plan "$data/exchange/vent.glb" -m "$out/rules.json" --strict -q
+[[ $? -eq 3 ]] || fail "plan --strict does not end with 3"
+"$papilla" bake "$data/exchange/vent.glb" -m "$out/rules.json" -o "$out/b.glb" >"$out/bake.txt" || fail "bake: exit code $?"
+grep -qF "no rule took a surface" "$out/bake.txt" || fail "bake: $(cat "$out/bake.txt")"
+says "$line" 3 "$papilla" bake "$data/exchange/vent.glb" -m "$out/rules.json" -o "$out/c.glb" --strict
+[[ ! -e $out/c.glb ]] || fail "bake --strict wrote its output"
+
+# Weather that lies nowhere, or on a scene without uv, writes nothing.
+echo '{"size": 16, "layers": [{"recipe": "dust", "materials": ["satn"]}]}' >"$out/weather.json"
+says "materials 'satn' matches nothing; did you mean 'satin'?" 3 \
+  "$papilla" weather "$data/exchange/vent.glb" -c "$out/weather.json" -o "$out/d.glb"
+echo '{"size": 16, "layers": [{"recipe": "dust"}]}' >"$out/weather.json"
+printf 'usemtl steel\nv 0 0 0\nv 100 0 0\nv 0 100 0\nf 1 2 3\n' >"$out/plain.obj"
+says "has no texture coordinates, which the layers need" 3 \
+  "$papilla" weather "$out/plain.obj" -c "$out/weather.json" -o "$out/d.glb"
+[[ ! -e $out/d.glb ]] || fail "weather wrote its output"
+
+# Units.
+cp "$data/exchange/slider.stl" "$out/sofa.stl"
+"$papilla" inspect "$data/exchange/slider.stl" | head -n 1 | grep -qF "units mm (assumed)" || fail "no assumed unit"
+"$papilla" inspect "$data/exchange/slider.stl" --unit mm | head -n 1 | grep -qF "units mm," || fail "a given unit is assumed"
+"$papilla" inspect "$data/exchange/slider.stl" | grep -q "small for" && fail "a slider is small"
+"$papilla" inspect "$out/sofa.stl" | grep -q "mm, small for a sofa; it would be .* (--unit " || fail "no hint at the unit of a sofa"
+
+# The examples, as README and --help have them.
+cd "$data/.." || exit 1
+"$papilla" plan data/cockpit.step -m examples/materials.json --chord 1 --strict --json "$out/plan.json" -q ||
+  fail "examples/materials.json: a rule takes nothing"
+grep -q '"part": "cockpit/driver_seat/seat_cushion"' "$out/plan.json" || fail "the driver's cushion has no plan of its own"
+"$papilla" weather data/exchange/vent.glb -c examples/weather.json -o "$out/old-vent.glb" --strict -q ||
+  fail "examples/weather.json does not work"
+for step in 0000 0001 0002; do [[ -s $out/old-vent.$step.glb ]] || fail "no old-vent.$step.glb"; done
+
+echo "$failures failures"
+((failures == 0))
