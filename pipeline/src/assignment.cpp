@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -23,7 +24,24 @@ std::string problem_of(const AssignRule& rule, const RuleCount& count, const std
                      count.fitting.size());
 }
 
+/// The first rule that fits a place; rules.assign.size() when none does.
+std::size_t first_fitting(const Materials& rules, const SurfacePlace& place) {
+  return static_cast<std::size_t>(std::find_if(rules.assign.begin(), rules.assign.end(),
+                                               [&](const AssignRule& rule) { return fits(rule, place); }) -
+                                  rules.assign.begin());
+}
+
 }  // namespace
+
+bool assigns_uses_apart(const Scene& scene, const Materials& rules) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> material_of;
+  for (const SurfacePlace& place : surface_places(scene)) {
+    const std::size_t rule = first_fitting(rules, place);
+    const std::string material = rule < rules.assign.size() ? rules.assign[rule].material : "";
+    if (material_of.try_emplace({place.part, place.slot}, material).first->second != material) return true;
+  }
+  return false;
+}
 
 Assignment assign_materials(Scene& scene, const Materials& rules) {
   std::map<std::string, std::uint32_t> label_of{{"", 0}};

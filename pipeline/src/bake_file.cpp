@@ -8,6 +8,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/gltf_reader.hpp"
+#include "papilla/pipeline/assignment.hpp"
 
 namespace papilla {
 namespace {
@@ -101,11 +102,16 @@ void read_again(const std::filesystem::path& output, BakeResult& result) {
         material.haptic && material.haptic->height ? k_mm_per_metre * material.haptic->height->metres_per_uv : Vec2{});
 }
 
-void edit_file(const std::filesystem::path& input, const std::filesystem::path& output, const Materials& rules,
+/// Why a scene that was read for an edit can't be edited.
+constexpr const char* k_uses_apart = "the uses of one mesh get different materials";
+
+/// @return false when the scene has to be written anew.
+bool edit_file(const std::filesystem::path& input, const std::filesystem::path& output, const Materials& rules,
                const BakeFileOptions& options, const ProgressCallback& progress, BakeFileResult& result) {
   const Stopwatch total;
   GltfOrigin origin;
   Scene scene = read_for_edit(input, options.read, progress, &origin);
+  if (assigns_uses_apart(scene, rules)) return false;
   const double read_seconds = total.seconds();
   BakeOptions bake = options.bake;
   bake.plan.in_place = true;
@@ -121,10 +127,10 @@ void edit_file(const std::filesystem::path& input, const std::filesystem::path& 
   for (std::string& note : edited.notes) result.scene.warnings.push_back(std::move(note));
   if (options.for_pictures) read_again(output, result);
   result.seconds["total"] = total.seconds();
+  return true;
 }
 
-}  // namespace
-
+/// As far as the options tell.
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options) {
   if (!is_gltf(input)) return {false, "the input is no glTF file"};
   if (options.read.up && *options.read.up != UpAxis::y) return {false, "the scene is to be turned"};
@@ -136,13 +142,22 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
   return {true, "only tags and what the grain needs are added"};
 }
 
-BakePlan plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
-                   const ProgressCallback& progress) {
+}  // namespace
+
+PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
+                      const ProgressCallback& progress) {
+  PlannedFile result;
+  result.way = bake_way(input, options);
+  Scene scene;
+  if (result.way.in_place) {
+    scene = read_for_edit(input, options.read, progress, nullptr);
+    if (assigns_uses_apart(scene, rules)) result.way = {false, k_uses_apart};
+  }
+  if (!result.way.in_place) scene = read_scene(input, options.read, progress);
   BakePlanOptions plan = options.bake.plan;
-  plan.in_place = bake_way(input, options).in_place;
-  Scene scene =
-      plan.in_place ? read_for_edit(input, options.read, progress, nullptr) : read_scene(input, options.read, progress);
-  return plan_bake(std::move(scene), rules, plan, progress);
+  plan.in_place = result.way.in_place;
+  static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
+  return result;
 }
 
 BakeFileResult bake_file(const std::filesystem::path& input, const std::filesystem::path& output,
@@ -150,8 +165,8 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
   BakeFileResult result;
   result.way = bake_way(input, options);
   if (result.way.in_place) {
-    edit_file(input, output, rules, options, progress, result);
-    return result;
+    if (edit_file(input, output, rules, options, progress, result)) return result;
+    result.way = {false, k_uses_apart};
   }
   const Stopwatch total;
   Scene scene = read_scene(input, options.read, progress);

@@ -70,10 +70,11 @@ TEST(Surfaces, ReplaceUvThatIsCollapsedStretchedOrNotANumber) {
 }
 
 TEST(Surfaces, KeepMirroredUvAndSayHowMuchIs) {
+  const Materials file = rules();
   Scene scene;
   scene.parts = {square("dash", 1)};
   scene.parts[0].mesh.uv.values[3] = {1, 0};  // folds the second triangle over the first
-  const PartSurface surface = plan_surfaces(scene, rules()).at(0);
+  const PartSurface surface = plan_surfaces(scene, assign_materials(scene, file)).at(0);
   EXPECT_FALSE(decision(surface.plan, Stage::unwrap).run);
   EXPECT_DOUBLE_EQ(surface.uv_defects.flipped, 0.5);
   EXPECT_DOUBLE_EQ(surface.uv_defects.degenerate, 0);
@@ -89,7 +90,7 @@ TEST(Surfaces, DoWithUvAsTheMaterialSays) {
   const auto unwraps = [&](const std::string& wish) {
     file.materials["grain"].unwrap = wish;
     std::vector<bool> result;
-    for (const PartSurface& surface : plan_surfaces(scene, file))
+    for (const PartSurface& surface : plan_surfaces(scene, assign_materials(scene, file)))
       result.push_back(decision(surface.plan, Stage::unwrap).run);
     return result;
   };
@@ -108,15 +109,17 @@ TEST(Surfaces, SayWhatNewUvCost) {
   scene.materials.resize(1);
   scene.materials[0].base_color_texture.emplace();
   scene.materials[0].normal_texture.emplace().tex_coord = 1;
-  EXPECT_EQ(plan_surfaces(scene, file).at(0).lost, (std::vector<std::string>{"base colour picture"}));
-  EXPECT_TRUE(plan_surfaces(scene, file, {}, true).at(0).lost.empty());
+  EXPECT_EQ(plan_surfaces(scene, assign_materials(scene, file)).at(0).lost,
+            (std::vector<std::string>{"base colour picture"}));
+  EXPECT_TRUE(plan_surfaces(scene, assign_materials(scene, file), {}, true).at(0).lost.empty());
 }
 
 TEST(Surfaces, AreNotRepairedInPlace) {
+  const Materials file = rules();
   Scene scene;
   scene.parts = {square("dash", 0)};
-  EXPECT_TRUE(decision(plan_surfaces(scene, rules()).at(0).plan, Stage::repair).run);
-  EXPECT_FALSE(decision(plan_surfaces(scene, rules(), {}, true).at(0).plan, Stage::repair).run);
+  EXPECT_TRUE(decision(plan_surfaces(scene, assign_materials(scene, file)).at(0).plan, Stage::repair).run);
+  EXPECT_FALSE(decision(plan_surfaces(scene, assign_materials(scene, file), {}, true).at(0).plan, Stage::repair).run);
 }
 
 TEST(Surfaces, APartWithTwoMaterialsHasTwoSurfaces) {

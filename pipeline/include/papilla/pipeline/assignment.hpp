@@ -31,6 +31,9 @@ struct Assignment {
 /// @param rules Must stay as long as the result. @throws InvalidInput as instances().
 Assignment assign_materials(Scene& scene, const Materials& rules);
 
+/// Whether assign_materials() would split a part.
+bool assigns_uses_apart(const Scene& scene, const Materials& rules);
+
 /// Makes identical parts that are assigned the same rules one part, so that each class is baked once. The assignment's
 /// parts follow; its list of split ones stays as it was.
 std::vector<SharedPart> share_identical_parts(Scene& scene, Assignment& assignment);

@@ -14,13 +14,13 @@ namespace papilla {
 
 struct BakeFileOptions {
   ReadOptions read;
-  BakeOptions bake;  ///< `plan.in_place` is set by bake_way().
+  BakeOptions bake;  ///< Its `plan.in_place` does not matter.
   WriteOptions write;
   bool for_pictures = false;  ///< The result's scene is read again, for write_bake_pictures().
 };
 
-/// How a bake is written: a glTF file is edited where nothing is asked for that changes its meshes or nodes, everything
-/// else is written anew.
+/// How a bake is written: a glTF file is edited where nothing is asked for that changes its meshes or nodes (fewer
+/// triangles, parts left out, uses of one mesh with different materials), everything else is written anew.
 struct BakeWay {
   bool in_place = false;
   std::string reason;
@@ -31,16 +31,18 @@ struct BakeFileResult : BakeResult {
   std::vector<GltfChange> changes;  ///< Of an edited file.
 };
 
-BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options);
+struct PlannedFile : BakePlan {
+  BakeWay way;
+};
 
 /// What bake_file() would do. In place no loss is listed, as what the reader leaves out stays in the file.
 /// @throws as read_scene() and plan_bake().
-BakePlan plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
-                   const ProgressCallback& progress = {});
+PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
+                      const ProgressCallback& progress = {});
 
 /// Reads, bakes and writes a .glb, or a .gltf with files beside it: bake_scene() with write_scene(), or
-/// write_edited_gltf(). In place sheets that face away are turned where they get relief, and those without a side become
-/// double sided there; all others stay and are counted in the plan's sides.
+/// write_edited_gltf(). In place sheets that face away are turned where they get relief, and those without a side
+/// become double sided there; all others stay and are counted in the plan's sides.
 /// @throws as read_scene(), bake_scene(), write_scene(), write_edited_gltf().
 BakeFileResult bake_file(const std::filesystem::path& input, const std::filesystem::path& output,
                          const Materials& rules, const BakeFileOptions& options, const ProgressCallback& progress = {});
