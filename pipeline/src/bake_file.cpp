@@ -130,7 +130,8 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
   return true;
 }
 
-/// As far as the options tell.
+}  // namespace
+
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options) {
   if (!is_gltf(input)) return {false, "the input is no glTF file"};
   if (options.read.up && *options.read.up != UpAxis::y) return {false, "the scene is to be turned"};
@@ -141,8 +142,6 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
     return {false, "tags are to be mirrored in extensions"};
   return {true, "only tags and what the grain needs are added"};
 }
-
-}  // namespace
 
 PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
                       const ProgressCallback& progress) {

@@ -31,6 +31,9 @@ struct BakeFileResult : BakeResult {
   std::vector<GltfChange> changes;  ///< Of an edited file.
 };
 
+/// As far as file name and options tell.
+BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options);
+
 struct PlannedFile : BakePlan {
   BakeWay way;
 };
