@@ -13,7 +13,7 @@ namespace papilla::cad {
 /// A CAD file as OpenCASCADE's document, in millimetres.
 struct CadDocument {
   Handle(TDocStd_Document) document;
-  std::string format;       ///< "STEP", "IGES", "BREP".
+  std::string format;                 ///< "STEP", "IGES", "BREP".
   std::string unit = "mm (assumed)";  ///< The file's own, when it states one.
   double millimetres_per_unit = 1;
   StepMetadata metadata;
