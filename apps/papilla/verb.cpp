@@ -29,6 +29,7 @@ struct CommonOptions {
   int threads = 0;
   std::uint64_t seed = 1;
   std::uint64_t max_memory = 0;
+  std::optional<double> time_limit_s;
 };
 
 /// The values of the options that name files to read, separated by commas.
@@ -85,27 +86,33 @@ class ProgressPrinter {
   double last_ = -1;
 };
 
-void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbBody& body) {
+void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDeadline at_deadline,
+              const VerbBody& body) {
   const bool json_on_stdout = common.json == "-";
   std::optional<oneapi::tbb::global_control> limit;
   if (common.threads > 0)
     limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
 
-  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, common.seed, 0};
+  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, {}, common.seed, 0};
+  if (common.time_limit_s) context.deadline = Deadline(*common.time_limit_s);
   const bool wants_json = common.progress == "json";
   std::shared_ptr<ProgressPrinter> printer;
   if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))
     printer = std::make_shared<ProgressPrinter>(wants_json);
   std::string stage = "reading";
-  context.progress = [printer, &stage](const Progress& done) {
+  const bool cancels = at_deadline == VerbInfo::AtDeadline::is_cancelled;
+  context.progress = [printer, &stage, cancels, deadline = context.deadline](const Progress& done) {
     if (stage != done.stage) stage = done.stage;
     if (printer) (*printer)(done.stage, done.fraction);
-    return true;
+    return !cancels || !deadline.passed();
   };
   set_picture_memory(common.max_memory);
   Json result;
   try {
     result = body(context);
+  } catch (const Cancelled&) {
+    throw SolverFailure(
+        fmt::format("the time limit of {:g} s is reached, at '{}': no result", *common.time_limit_s, stage));
   } catch (const std::bad_alloc&) {
     const std::string inputs = inputs_of(verb);
     throw InvalidInput((inputs.empty() ? verb.get_name() : inputs) + ": no memory is left, at '" + stage + "'");
@@ -152,9 +159,16 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->check(CLI::IsMember({"auto", "json", "none"}))
       ->capture_default_str()
       ->group("Common");
-  verb->callback([verb, common, body = std::move(body)] {
+  verb->add_option("--time-limit", common->time_limit_s,
+                   info.at_deadline == VerbInfo::AtDeadline::ends
+                       ? "End after so long, with the best valid result so far"
+                       : "End after so long, with exit code 4 and no result when it is not done")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S")
+      ->group("Common");
+  verb->callback([verb, common, at_deadline = info.at_deadline, body = std::move(body)] {
     declare_files(*verb);
-    run_verb(*verb, *common, body);
+    run_verb(*verb, *common, at_deadline, body);
   });
   return verb;
 }
