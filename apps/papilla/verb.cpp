@@ -15,6 +15,7 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/picture_memory.hpp"
+#include "progress_printer.hpp"
 #include "standard_output.hpp"
 
 namespace papilla::app {
@@ -43,49 +44,6 @@ std::string inputs_of(const CLI::App& verb) {
   return names;
 }
 
-/// Prints "stage 42 % 3 s left" on one line of the terminal, or one JSON object a line.
-class ProgressPrinter {
- public:
-  explicit ProgressPrinter(bool as_json) : as_json_(as_json) {}
-  ~ProgressPrinter() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
-  }
-  ProgressPrinter(const ProgressPrinter&) = delete;
-  ProgressPrinter& operator=(const ProgressPrinter&) = delete;
-
-  void operator()(std::string_view stage, double fraction) {
-    if (stage != stage_) {
-      stage_ = stage;
-      stage_clock_ = Stopwatch();
-      last_ = -1;
-    }
-    const double now = total_.seconds();
-    if (as_json_) {
-      if (now - last_ < 0.1 && fraction < 1) return;
-      const Json line{{"stage", stage}, {"fraction", fraction}, {"seconds", now}};
-      fmt::print(stderr, "{}\n", shown(line.dump(-1, ' ', false, Json::error_handler_t::replace)));
-      last_ = now;
-      return;
-    }
-    if (now < 1 || now - last_ < 0.1) return;
-    last_ = now;
-    const double spent = stage_clock_.seconds();
-    std::string line = fmt::format("{} {:3.0f} %", shown(stage), 100 * fraction);
-    if (fraction > 0.01 && fraction < 1)
-      line += fmt::format("  {:.2g} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3),
-                          spent * (1 - fraction) / fraction);
-    fmt::print(stderr, "\r\033[K{}", line);
-    std::fflush(stderr);
-    drawn_ = true;
-  }
-
- private:
-  bool as_json_, drawn_ = false;
-  std::string stage_;
-  Stopwatch total_, stage_clock_;
-  double last_ = -1;
-};
-
 void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDeadline at_deadline,
               const VerbBody& body) {
   const bool json_on_stdout = common.json == "-";
@@ -98,12 +56,12 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDea
   const bool wants_json = common.progress == "json";
   std::shared_ptr<ProgressPrinter> printer;
   if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))
-    printer = std::make_shared<ProgressPrinter>(wants_json);
+    printer = std::make_shared<ProgressPrinter>(wants_json ? ProgressPrinter::Form::json : ProgressPrinter::Form::line);
   std::string stage = "reading";
   const bool cancels = at_deadline == VerbInfo::AtDeadline::is_cancelled;
   context.progress = [printer, &stage, cancels, deadline = context.deadline](const Progress& done) {
     if (stage != done.stage) stage = done.stage;
-    if (printer) (*printer)(done.stage, done.fraction);
+    if (printer) printer->report(done.stage, done.fraction);
     return !cancels || !deadline.passed();
   };
   set_picture_memory(common.max_memory);
