@@ -16,10 +16,7 @@ Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s, const Contac
     fault_ = Fault::stale_input;
   if (fault_ != Fault::none) return last_ = {};
 
-  if (faded_in_s_ < limits_.soft_start_s && (force_n != Vec3{} || faded_in_s_ > 0)) {
-    faded_in_s_ += period_s;
-    force_n = std::min(1.0, faded_in_s_ / limits_.soft_start_s) * force_n;
-  }
+  force_n = faded_in(force_n, period_s, contact.in_contact);
   const double size = norm(force_n);
   if (size > limits_.max_force_n) force_n = (limits_.max_force_n / size) * force_n;
   const bool goes_on = contact.in_contact && contact_s_ >= limits_.new_contact_s;
@@ -32,9 +29,22 @@ Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s, const Contac
   return last_;
 }
 
+Vec3 ForceGuard::faded_in(Vec3 force_n, double period_s, bool in_contact) noexcept {
+  const double size = norm(force_n);
+  if (faded_in_s_ < limits_.soft_start_s && (size > 0 || faded_in_s_ > 0)) faded_in_s_ += period_s;
+  const double share = limits_.soft_start_s > 0 ? std::min(1.0, faded_in_s_ / limits_.soft_start_s) : 1;
+  if (!in_contact) {
+    withheld_n_ = raw_n_ = 0;
+    return share * force_n;
+  }
+  withheld_n_ = std::clamp(withheld_n_ + (1 - share) * (size - raw_n_), 0.0, size);
+  raw_n_ = size;
+  return withheld_n_ > 0 ? ((size - withheld_n_) / size) * force_n : force_n;
+}
+
 void ForceGuard::resume() noexcept {
   fault_ = Fault::none;
-  faded_in_s_ = contact_s_ = 0;
+  faded_in_s_ = contact_s_ = withheld_n_ = raw_n_ = 0;
   last_ = {};
 }
 

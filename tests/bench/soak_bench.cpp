@@ -217,7 +217,7 @@ void add_results(bench::BenchReport& report, const std::vector<Result>& results)
   none("no step above 2 % of it a millisecond while a contact goes on, beyond the spring's own", all.too_steep,
        fmt::format(", largest {:.6f} of what is allowed", all.longest_step));
   none("no fault", all.faults, "");
-  report.target({"passive: no episode gives back more than the hand put in (tolerance 1 % and 1 µJ)",
+  report.target({"passive: no episode gives back more than the hand put in (tolerance 1 µJ)",
                  fmt::format("{} of {} episodes; least kept {:.3g} µJ and {:.4f} of what was put in; {:.3g} J put in, "
                              "{:.3g} J given back while in contact",
                              all.active_episodes, all.episodes, 1e6 * all.least_kept_j, all.least_kept_share,

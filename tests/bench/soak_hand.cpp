@@ -13,7 +13,7 @@ namespace papilla::bench {
 namespace {
 
 constexpr double k_period_s = 1e-3, k_free_m = 8e-3;
-constexpr double k_energy_tolerance_j = 1e-6, k_energy_tolerance = 0.01;  // Rounding; what the first fade-in may give.
+constexpr double k_energy_tolerance_j = 1e-6;  // Rounding.
 
 /// Collects the samples of a random hand.
 class RandomHand {
@@ -141,7 +141,7 @@ class EpisodeEnergy {
   void close(double work, double kinetic, SoakRun& run) {
     const double kept = (work - start_work_) - (kinetic - start_kinetic_);
     run.least_kept_j = std::min(run.least_kept_j, kept);
-    run.active_episodes += kept < -(k_energy_tolerance_j + k_energy_tolerance * put_in_);
+    run.active_episodes += kept < -k_energy_tolerance_j;
     if (put_in_ > k_energy_tolerance_j) run.least_kept_share = std::min(run.least_kept_share, kept / put_in_);
     ++run.episodes;
     open_ = false;

@@ -14,7 +14,7 @@ struct SoakRun {
   double largest_share = 0;           ///< Of the device's largest force.
   double longest_step = 0;            ///< Change of the force in a tick over what is allowed, while a contact goes on.
   std::uint64_t episodes = 0;         ///< From one free flight to the next.
-  std::uint64_t active_episodes = 0;  ///< Those that gave the hand more than 1 µJ and 1 % of what it had put in.
+  std::uint64_t active_episodes = 0;  ///< Those that gave the hand over 1 µJ more than it had put in.
   double put_in_j = 0, returned_j = 0;  ///< Work of the hand on the device while in contact, positive and negative.
   double least_kept_j = 0;              ///< Least energy that device and wall kept of an episode.
   double least_kept_share = 1;          ///< The same over what was put in, of the episodes with more than a microjoule.

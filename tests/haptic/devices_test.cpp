@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <random>
 
 #include "haptic/contact_shapes.hpp"
 #include "papilla/core/error.hpp"
@@ -189,6 +192,45 @@ TEST(ForceGuard, FadesInTheFirstForceAndAfterAResume) {
     EXPECT_EQ(guard.apply({1, 0, 0}, 1e-3, 0).x, 1);
     guard.resume();
   }
+}
+
+TEST(ForceGuard, FadingInGivesNoEnergyToAHandInAWall) {
+  constexpr double k_stiffness = 1000, k_period = 1e-3;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> rate(1, 60), size(5e-4, 3e-3), turn(0, 2 * std::numbers::pi);
+  double largest = 0;
+  for (int hand = 0; hand < 200; ++hand) {
+    const double a = size(random), b = size(random), f = rate(random), g = rate(random), phase = turn(random);
+    const auto depth_at = [&](double t) {
+      return a * std::sin(2 * std::numbers::pi * f * t) +
+             b * (std::sin(2 * std::numbers::pi * g * t + phase) - std::sin(phase));
+    };
+    ForceGuard guard({.max_force_n = 100, .slew_n_per_s = 1e9, .steady_share = 1, .soft_start_s = 0.05});
+    double work = 0, last_depth = 0, last_force = 0;
+    for (int i = 1; i < 300; ++i) {
+      const double depth = std::max(0.0, depth_at(i * k_period));
+      const double force = guard.apply({0, 0, k_stiffness * depth}, k_period, 0, {depth > 0, 0}).z;
+      const double step = (last_force + force) / 2 * (depth - last_depth);
+      work += step;
+      ASSERT_GE(work, -1e-12) << "hand " << hand << " at " << i << " ms";
+      last_depth = depth;
+      last_force = force;
+      largest = std::max(largest, force);
+    }
+  }
+  EXPECT_GT(largest, 2);
+}
+
+TEST(ForceGuard, AWallIsAsStiffAsItIsOnceFadedInAndWholeInTheNextContact) {
+  ForceGuard guard({.max_force_n = 100, .slew_n_per_s = 1e9, .steady_share = 1, .soft_start_s = 0.01});
+  const auto press = [&](double raw) { return guard.apply({0, raw, 0}, 1e-3, 0, {raw > 0, 0}).y; };
+  double expected = 0;
+  for (int i = 1; i <= 10; ++i) EXPECT_NEAR(press(0.1 * i), expected += 0.01 * i, 1e-12);  // Shares 0.1, 0.2, ... 1.
+  EXPECT_NEAR(press(1.5), expected + 0.5, 1e-12);
+  EXPECT_NEAR(press(0.6), expected - 0.4, 1e-12);
+  EXPECT_EQ(press(0.3), 0);  // Less than what is held back.
+  EXPECT_EQ(press(0), 0);
+  EXPECT_EQ(press(0.3), 0.3);
 }
 
 TEST(ForceGuard, NoNumberAndOldInputMeanNoForceUntilResumed) {

@@ -257,7 +257,7 @@ LoopResult play(FakeWire& wire, HidDevice& device, int silent_from, std::uint64_
   int frame = 0;
   wire.hand = [&]() -> HidReport {
     ++frame;
-    return frame > silent_from ? HidReport{} : position(frame, std::max(500 - 10 * frame, -100));
+    return frame > silent_from ? HidReport{} : position(frame, std::max({500 - 10 * frame, 50 - frame, -100}));
   };
   ContactMaterial material;
   material.stiffness = 300;

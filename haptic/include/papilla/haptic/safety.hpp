@@ -10,7 +10,7 @@ struct SafetyLimits {
   double slew_n_per_s = 1650;   ///< Largest rate of change of the force.
   double steady_share = 0.04;   ///< Of that rate: the largest while a contact goes on.
   double new_contact_s = 2e-3;  ///< For so long a contact is new.
-  double soft_start_s = 0.05;   ///< Duration of the fade-in of the first force.
+  double soft_start_s = 0.05;   ///< Duration of the fade-in from the first force on.
   double watchdog_s = 0.01;     ///< Largest age of a position; older ones stop all force.
 };
 
@@ -31,6 +31,12 @@ struct ContactStep {
 /// so that no relief, edge or stimulus makes a jolt, while a wall is as stiff as it was: to hold back the force of a
 /// hand that goes in or out faster than steady_share·slew/k (165 mm/s for 400 N/m on a device of 3.3 N) would give it
 /// energy.
+///
+/// Forces fade in from the first one, and from the first after a fault: without a contact their share rises from 0 to 1
+/// in soft_start_s, and in a contact that share s(t) is the one of each change of their size,
+///     |F| = integral of s(t) d|f|,
+/// so that a wall that becomes stiffer while a hand is in it gives it no energy: F²/(2·s·k) is what it stores of the
+/// work that was put in. Until that contact ends its wall is felt deeper by what was held back, over k.
 class ForceGuard {
  public:
   enum class Fault { none, not_finite, stale_input };
@@ -46,9 +52,13 @@ class ForceGuard {
   void resume() noexcept;
 
  private:
+  Vec3 faded_in(Vec3 force_n, double period_s, bool in_contact) noexcept;
+
   SafetyLimits limits_;
   Vec3 last_;
   double faded_in_s_ = 0, contact_s_ = 0;
+  double withheld_n_ = 0,
+         raw_n_ = 0;  ///< Of the contact that goes on: what the fade-in holds back; |f| of the last tick.
   Fault fault_ = Fault::none;
 };
 
