@@ -2,7 +2,9 @@
 // A picture outside the memory against the same picture in it.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "papilla/core/error.hpp"
@@ -31,7 +33,8 @@ GreyImage lit_waves(int width, int height) {
 struct Case {
   HeightMethod method;
   bool periodic;
-  double most;  ///< Root mean square of the difference over the depth.
+  double most;                ///< Root mean square of the difference over the depth.
+  std::array<int, 2> pieces;  ///< Of 512 x 384 pixels at 256 pixels a side.
 };
 
 class HeightRowsOf : public testing::TestWithParam<Case> {};
@@ -69,16 +72,38 @@ TEST_P(HeightRowsOf, AgreeWithTheHeightsInMemory) {
   EXPECT_EQ(rows.result.depth_mm, whole.depth_mm);
   EXPECT_NEAR(rows.result.rms_mm, pieces.rms_mm, 1e-6);
   EXPECT_NEAR(rows.result.guessed_share, pieces.guessed_share, 1e-5);
-  const bool in_pieces = c.method != HeightMethod::intensity;
-  EXPECT_EQ(rows.result.pieces, (in_pieces ? std::array{4, 3} : std::array{1, 1}));
+  EXPECT_EQ(whole.pieces, (std::array{1, 1}));
+  EXPECT_EQ(pieces.pieces, c.pieces);
+  EXPECT_EQ(rows.result.pieces, c.pieces);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Methods, HeightRowsOf,
-    testing::Values(Case{HeightMethod::intensity, false, 1e-6}, Case{HeightMethod::tsai_shah, false, 1e-6},
-                    Case{HeightMethod::tsai_shah, true, 1e-6}, Case{HeightMethod::pentland, false, 0.02},
-                    Case{HeightMethod::pentland, true, 0.02}, Case{HeightMethod::variational, false, 0.05},
-                    Case{HeightMethod::variational, true, 0.02}));
+INSTANTIATE_TEST_SUITE_P(Methods, HeightRowsOf,
+                         testing::Values(Case{HeightMethod::intensity, false, 1e-6, {1, 1}},
+                                         Case{HeightMethod::tsai_shah, false, 1e-6, {2, 2}},
+                                         Case{HeightMethod::tsai_shah, true, 1e-6, {2, 2}},
+                                         Case{HeightMethod::pentland, false, 0.02, {4, 3}},
+                                         Case{HeightMethod::pentland, true, 0.02, {4, 3}},
+                                         Case{HeightMethod::variational, false, 0.05, {4, 3}},
+                                         Case{HeightMethod::variational, true, 0.02, {4, 3}}));
+
+TEST(HeightFromRows, NamesTheSampleThatIsNoNumber) {
+  const GreyImage middle = lit_waves(64, 64);
+  const TemporaryFolder folder("papilla-test");
+  SampleFile samples(64, 64, folder.path());
+  for (const HeightMethod method :
+       {HeightMethod::intensity, HeightMethod::tsai_shah, HeightMethod::pentland, HeightMethod::variational})
+    for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+      GreyImage image = middle;
+      image.at(3, 61) = value;
+      const SamplesInMemory picture(image.pixels, 64, 64);
+      try {
+        height_from_rows(picture, middle, {.method = method, .periodic = false}, samples);
+        ADD_FAILURE() << to_string(method);
+      } catch (const InvalidInput& error) {
+        EXPECT_STREQ(error.what(), "height_from_rows: sample [3, 61] is not a finite number");
+      }
+    }
+}
 
 TEST(HeightFromRows, RefusesWhatNeedsThePictureInMemory) {
   const GreyImage image = lit_waves(64, 64);

@@ -133,6 +133,15 @@ TEST(ShapeFromShadingPieces, ProgressRisesToOne) {
   }
 }
 
+/// Without a tolerance a descent goes on until no step lowers the energy any more.
+TEST(ShapeFromShadingPieces, SayThatTheLineSearchStalled) {
+  ShadingOptions options{.iterations = 100'000, .relative_tolerance = 1e-300, .smoothness = 1};
+  const GreyImage image = test::noise_image(100, 80, 9);
+  ASSERT_EQ(shape_from_shading_variational(image, options).stop, StopReason::line_search_stalled);
+  options.largest_piece_px = 64;
+  EXPECT_EQ(shape_from_shading_variational(image, options).stop, StopReason::line_search_stalled);
+}
+
 TEST(ShapeFromShadingPieces, RefusesPiecesWithoutRoom) {
   ShadingOptions options;
   options.largest_piece_px = 63;

@@ -7,6 +7,8 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "papilla/core/error.hpp"
 #include "papilla/texture/shading.hpp"
@@ -179,6 +181,29 @@ TEST(ShapeFromShading, AlwaysFinite) {
              {shape_from_shading_variational, shape_from_shading_pentland, shape_from_shading_tsai_shah})
           for (const double height : solve(picture, options).height_px) ASSERT_TRUE(std::isfinite(height));
       }
+}
+
+TEST(ShapeFromShading, FiniteUnderAnAlbedoNextToNothing) {
+  for (const GreyImage& picture : {test::noise_image(31, 18, 5), test::noise_image(150, 140, 6)})
+    for (const double albedo : {1e-20, 1e-60, 1e-300})
+      for (const auto solve :
+           {shape_from_shading_variational, shape_from_shading_pentland, shape_from_shading_tsai_shah})
+        for (const int piece : {64, 2048}) {
+          const ShadingResult result = solve(picture, {.albedo = albedo, .iterations = 20, .largest_piece_px = piece});
+          for (const double height : result.height_px) ASSERT_TRUE(std::isfinite(height)) << albedo;
+          for (const TraceSample& step : result.trace) ASSERT_TRUE(std::isfinite(step.error)) << albedo;
+        }
+}
+
+TEST(ShapeFromShading, RefusesMoreStepsThanMemoryAndIntegersHold) {
+  for (const auto solve : {shape_from_shading_variational, shape_from_shading_pentland, shape_from_shading_tsai_shah})
+    try {
+      solve(test::noise_image(8, 8, 1), {.iterations = 100'001});
+      ADD_FAILURE();
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("100001 iterations are more than 100000"), std::string::npos)
+          << error.what();
+    }
 }
 
 TEST(ShapeFromShading, RefusesBadArguments) {

@@ -16,12 +16,12 @@ class CurvatureMemory {
  public:
   using Field = std::vector<double>;
 
-  /// Takes the step `scale` · `direction` from where the gradient was `before.gradient`; a pair of no positive
-  /// curvature is not kept.
   struct Slope {
     const Field& gradient;
     const Field& preconditioned;  ///< H₀ · gradient.
   };
+  /// Takes the step `scale` · `direction` from where the gradient was `before.gradient`; a pair of no positive
+  /// curvature is not kept.
   void add(double scale, const Field& direction, const Slope& before, const Slope& now);
 
   /// −H · gradient of the last slope added (the first: no pair). @return its product with the gradient.

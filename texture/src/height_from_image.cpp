@@ -87,6 +87,7 @@ struct Statistics {
   double mean = 0, deviation = 0;  ///< Root mean square from the mean.
 };
 
+/// @throws InvalidInput when a sample is not finite.
 Statistics statistics(const SampleRows& samples) {
   Statistics s;
   std::vector<float> row(static_cast<std::size_t>(samples.width()));
@@ -98,6 +99,10 @@ Statistics statistics(const SampleRows& samples) {
   };
   double sum = 0, squares = 0;
   each_row([&](int y) {
+    const auto bad = std::find_if(row.begin(), row.end(), [](float value) { return !std::isfinite(value); });
+    if (bad != row.end())
+      throw InvalidInput("height_from_rows: sample [" + std::to_string(bad - row.begin()) + ", " + std::to_string(y) +
+                         "] is not a finite number");
     const auto [low, high] = std::minmax_element(row.begin(), row.end());
     s.low = y == 0 ? *low : std::min(s.low, *low);
     s.high = y == 0 ? *high : std::max(s.high, *high);
@@ -116,8 +121,8 @@ Statistics statistics(const SampleRows& samples) {
 /// 0.
 std::optional<ShadingOptions> choose_shading(const SampleRows& picture, const HeightOptions& options,
                                              HeightResult& result) {
-  choose_light(picture, options, result);
   const Statistics grey = statistics(picture);
+  choose_light(picture, options, result);
   if (!(grey.low < grey.high) || !(grey.mean > 0)) {
     result.stop = StopReason::direct;
     return std::nullopt;
@@ -146,6 +151,7 @@ std::vector<double> height_by_shading(const GreyImage& image, const HeightOption
                                        shape_from_shading_tsai_shah)(image, *shading);
   result.trace = std::move(solved.trace);
   result.stop = solved.stop;
+  result.pieces = solved.pieces;
   return std::move(solved.height_px);
 }
 
@@ -387,11 +393,7 @@ HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, 
         });
     result.trace = std::move(solved.trace);
     result.stop = solved.stop;
-    const auto pieces = [&](int side) {
-      const int core = options.largest_piece_px / 2;
-      return (side + core - 1) / core;
-    };
-    result.pieces = {pieces(picture.width()), pieces(picture.height())};
+    result.pieces = solved.pieces;
   } else {
     for (int y = 0; y < picture.height(); ++y) {
       if (!lit) picture.read(0, y, picture.width(), row.data());

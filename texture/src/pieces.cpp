@@ -133,9 +133,9 @@ ProgressCallback part_of(const ProgressCallback& whole, double begin, double end
   };
 }
 
-void solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
-                     const std::function<std::vector<double>(const Piece&)>& solve, const RowWriter& write,
-                     const ProgressCallback& progress, std::string_view stage) {
+std::array<int, 2> solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
+                                   const std::function<std::vector<double>(const Piece&)>& solve,
+                                   const RowWriter& write, const ProgressCallback& progress, std::string_view stage) {
   const std::vector<PieceSpan> columns = piece_spans(picture.width(), layout),
                                rows = piece_spans(picture.height(), layout);
   const double count = static_cast<double>(columns.size()) * static_cast<double>(rows.size());
@@ -156,6 +156,7 @@ void solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
   }
   open.finish();
   report_progress(progress, stage, 1);
+  return {static_cast<int>(columns.size()), static_cast<int>(rows.size())};
 }
 
 RowWriter rows_of(std::vector<double>& field, int width) {

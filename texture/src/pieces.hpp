@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -39,10 +40,6 @@ struct Piece {
   const PieceSpan& across;
   const PieceSpan& down;
   GreyImage image;
-
-  double weight(int x, int y) const {
-    return across.weights[static_cast<std::size_t>(x)] * down.weights[static_cast<std::size_t>(y)];
-  }
 };
 
 /// Pixels over which neighbouring pieces are mixed: farther than the last steps of a solve change the result.
@@ -57,13 +54,14 @@ ProgressCallback part_of(const ProgressCallback& whole, double begin, double end
 /// Takes a row of the result; called once for every row, in any order.
 using RowWriter = std::function<void(int y, std::span<const double> row)>;
 
-/// Solves a picture piece by piece, several at a time on all threads: `solve` returns the heights of a piece, row by
+/// Solves a picture piece by piece, at most four at a time: `solve` returns the heights of a piece, row by
 /// row, and their weighted sum over the pieces is the result. Memory: that of four pieces, and of the result's rows
 /// that pieces share. The result does not depend on the number of threads. `solve` must be safe to run on several
 /// pieces at once; `progress` gets `stage` and the share of the pieces that are done.
-void solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
-                     const std::function<std::vector<double>(const Piece&)>& solve, const RowWriter& write,
-                     const ProgressCallback& progress, std::string_view stage);
+/// @returns how many pieces there are across and down.
+std::array<int, 2> solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
+                                   const std::function<std::vector<double>(const Piece&)>& solve,
+                                   const RowWriter& write, const ProgressCallback& progress, std::string_view stage);
 
 /// Writes rows into a field of that width, which must outlive the writer.
 RowWriter rows_of(std::vector<double>& field, int width);

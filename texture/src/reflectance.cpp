@@ -23,6 +23,10 @@ void require_shading_options(const ShadingOptions& options, const char* function
   if (options.largest_piece_px < k_least_piece)
     throw InvalidInput(std::string(function) + ": pieces of " + std::to_string(options.largest_piece_px) +
                        " pixels are smaller than " + std::to_string(k_least_piece));
+  constexpr int k_most_iterations = 100'000;  // tsai-shah keeps 8 bytes a column and step.
+  if (options.iterations > k_most_iterations)
+    throw InvalidInput(std::string(function) + ": " + std::to_string(options.iterations) +
+                       " iterations are more than " + std::to_string(k_most_iterations));
   if (!is_positive(options.albedo) || !is_positive(options.smoothness) || options.iterations < 1 ||
       !is_positive(options.relative_tolerance))
     throw InvalidInput(std::string(function) + ": albedo " + std::to_string(options.albedo) + ", smoothness " +
@@ -43,7 +47,7 @@ ShadingResult in_memory(ShadingByRows method, const GreyImage& image, const Shad
 std::vector<double> brightness(const GreyImage& image, double albedo) {
   std::vector<double> values(image.pixels.size());
   std::transform(image.pixels.begin(), image.pixels.end(), values.begin(),
-                 [albedo](float grey) { return static_cast<double>(grey) / albedo; });
+                 [albedo](float grey) { return brightness(grey, albedo); });
   return values;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,6 +41,12 @@ using ShadingByRows = ShadingResult (*)(const SampleRows&, const ShadingOptions&
 
 /// A method that solves by pieces, on a picture in memory.
 ShadingResult in_memory(ShadingByRows method, const GreyImage& image, const ShadingOptions& options);
+
+/// The grey value over the albedo, bounded so that squares and their sums are finite.
+inline double brightness(float grey, double albedo) {
+  constexpr double k_most = 1e100;
+  return std::clamp(static_cast<double>(grey) / albedo, -k_most, k_most);
+}
 
 /// The picture over the albedo.
 std::vector<double> brightness(const GreyImage& image, double albedo);

@@ -2,29 +2,20 @@
 #include "shading_energy.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "checks.hpp"
+#include "lane_sum.hpp"
 #include "reflectance.hpp"
+#include "slopes.hpp"
 #include "wide.hpp"
 
 namespace papilla::texture_detail {
 namespace {
 
-/// The two neighbours along one axis and the reciprocal of their distance (0 on a single pixel).
-struct Neighbours {
-  int before, after;
-  double inverse_distance;
-};
-
-Neighbours neighbours(int i, int count, bool periodic) {
-  if (count == 1) return {0, 0, 0};
-  if (periodic) return {i == 0 ? count - 1 : i - 1, i == count - 1 ? 0 : i + 1, 0.5};
-  const int before = std::max(0, i - 1), after = std::min(count - 1, i + 1);
-  return {before, after, 1.0 / (after - before)};
-}
+/// 1 over the distance of the neighbours, and 0 for a single pixel, which has no slope.
+double inverse_distance(const Stencil& neighbours, int count) { return count == 1 ? 0 : 1.0 / neighbours.span; }
 
 /// The pixels of one row that are shaded alike, and what surrounds them.
 struct ShadedRow {
@@ -59,16 +50,6 @@ PAPILLA_TEXTURE_WIDE void laplacian(const double* row, const double* up, const d
                                     double* __restrict target, std::size_t count) {
   const double *const left = row - 1, *const right = row + 1;
   for (std::size_t x = 0; x < count; ++x) target[x] = factor * (left[x] + right[x] + up[x] + down[x] - 4 * row[x]);
-}
-
-/// Four sums side by side: one alone waits for every addition.
-double sum(const double* values, std::size_t count) {
-  std::array<double, 4> sums{};
-  std::size_t x = 0;
-  for (; x + sums.size() <= count; x += sums.size())
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += values[x + k];
-  for (; x < count; ++x) sums[0] += values[x];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 PAPILLA_TEXTURE_WIDE void square(const double* __restrict values, double* __restrict squares, std::size_t count) {
@@ -114,7 +95,7 @@ double ShadingEnergy::take_laplacian(const Field& z) {
     double* const row = laplacian_.data() + pixel_index(0, y, width_);
     laplacian_row(z, y, 1, row);
     square(row, squares_.data(), squares_.size());
-    squares += sum(squares_.data(), squares_.size());
+    squares += lane_sum(squares_.data(), squares_.size());
   }
   return squares;
 }
@@ -123,17 +104,17 @@ double ShadingEnergy::add_shading(const Field& z, Field& gradient) {
   double energy = 0;
   const auto inner = static_cast<std::size_t>(std::max(0, width_ - 2));
   for (int y = 0; y < height_; ++y) {
-    const Neighbours rows = neighbours(y, height_, periodic_);
+    const Stencil rows = stencil(y, height_, periodic_);
     const double *const row = z.data() + pixel_index(0, y, width_),
                         *const up = z.data() + pixel_index(0, rows.before, width_),
                         *const down = z.data() + pixel_index(0, rows.after, width_),
                         *const target = brightness_.data() + pixel_index(0, y, width_);
     double* const changes = gradient.data() + pixel_index(0, y, width_);
     const auto shade_from = [&](int x, std::size_t count) {
-      const Neighbours columns = neighbours(x, width_, periodic_);
+      const Stencil columns = stencil(x, width_, periodic_);
       shade(light_,
-            {row + columns.before, row + columns.after, up + x, down + x, target + x, columns.inverse_distance,
-             rows.inverse_distance},
+            {row + columns.before, row + columns.after, up + x, down + x, target + x, inverse_distance(columns, width_),
+             inverse_distance(rows, height_)},
             across_.data() + x, down_.data() + x, squares_.data() + x, count);
       add(changes + columns.after, across_.data() + x, count);
       subtract(changes + columns.before, across_.data() + x, count);
@@ -143,7 +124,7 @@ double ShadingEnergy::add_shading(const Field& z, Field& gradient) {
     if (width_ > 1) shade_from(width_ - 1, 1);
     add(gradient.data() + pixel_index(0, rows.after, width_), down_.data(), down_.size());
     subtract(gradient.data() + pixel_index(0, rows.before, width_), down_.data(), down_.size());
-    energy += sum(squares_.data(), squares_.size());
+    energy += lane_sum(squares_.data(), squares_.size());
   }
   return energy;
 }

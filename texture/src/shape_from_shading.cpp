@@ -226,7 +226,7 @@ void solve_large(const SampleRows& image, const ShadingOptions& options, const S
   std::mutex mutex;
   std::vector<double> squares;
   StopReason stop = StopReason::converged;
-  solve_by_pieces(
+  result.pieces = solve_by_pieces(
       image, layout,
       [&](const Piece& piece) {
         ShadingResult steps;
@@ -234,7 +234,7 @@ void solve_large(const SampleRows& image, const ShadingOptions& options, const S
         keep_short_waves(heights, start_of(piece, common), piece.image.width, piece.image.height, longest_px);
         const std::scoped_lock lock(mutex);
         squares.push_back(steps.trace.empty() ? 0 : steps.trace.back().error * steps.trace.back().error);
-        if (steps.stop != StopReason::converged) stop = StopReason::iteration_limit;
+        stop = worse(stop, steps.stop);
         return heights;
       },
       write, part_of(options.progress, k_coarse_share, 1), k_stage);

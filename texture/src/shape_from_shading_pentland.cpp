@@ -56,7 +56,7 @@ double residual(const Field& height, const GreyImage& image, double albedo, Vec3
       const double p = (at(across.after, y) - at(across.before, y)) / across.span;
       const double q = (at(x, down.after) - at(x, down.before)) / down.span;
       const double error =
-          static_cast<double>(image.at(x, y)) / albedo - texture_detail::reflectance(light, p, q).value;
+          texture_detail::brightness(image.at(x, y), albedo) - texture_detail::reflectance(light, p, q).value;
       squares += error * error;
     }
   return std::sqrt(squares / static_cast<double>(height.size()));
@@ -80,9 +80,12 @@ Field linear_heights(Field brightness, int columns, int rows, bool periodic, Vec
 }
 
 /// The method is linear: the long waves come from the small picture, the others, which reach less far, from pieces.
-/// @returns the root mean square over the pieces of their residuals.
-double heights_by_pieces(const SampleRows& image, const ShadingOptions& options, Vec3 light,
-                         const texture_detail::RowWriter& write) {
+/// Its trace holds the root mean square over the pieces of their residuals.
+ShadingResult heights_by_pieces(const SampleRows& image, const ShadingOptions& options, Vec3 light,
+                                const texture_detail::RowWriter& write) {
+  const Stopwatch clock;
+  ShadingResult result;
+  result.stop = StopReason::direct;
   const GreyImage small = texture_detail::shrunk(image, options.largest_piece_px / 2).image;
   const auto enlarged = [&](const Field& field, const texture_detail::Piece& piece) {
     return texture_detail::enlarged({field, small.width, small.height, image.width(), image.height(), options.periodic},
@@ -100,7 +103,7 @@ double heights_by_pieces(const SampleRows& image, const ShadingOptions& options,
   layout.periodic = options.periodic;
   std::mutex mutex;
   std::vector<double> squares;
-  texture_detail::solve_by_pieces(
+  result.pieces = texture_detail::solve_by_pieces(
       image, layout,
       [&](const texture_detail::Piece& piece) {
         Field fine = texture_detail::brightness(piece.image, options.albedo);
@@ -116,7 +119,8 @@ double heights_by_pieces(const SampleRows& image, const ShadingOptions& options,
       },
       write, options.progress, "shape from shading");
   const auto pieces = static_cast<double>(squares.size());
-  return std::sqrt(texture_detail::ordered_sum(std::move(squares)) / pieces);
+  result.trace.push_back({clock.seconds(), std::sqrt(texture_detail::ordered_sum(std::move(squares)) / pieces)});
+  return result;
 }
 
 }  // namespace
@@ -141,12 +145,7 @@ ShadingResult shape_from_shading_pentland_by_rows(const SampleRows& picture, con
                                                   const HeightWriter& write) {
   texture_detail::require_shading_options(options, k_name);
   const Vec3 light = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
-  const Stopwatch clock;
-  const double error = heights_by_pieces(picture, options, light, write);
-  ShadingResult result;
-  result.stop = StopReason::direct;
-  result.trace.push_back({clock.seconds(), error});
-  return result;
+  return heights_by_pieces(picture, options, light, write);
 }
 
 }  // namespace papilla

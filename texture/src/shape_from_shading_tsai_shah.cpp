@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <mutex>
 #include <string_view>
 #include <utility>
 
 #include "checks.hpp"
+#include "lane_sum.hpp"
 #include "papilla/texture/shape_from_shading.hpp"
 #include "pieces.hpp"
 #include "reflectance.hpp"
@@ -15,6 +15,7 @@
 namespace papilla {
 namespace {
 
+using texture_detail::lane_sum;
 using texture_detail::pixel_index;
 using texture_detail::Reflectance;
 using texture_detail::reflectance;
@@ -92,28 +93,21 @@ class RowSteps {
       take_step(light_, target + 1, above + 1, z_.data() + 1, z_.data(), 1, turns_q, next_.data() + 1, gain_.data() + 1,
                 squares_.data() + 1, width_ - 1);
       std::swap(z_, next_);
-      if (squares != nullptr) squares[step] += sum_of_squares(counted);
+      if (squares != nullptr) squares[step] += lane_sum(squares_.data() + counted, width_ - counted);
     }
     return z_;
   }
 
  private:
-  /// Four sums side by side: one alone waits for every addition.
-  double sum_of_squares(std::size_t begin) const {
-    std::array<double, 4> sums{};
-    std::size_t x = begin;
-    for (; x + sums.size() <= width_; x += sums.size())
-      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += squares_[x + k];
-    for (; x < width_; ++x) sums[0] += squares_[x];
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  }
-
   Vec3 light_;
   std::size_t steps_, width_;
   bool wraps_;
   Field z_, next_, gain_, squares_;
   Field above_;  ///< The row above before each step.
 };
+
+/// Keeps the h³ of a step finite. R is at most 1: beyond this only the sign of the brightness counts.
+constexpr double k_most_brightness = 1e6;
 
 /// A step changes a pixel by what its left and its upper neighbour were before it. So each row can take all its steps
 /// before the next row begins, in the cache; a picture that repeats downwards begins as many rows earlier.
@@ -125,7 +119,9 @@ Iterated iterate(const GreyImage& image, const ShadingOptions& options, Wraps wr
   Field target(width);
   for (int y = wraps.down ? 1 - options.iterations : 0; y < image.height; ++y) {
     const std::size_t row = pixel_index(0, texture_detail::wrapped(y, image.height), image.width);
-    for (std::size_t x = 0; x < width; ++x) target[x] = static_cast<double>(image.pixels[row + x]) / options.albedo;
+    for (std::size_t x = 0; x < width; ++x)
+      target[x] = std::clamp(static_cast<double>(image.pixels[row + x]) / options.albedo, -k_most_brightness,
+                             k_most_brightness);
     const Field& z = steps.advance(target.data(), y == 0 && !wraps.down, static_cast<std::size_t>(counted.column),
                                    y >= counted.row ? result.squares.data() : nullptr);
     if (y >= 0) std::copy(z.begin(), z.end(), result.z.begin() + static_cast<std::ptrdiff_t>(row));
@@ -154,7 +150,7 @@ void iterate_by_pieces(const SampleRows& image, const ShadingOptions& options, c
   layout.periodic = options.periodic;
   std::mutex mutex;
   std::vector<std::vector<double>> errors(static_cast<std::size_t>(options.iterations));
-  texture_detail::solve_by_pieces(
+  result.pieces = texture_detail::solve_by_pieces(
       image, layout,
       [&](const texture_detail::Piece& piece) {
         const Wraps wraps{options.periodic && piece.across.length() == image.width(),

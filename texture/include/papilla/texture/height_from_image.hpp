@@ -112,7 +112,8 @@ struct HeightRows {
 /// a gigabyte on two cores.
 /// @param middle a part of the picture, in which a lattice is looked for when the method is automatic.
 /// @param relief takes the samples; as large as the picture.
-/// @throws InvalidInput when an option is out of range or needs the picture in memory; IoError when the disk is full.
+/// @throws InvalidInput when a sample is not finite, or an option is out of range or needs the picture in memory;
+/// IoError when the disk is full.
 HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, const HeightOptions& options,
                             SampleFile& relief);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -16,34 +17,34 @@ namespace papilla {
 /// Options of the shape-from-shading methods. The picture is taken as I = albedo · max(0, n·light) with
 ///   n·light = R(p, q) = (−s_x p − s_y q + s_z) / √(1 + p² + q²),  p = ∂Z/∂x, q = ∂Z/∂y,
 /// x right, y down (as pixels are stored), z towards the viewer, s = light with length 1.
+/// Pictures of any size: those longer than `largest_piece_px` are cut into pieces, at most four of which are solved at
+/// a time. Memory is 8 bytes a pixel for the result (none with HeightWriter), the rows in work, which are 4.5 bytes
+/// (tsai-shah: 8) a column and pixel of `largest_piece_px`, and a constant for the pieces in work; time grows with the
+/// pixels. tsai-shah: pieces of the whole `largest_piece_px`, and as many pixels to their left and above as there are
+/// steps, all that influence them; the result is that of the whole picture to the last bit, up to `largest_piece_px`
+/// steps. variational and pentland: waves longer than a few pixels of the picture at half of `largest_piece_px` a side
+/// come from that, the others from pieces with free borders that overlap by 128 pixels (a quarter of
+/// `largest_piece_px`, if that is less) and are mixed by linear ramps, across the borders of periodic pictures too. How
+/// much that differs from the whole is measured in the tests and the report of the benchmark.
 struct ShadingOptions {
   Vec3 light{-0.5, -0.5, 0.7071};  ///< Direction to the light, any length, z > 0.
   double albedo = 1;               ///< Grey value of a surface that faces the light, positive.
   bool periodic = false;           ///< The picture tiles: so does the height. Otherwise the borders are free.
-  int iterations = 150;            ///< At most this many steps.
+  int iterations = 150;            ///< At most this many steps, 1 to 100000.
   double relative_tolerance =
       1e-4;                  ///< variational: stop when five steps together lower the energy by less than this share.
   double smoothness = 0.05;  ///< variational: λ below, positive.
-  /// Longer pictures are solved in overlapping pieces of half of this, at least 64; see below.
+  /// Longer pictures are solved in overlapping pieces of half of this, at least 64; see above.
   int largest_piece_px = 2048;
   ProgressCallback progress = {};
 };
-
-/// Pictures of any size: those longer than `largest_piece_px` are cut into pieces, several of which are solved at a
-/// time on all threads. Memory is 8 bytes a pixel for the result (none with HeightWriter), 9 KB a column for the rows
-/// in work, and a constant for the pieces in work; time grows with the pixels. tsai-shah: pieces of the whole
-/// `largest_piece_px`, and as many pixels to their left and above as there are steps, all that influence them; the
-/// result is that of the whole picture to the last bit, up to largest_piece_px steps. variational and pentland: waves
-/// longer than a few pixels of the picture at half of largest_piece_px a side come from that, the others from pieces
-/// with free borders that overlap by 128 pixels (a quarter of largest_piece_px, if that is less) and are mixed by
-/// linear ramps, across the borders of periodic pictures too. How much that differs from the whole is measured in the
-/// tests and the report of the benchmark.
 
 /// What a shape-from-shading method returns.
 struct ShadingResult {
   std::vector<double> height_px;  ///< width · height, row by row, in pixels, mean 0, outward positive; always finite.
   Trace trace;                    ///< Root mean square of I/albedo − R after each step.
   StopReason stop = StopReason::iteration_limit;
+  std::array<int, 2> pieces = {1, 1};  ///< Across and down, that were solved one by one.
 };
 
 /// Takes the heights in pixels of row y; called once for every row, in any order.
@@ -91,7 +92,9 @@ ShadingResult shape_from_shading_pentland_by_rows(const SampleRows& picture, con
 /// Light less than 0.01 off the viewing direction is taken as (0.01, 0.01, 1), as the source does: at exactly frontal
 /// light the flat start would stay flat.
 /// Fast, local, noisy: kept as the source's method, `variational` has half its error.
-/// Cost: O(pixels) a step; all steps of a row are taken in the cache. Deterministic.
+/// I/albedo is taken as at most ±1e6: R is at most 1, so that beyond this only the sign counts.
+/// Cost: O(pixels) a step; all steps of a row are taken in the cache, which takes 8 bytes a column and step. A periodic
+/// picture costs `iterations` − 1 rows more. Deterministic.
 /// @throws InvalidInput as shape_from_shading_variational().
 /// Tsai and Shah, Shape from shading using linear approximation, 1994; Schulze 2005, equations 8.1 to 8.5.
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options = {});
