@@ -154,6 +154,7 @@ AutomaticResult flatten_automatic(const TriangleMesh& mesh, const ChartSet& char
   std::vector<MethodChoice> choices(charts.count);
   DriverOptions driver = driver_options(k_function, options.best);
   driver.up = options.up;
+  driver.unfold = false;
   driver.choices = &choices;
   AutomaticResult result;
   result.flattening = flatten_charts(

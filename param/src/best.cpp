@@ -45,7 +45,9 @@ Flattening flatten_best(const TriangleMesh& mesh, const ChartSet& charts, const 
     for (TraceSample& sample : map.trace) sample.error *= area_of(chart);
     return map;
   };
-  return flatten_charts(mesh, charts, method, driver_options(k_function, options));
+  DriverOptions driver = driver_options(k_function, options);
+  driver.unfold = false;
+  return flatten_charts(mesh, charts, method, driver);
 }
 
 }  // namespace papilla

@@ -17,8 +17,9 @@ struct MappedChart {
   CornerAttribute<Vec2> uv;           ///< Triangles in the order of the chart.
   std::vector<std::uint32_t> pieces;  ///< Chart number within this one, per triangle; empty: all 0.
   std::uint32_t piece_count = 1;
-  std::string failure;  ///< Why the method gave no map.
-  std::string instead;  ///< What the chart got then.
+  std::string failure;        ///< Why the method gave no map.
+  std::vector<Vec2> refused;  ///< A valid map of too much distortion.
+  std::string instead;        ///< What the chart got then.
   bool wrong_topology = false;
   double area = 0;
   StopReason stop = StopReason::direct;
@@ -44,8 +45,11 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
   ChartMap map = method(chart);
   result.choice = std::move(map.choice);
   result.failure = map.failure;
-  if (!result.failure.empty() && options.deadline.passed()) result.stop = StopReason::time_limit;
-  if (!result.failure.empty()) return result;
+  if (!result.failure.empty()) {
+    if (map.stop == StopReason::time_limit || options.deadline.passed()) result.stop = StopReason::time_limit;
+    result.refused = std::move(map.uv);
+    return result;
+  }
   if (!map.keep_place) normalise(chart, options.up, options.scale_to_area, map.uv);
   if (!options.allow_flips) result.failure = map_failure(chart, map.uv);
   if (!result.failure.empty()) return result;
@@ -57,12 +61,21 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
 
 /// A map of low distortion, for a chart that the method has no valid one for.
 bool unfold_instead(const ChartSurface& chart, const DriverOptions& options, MappedChart& result) {
-  if (result.wrong_topology || !(result.area > 0) || options.deadline.passed()) return false;
-  MultilevelMap map = map_multilevel(to_unit(chart).surface, {});
-  if (!map.failure.empty()) return false;
-  normalise(chart, options.up, true, map.uv);
-  if (!map_failure(chart, map.uv).empty()) return false;
-  result.uv = {std::move(map.uv), chart.triangles};
+  if (result.wrong_topology || !(result.area > 0)) return false;
+  std::vector<Vec2> uv = std::move(result.refused);
+  if (uv.empty()) {
+    if (!options.unfold || options.deadline.passed()) return false;
+    MultilevelOptions multilevel;
+    multilevel.deadline = options.deadline;
+    MultilevelMap map = map_multilevel(to_unit(chart).surface, multilevel);
+    const bool out_of_time = !map.failure.empty() && options.deadline.passed();
+    if (map.stop == StopReason::time_limit || out_of_time) result.stop = StopReason::time_limit;
+    if (!map.failure.empty()) return false;
+    uv = std::move(map.uv);
+  }
+  normalise(chart, options.up, true, uv);
+  if (!map_failure(chart, uv).empty()) return false;
+  result.uv = {std::move(uv), chart.triangles};
   result.instead = "mapped with least distortion instead";
   return true;
 }

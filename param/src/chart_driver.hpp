@@ -20,7 +20,8 @@ struct MethodChoice {
 
 /// The map of one chart, or why there is none.
 struct ChartMap {
-  std::vector<Vec2> uv;  ///< Per vertex of the chart; empty when `failure` says why.
+  /// Per vertex of the chart; when `failure` says why there is none, empty, or a valid map of too much distortion.
+  std::vector<Vec2> uv;
   std::string failure;
   StopReason stop = StopReason::direct;
   Trace trace;               ///< Error: what the method minimises, summed over the chart; seconds since its start.
@@ -35,6 +36,7 @@ struct DriverOptions {
   UpAxis up = UpAxis::z;
   bool scale_to_area = true;
   bool allow_flips = false;  ///< Flipped triangles and overlap are results, not failures.
+  bool unfold = true;        ///< Not for methods whose failure map_multilevel() shares.
   /// A chart without a valid map gets one of low distortion, one that is no disk gets planar projections of its pieces,
   /// both with a note; or, when false, an exception.
   bool fall_back = true;
@@ -53,7 +55,7 @@ DriverOptions driver_options(std::string_view function, const Options& options) 
   driver.up = options.up;
   driver.fall_back = options.fall_back;
   driver.projection = options.projection;
-  if constexpr (requires { options.deadline; }) driver.deadline = options.deadline;
+  driver.deadline = options.deadline;
   return driver;
 }
 

@@ -41,8 +41,8 @@ struct StartMap {
   std::string failure;
 };
 
-StartMap start_map(const ChartSurface& unit, MaillotStart start) {
-  if (start == MaillotStart::conformal) {
+StartMap start_map(const ChartSurface& unit, const MaillotOptions& options) {
+  if (options.start == MaillotStart::conformal) {
     SolvedMap map = solve_lscm_hermitian(unit);
     if (map.failure.empty()) {
       normalise(unit, UpAxis::z, true, map.uv);
@@ -50,6 +50,7 @@ StartMap start_map(const ChartSurface& unit, MaillotStart start) {
     }
   }
   MultilevelOptions coarse;
+  coarse.deadline = options.deadline;
   coarse.only_when_rough = true;  // the energy has no wall: from a bad map it leads to another bad one
   MultilevelMap map = map_multilevel(unit, coarse);
   return {std::move(map.uv), std::move(map.failure)};
@@ -79,7 +80,7 @@ std::vector<BorderPair> border_pairs(const ChartSurface& chart) {
 ChartMap map_chart(const ChartSurface& chart, const MaillotOptions& options) {
   const Stopwatch clock;
   const UnitChart unit = to_unit(chart);
-  StartMap start = start_map(unit.surface, options.start);
+  StartMap start = start_map(unit.surface, options);
   ChartMap map{std::move(start.uv), std::move(start.failure), StopReason::direct, {}};
   if (!map.failure.empty()) return map;
   const double started = clock.seconds(), square_mm = 1 / (unit.scale * unit.scale);

@@ -477,10 +477,8 @@ MultilevelMap map_multilevel(const ChartSurface& chart, const MultilevelOptions&
   Multilevel multilevel(chart, options);
   multilevel.run();
   MultilevelMap map = multilevel.result();
-  if (map.failure.empty() && !map.trace.empty() && map.trace.back().error > options.energy_limit) {
-    map.uv.clear();
+  if (map.failure.empty() && !map.trace.empty() && map.trace.back().error > options.energy_limit)
     map.failure = "its mean symmetric Dirichlet energy is " + std::to_string(map.trace.back().error);
-  }
   return map;
 }
 

@@ -27,7 +27,7 @@ void check_best_options(const BestOptions& options, std::string_view function);
 MultilevelOptions multilevel_options(const BestOptions& options);
 
 struct MultilevelMap {
-  std::vector<Vec2> uv;  ///< Per vertex; empty when `failure` says why.
+  std::vector<Vec2> uv;  ///< Per vertex; when `failure` says why there is none, empty, unless energy_limit refuses it.
   std::string failure;
   StopReason stop = StopReason::converged;
   Trace trace;  ///< Error: mean symmetric Dirichlet energy of the whole chart, from the first map of it on.

@@ -38,7 +38,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
   if (o.tolerance)
     o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
-  o.maillot.deadline = o.best.deadline = o.levy.deadline = o.deadline;
+  o.maillot.deadline = o.best.deadline = o.levy.deadline = o.lscm.deadline = o.reference.deadline = o.deadline;
   for (const PlacedPin& pin : o.pins)
     if (is_for_part(pin.part, context.part)) o.levy.pins.push_back(pin_on(mesh, pin));
   for (const PlacedIsoLine& line : o.iso_lines)

@@ -261,6 +261,10 @@ TEST(Best, ChartsBeyondTheEnergyLimitCountAsUnmapped) {
   ASSERT_EQ(anyway.notes.size(), 1u);
   EXPECT_NE(anyway.notes.front().reason.find("energy"), std::string::npos);
   EXPECT_EQ(anyway.charts.count, 1u);
+  options.max_iterations = 0;
+  const Flattening refused = flatten_best(bowl, test::one_chart(bowl), options);
+  options.energy_limit = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(refused.uv.values, flatten_best(bowl, test::one_chart(bowl), options).uv.values) << "the refused map";
 }
 
 TEST(Best, BadInputIsNamed) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -15,6 +16,7 @@ enum class LscmSolver {
 struct LscmOptions {
   UpAxis up = UpAxis::z;
   LscmSolver solver = LscmSolver::hermitian;
+  Deadline deadline;  ///< Charts not begun by then are projected; one that is begun is finished.
   /// What a chart gets that has no valid map: one as flatten_best() makes, or planar projections of its pieces when it
   /// is no disk, with a note; or, when false, an exception.
   bool fall_back = true;

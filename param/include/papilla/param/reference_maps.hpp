@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -19,6 +20,7 @@ struct ReferenceOptions {
   double arap_lambda = 1000;     ///< CGAL's λ: 0 keeps angles, larger values keep lengths; not negative.
   int arap_iterations = 50;      ///< At most; at least 1.
   double arap_tolerance = 1e-6;  ///< Relative change of the energy at which ARAP stops; 0 or more.
+  Deadline deadline;             ///< Charts not begun by then are projected; one that is begun is finished.
   bool fall_back = true;         ///< What a chart without a valid map gets: as in LscmOptions.
   TriplanarOptions projection;   ///< Of the fallback; its `up` is taken from here.
 };
