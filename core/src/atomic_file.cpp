@@ -175,7 +175,11 @@ class Temporary {
   /// @param path  the file that it will become.
   Temporary(int folder, const fs::path& path, mode_t mode) : folder_(folder), path_(path) {
     for (int attempt = 0; attempt < k_attempts; ++attempt) {
-      name_ = temporary_name();
+      try {
+        name_ = temporary_name();
+      } catch (const IoError& error) {
+        throw IoError(path.string() + ": " + error.what());
+      }
       file_ = ::openat(folder, name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
       if (file_ < 0 && errno == EEXIST) continue;
       if (file_ < 0) fail(path, errno);

@@ -2,6 +2,7 @@
 #include "papilla/core/glob.hpp"
 
 #include <fnmatch.h>
+#include <locale.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +21,29 @@ std::vector<std::string> names_of(const std::string& path) {
   }
 }
 
+/// Makes the thread's characters those of UTF-8, whatever the program's locale.
+class Utf8Characters {
+ public:
+  Utf8Characters() noexcept : before_(utf8() != nullptr ? ::uselocale(utf8()) : nullptr) {}
+  ~Utf8Characters() {
+    if (before_ != nullptr) ::uselocale(before_);
+  }
+  Utf8Characters(const Utf8Characters&) = delete;
+  Utf8Characters& operator=(const Utf8Characters&) = delete;
+
+ private:
+  static locale_t utf8() noexcept {
+    static const locale_t locale = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    return locale;
+  }
+  locale_t before_;
+};
+
 }  // namespace
 
 bool matches_glob(const std::string& pattern, const std::string& name) {
+  if (pattern.find('\0') != std::string::npos || name.find('\0') != std::string::npos) return false;
+  const Utf8Characters characters;
   return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 

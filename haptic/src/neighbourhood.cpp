@@ -5,14 +5,7 @@
 #include <bit>
 #include <cmath>
 
-// The loops below are compiled for each vector width and selected at load time (not with sanitizers, whose runtime is
-// not initialised when ifuncs are resolved).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define PAPILLA_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define PAPILLA_WIDE
-#endif
+#include "papilla/core/cpu_clones.hpp"
 
 namespace papilla {
 namespace {
@@ -49,7 +42,8 @@ struct Neighbourhood::Loops {
 };
 
 /// Plane and edge planes of each triangle. The offsets are taken from the corners, so rounded normals do no harm.
-PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p) noexcept {
+PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p) noexcept {
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
     const float ax = t.x[0][i], ay = t.x[1][i], az = t.x[2][i];
@@ -96,7 +90,8 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p)
 
 /// Box along the mean normal and the coordinate axis that is most orthogonal to it: clusters are split along coordinate
 /// axes. The centre is that of the corners.
-PAPILLA_WIDE void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noexcept {
+PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noexcept {
   float n0 = 0, n1 = 0, n2 = 0;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -146,8 +141,8 @@ PAPILLA_WIDE void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noe
 }
 
 /// @returns a bit for each triangle that is nearer than `distance`.
-PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::distances(const Prisms& t, const float* x, float distance,
-                                                           float* result) noexcept {
+PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+std::uint32_t Neighbourhood::Loops::distances(const Prisms& t, const float* x, float distance, float* result) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -195,9 +190,9 @@ struct Neighbourhood::Loops::Nearness {
 /// First bound. The distance g is convex: at t' it is at least g − (t' − t)·descent/g. So the distance c is not reached
 /// before t + (g − c)·g/descent, and no distance below g − (1 − t)·max(descent, 0)/g is reached at all.
 /// @returns a bit for each triangle with earliest ≤ until; the search starts at the parameter in `earliest`.
-PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::first_bounds(const Prisms& t, const float* x, const float* w,
-                                                              float reach, float least, float until, float* earliest,
-                                                              Passing& p) noexcept {
+PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+std::uint32_t Neighbourhood::Loops::first_bounds(const Prisms& t, const float* x, const float* w, float reach,
+                                                 float least, float until, float* earliest, Passing& p) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2], w0 = w[0], w1 = w[1], w2 = w[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -224,8 +219,9 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::first_bounds(const Prisms& t, c
 
 /// Second bound, for segments up to t = 1: from the tangents of the distance at `earliest`, at the end, and where these
 /// two cross. The minimum is not below the crossings of neighbouring tangents, and is the end's if g still falls there.
-PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::second_bounds(const Prisms& t, const Passing& p, float reach,
-                                                               float least, float* earliest) noexcept {
+PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+std::uint32_t Neighbourhood::Loops::second_bounds(const Prisms& t, const Passing& p, float reach, float least,
+                                                  float* earliest) noexcept {
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
     const float at = earliest[i], left = std::max(1 - at, 0.0F);
@@ -262,8 +258,9 @@ struct Neighbourhood::Loops::InBox {
 }
 
 /// @returns a bit for each of k_lanes boxes that is nearer to x than `distance`.
-PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::box_distances(const Boxes& b, const float* x, float distance,
-                                                               float* result) noexcept {
+PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+std::uint32_t Neighbourhood::Loops::box_distances(const Boxes& b, const float* x, float distance,
+                                                  float* result) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -280,8 +277,9 @@ PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::box_distances(const Boxes& b, c
 
 /// With d from a box to x, the middle of the segment from x − half to x + half, no point of it is nearer to the box
 /// than |d| − |d·half|/|d|. @returns a bit for each of k_lanes boxes where that is at most `reach`.
-PAPILLA_WIDE std::uint32_t Neighbourhood::Loops::near_boxes(const Boxes& b, const float* x, const float* half,
-                                                            float reach) noexcept {
+PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+std::uint32_t Neighbourhood::Loops::near_boxes(const Boxes& b, const float* x, const float* half,
+                                               float reach) noexcept {
   const float x0 = x[0], x1 = x[1], x2 = x[2], h0 = half[0], h1 = half[1], h2 = half[2];
   float beyond[k_lanes];
 #pragma GCC ivdep

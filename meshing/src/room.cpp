@@ -67,11 +67,12 @@ std::vector<Vec3> places_around(const TriangleBvh& bvh, const std::vector<Place>
                                 std::size_t most) {
   std::vector<Place> seen;
   for (const Place& place : places)
-    if (place.score > 0 && !(place.point == point) && !bvh.blocks(point, place.point)) seen.push_back(place);
+    if (place.score > 0 && (place.point == point || !bvh.blocks(point, place.point))) seen.push_back(place);
   const std::optional<Place> best = best_place(seen);
   std::vector<Vec3> around;
   for (const Place& place : seen)
-    if (around.size() < most && place.score >= 0.5 * best->score) around.push_back(place.point);
+    if (around.size() < most && !(place.point == point) && place.score >= 0.5 * best->score)
+      around.push_back(place.point);
   return around;
 }
 

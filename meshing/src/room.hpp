@@ -26,7 +26,8 @@ std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds
 /// The place with the highest score above 0.
 std::optional<Place> best_place(const std::vector<Place>& places);
 
-/// Up to `most` places around that see `point` and have at least half the score of the best of them.
+/// Up to `most` places around that see `point` and have at least half the score of the best of them, or of `point`
+/// itself where it is one of the places and better.
 std::vector<Vec3> places_around(const TriangleBvh& bvh, const std::vector<Place>& places, const Vec3& point,
                                 std::size_t most);
 

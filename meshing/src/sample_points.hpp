@@ -48,7 +48,6 @@ class AreaSampler {
     for (const Index t : triangles) add(t);
   }
   bool empty() const noexcept { return cumulative_.empty() || !(cumulative_.back() > 0); }
-  double area() const noexcept { return empty() ? 0 : 0.5 * cumulative_.back(); }
 
   struct Sample {
     std::size_t triangle;

@@ -25,7 +25,6 @@ constexpr double k_clear_share = 0.8;  ///< Of what is seen of a sheet, or of it
 constexpr double k_least_seen = 0.02;  ///< Share of a sheet's points; less may be a view through a gap.
 constexpr double k_least_border = 0.1;
 constexpr double k_flattest = 0.05;   ///< |n . d| below which a coarse mesh does not tell its sides apart.
-constexpr double k_start = 1e-5;      ///< Of the scene's diagonal: where a line of sight starts.
 constexpr double k_near = 2e-4;       ///< Of the scene's diagonal: gaps that repair() closes.
 constexpr double k_parallel = 0.8;    ///< |cosine| of borders that run along one another.
 constexpr double k_eye_distance = 2;  ///< Of the scene's diagonal.
@@ -174,7 +173,7 @@ class SideFinder {
     const AreaSampler sampler(mesh, open_of(sheet).triangles);
     Votes votes;
     if (sampler.empty()) return votes;
-    const double start = k_start * diagonal_;
+    const double start = k_ray_start * diagonal_;
     votes.points = points;
     for (std::size_t i = 0; i < points; ++i) {
       const auto [t, point] = sampler(i, points);
@@ -245,6 +244,11 @@ class SideFinder {
     }
   }
 
+  /// Of a sheet's border: what neighbours are asked for, and what runs opposite to or along decided ones.
+  struct Lengths {
+    double asked = 0, opposite = 0, along = 0;
+  };
+
   /// Decides the sheets that continue decided ones, and those that continue these.
   void continue_neighbours() {
     std::vector<BorderEdge> known, asked;
@@ -255,8 +259,10 @@ class SideFinder {
       else if (sheet.reason < SideReason::both_sides_seen)
         add_border(placed, open_of(sheet).border.size(), known);
     }
+    std::map<std::uint32_t, Lengths> lengths;
+    for (const BorderEdge& edge : asked) lengths[edge.sheet].asked += norm(edge.to - edge.from);
     while (!known.empty() && !asked.empty()) {
-      const std::vector<std::uint32_t> decided = continue_along(known, asked);
+      const std::vector<std::uint32_t> decided = continue_along(known, asked, lengths);
       if (decided.empty()) return;
       known.clear();
       for (const PlacedSheet& placed : placed_)
@@ -266,9 +272,11 @@ class SideFinder {
     }
   }
 
+  /// @param asked loses the edges that meet known ones. @param lengths of the undecided sheets, on which those are
+  /// added.
   /// @return the sheets that were decided, ascending.
-  std::vector<std::uint32_t> continue_along(const std::vector<BorderEdge>& known,
-                                            const std::vector<BorderEdge>& asked) {
+  std::vector<std::uint32_t> continue_along(const std::vector<BorderEdge>& known, std::vector<BorderEdge>& asked,
+                                            std::map<std::uint32_t, Lengths>& lengths) {
     std::vector<Vec3> positions;
     std::vector<Triangle> segments;
     for (const BorderEdge& edge : known) {
@@ -279,23 +287,19 @@ class SideFinder {
     }
     const TriangleBvh tree(positions, segments);
     const double near = k_near * diagonal_;
-    struct Lengths {
-      double asked = 0, opposite = 0, along = 0;
-    };
-    std::map<std::uint32_t, Lengths> lengths;
-    for (const BorderEdge& edge : asked) {
-      const double length = norm(edge.to - edge.from);
-      Lengths& sum = lengths[edge.sheet];
-      sum.asked += length;
+    std::erase_if(asked, [&](const BorderEdge& edge) {
       const ClosestPoint found = tree.closest(0.5 * (edge.from + edge.to), {near * near, k_no_value});
-      if (found.triangle == k_no_value) continue;
+      if (found.triangle == k_no_value) return false;
       const BorderEdge& other = known[found.triangle];
       const double cosine = dot(normalized(edge.to - edge.from), normalized(other.to - other.from));
-      if (std::abs(cosine) < k_parallel) continue;
-      (cosine < 0 ? sum.opposite : sum.along) += length;
-    }
+      if (std::abs(cosine) < k_parallel) return false;
+      Lengths& sum = lengths[edge.sheet];
+      (cosine < 0 ? sum.opposite : sum.along) += norm(edge.to - edge.from);
+      return true;
+    });
     std::vector<std::uint32_t> decided;
     for (const auto& [number, sum] : lengths) {
+      if (!sheets_[number].is_open_question) continue;
       const double met = sum.opposite + sum.along;
       if (!(met > 0) || met < k_least_border * sum.asked) continue;
       if (std::max(sum.opposite, sum.along) < k_clear_share * met) continue;

@@ -45,12 +45,11 @@ TriangleMesh opaque_triangles(const WorldScene& scene, std::span<const PlacedMes
 }
 
 Occluders occluders(std::span<const PlacedMesh> parts, const std::string& function) {
-  constexpr double k_start = 1e-5;  // Of the scene's diagonal.
   const WorldScene scene = place(parts, function);
   std::vector<Index> first;
   const TriangleMesh opaque = opaque_triangles(scene, parts, first);
   const double diagonal = scene.bounds.diagonal();
-  return {std::make_shared<TriangleBvh>(opaque.positions, opaque.triangles), diagonal, k_start * diagonal};
+  return {std::make_shared<TriangleBvh>(opaque.positions, opaque.triangles), diagonal, k_ray_start * diagonal};
 }
 
 }  // namespace papilla::detail

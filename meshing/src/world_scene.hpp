@@ -13,6 +13,9 @@
 
 namespace papilla::detail {
 
+/// Of the scene's diagonal: so far off its surface a ray starts.
+inline constexpr double k_ray_start = 1e-5;
+
 /// The parts' triangles in the scene's space, one part after the other.
 struct WorldScene {
   std::vector<TriangleMesh> parts;
@@ -31,7 +34,7 @@ TriangleMesh opaque_triangles(const WorldScene& scene, std::span<const PlacedMes
 struct Occluders {
   std::shared_ptr<const TriangleBvh> bvh;
   double diagonal_mm;  ///< Of the scene.
-  double start_mm;     ///< So far off its surface a ray starts.
+  double start_mm;     ///< k_ray_start of it.
 };
 
 /// @throws InvalidInput as place().

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vector_clones.hpp"
+#include "papilla/core/cpu_clones.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -163,37 +163,39 @@ inline __attribute__((always_inline)) void backward_any(const Scalar* panel, std
 
 }  // namespace
 
-PAPILLA_VECTOR_CLONES std::size_t factor_columns(double* a, std::size_t rows, std::size_t columns) {
-  return factor_any(a, rows, columns);
-}
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+std::size_t factor_columns(double* a, std::size_t rows, std::size_t columns) { return factor_any(a, rows, columns); }
 
-PAPILLA_VECTOR_CLONES std::size_t factor_columns(Complex* a, std::size_t rows, std::size_t columns) {
-  return factor_any(a, rows, columns);
-}
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+std::size_t factor_columns(Complex* a, std::size_t rows, std::size_t columns) { return factor_any(a, rows, columns); }
 
-PAPILLA_VECTOR_CLONES void subtract_square(const double* panel, std::size_t rows, std::size_t columns, double* c,
-                                           std::size_t size) {
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+void subtract_square(const double* panel, std::size_t rows, std::size_t columns, double* c, std::size_t size) {
   subtract_any(panel, rows, columns, c, size);
 }
 
-PAPILLA_VECTOR_CLONES void subtract_square(const Complex* panel, std::size_t rows, std::size_t columns, Complex* c,
-                                           std::size_t size) {
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+void subtract_square(const Complex* panel, std::size_t rows, std::size_t columns, Complex* c, std::size_t size) {
   subtract_any(panel, rows, columns, c, size);
 }
 
-PAPILLA_VECTOR_CLONES void solve_forward(const double* panel, std::size_t rows, std::size_t columns, double* x) {
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+void solve_forward(const double* panel, std::size_t rows, std::size_t columns, double* x) {
   forward_any(panel, rows, columns, x);
 }
 
-PAPILLA_VECTOR_CLONES void solve_forward(const Complex* panel, std::size_t rows, std::size_t columns, Complex* x) {
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+void solve_forward(const Complex* panel, std::size_t rows, std::size_t columns, Complex* x) {
   forward_any(panel, rows, columns, x);
 }
 
-PAPILLA_VECTOR_CLONES void solve_backward(const double* panel, std::size_t rows, std::size_t columns, double* x) {
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+void solve_backward(const double* panel, std::size_t rows, std::size_t columns, double* x) {
   backward_any(panel, rows, columns, x);
 }
 
-PAPILLA_VECTOR_CLONES void solve_backward(const Complex* panel, std::size_t rows, std::size_t columns, Complex* x) {
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+void solve_backward(const Complex* panel, std::size_t rows, std::size_t columns, Complex* x) {
   backward_any(panel, rows, columns, x);
 }
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "adjacency.hpp"
 #include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/units.hpp"
 #include "tile_phase.hpp"
 
 namespace papilla {
@@ -27,7 +27,7 @@ void check(const SeamVisibilityOptions& o) {
 }
 
 constexpr double k_turn_deg = 15;  ///< A grain that turns by less hides in its own scatter.
-const double k_smooth = std::cos(30 * std::numbers::pi / 180);
+const double k_smooth = std::cos(30 * k_radians_per_degree);
 
 Vec3 normal_of(const TriangleMesh& mesh, std::size_t t) {
   return normalized(cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0)));
@@ -35,7 +35,7 @@ Vec3 normal_of(const TriangleMesh& mesh, std::size_t t) {
 
 double turn_deg(const SeamEdge& e) {
   const Vec2 here = e.here[1] - e.here[0], there = e.there[1] - e.there[0];
-  return std::abs(std::atan2(cross(here, there), dot(here, there))) * 180 / std::numbers::pi;
+  return k_degrees_per_radian * std::abs(std::atan2(cross(here, there), dot(here, there)));
 }
 
 }  // namespace

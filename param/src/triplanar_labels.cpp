@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vector_clones.hpp"
+#include "papilla/core/cpu_clones.hpp"
 
 namespace papilla::param_detail {
 namespace {
@@ -44,7 +44,8 @@ struct LabelBatch {
 };
 
 /// The same as normal_of() and the largest component of it, without branches.
-PAPILLA_VECTOR_CLONES void label_batch(const EdgeBatch& e, LabelBatch& result) {
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
+void label_batch(const EdgeBatch& e, LabelBatch& result) {
   double label[k_batch], squared[k_batch];
   for (std::size_t i = 0; i < k_batch; ++i) {
     const double x = e.py[i] * e.qz[i] - e.pz[i] * e.qy[i], y = e.pz[i] * e.qx[i] - e.px[i] * e.qz[i],

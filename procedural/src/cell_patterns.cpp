@@ -7,11 +7,13 @@
 
 #include "evaluator.hpp"
 #include "noise.hpp"
+#include "papilla/core/cpu_clones.hpp"
 #include "patterns.hpp"
 
 namespace papilla::procedural_detail {
 
-PAPILLA_WIDE static void root_row(double* row, int n) {
+PAPILLA_CPU_CLONES("avx2")
+static void root_row(double* row, int n) {
   for (int i = 0; i < n; ++i) row[i] = std::sqrt(row[i] > 0 ? row[i] : 0);
 }
 
@@ -117,8 +119,9 @@ int prune(Feature* features, int count, double x0, double x1, double y0, double 
 }  // namespace
 
 // The two commonest cases, without branches so that they vectorise.
-PAPILLA_WIDE static void nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy,
-                                     int count, double* f1) {
+PAPILLA_CPU_CLONES("avx2")
+static void nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy, int count,
+                        double* f1) {
   for (int k = 0; k < count; ++k) {
     const double px = fx[k], py = fy[k];
     for (int i = 0; i < n; ++i) {
@@ -128,8 +131,9 @@ PAPILLA_WIDE static void nearest_run(const double* x, const double* y, int n, co
   }
 }
 
-PAPILLA_WIDE static void two_nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy,
-                                         int count, double* f1, double* f2) {
+PAPILLA_CPU_CLONES("avx2")
+static void two_nearest_run(const double* x, const double* y, int n, const double* fx, const double* fy, int count,
+                            double* f1, double* f2) {
   for (int k = 0; k < count; ++k) {
     const double px = fx[k], py = fy[k];
     for (int i = 0; i < n; ++i) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "papilla/core/cpu_clones.hpp"
+
 namespace papilla::procedural_detail {
 namespace {
 
@@ -41,14 +43,16 @@ inline double noise_at(double px, double py, double period_x, double period_y, s
 
 }  // namespace
 
-PAPILLA_WIDE static void open_row(const double* x, const double* y, int n, const Octave& o, double* out) {
+PAPILLA_CPU_CLONES("avx2")
+static void open_row(const double* x, const double* y, int n, const Octave& o, double* out) {
   const double fx = o.frequency_x, fy = o.frequency_y, sx = o.shift_x, sy = o.shift_y;
   const std::uint32_t seed = o.seed;
   for (int i = 0; i < n; ++i)
     out[i] = noise_at<false>(clamp_coordinate(x[i] * fx + sx), clamp_coordinate(y[i] * fy + sy), 0, 0, seed);
 }
 
-PAPILLA_WIDE static void periodic_row(const double* x, const double* y, int n, const Octave& o, double* out) {
+PAPILLA_CPU_CLONES("avx2")
+static void periodic_row(const double* x, const double* y, int n, const Octave& o, double* out) {
   const double fx = o.frequency_x, fy = o.frequency_y, sx = o.shift_x, sy = o.shift_y;
   const double px = o.period_x, py = o.period_y;
   const std::uint32_t seed = o.seed;
@@ -56,8 +60,8 @@ PAPILLA_WIDE static void periodic_row(const double* x, const double* y, int n, c
     out[i] = noise_at<true>(clamp_coordinate(x[i] * fx + sx), clamp_coordinate(y[i] * fy + sy), px, py, seed);
 }
 
-PAPILLA_WIDE static void space_row(const double* x, const double* y, const double* z, int n, const Octave& o,
-                                   double* out) {
+PAPILLA_CPU_CLONES("avx2")
+static void space_row(const double* x, const double* y, const double* z, int n, const Octave& o, double* out) {
   const double fx = o.frequency_x, fy = o.frequency_y, sx = o.shift_x, sy = o.shift_y;
   const double rx = o.period_x > 0 ? o.period_x : 4 * k_most_coordinate,
                ry = o.period_y > 0 ? o.period_y : 4 * k_most_coordinate;

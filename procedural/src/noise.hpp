@@ -3,16 +3,6 @@
 
 #include <cstdint>
 
-// The widest vector instructions the processor has, chosen when the program starts. No contraction to fused
-// operations is allowed (CMakeLists.txt), so every choice gives the same bits. Not with sanitizers, whose code would
-// run before they are set up.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define PAPILLA_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define PAPILLA_WIDE
-#endif
-
 namespace papilla::procedural_detail {
 
 /// A well mixed 32-bit number of three others.

@@ -3,14 +3,8 @@
 # What the programs say to wrong words, and with which exit code: words_test.sh PAPILLA PLAYER DATA_FOLDER OUTPUT_FOLDER
 set -uo pipefail
 papilla=$1 player=$2 data=$3 out=$4
-rm -rf "$out"
-mkdir -p "$out"
-failures=0
-
-fail() {
-  printf '%s\n' "$1"
-  failures=$((failures + 1))
-}
+# shellcheck source=tests/apps/failures.sh
+source "$(dirname "$0")/failures.sh" "$out"
 
 # says TEXT CODE COMMAND...: standard error has TEXT and the exit code is CODE.
 says() {
@@ -100,5 +94,4 @@ grep -q '"part": "cockpit/driver_seat/seat_cushion"' "$out/plan.json" || fail "t
   fail "examples/weather.json does not work"
 for step in 0000 0001 0002; do [[ -s $out/old-vent.$step.glb ]] || fail "no old-vent.$step.glb"; done
 
-echo "$failures failures"
-((failures == 0))
+finish "words"

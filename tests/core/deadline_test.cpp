@@ -14,11 +14,15 @@ TEST(Deadline, NeverComesUnlessSecondsAreGiven) {
   EXPECT_EQ(Deadline().left(), std::numeric_limits<double>::infinity());
   EXPECT_TRUE(Deadline().earlier_by(1e9).never());
   EXPECT_TRUE(Deadline(std::numeric_limits<double>::infinity()).never());
+  EXPECT_TRUE(Deadline(std::numeric_limits<double>::quiet_NaN()).never());
 }
 
 TEST(Deadline, PassesAfterItsSeconds) {
   EXPECT_TRUE(Deadline(0).passed());
   EXPECT_TRUE(Deadline(-1).passed());
+  EXPECT_TRUE(Deadline(-1e10).passed());
+  EXPECT_TRUE(Deadline(-1e300).passed());
+  EXPECT_TRUE(Deadline(-std::numeric_limits<double>::infinity()).passed());
   const Deadline hour(3600);
   EXPECT_FALSE(hour.passed());
   EXPECT_NEAR(hour.left(), 3600, 60);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace papilla {
 namespace {
 
@@ -16,6 +18,25 @@ TEST(Glob, CoversTheWholeName) {
 }
 
 TEST(Glob, OfANameTakesSlashesAsLetters) { EXPECT_TRUE(matches_glob("seat*", "seat/body 1")); }
+
+TEST(Glob, QuestionMarkIsACharacterOfUtf8) {
+  EXPECT_TRUE(matches_glob("T?r", "Tür"));
+  EXPECT_FALSE(matches_glob("T??r", "Tür"));
+  EXPECT_TRUE(matches_glob("[äöü]ber*", "über uns"));
+  EXPECT_TRUE(matches_path_glob("**/T?r", "Haus/Tür"));
+}
+
+TEST(Glob, BytesThatAreNoUtf8FitAsTheyAre) {
+  EXPECT_TRUE(matches_glob("T*", "T\xfcr"));
+  EXPECT_TRUE(matches_glob("T\xfcr", "T\xfcr"));
+  EXPECT_FALSE(matches_glob("Tur", "T\xfcr"));
+}
+
+TEST(Glob, ANullByteFitsNothing) {
+  EXPECT_FALSE(matches_glob("a", std::string("a\0b", 3)));
+  EXPECT_FALSE(matches_glob(std::string("a\0b", 3), "a"));
+  EXPECT_FALSE(matches_path_glob("a", std::string("a\0b", 3)));
+}
 
 TEST(PathGlob, StarStaysWithinAName) {
   EXPECT_TRUE(matches_path_glob("cockpit/seat*/cushion", "cockpit/seat_left/cushion"));

@@ -46,6 +46,7 @@ Json tag() {
 struct Outcome {
   int code = -1;
   std::string out, error;
+  bool as_json = false;  ///< `--json -` was asked for.
   Json json() const { return Json::parse(out); }
 };
 
@@ -67,7 +68,8 @@ class Player : public ::testing::Test {
     const fs::path out = folder_ / "out", error = folder_ / "error";
     const int status = std::system(
         ("'" PAPILLA_PLAYER "' " + arguments + " >'" + out.string() + "' 2>'" + error.string() + "'").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(error)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(error),
+            arguments.find("--json -") != std::string::npos};
   }
   Outcome play_glb(const Json& extras, const std::string& image, const std::string& more = "") const {
     return play("'" + write("a b.glb", testing::plate_glb(extras, image)) + "' --seconds 0.6 --json - " + more);
@@ -109,7 +111,10 @@ class Player : public ::testing::Test {
   void expect_refusal(const Outcome& outcome, int code) const {
     EXPECT_EQ(outcome.code, code) << outcome.error;
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
-    if (outcome.out.empty()) return;  // Without `--json -`.
+    if (!outcome.as_json) {
+      EXPECT_EQ(outcome.out, "");
+      return;
+    }
     EXPECT_EQ(outcome.json()["exit_code"], code);
     EXPECT_NE(outcome.error.find(outcome.json()["error"].get<std::string>()), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.json().size(), 2U);

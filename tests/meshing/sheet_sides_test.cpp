@@ -137,6 +137,36 @@ TEST(SheetSides, AHiddenSheetContinuesItsNeighbour) {
   EXPECT_EQ(only_sheet(find_sheet_sides(placed(with_gap), {.inside = Vec3{50, 50, 80}}), 1).reason, SideReason::unseen);
 }
 
+/// A strip on a block is seen from above. A plate within another block continues it, and a floor within a third one
+/// both, each along 6 % of its border: that of the plate is known a wave later.
+TEST(SheetSides, ASheetContinuesSeveralTogether) {
+  const auto moved = [](TriangleMesh mesh, Vec3 by) {
+    for (Vec3& p : mesh.positions) p = p + by;
+    return mesh;
+  };
+  const auto box = [](Vec3 low, Vec3 size) {
+    TriangleMesh mesh = test::cube(1);
+    for (Vec3& p : mesh.positions) p = low + Vec3{p.x * size.x, p.y * size.y, p.z * size.z};
+    return mesh;
+  };
+  TriangleMesh floor = moved(test::plane(100, 100, 16, 16), {100, 0, 0});
+  turn_all(floor);
+  const std::vector<TriangleMesh> meshes{test::plane(100, 25, 16, 4),
+                                         moved(test::plane(25, 25, 4, 4), {75, 25, 0}),
+                                         floor,
+                                         box({0, 0, -20}, {100, 25, 19.99}),
+                                         box({75, 25, -20}, {25, 25.1, 40}),
+                                         box({100, -5, -20}, {110, 110, 40})};
+  const SheetSides sides = find_sheet_sides(placed(meshes));
+  ASSERT_EQ(sides.viewpoint, Viewpoint::around);
+  EXPECT_EQ(only_sheet(sides, 0).reason, SideReason::seen);
+  EXPECT_FALSE(only_sheet(sides, 0).faces_away);
+  EXPECT_EQ(only_sheet(sides, 1).reason, SideReason::neighbour);
+  EXPECT_FALSE(only_sheet(sides, 1).faces_away);
+  EXPECT_EQ(only_sheet(sides, 2).reason, SideReason::neighbour);
+  EXPECT_TRUE(only_sheet(sides, 2).faces_away);
+}
+
 TEST(SheetSides, UsesOfOneMeshVoteAndMirroredOnesAsTheyAreDrawn) {
   const World mirror{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   TriangleMesh door = wall({-k_side, 0, 0}, {0, 1, 0}, {0, 0, 1});  // Looks to +x, where the eye is.

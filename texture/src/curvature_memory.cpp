@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "wide.hpp"
+#include "papilla/core/cpu_clones.hpp"
 
 namespace papilla::texture_detail {
 namespace {
@@ -19,7 +19,8 @@ double sum_of(const std::array<double, k_lanes>& lanes) {
   return sum;
 }
 
-PAPILLA_TEXTURE_WIDE double dot(const float* a, const double* b, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+double dot(const float* a, const double* b, std::size_t count) {
   std::array<double, k_lanes> sums{};
   std::size_t i = 0;
   for (; i + k_lanes <= count; i += k_lanes)
@@ -28,7 +29,8 @@ PAPILLA_TEXTURE_WIDE double dot(const float* a, const double* b, std::size_t cou
   return sum_of(sums);
 }
 
-PAPILLA_TEXTURE_WIDE double dot(const double* a, const double* b, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+double dot(const double* a, const double* b, std::size_t count) {
   std::array<double, k_lanes> sums{};
   std::size_t i = 0;
   for (; i + k_lanes <= count; i += k_lanes)
@@ -37,8 +39,9 @@ PAPILLA_TEXTURE_WIDE double dot(const double* a, const double* b, std::size_t co
   return sum_of(sums);
 }
 
-PAPILLA_TEXTURE_WIDE void subtract(double* __restrict target, double a, const float* __restrict x, double b,
-                                   const float* __restrict y, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+void subtract(double* __restrict target, double a, const float* __restrict x, double b, const float* __restrict y,
+              std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) target[i] -= a * static_cast<double>(x[i]) + b * static_cast<double>(y[i]);
 }
 
@@ -47,10 +50,10 @@ struct PairSums {
   double step_square = 0, change_square = 0;
 };
 
-PAPILLA_TEXTURE_WIDE PairSums make_pair(double scale, const double* __restrict direction,
-                                        const double* __restrict before, const double* __restrict now,
-                                        const double* __restrict h_before, const double* __restrict h_now,
-                                        float* __restrict step, float* __restrict change, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+PairSums make_pair(double scale, const double* __restrict direction, const double* __restrict before,
+                   const double* __restrict now, const double* __restrict h_before, const double* __restrict h_now,
+                   float* __restrict step, float* __restrict change, std::size_t count) {
   std::array<double, k_lanes> steps{}, changes{};
   const auto take = [&](std::size_t i, std::size_t lane) {
     const double s = scale * direction[i], y = now[i] - before[i];

@@ -7,9 +7,9 @@
 
 #include "checks.hpp"
 #include "lane_sum.hpp"
+#include "papilla/core/cpu_clones.hpp"
 #include "reflectance.hpp"
 #include "slopes.hpp"
-#include "wide.hpp"
 
 namespace papilla::texture_detail {
 namespace {
@@ -24,8 +24,9 @@ struct ShadedRow {
 };
 
 /// (R − I)² of `count` pixels and its derivatives by the differences of the neighbours across and down.
-PAPILLA_TEXTURE_WIDE void shade(Vec3 light, const ShadedRow& row, double* __restrict across, double* __restrict down,
-                                double* __restrict squares, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+void shade(Vec3 light, const ShadedRow& row, double* __restrict across, double* __restrict down,
+           double* __restrict squares, std::size_t count) {
   const ShadedRow r = row;
   for (std::size_t x = 0; x < count; ++x) {
     const double p = (r.right[x] - r.left[x]) * r.inverse_x, q = (r.down[x] - r.up[x]) * r.inverse_y;
@@ -37,22 +38,26 @@ PAPILLA_TEXTURE_WIDE void shade(Vec3 light, const ShadedRow& row, double* __rest
   }
 }
 
-PAPILLA_TEXTURE_WIDE void add(double* __restrict target, const double* __restrict values, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+void add(double* __restrict target, const double* __restrict values, std::size_t count) {
   for (std::size_t x = 0; x < count; ++x) target[x] += values[x];
 }
 
-PAPILLA_TEXTURE_WIDE void subtract(double* __restrict target, const double* __restrict values, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+void subtract(double* __restrict target, const double* __restrict values, std::size_t count) {
   for (std::size_t x = 0; x < count; ++x) target[x] -= values[x];
 }
 
 /// factor · Δ of the pixels, none of which is at the left or right border.
-PAPILLA_TEXTURE_WIDE void laplacian(const double* row, const double* up, const double* down, double factor,
-                                    double* __restrict target, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+void laplacian(const double* row, const double* up, const double* down, double factor, double* __restrict target,
+               std::size_t count) {
   const double *const left = row - 1, *const right = row + 1;
   for (std::size_t x = 0; x < count; ++x) target[x] = factor * (left[x] + right[x] + up[x] + down[x] - 4 * row[x]);
 }
 
-PAPILLA_TEXTURE_WIDE void square(const double* __restrict values, double* __restrict squares, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+void square(const double* __restrict values, double* __restrict squares, std::size_t count) {
   for (std::size_t x = 0; x < count; ++x) squares[x] = values[x] * values[x];
 }
 

@@ -7,10 +7,10 @@
 
 #include "checks.hpp"
 #include "lane_sum.hpp"
+#include "papilla/core/cpu_clones.hpp"
 #include "papilla/texture/shape_from_shading.hpp"
 #include "pieces.hpp"
 #include "reflectance.hpp"
-#include "wide.hpp"
 
 namespace papilla {
 namespace {
@@ -43,10 +43,10 @@ struct Counted {
 /// With h = 1 + p² + q², a = s_z − s_x p − s_y q and b = (s_x + s_y) h + a (p + q), where a > 0,
 ///   f = I − a/√h,  f′ = b/√h³,  K f = S b h (I √h − a) / (W h³ + S b²),  1 − K f′ = W h³ / (W h³ + S b²).
 /// Without branches and calls, so that the compiler takes several pixels at a time.
-PAPILLA_TEXTURE_WIDE void take_step(Vec3 s, const double* __restrict target, double* __restrict above,
-                                    const double* __restrict z, const double* __restrict left, double turns_p,
-                                    double turns_q, double* __restrict next, double* __restrict gain,
-                                    double* __restrict squares, std::size_t count) {
+PAPILLA_CPU_CLONES("avx2")
+void take_step(Vec3 s, const double* __restrict target, double* __restrict above, const double* __restrict z,
+               const double* __restrict left, double turns_p, double turns_q, double* __restrict next,
+               double* __restrict gain, double* __restrict squares, std::size_t count) {
   constexpr double k_noise = 1e-8;  // W of the paper.
   const double turned_x = turns_p * s.x + turns_q * s.y;
   for (std::size_t x = 0; x < count; ++x) {

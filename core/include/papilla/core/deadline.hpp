@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <optional>
@@ -11,10 +12,12 @@ namespace papilla {
 class Deadline {
  public:
   Deadline() = default;
-  /// So many seconds from now. Beyond a million: never.
+  /// So many seconds from now. Beyond a million, and for no number: never.
   explicit Deadline(double seconds) {
     constexpr double k_never = 1e6;
-    if (seconds < k_never) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
+    if (!(seconds < k_never)) return;
+    const Seconds bounded(std::max(seconds, -k_never));  // The clock's own unit overflows at some 300 years.
+    end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(bounded);
   }
 
   bool never() const noexcept { return !end_; }

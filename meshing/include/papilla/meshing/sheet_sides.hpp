@@ -81,7 +81,9 @@ struct SheetSides {
 /// walls face outwards is taken for a box), where the people are in a room that is not the largest, or small beside the
 /// scene (then give `inside`), and for sheets of fewer points than a hole in front of them needs.
 /// Cost: O(n log n) for sheets and tree, the latter about 150 bytes a triangle, unless there is no sheet; then at most
-/// about 2 million lines of sight of 1 us a viewpoint, or 4 points a sheet where that is more. Parallel. Deterministic:
+/// about 2 million lines of sight of 1 us a viewpoint, or 4 points a sheet where that is more; for
+/// neighbours a search an undecided border edge (64 a use at most) and wave, waves as many as the longest chain of
+/// sheets that continue one another. Parallel. Deterministic:
 /// same input, same result, whatever the number of threads.
 /// @param uses The same mesh may come several times. @throws InvalidInput naming the use when a mesh is missing or has
 /// a bad index or coordinate; when an option is not finite or a volume is out of its range.
