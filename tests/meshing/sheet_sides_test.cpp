@@ -155,8 +155,8 @@ TEST(SheetSides, ASheetContinuesSeveralTogether) {
                                          moved(test::plane(25, 25, 4, 4), {75, 25, 0}),
                                          floor,
                                          box({0, 0, -20}, {100, 25, 19.99}),
-                                         box({75, 25, -20}, {25, 25.1, 40}),
-                                         box({100, -5, -20}, {110, 110, 40})};
+                                         box({75, 25, -0.02}, {25, 25.1, 0.04}),
+                                         box({100, -5, -0.02}, {110, 110, 0.04})};
   const SheetSides sides = find_sheet_sides(placed(meshes));
   ASSERT_EQ(sides.viewpoint, Viewpoint::around);
   EXPECT_EQ(only_sheet(sides, 0).reason, SideReason::seen);
