@@ -154,9 +154,9 @@ TEST(SheetSides, ASheetContinuesSeveralTogether) {
   const std::vector<TriangleMesh> meshes{test::plane(100, 25, 16, 4),
                                          moved(test::plane(25, 25, 4, 4), {75, 25, 0}),
                                          floor,
-                                         box({0, 0, -20}, {100, 25, 19.99}),
-                                         box({75, 25, -0.02}, {25, 25.1, 0.04}),
-                                         box({100, -5, -0.02}, {110, 110, 0.04})};
+                                         box({0, 0, -0.02}, {100, 25, 0.015}),
+                                         box({75, 25, -0.02}, {25, 25.1, 0.025}),
+                                         box({100, -5, -0.005}, {110, 110, 0.025})};
   const SheetSides sides = find_sheet_sides(placed(meshes));
   ASSERT_EQ(sides.viewpoint, Viewpoint::around);
   EXPECT_EQ(only_sheet(sides, 0).reason, SideReason::seen);
