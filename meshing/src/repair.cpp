@@ -21,6 +21,7 @@
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "repair_steps.hpp"
 #include "scramble.hpp"
+#include "surface_change.hpp"
 #include "triangle_shape.hpp"
 
 namespace papilla {
@@ -30,6 +31,9 @@ using namespace detail;
 
 /// Wider than any noise of coordinates, narrower than the slots and panel gaps that designers draw.
 constexpr double k_stitched_gap = 2e-4;
+
+/// Beyond, distances overflow the trees they are measured with [mm].
+constexpr double k_farthest_measured = 1e15;
 
 /// The fewest triangles that a closed surface has.
 constexpr std::size_t k_least_solid = 4;
@@ -107,8 +111,8 @@ RepairCounts operator+(RepairCounts a, const RepairCounts& b) {
   for (std::size_t RepairCounts::*count :
        {&RepairCounts::welded_equal, &RepairCounts::welded_near, &RepairCounts::repeated_corners,
         &RepairCounts::collapsed_needles, &RepairCounts::flipped_caps, &RepairCounts::pushed_apexes,
-        &RepairCounts::duplicates, &RepairCounts::opposites, &RepairCounts::walls, &RepairCounts::t_junctions,
-        &RepairCounts::border_slivers, &RepairCounts::reversed, &RepairCounts::parted_edges,
+        &RepairCounts::duplicates, &RepairCounts::opposites, &RepairCounts::kept_walls, &RepairCounts::kept_backs,
+        &RepairCounts::t_junctions, &RepairCounts::border_slivers, &RepairCounts::reversed, &RepairCounts::parted_edges,
         &RepairCounts::added_vertices, &RepairCounts::stitched_gaps, &RepairCounts::filled_holes,
         &RepairCounts::added_triangles})
     a.*count += b.*count;
@@ -122,9 +126,20 @@ void add(RepairResult& all, const RepairResult& piece) {
        {&RepairDeviations::weld, &RepairDeviations::degenerate, &RepairDeviations::t_junctions,
         &RepairDeviations::partings, &RepairDeviations::stitches})
     all.deviations.*operation = std::max(all.deviations.*operation, piece.deviations.*operation);
-  all.max_deviation_mm = std::max(all.max_deviation_mm, piece.max_deviation_mm);
+  for (double RepairResult::*distance :
+       {&RepairResult::max_deviation_mm, &RepairResult::lost_mm, &RepairResult::added_mm, &RepairResult::refused_mm})
+    all.*distance = std::max(all.*distance, piece.*distance);
+  all.sampled = all.sampled || piece.sampled;
+  all.refused_triangles += piece.refused_triangles;
+  all.two_sided.insert(piece.two_sided.begin(), piece.two_sided.end());
   all.passes = std::max(all.passes, piece.passes);
   all.settled = all.settled && piece.settled;
+}
+
+/// Can what was done have changed the shape of the surface?
+bool changes_shape(RepairCounts counts) {
+  counts.welded_equal = counts.reversed = counts.added_vertices = 0;
+  return !(counts == RepairCounts{});
 }
 
 /// The places of numbers in ascending order, equal ones in their own.
@@ -189,6 +204,7 @@ class SoupRepair {
       const auto triangles = components_.of(c);
       if (triangles.size() < k_least_solid || !edges_cancel(mesh_.triangles, triangles)) return;
       pieces_[c] = repair_solid(piece(triangles), scale_);
+      if (pieces_[c]) measure(triangles, *pieces_[c]);
       if (pieces_[c]) progress_.add(static_cast<double>(triangles.size()));
     });
   }
@@ -227,7 +243,34 @@ class SoupRepair {
     oneapi::tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
       pieces_[before + s] =
           std::make_unique<RepairResult>(repair_piece(piece(sets[s]), scale_, progress_of_piece(sets[s].size())));
+      measure(sets[s], *pieces_[before + s]);
     });
+  }
+
+  /// Measures how far a piece moved; one that moved too far becomes again what it was.
+  void measure(std::span<const Index> triangles, RepairResult& result) const {
+    if (!changes_shape(result.counts)) return;
+    if (scale_.reference_mm > k_farthest_measured) {
+      result.lost_mm = result.added_mm = result.max_deviation_mm;
+      return;
+    }
+    const double least_altitude = k_repaired_altitude * scale_.reference_mm;
+    const SurfaceChange change =
+        surface_change(mesh_, triangles, result.mesh,
+                       {least_altitude, scale_.tolerance_mm, 0.1 * least_altitude, scale_.sample_above});
+    result.sampled = change.sampled;
+    result.lost_mm = change.lost_mm;
+    result.added_mm = change.added_mm;
+    if (change.lost_mm <= scale_.tolerance_mm && change.added_mm <= std::max(scale_.tolerance_mm, scale_.fill_holes_mm))
+      return;
+    RepairResult refused;
+    refused.mesh = piece(triangles);
+    refused.refused_triangles = triangles.size();
+    refused.refused_mm = std::max(change.lost_mm, change.added_mm);
+    refused.sampled = change.sampled;
+    refused.passes = result.passes;
+    refused.settled = true;
+    result = std::move(refused);
   }
 
   /// The triangles of sets of components, ascending within each set.
@@ -280,12 +323,16 @@ RepairScale scale_of(const TriangleMesh& mesh, const RepairOptions& options) {
   const Bounds3 bounds = bounds_of(mesh);
   const double reference = reference_length(bounds);
   const WeldOptions weld;
+  const double weld_mm = options.weld_mm.value_or(weld.relative_tolerance * reference);
+  const double gap_mm = k_stitched_gap * bounds.diagonal(), stitch_mm = options.stitch_mm.value_or(gap_mm);
   return {.reference_mm = reference,
-          .weld = {options.weld_mm.value_or(weld.relative_tolerance * reference), weld.feature_fraction,
-                   k_degenerate_altitude * reference},
-          .stitch_mm = options.stitch_mm.value_or(k_stitched_gap * bounds.diagonal()),
+          .weld = {weld_mm, weld.feature_fraction, k_degenerate_altitude * reference},
+          .stitch_mm = stitch_mm,
           .fill_holes_mm = options.fill_holes_mm,
-          .max_passes = options.max_passes};
+          .tolerance_mm =
+              std::max({weld_mm, stitch_mm, gap_mm, k_most_parting_steps * ManifoldOptions{}.relative_gap * reference}),
+          .max_passes = options.max_passes,
+          .sample_above = options.sample_above};
 }
 
 }  // namespace
@@ -300,9 +347,12 @@ RepairResult repair(TriangleMesh mesh, const RepairOptions& options) {
   RepairResult result = SoupRepair(std::move(mesh), scale, options.progress).run();
   result.counts.welded_equal += merged;
   result.deviations.weld = std::max(result.deviations.weld, rounding_mm);
-  result.max_deviation_mm += rounding_mm;
+  for (double RepairResult::*distance :
+       {&RepairResult::max_deviation_mm, &RepairResult::lost_mm, &RepairResult::added_mm})
+    result.*distance += rounding_mm;
   result.weld_tolerance_mm = scale.weld.tolerance_mm;
   result.stitch_tolerance_mm = scale.stitch_mm;
+  result.tolerance_mm = scale.tolerance_mm;
   return result;
 }
 
