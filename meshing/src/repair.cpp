@@ -108,18 +108,11 @@ std::vector<std::vector<std::size_t>> parted_by_boxes(const std::vector<std::pai
 }
 
 RepairCounts operator+(RepairCounts a, const RepairCounts& b) {
-  for (std::size_t RepairCounts::*count :
-       {&RepairCounts::welded_equal, &RepairCounts::welded_near, &RepairCounts::repeated_corners,
-        &RepairCounts::collapsed_needles, &RepairCounts::flipped_caps, &RepairCounts::pushed_apexes,
-        &RepairCounts::duplicates, &RepairCounts::opposites, &RepairCounts::kept_walls, &RepairCounts::kept_backs,
-        &RepairCounts::t_junctions, &RepairCounts::border_slivers, &RepairCounts::reversed, &RepairCounts::parted_edges,
-        &RepairCounts::added_vertices, &RepairCounts::stitched_gaps, &RepairCounts::filled_holes,
-        &RepairCounts::added_triangles})
-    a.*count += b.*count;
+  for (const auto& [name, count] : k_repair_counts) a.*count += b.*count;
   return a;
 }
 
-/// Adds what was done to a piece that has nothing to do with the others.
+/// Adds what was done to a piece, or a part, that has nothing to do with the others.
 void add(RepairResult& all, const RepairResult& piece) {
   all.counts = all.counts + piece.counts;
   for (double RepairDeviations::*operation :
@@ -127,7 +120,8 @@ void add(RepairResult& all, const RepairResult& piece) {
         &RepairDeviations::partings, &RepairDeviations::stitches})
     all.deviations.*operation = std::max(all.deviations.*operation, piece.deviations.*operation);
   for (double RepairResult::*distance :
-       {&RepairResult::max_deviation_mm, &RepairResult::lost_mm, &RepairResult::added_mm, &RepairResult::refused_mm})
+       {&RepairResult::weld_tolerance_mm, &RepairResult::stitch_tolerance_mm, &RepairResult::tolerance_mm,
+        &RepairResult::max_deviation_mm, &RepairResult::lost_mm, &RepairResult::added_mm, &RepairResult::refused_mm})
     all.*distance = std::max(all.*distance, piece.*distance);
   all.sampled = all.sampled || piece.sampled;
   all.refused_triangles += piece.refused_triangles;
@@ -354,6 +348,13 @@ RepairResult repair(TriangleMesh mesh, const RepairOptions& options) {
   result.stitch_tolerance_mm = scale.stitch_mm;
   result.tolerance_mm = scale.tolerance_mm;
   return result;
+}
+
+RepairResult total_repair(std::span<const RepairResult> results) {
+  RepairResult total;
+  total.settled = true;
+  for (const RepairResult& result : results) add(total, result);
+  return total;
 }
 
 }  // namespace papilla

@@ -85,6 +85,7 @@ std::string bake_table(const BakeResult& result) {
                           surface.notes.front());
   }
   for (const auto& [name, grain] : result.grains) out += slope_line(name, grain.height);
+  out += repair_numbers_text(repair_of(result.surfaces));
   if (result.surfaces.empty()) out = "no surface has grain; only constants of touch were written\n";
   return out;
 }

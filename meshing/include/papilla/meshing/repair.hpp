@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
+#include <string_view>
+#include <utility>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
@@ -46,6 +49,27 @@ struct RepairCounts {
   std::size_t added_triangles = 0;  ///< In gaps and holes.
   friend bool operator==(const RepairCounts&, const RepairCounts&) = default;
 };
+
+/// All of them, with the names that reports use.
+inline constexpr std::pair<std::string_view, std::size_t RepairCounts::*> k_repair_counts[] = {
+    {"welded_equal", &RepairCounts::welded_equal},
+    {"welded_near", &RepairCounts::welded_near},
+    {"repeated_corners", &RepairCounts::repeated_corners},
+    {"collapsed_needles", &RepairCounts::collapsed_needles},
+    {"flipped_caps", &RepairCounts::flipped_caps},
+    {"pushed_apexes", &RepairCounts::pushed_apexes},
+    {"duplicates", &RepairCounts::duplicates},
+    {"opposites", &RepairCounts::opposites},
+    {"kept_walls", &RepairCounts::kept_walls},
+    {"kept_backs", &RepairCounts::kept_backs},
+    {"t_junctions", &RepairCounts::t_junctions},
+    {"border_slivers", &RepairCounts::border_slivers},
+    {"reversed", &RepairCounts::reversed},
+    {"parted_edges", &RepairCounts::parted_edges},
+    {"added_vertices", &RepairCounts::added_vertices},
+    {"stitched_gaps", &RepairCounts::stitched_gaps},
+    {"filled_holes", &RepairCounts::filled_holes},
+    {"added_triangles", &RepairCounts::added_triangles}};
 
 /// The furthest that each operation moved a point of the surface in one pass, in mm.
 struct RepairDeviations {
@@ -91,5 +115,8 @@ struct RepairResult {
 /// @throws InvalidInput when an index is out of range, a position is not finite, `weld_mm` is negative or not finite,
 ///         or max_passes is 0.
 RepairResult repair(TriangleMesh mesh, const RepairOptions& options = {});
+
+/// What was done to all of them, without meshes: counts added, distances, tolerances and passes the largest.
+RepairResult total_repair(std::span<const RepairResult> results);
 
 }  // namespace papilla
