@@ -248,10 +248,12 @@ class SoupRepair {
       result.lost_mm = result.added_mm = result.max_deviation_mm;
       return;
     }
-    const double least_altitude = k_repaired_altitude * scale_.reference_mm;
     const SurfaceChange change =
         surface_change(mesh_, triangles, result.mesh,
-                       {least_altitude, scale_.tolerance_mm, 0.1 * least_altitude, scale_.sample_above});
+                       {.least_altitude_mm = (k_touching_distance + 2 * k_rounding_distance) * scale_.reference_mm,
+                        .reach_mm = scale_.tolerance_mm,
+                        .floor_mm = k_rounding_distance * scale_.reference_mm,
+                        .sample_above = scale_.sample_above});
     result.sampled = change.sampled;
     result.lost_mm = change.lost_mm;
     result.added_mm = change.added_mm;
@@ -310,6 +312,7 @@ void check_options(const RepairOptions& options) {
   };
   require(options.weld_mm.value_or(0), "weld_mm");
   require(options.stitch_mm.value_or(0), "stitch_mm");
+  require(options.tolerance_mm.value_or(0), "tolerance_mm");
   require(options.fill_holes_mm, "fill_holes_mm");
 }
 
@@ -323,8 +326,8 @@ RepairScale scale_of(const TriangleMesh& mesh, const RepairOptions& options) {
           .weld = {weld_mm, weld.feature_fraction, k_degenerate_altitude * reference},
           .stitch_mm = stitch_mm,
           .fill_holes_mm = options.fill_holes_mm,
-          .tolerance_mm =
-              std::max({weld_mm, stitch_mm, gap_mm, k_most_parting_steps * ManifoldOptions{}.relative_gap * reference}),
+          .tolerance_mm = options.tolerance_mm.value_or(std::max(
+              {weld_mm, stitch_mm, gap_mm, k_most_parting_steps * ManifoldOptions{}.relative_gap * reference})),
           .max_passes = options.max_passes,
           .sample_above = options.sample_above};
 }

@@ -58,6 +58,12 @@ void add_repair(CLI::App& program) {
                    "Widest gap between faces to close; default: 2e-4 of each part's diagonal, 0: none")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
+  verb->add_option(
+          "--tolerance", options->repair.repair.tolerance_mm,
+          "Pieces whose surface would move further stay as they are; default: 2e-4 of each part's diagonal, or "
+          "more where --weld or --stitch are")
+      ->type_name("MM")
+      ->check(CLI::NonNegativeNumber);
   verb->add_option("--fill-holes", options->repair.repair.fill_holes_mm,
                    "Fill holes that fit into a box of this diagonal")
       ->type_name("MM")

@@ -21,10 +21,12 @@ struct RepairOptions {
   std::optional<double> weld_mm = {};    ///< Weld tolerance; not given: 1e-6 of that length.
   std::optional<double> stitch_mm = {};  ///< Widest gap between faces that is closed; not given: 2e-4 of the diagonal;
                                          ///< 0: gaps stay.
-  double fill_holes_mm = 0;              ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
-  std::size_t max_passes = 8;            ///< At least 1.
-  std::size_t sample_above = 100'000;    ///< Pieces of more triangles are measured by samples.
-  ProgressCallback progress = {};        ///< Told the fraction done; may be empty.
+  std::optional<double> tolerance_mm = {};  ///< The furthest that the surface may move; not given: the wider of both,
+                                            ///< 2e-4 of the diagonal, and what parting sheets takes.
+  double fill_holes_mm = 0;                 ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
+  std::size_t max_passes = 8;               ///< At least 1.
+  std::size_t sample_above = 100'000;       ///< Pieces of more triangles are measured by samples.
+  ProgressCallback progress = {};           ///< Told the fraction done; may be empty.
 };
 
 /// What each operation did, summed over the passes.
@@ -82,12 +84,12 @@ struct RepairResult {
   RepairDeviations deviations;
   double weld_tolerance_mm = 0;
   double stitch_tolerance_mm = 0;
-  double tolerance_mm = 0;      ///< The furthest that the surface may move: the wider of both, 2e-4 of the diagonal,
-                                ///< and what parting sheets takes. Pieces that would move further are refused.
+  double tolerance_mm = 0;      ///< The furthest that the surface may move. Pieces that would move further are refused.
   double max_deviation_mm = 0;  ///< Upper bound: the sum over all operations and passes of the furthest each moved the
                                 ///< surface. What fills a hole is new surface and does not count.
   double lost_mm = 0;           ///< Measured: no point of the surface that came is farther from the one that is left.
-                                ///< Degenerate triangles are no surface.
+                                ///< Triangles flatter than 1.2e-6 of the
+                                ///< reference length are no surface.
   double added_mm = 0;          ///< The other way round: what fills gaps and holes counts.
   bool sampled = false;         ///< Both are the largest met at samples where pieces are larger than `sample_above`.
   std::size_t refused_triangles = 0;  ///< Of pieces that stay as they came, because they would have moved too far.
