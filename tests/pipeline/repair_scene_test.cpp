@@ -13,7 +13,6 @@
 #include "papilla/meshing/deviation.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/meshing/orient.hpp"
-#include "papilla/pipeline/bake_scene.hpp"
 #include "papilla_test/shapes.hpp"
 
 namespace papilla {
@@ -79,20 +78,6 @@ TEST(RepairScene, GivesDoubleSheetsWithoutMaterialOne) {
   RepairSceneOptions options;
   options.sides.keep = true;
   EXPECT_TRUE(material_of(repair_scene(scene, options).scene, 0).double_sided);
-}
-
-/// Bake repairs surfaces, too.
-TEST(RepairScene, BakeShowsDoubleSheetsFromBothSides) {
-  const Materials rules = parse_materials(
-      R"({"materials": {"m": {"texture": {"recipe": "leather"}, "size_mm": [40, 40]}},
-          "assign": [{"part": "*", "material": "m"}]})",
-      ".");
-  BakeOptions options;
-  options.plan.sides.keep = true;
-  const BakeResult result = bake_scene(scene_of({double_sheet(), sheet()}), rules, options);
-  EXPECT_TRUE(material_of(result.scene, 0).double_sided);
-  EXPECT_FALSE(material_of(result.scene, 1).double_sided);
-  EXPECT_EQ(repair_of(result.surfaces).counts.opposites, 32U);
 }
 
 /// Files of data/exchange and of the folder named by PAPILLA_SHARED_DATA.
