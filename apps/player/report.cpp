@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shown_format.hpp"
+#include "tags_json.hpp"
 
 namespace papilla::player {
 namespace {
@@ -26,17 +27,6 @@ double peak_rss_mib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-/// How many tags the file had, and what became of those that are missing.
-Json tags_json(const TagSurvival& tags) {
-  Json restored = Json::array(), lost = Json::array();
-  for (const MissingTag& tag : tags.missing)
-    if (tag.restored_by.empty())
-      lost.push_back(tag.material);
-    else
-      restored.push_back({{"material", tag.material}, {"by", tag.restored_by}});
-  return {{"expected", tags.expected}, {"restored", restored}, {"lost", lost}};
 }
 
 std::string clamp_line(const StabilityClamp& clamp, const std::string& name) {
@@ -87,7 +77,7 @@ Json to_json(const RunReport& r) {
           {"clamps", clamps},
           {"height_maps", {{"loaded", r.maps_loaded}, {"missing", r.maps_missing}}},
           {"materials", r.material_names},
-          {"tags", tags_json(r.tags)},
+          {"tags", app::tags_json(r.tags)},
           {"left_out", {{"triangles", r.triangles_out_of_reach}, {"maps_made_coarser", r.maps_coarsened}}},
           {"fixed_priority", loop.fixed_priority},
           {"memory_locked", loop.memory_locked},

@@ -30,6 +30,12 @@ std::uint32_t big_endian(std::string_view bytes) {
   return value;
 }
 
+std::uint64_t little_endian(std::string_view bytes, std::size_t at, std::size_t count) {
+  std::uint64_t value = 0;
+  for (std::size_t i = count; i-- > 0;) value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
 /// Takes whole pieces from a source.
 class Bytes {
  public:
@@ -233,27 +239,31 @@ PictureFormat picture_format(std::string_view first, const fs::path& path) {
 }
 
 AnnouncedSize announced_size(std::string_view format, std::string_view first) {
-  const auto little_endian = [&](std::size_t at, std::size_t count) {
-    std::uint64_t value = 0;
-    for (std::size_t i = count; i-- > 0;) value = value << 8U | static_cast<unsigned char>(first[at + i]);
-    return value;
-  };
   constexpr std::size_t k_gif = 10, k_bmp = 26, k_webp = 30;
-  if (format == "gif" && first.size() >= k_gif) return {little_endian(6, 2), little_endian(8, 2)};
+  if (format == "gif" && first.size() >= k_gif) return {little_endian(first, 6, 2), little_endian(first, 8, 2)};
   if (format == "bmp" && first.size() >= k_bmp) {
     const auto signed_size = [&](std::size_t at) {
-      return static_cast<std::uint64_t>(std::abs(std::int64_t{static_cast<std::int32_t>(little_endian(at, 4))}));
+      return static_cast<std::uint64_t>(std::abs(std::int64_t{static_cast<std::int32_t>(little_endian(first, at, 4))}));
     };
     return {signed_size(18), signed_size(22)};
   }
   if (format != "webp" || first.size() < k_webp) return {};
   constexpr std::uint64_t k_14_bits = 0x3fff;
-  if (first.substr(12, 4) == "VP8X") return {little_endian(24, 3) + 1, little_endian(27, 3) + 1};
+  if (first.substr(12, 4) == "VP8X") return {little_endian(first, 24, 3) + 1, little_endian(first, 27, 3) + 1};
   if (first.substr(12, 4) == "VP8L") {
-    const std::uint64_t bits = little_endian(21, 4);
+    const std::uint64_t bits = little_endian(first, 21, 4);
     return {(bits & k_14_bits) + 1, (bits >> 14U & k_14_bits) + 1};
   }
-  return {little_endian(26, 2) & k_14_bits, little_endian(28, 2) & k_14_bits};
+  return {little_endian(first, 26, 2) & k_14_bits, little_endian(first, 28, 2) & k_14_bits};
+}
+
+void check_bmp(std::string_view first, const fs::path& path) {
+  constexpr std::uint64_t k_with_compression = 40, k_rle8 = 1, k_rle4 = 2;
+  if (first.size() < k_first_bytes || little_endian(first, 14, 4) < k_with_compression) return;
+  const std::uint64_t bits = little_endian(first, 28, 2), compression = little_endian(first, 30, 4);
+  if ((compression == k_rle8 && bits != 8) || (compression == k_rle4 && bits != 4))
+    throw InvalidInput(fmt::format("{}: is a BMP of {} bits a pixel with compression {}, which do not fit",
+                                   path.string(), bits, compression));
 }
 
 bool check_png(const ByteSource& next, const fs::path& path) {

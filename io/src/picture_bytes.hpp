@@ -30,6 +30,14 @@ struct AnnouncedSize {
 };
 AnnouncedSize announced_size(std::string_view format, std::string_view first_bytes);
 
+/// Bytes that picture_format(), announced_size() and check_bmp() look at: the header of a BMP as far as it is checked.
+inline constexpr std::size_t k_first_bytes = 34;
+
+/// OpenImageIO 2.4.7 reads behind its buffers where the compression of a BMP does not fit its bits a pixel. Header:
+/// BITMAPFILEHEADER of 14 bytes, size of the next one, and from 40 bytes on bits a pixel and compression.
+/// @throws InvalidInput naming `path`.
+void check_bmp(std::string_view first_bytes, const std::filesystem::path& path);
+
 /// Reads a PNG to its end: checksums and order of the chunks, header, and the compressed rows. libpng then finds
 /// nothing to print about. @returns whether the rows come in several passes, so that the reader holds the whole
 /// picture.

@@ -30,7 +30,6 @@ using OIIO::ImageSpec;
 constexpr std::size_t k_max_pixels_per_byte = 8 * 1032;
 constexpr std::size_t k_free_pixels = 65536;
 
-constexpr std::size_t k_first_bytes = 34;  // The header of a BMP as far as it is checked.
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
 ByteSource source_of(std::ifstream& file) {
@@ -39,22 +38,6 @@ ByteSource source_of(std::ifstream& file) {
     file.read(block.data(), static_cast<std::streamsize>(count));
     return std::string_view(block).substr(0, static_cast<std::size_t>(file.gcount()));
   };
-}
-
-/// OpenImageIO 2.4.7 reads behind its buffers where the compression of a BMP does not fit its bits a pixel.
-/// Header: BITMAPFILEHEADER of 14 bytes, size of the next one, and from 40 bytes on bits a pixel and compression.
-void check_bmp(std::string_view first, const fs::path& path) {
-  const auto little_endian = [&](std::size_t at, std::size_t bytes) {
-    std::uint32_t value = 0;
-    for (std::size_t i = bytes; i-- > 0;) value = value << 8 | static_cast<unsigned char>(first[at + i]);
-    return value;
-  };
-  constexpr std::uint32_t k_rle8 = 1, k_rle4 = 2;
-  if (first.size() < k_first_bytes || little_endian(14, 4) < 40) return;
-  const std::uint32_t bits = little_endian(28, 2), compression = little_endian(30, 4);
-  if ((compression == k_rle8 && bits != 8) || (compression == k_rle4 && bits != 4))
-    throw InvalidInput(fmt::format("{}: is a BMP of {} bits a pixel with compression {}, which do not fit",
-                                   path.string(), bits, compression));
 }
 
 PictureFormat checked_format(std::string_view first, const ByteSource& next, const fs::path& path) {

@@ -14,10 +14,6 @@ Vec3 transform_normal(const Transform& t, Vec3 n) {
   return normalized(n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y));
 }
 
-double determinant(const Transform& t) {
-  return dot(cross(Vec3{t[0], t[4], t[8]}, Vec3{t[1], t[5], t[9]}), Vec3{t[2], t[6], t[10]});
-}
-
 template <class T>
 void check(const CornerAttribute<T>& attribute, const Part& part, const char* name) {
   if (!attribute.empty() && attribute.indices.size() != part.mesh.triangles.size())

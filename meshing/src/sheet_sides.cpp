@@ -114,7 +114,6 @@ class SideFinder {
 
   void place_scene() {
     scene_ = place(uses_, "find_sheet_sides");
-    std::vector<Index> first;
     TriangleMesh opaque = opaque_triangles(scene_, uses_, first_opaque_);
     for (std::size_t u = 0; u < uses_.size(); ++u) {
       mirrored_.push_back(is_mirrored(uses_[u].world));

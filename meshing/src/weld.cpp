@@ -102,7 +102,8 @@ std::size_t merge(TriangleMesh& mesh, const ExactPositions& exact) {
 /// The number that a file in single precision holds for x; x where that is infinite.
 double stored(double x, double unit) noexcept {
   const double scaled = unit * x;
-  return std::abs(scaled) <= std::numeric_limits<float>::max() ? static_cast<double>(static_cast<float>(scaled)) : x;
+  return std::abs(scaled) <= double{std::numeric_limits<float>::max()} ? static_cast<double>(static_cast<float>(scaled))
+                                                                       : x;
 }
 
 }  // namespace

@@ -96,13 +96,13 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
 }
 
 /// The seams of uv that stay, in millimetres: their mesh need not be welded, nor have uv everywhere.
-SeamVisibility kept_seams(const TriangleMesh& mesh, const Grain& grain) {
+SeamVisibility kept_seams(const TriangleMesh& mesh, UnwrapOptions options, const Grain& grain) {
   std::vector<Index> with_uv;
   for (Index t = 0; t < mesh.triangles.size(); ++t)
     if (mesh.uv.has_value(t)) with_uv.push_back(t);
   const TriangleMesh welded = weld_equal(extract_triangles(mesh, with_uv)).mesh;
-  const double grain_mm = std::min(grain.size_mm[0], grain.size_mm[1]) / 8;
-  return seam_visibility(welded, welded.uv, {.tile_mm = {grain.size_mm[0], grain.size_mm[1]}, .grain_mm = grain_mm});
+  options.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
+  return seam_visibility(welded, welded.uv, {.tile_mm = options.tile_mm, .grain_mm = grain_size(options)});
 }
 
 /// Share of the seams that must turn the grain to be worth a warning.
@@ -131,7 +131,7 @@ void process(Work& work, const PartContext& context, const UnwrapOptions& option
     work.report.reason = surface.uv_note;
     work.report.mesh = work.mesh;
     work.report.mesh.uv = scaled(work.mesh.uv, surface.uv_mm_per_unit);
-    work.report.seams = kept_seams(work.report.mesh, grains.at(surface.material));
+    work.report.seams = kept_seams(work.report.mesh, options, grains.at(surface.material));
     work.report.seam_mm = work.report.seams.seam_mm;
   }
   Stopwatch clock;

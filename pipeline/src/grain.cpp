@@ -144,8 +144,7 @@ void limit_heights(const MaterialRule& rule, Grain& grain) {
   if (shift != 0)
     grain.warnings.push_back(
         fmt::format("material '{}': height: its lowest place is {:.4g} mm off the mesh, more than its relief of {:.4g} "
-                    "mm; moved by "
-                    "{:.4g} mm",
+                    "mm; moved by {:.4g} mm",
                     rule.name, 1e3 * low, 1e3 * (high - low), 1e3 * shift));
   if (share != 1)
     grain.warnings.push_back(

@@ -116,13 +116,13 @@ void count_edges(const TriangleMesh& mesh, UnwrappedPart& part) {
   }
 }
 
+}  // namespace
+
 double grain_size(const UnwrapOptions& options) {
   if (options.grain_mm) return *options.grain_mm;
   const double tile = std::min(options.tile_mm.x, options.tile_mm.y);
   return tile > 0 ? tile / 8 : 1;
 }
-
-}  // namespace
 
 PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
   PartContext context;

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Rubbish in, one line and the right exit code out: bad_input_test.sh PAPILLA PLAYER FOLDER
 set -u
-papilla=$1 player=$2 folder=$3
-rm -rf "$folder" && mkdir -p "$folder/a folder.stl" && cd "$folder" || exit 1
-failures=0
+papilla=$1 player=$2
+# shellcheck source=tests/apps/failures.sh
+source "$(dirname "$0")/failures.sh" "$3"
+mkdir "a folder.stl"
 
 # expect CODE PATTERN COMMAND...: the exit code, exactly one line on stderr, and that line matches.
 expect() {
@@ -14,9 +15,7 @@ expect() {
   got=$?
   lines=$(wc -l <err.txt)
   if [[ $got != "$code" || ($code == 3 && $lines != 1) ]] || ! grep -qE -- "$pattern" err.txt; then
-    echo "FAILED: $* -> exit $got (expected $code), stderr:"
-    cat err.txt
-    failures=$((failures + 1))
+    fail "$* -> exit $got (expected $code), stderr: $(cat err.txt)"
   fi
 }
 
@@ -63,8 +62,7 @@ for file in missing.glb empty.glb random.glb one.obj; do
   expect 3 "$file" "$player" "$file" --device sim --seconds 0.1
 done
 expect 3 'random.stl' "$papilla" evaluate weld random.stl -o evaluated
-[[ -e evaluated ]] && { echo "FAILED: an evaluation that ended with an error left its folder"; failures=$((failures + 1)); }
-[[ -e out.glb ]] && { echo "FAILED: a bake that ended with an error left out.glb"; failures=$((failures + 1)); }
-find . -name '.papilla-*' | grep . && { echo "FAILED: temporary files are left"; failures=$((failures + 1)); }
-((failures == 0)) && echo "all as expected"
-exit $((failures > 0))
+[[ ! -e evaluated ]] || fail "an evaluation that ended with an error left its folder"
+[[ ! -e out.glb ]] || fail "a bake that ended with an error left out.glb"
+find . -name '.papilla-*' | grep . && fail "temporary files are left"
+finish "bad input"

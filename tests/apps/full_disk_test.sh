@@ -3,13 +3,9 @@
 # A full disk: exit code 3 and one line with the system's reason, whatever is written.
 # usage: full_disk_test.sh PAPILLA PLAYER FOLDER
 set -u
-papilla=$1 player=$2 folder=$3
-rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
-failures=0
-fail() {
-  echo "FAILED: $*" >&2
-  failures=$((failures + 1))
-}
+papilla=$1 player=$2
+# shellcheck source=tests/apps/failures.sh
+source "$(dirname "$0")/failures.sh" "$3"
 
 # full OUTPUT COMMAND...
 full() {
@@ -57,5 +53,4 @@ if mount -t tmpfs -o size=16k none disk 2>/dev/null; then
 else
   echo "no right to mount a small disk: only /dev/full was tried"
 fi
-echo "$failures failures"
-exit $((failures > 0))
+finish "full disk"

@@ -3,13 +3,10 @@
 # Files that name other people's files: exit code 3, one line, no output, and nothing of those files in any output.
 # usage: hostile_files_test.sh PAPILLA PLAYER FOLDER
 set -u
-papilla=$1 player=$2 folder=$3
-rm -rf "$folder" && mkdir -p "$folder/scene" && cd "$folder" || exit 1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+papilla=$1 player=$2
+# shellcheck source=tests/apps/failures.sh
+source "$(dirname "$0")/failures.sh" "$3"
+mkdir "scene"
 
 readonly secret='top:secret:words'  # One word: no line of a recipe library.
 printf '%s\n' "$secret" >secret.txt
@@ -105,5 +102,4 @@ rules ../secret.png && "$papilla" bake triangle.glb -m scene/rules.json -o a.glb
 rules pipe.png && refused "pipe.png: is not a regular file" "$papilla" bake triangle.glb -m scene/rules.json -o out/a.glb
 rules ../secret.txt && refused "secret.txt" "$papilla" bake triangle.glb -m scene/rules.json -o out/a.glb
 
-echo "$failures failures"
-exit $((failures > 0))
+finish "hostile files"

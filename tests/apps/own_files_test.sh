@@ -3,13 +3,10 @@
 # No output of any verb is written over an input or another output: exit code 2 before anything is written.
 # usage: own_files_test.sh PAPILLA PLAYER FOLDER
 set -u
-papilla=$1 player=$2 folder=$3
-rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
-failures=0 cases=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+papilla=$1 player=$2
+# shellcheck source=tests/apps/failures.sh
+source "$(dirname "$0")/failures.sh" "$3"
+cases=0
 
 state() { find . -not -name 'err.txt' -type f -print0 | sort -z | xargs -0 sha256sum; }
 
@@ -134,5 +131,4 @@ refused --json "$player" tagged.glb --live same.sock --json same.sock
 for _ in 1 2; do
   "$papilla" measure one.obj --csv /dev/null --json /dev/null --picture one.png -q || fail "devices are no files"
 done
-echo "$cases cases, $failures failures"
-exit $((failures > 0))
+finish "$cases cases"

@@ -4,13 +4,9 @@
 # reads in bands.
 # usage: picture_memory_test.sh PAPILLA FOLDER
 set -u
-papilla=$1 folder=$2
-rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
-failures=0
-fail() {
-  echo "FAILED: $*" >&2
-  failures=$((failures + 1))
-}
+papilla=$1
+# shellcheck source=tests/apps/failures.sh
+source "$(dirname "$0")/failures.sh" "$2"
 
 # refused TEXT COMMAND...
 refused() {
@@ -52,5 +48,4 @@ for wrong in 0 -1 much 1X; do
   "$papilla" analyze large.pgm --max-memory=$wrong 2>err.txt >out.txt && fail "--max-memory $wrong"
 done
 
-((failures == 0)) && echo "pictures keep to --max-memory"
-exit $((failures > 0))
+finish "memory of pictures"

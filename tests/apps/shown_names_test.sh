@@ -3,13 +3,10 @@
 # Names with control characters can neither steer the terminal nor fake a line: whatever a verb prints of them, on
 # stdout, stderr and in reports, is escaped. usage: shown_names_test.sh PAPILLA PLAYER FOLDER
 set -u
-papilla=$1 player=$2 folder=$3
-rm -rf "$folder" && mkdir -p "$folder" && cd "$folder" || exit 1
-failures=0 seen=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+papilla=$1 player=$2
+# shellcheck source=tests/apps/failures.sh
+source "$(dirname "$0")/failures.sh" "$3"
+seen=0
 
 # A title for the window, a line of its own, a carriage return, a right-to-left override, CSI as one character.
 evil=$'e\x1b]0;x\x07v\nfaked: line\rz\u202e\u009b2Jl'
@@ -83,5 +80,4 @@ shows 2 "$player" "$file" --motion "$evil"
 # The names themselves stay as they are in what is written.
 grep -q "$(printf '\\\\u001b]0;x')" <(strings -n 4 "uv.glb") || fail "a name was changed on its way"
 ((seen >= 20)) || fail "the names were printed in $seen places only"
-echo "$seen places show names, $failures failures"
-exit $((failures > 0))
+finish "$seen places show names"

@@ -98,12 +98,4 @@ ComplexFftBatch::ComplexFftBatch(int length, int count)
   plan([&] { return std::pair{plan_of(count, FFTW_FORWARD), plan_of(count / 2, FFTW_BACKWARD)}; });
 }
 
-CosineTransform2d::CosineTransform2d(int width, int height)
-    : InPlaceTransform(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-  const auto plan_of = [&](fftw_r2r_kind kind) {
-    return fftw_plan_r2r_2d(height, width, data(), data(), kind, kind, FFTW_ESTIMATE);
-  };
-  plan([&] { return std::pair{plan_of(FFTW_REDFT10), plan_of(FFTW_REDFT01)}; });
-}
-
 }  // namespace papilla::texture_detail

@@ -89,13 +89,4 @@ class ComplexFftBatch : public InPlaceTransform {
   std::size_t length_;
 };
 
-/// Cosine transform (DCT-II and its inverse) of rows of `width` values: diagonalises the Laplacian with reflecting
-/// borders. Forward and backward multiply by 4·width·height.
-class CosineTransform2d : public InPlaceTransform {
- public:
-  CosineTransform2d(int width, int height);
-
-  double* data() noexcept { return values(); }
-};
-
 }  // namespace papilla::texture_detail

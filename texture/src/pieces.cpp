@@ -85,6 +85,11 @@ class OpenRows {
 
 }  // namespace
 
+int PieceSpan::before() const {
+  const auto first = std::find_if(weights.begin(), weights.end(), [](double weight) { return weight > 0; });
+  return static_cast<int>(first - weights.begin());
+}
+
 std::vector<PieceSpan> piece_spans(int side, const PieceLayout& layout) {
   const int count = (side + layout.core - 1) / layout.core;
   const auto start_of = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(k) * side / count); };
@@ -92,15 +97,21 @@ std::vector<PieceSpan> piece_spans(int side, const PieceLayout& layout) {
   const int overlap = count == 1 && !layout.periodic ? 0 : std::min(layout.overlap, side / count / 2);
   // Without overlap a single piece is the whole side, and periodic in itself.
   const bool whole = count == 1 && layout.overlap == 0;
+  const int longest = (side + count - 1) / count + overlap;
+  const int length = overlap > 0 && layout.suitable != nullptr
+                         ? std::min(layout.suitable(longest), longest - overlap + side / count)
+                         : longest;
+  const auto overlap_after = [&](int k) { return overlap > 0 ? length - (start_of(k + 1) - start_of(k)) : 0; };
   std::vector<PieceSpan> spans;
   for (int k = 0; k < count; ++k) {
     const int start = start_of(k), own = start_of(k + 1) - start;
     const bool opens = layout.periodic || k > 0, goes_on = layout.periodic || k + 1 < count;
     const int before = whole ? 0 : layout.periodic ? layout.before : std::min(start, layout.before);
+    const int shared_before = overlap_after(k > 0 ? k - 1 : count - 1), shared_after = overlap_after(k);
     PieceSpan span{start - before, std::vector<double>(static_cast<std::size_t>(before), 0.0)};
-    for (int i = 0; i < own + (goes_on ? overlap : 0); ++i) {
-      const double rise = opens && !whole ? (i + 1.0) / (overlap + 1) : 1;
-      const double fall = i < own ? 1 : static_cast<double>(own + overlap - i) / (overlap + 1);
+    for (int i = 0; i < own + (goes_on ? shared_after : 0); ++i) {
+      const double rise = opens && !whole ? (i + 1.0) / (shared_before + 1) : 1;
+      const double fall = i < own ? 1 : static_cast<double>(own + shared_after - i) / (shared_after + 1);
       span.weights.push_back(std::min(rise, 1.0) * fall);
     }
     spans.push_back(std::move(span));
@@ -141,12 +152,7 @@ void solve_by_pieces(const SampleRows& picture, const PieceLayout& layout,
       for (std::size_t i = 0; i < heights.size(); ++i) open.add(columns[first + i], rows[r], heights[i]);
       done += static_cast<double>(heights.size());
     }
-    const auto first_row = [&](const PieceSpan& span) {
-      return span.begin + static_cast<int>(std::find_if(span.weights.begin(), span.weights.end(),
-                                                        [](double weight) { return weight > 0; }) -
-                                           span.weights.begin());
-    };
-    open.close(r + 1 < rows.size() ? first_row(rows[r + 1]) : picture.height(), shared);
+    open.close(r + 1 < rows.size() ? rows[r + 1].begin + rows[r + 1].before() : picture.height(), shared);
   }
   open.finish();
   report_progress(progress, stage, 1);

@@ -16,8 +16,9 @@ namespace papilla::texture_detail {
 struct PieceLayout {
   int core = 1024;        ///< Largest width and height of a piece without the pixels that it shares with others.
   int before = 0;         ///< Pixels to the left and above that a piece reads and whose result it does not give.
-  int overlap = 0;        ///< Pixels shared with the next piece, over which the two are mixed by a ramp.
+  int overlap = 0;        ///< Pixels shared with the next piece at least, over which the two are mixed by a ramp.
   bool periodic = false;  ///< The picture repeats beyond its borders; otherwise pieces end there.
+  int (*suitable)(int least) = nullptr;  ///< Next length that is fast to solve: pieces overlap as much more.
 };
 
 /// A part of a picture along one axis: samples begin … begin + weights.size() − 1, modulo the side when periodic.
@@ -27,6 +28,7 @@ struct PieceSpan {
   std::vector<double> weights;
 
   int length() const noexcept { return static_cast<int>(weights.size()); }
+  int before() const;  ///< Samples at its beginning whose result it does not give.
 };
 
 /// The parts of a side in order.

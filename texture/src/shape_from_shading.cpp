@@ -14,10 +14,13 @@
 #include <vector>
 
 #include "checks.hpp"
+#include "curvature_memory.hpp"
 #include "fft.hpp"
+#include "inverse_bilaplacian.hpp"
 #include "pieces.hpp"
 #include "pyramid.hpp"
 #include "reflectance.hpp"
+#include "shading_energy.hpp"
 #include "shaped_noise.hpp"
 
 namespace papilla {
@@ -27,230 +30,14 @@ using namespace texture_detail;
 
 using Field = std::vector<double>;
 
-/// Eigenvalues 2 − 2 cos(k·step) of the one-dimensional −Δ for k = 0…count−1.
-Field eigenvalues(int count, double step) {
-  Field values(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) values[static_cast<std::size_t>(k)] = 2 - 2 * std::cos(k * step);
-  return values;
-}
-
-/// 1 / (norm · 2(α K + λ K²)), 0 for the mean.
-double inverse_eigenvalue(double k, double alpha, double lambda, double norm) {
-  return k > 0 ? 1 / (norm * 2 * (alpha * k + lambda * k * k)) : 0;
-}
-
-/// Applies the inverse of 2(α K + λ K²) to a field, K the 5-point −Δ with periodic or reflecting borders.
-/// The mean of the result is 0.
-class InverseBilaplacian {
- public:
-  virtual ~InverseBilaplacian() = default;
-  virtual void apply(const Field& field, double alpha, double lambda, Field& result) = 0;
-};
-
-class PeriodicInverse final : public InverseBilaplacian {
- public:
-  PeriodicInverse(int width, int height)
-      : fft_(width, height),
-        across_(eigenvalues(width / 2 + 1, 2 * std::numbers::pi / width)),
-        down_(eigenvalues(height, 2 * std::numbers::pi / height)) {}
-
-  void apply(const Field& field, double alpha, double lambda, Field& result) override {
-    fft_.load(field.data());
-    fft_.forward();
-    const auto norm = static_cast<double>(field.size());
-    std::complex<double>* spectrum = fft_.spectrum();
-    for (const double down : down_)
-      for (const double across : across_) *spectrum++ *= inverse_eigenvalue(across + down, alpha, lambda, norm);
-    fft_.backward();
-    fft_.store(result.data());
-  }
-
- private:
-  RealFft2d fft_;
-  Field across_, down_;
-};
-
-class ReflectingInverse final : public InverseBilaplacian {
- public:
-  ReflectingInverse(int width, int height)
-      : transform_(width, height),
-        across_(eigenvalues(width, std::numbers::pi / width)),
-        down_(eigenvalues(height, std::numbers::pi / height)) {}
-
-  void apply(const Field& field, double alpha, double lambda, Field& result) override {
-    std::copy(field.begin(), field.end(), transform_.data());
-    transform_.forward();
-    const double norm = 4 * static_cast<double>(field.size());
-    double* value = transform_.data();
-    for (const double down : down_)
-      for (const double across : across_) *value++ *= inverse_eigenvalue(across + down, alpha, lambda, norm);
-    transform_.backward();
-    std::copy_n(transform_.data(), field.size(), result.begin());
-  }
-
- private:
-  CosineTransform2d transform_;
-  Field across_, down_;
-};
-
-std::unique_ptr<InverseBilaplacian> make_inverse_bilaplacian(int width, int height, bool periodic) {
-  if (periodic) return std::make_unique<PeriodicInverse>(width, height);
-  return std::make_unique<ReflectingInverse>(width, height);
-}
-
 constexpr std::string_view k_stage = "shape from shading";
-
-/// Four sums side by side: one alone waits for every addition.
-template <class T>
-double dot_product(const std::vector<T>& a, const Field& b) {
-  std::array<double, 4> sums{};
-  std::size_t i = 0;
-  for (; i + sums.size() <= a.size(); i += sums.size())
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += static_cast<double>(a[i + k]) * b[i + k];
-  for (; i < a.size(); ++i) sums[0] += static_cast<double>(a[i]) * b[i];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-template <class T>
-void add_scaled(Field& target, double factor, const std::vector<T>& field) {
-  for (std::size_t i = 0; i < target.size(); ++i) target[i] += factor * static_cast<double>(field[i]);
-}
-
-/// The two neighbours along one axis and the reciprocal of their distance (0 on a single pixel).
-struct Neighbours {
-  int before, after;
-  double inverse_distance;
-};
-
-Neighbours neighbours(int i, int count, bool periodic) {
-  if (count == 1) return {0, 0, 0};
-  if (periodic) return {i == 0 ? count - 1 : i - 1, i == count - 1 ? 0 : i + 1, 0.5};
-  const int before = std::max(0, i - 1), after = std::min(count - 1, i + 1);
-  return {before, after, 1.0 / (after - before)};
-}
-
-/// E(Z) of shape_from_shading_variational() and its gradient.
-class ShadingEnergy {
- public:
-  ShadingEnergy(const GreyImage& image, const ShadingOptions& options)
-      : width_(image.width),
-        height_(image.height),
-        periodic_(options.periodic),
-        light_(require_light(options.light, "shape_from_shading_variational")),
-        brightness_(brightness(image, options.albedo)),
-        laplacian_(brightness_.size()),
-        bilaplacian_(brightness_.size()) {}
-
-  double value_and_gradient(const Field& z, double lambda, Field& gradient) {
-    std::fill(gradient.begin(), gradient.end(), 0.0);
-    const double shading = add_shading(z, gradient);
-    residual_ = std::sqrt(shading / static_cast<double>(z.size()));
-    return shading + add_smoothness(z, lambda, gradient);
-  }
-
-  double residual() const noexcept { return residual_; }  ///< Root mean square of the last evaluation's I − R.
-  Vec3 light() const noexcept { return light_; }
-  const Field& image() const noexcept { return brightness_; }
-
- private:
-  double add_shading(const Field& z, Field& gradient) const {
-    double energy = 0;
-    for (int y = 0; y < height_; ++y) {
-      const Neighbours rows = neighbours(y, height_, periodic_);
-      for (int x = 0; x < width_; ++x) {
-        const Neighbours columns = neighbours(x, width_, periodic_);
-        const std::size_t left = pixel_index(columns.before, y, width_), right = pixel_index(columns.after, y, width_);
-        const std::size_t up = pixel_index(x, rows.before, width_), down = pixel_index(x, rows.after, width_);
-        const double p = (z[right] - z[left]) * columns.inverse_distance;
-        const double q = (z[down] - z[up]) * rows.inverse_distance;
-        const Reflectance r = reflectance(light_, p, q);
-        const double error = r.value - brightness_[pixel_index(x, y, width_)];
-        energy += error * error;
-        const double gp = 2 * error * r.dp * columns.inverse_distance, gq = 2 * error * r.dq * rows.inverse_distance;
-        gradient[right] += gp;
-        gradient[left] -= gp;
-        gradient[down] += gq;
-        gradient[up] -= gq;
-      }
-    }
-    return energy;
-  }
-
-  /// The 5-point Laplacian with periodic or reflecting borders; symmetric as a matrix.
-  void laplacian(const Field& z, Field& result) const {
-    for (int y = 0; y < height_; ++y) {
-      const double* row = z.data() + pixel_index(0, y, width_);
-      const double* up = z.data() + pixel_index(0, beyond(y - 1, height_), width_);
-      const double* down = z.data() + pixel_index(0, beyond(y + 1, height_), width_);
-      double* target = result.data() + pixel_index(0, y, width_);
-      for (int x = 1; x + 1 < width_; ++x) target[x] = row[x - 1] + row[x + 1] + up[x] + down[x] - 4 * row[x];
-      for (const int x : {0, width_ - 1})
-        target[x] = row[beyond(x - 1, width_)] + row[beyond(x + 1, width_)] + up[x] + down[x] - 4 * row[x];
-    }
-  }
-
-  int beyond(int i, int count) const { return periodic_ ? wrapped(i, count) : std::clamp(i, 0, count - 1); }
-
-  double add_smoothness(const Field& z, double lambda, Field& gradient) {
-    laplacian(z, laplacian_);
-    laplacian(laplacian_, bilaplacian_);
-    add_scaled(gradient, 2 * lambda, bilaplacian_);
-    return lambda * dot_product(laplacian_, laplacian_);
-  }
-
-  int width_, height_;
-  bool periodic_;
-  Vec3 light_;
-  Field brightness_, laplacian_, bilaplacian_;
-  double residual_ = 0;
-};
-
-/// Curvature pairs of L-BFGS with a preconditioner in place of the usual scaled identity. They are most of a piece's
-/// memory and of its traffic, and only shape the next direction: floats.
-class CurvatureMemory {
- public:
-  void add(const Field& step, const Field& change) {
-    const double curvature = dot_product(step, change);
-    if (!(curvature > 1e-12 * std::sqrt(dot_product(step, step) * dot_product(change, change)))) return;
-    Pair pair;
-    if (pairs_.size() == k_most_pairs) {
-      pair = std::move(pairs_.front());
-      pairs_.pop_front();
-    }
-    pair.step.assign(step.begin(), step.end());
-    pair.change.assign(change.begin(), change.end());
-    pair.inverse_curvature = 1 / curvature;
-    pairs_.push_back(std::move(pair));
-  }
-
-  /// −H·gradient by the two-loop recursion [Nocedal and Wright, algorithm 7.4]; `work` is overwritten.
-  void direction(const Field& gradient, InverseBilaplacian& inverse, double alpha, double lambda, Field& work,
-                 Field& result) {
-    work = gradient;
-    for (auto pair = pairs_.rbegin(); pair != pairs_.rend(); ++pair) {
-      pair->projection = pair->inverse_curvature * dot_product(pair->step, work);
-      add_scaled(work, -pair->projection, pair->change);
-    }
-    inverse.apply(work, alpha, lambda, result);
-    for (const Pair& pair : pairs_)
-      add_scaled(result, pair.projection - pair.inverse_curvature * dot_product(pair.change, result), pair.step);
-    for (double& value : result) value = -value;
-  }
-
- private:
-  static constexpr std::size_t k_most_pairs = 8;
-  struct Pair {
-    std::vector<float> step, change;
-    double inverse_curvature = 0, projection = 0;
-  };
-  std::deque<Pair> pairs_;
-};
 
 /// Slight relief with bright as high: breaks the tie at frontal light, where the flat surface is stationary.
 Field start_height(const Field& image, InverseBilaplacian& inverse) {
   Field start(image.size()), centred = image;
   remove_mean(centred);
-  inverse.apply(centred, 1, 1, start);
+  inverse.set(1, 1);
+  inverse.apply(centred, start);
   const auto [low, high] = std::minmax_element(start.begin(), start.end());
   constexpr double k_start_range_px = 0.1;
   const double range = *high - *low;
@@ -272,36 +59,40 @@ struct Descent {
   }
 };
 
+/// z + step · direction.
+void move_along(const Field& direction, double step, const Field& z, Field& moved) {
+  for (std::size_t i = 0; i < z.size(); ++i) moved[i] = z[i] + step * direction[i];
+}
+
 /// Steps until converged, stalled, or `steps` are done.
 StopReason descend(Descent& state, double lambda, int steps) {
   const Vec3 light = state.energy.light();
   const double alpha = (light.x * light.x + light.y * light.y) / 2 + 0.05;  // Mean of (s·k)²/|k|², kept above zero.
+  state.inverse.set(alpha, lambda);
   CurvatureMemory memory;
-  double value = state.energy.value_and_gradient(state.z, lambda, state.gradient);
+  double value = state.energy.value_and_gradient(state.z, lambda, state.gradient), step = 0;
   std::deque<double> history{value};
   const std::size_t pixels = state.z.size();
-  Field direction(pixels), work(pixels), trial(pixels), trial_gradient(pixels);
+  Field direction(pixels), trial(pixels), trial_gradient(pixels), preconditioned(pixels), last_preconditioned(pixels);
   for (int done = 0; done < steps; ++done) {
-    memory.direction(state.gradient, state.inverse, alpha, lambda, work, direction);
-    const double slope = dot_product(direction, state.gradient);
+    const CurvatureMemory::Slope now{state.gradient, preconditioned};
+    state.inverse.apply(state.gradient, preconditioned);
+    if (done > 0) memory.add(step, direction, {trial_gradient, last_preconditioned}, now);
+    const double slope = memory.direction(now, direction);
     if (!(slope < 0)) return StopReason::converged;  // The gradient is zero to rounding.
-    double trial_value = 0, step = 1;
+    double trial_value = 0;
     constexpr int k_most_halvings = 20;
     constexpr double k_armijo = 1e-4;
     int halvings = 0;
-    for (; halvings < k_most_halvings; ++halvings, step /= 2) {
-      trial = state.z;
-      add_scaled(trial, step, direction);
+    for (step = 1; halvings < k_most_halvings; ++halvings, step /= 2) {
+      move_along(direction, step, state.z, trial);
       trial_value = state.energy.value_and_gradient(trial, lambda, trial_gradient);
       if (trial_value <= value + k_armijo * step * slope) break;
     }
     if (halvings == k_most_halvings) return StopReason::line_search_stalled;
-    for (double& component : direction) component *= step;
-    work = trial_gradient;
-    add_scaled(work, -1, state.gradient);
-    memory.add(direction, work);
     std::swap(state.z, trial);
     std::swap(state.gradient, trial_gradient);
+    std::swap(preconditioned, last_preconditioned);
     value = trial_value;
     state.result.trace.push_back({state.clock.seconds(), state.energy.residual()});
     state.progress(done + 1, steps);
@@ -427,6 +218,7 @@ void solve_large(const SampleRows& image, const ShadingOptions& options, const S
   PieceLayout layout;
   layout.core = options.largest_piece_px / 2;
   layout.overlap = piece_overlap(options.largest_piece_px);
+  layout.suitable = good_fft_size;
   layout.periodic = options.periodic;
   constexpr double k_resolved_px = 6;
   const double longest_px = std::max<double>(layout.overlap, k_resolved_px * std::ldexp(1, levels));

@@ -96,6 +96,7 @@ double heights_by_pieces(const SampleRows& image, const ShadingOptions& options,
   texture_detail::PieceLayout layout;
   layout.core = options.largest_piece_px / 2;
   layout.overlap = texture_detail::piece_overlap(options.largest_piece_px);
+  layout.suitable = texture_detail::good_fft_size;
   layout.periodic = options.periodic;
   std::mutex mutex;
   std::vector<double> squares;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosine_filter.hpp"
 #include "fft.hpp"
 #include "random.hpp"
 
@@ -60,15 +61,11 @@ void filter(std::vector<double>& field, int width, int height, bool periodic,
     fft.store(field.data());
     return;
   }
-  CosineTransform2d transform(width, height);
-  std::copy(field.begin(), field.end(), transform.data());
-  transform.forward();
-  const double norm = 1 / (4 * static_cast<double>(field.size()));
-  double* value = transform.data();
+  std::vector<double> gains;
+  gains.reserve(field.size());
   for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u, ++value) *value *= norm * gain(0.5 * u / width, 0.5 * v / height);
-  transform.backward();
-  std::copy_n(transform.data(), field.size(), field.begin());
+    for (int u = 0; u < width; ++u) gains.push_back(gain(0.5 * u / width, 0.5 * v / height));
+  CosineFilter2d(width, height).apply(field, gains, field);
 }
 
 }  // namespace papilla::texture_detail

@@ -52,6 +52,9 @@ void ScaledSamples::read(int x, int y, int count, float* samples) const {
 
 SampleFile::SampleFile(int width, int height, const std::filesystem::path& folder)
     : SampleRows(width, height), folder_(folder) {
+  file_ = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0600);
+  if (file_ >= 0) return;
+  // Some file systems have no files without a name.
   std::string name = (folder / ".papilla-samples-XXXXXX").string();
   file_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (file_ < 0) fail(folder_, errno);

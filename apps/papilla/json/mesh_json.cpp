@@ -7,6 +7,7 @@
 #include "papilla/core/bounds.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
+#include "tags_json.hpp"
 
 namespace papilla::app {
 namespace {
@@ -59,7 +60,7 @@ Json tag_json(const MaterialTag& tag) {
 /// Every tagged material, and what became of tags that the file had before.
 Json haptic_json(const Scene& scene) {
   const std::vector<std::size_t> triangles = triangles_of_materials(scene);
-  Json tags = Json::array(), restored = Json::array(), lost = Json::array();
+  Json tags = Json::array();
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Material& material = scene.materials[m];
     if (!material.haptic) continue;
@@ -68,12 +69,9 @@ Json haptic_json(const Scene& scene) {
     for (const HapticWarning& warning : material.haptic_warnings)
       tags.back()["warnings"].push_back(warning.code + ": " + warning.message);
   }
-  for (const MissingTag& tag : scene.tags.missing)
-    if (tag.restored_by.empty())
-      lost.push_back(tag.material);
-    else
-      restored.push_back({{"material", tag.material}, {"by", tag.restored_by}});
-  return {{"tags", tags}, {"expected", scene.tags.expected}, {"restored", restored}, {"lost", lost}};
+  Json haptic{{"tags", tags}};
+  haptic.update(tags_json(scene.tags));
+  return haptic;
 }
 
 Json faces_json(const std::vector<CadFaceNote>& notes) {

@@ -89,6 +89,10 @@ Transform multiply(const Transform& a, const Transform& b) noexcept {
   return product;
 }
 
+double determinant(const Transform& t) noexcept {
+  return dot(cross(Vec3{t[0], t[4], t[8]}, Vec3{t[1], t[5], t[9]}), Vec3{t[2], t[6], t[10]});
+}
+
 Vec3 transform_point(const Transform& t, Vec3 p) noexcept {
   return {t[0] * p.x + t[1] * p.y + t[2] * p.z + t[3], t[4] * p.x + t[5] * p.y + t[6] * p.z + t[7],
           t[8] * p.x + t[9] * p.y + t[10] * p.z + t[11]};

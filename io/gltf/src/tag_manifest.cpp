@@ -124,8 +124,7 @@ std::map<std::uint32_t, double> areas_by_slot(const TriangleMesh& mesh) {
 }
 
 double area_scale(const Transform& t) {
-  const double volume = dot(Vec3{t[0], t[4], t[8]}, cross(Vec3{t[1], t[5], t[9]}, Vec3{t[2], t[6], t[10]}));
-  return std::pow(std::abs(volume), 2.0 / 3) * k_metres_per_mm * k_metres_per_mm;
+  return std::pow(std::abs(determinant(t)), 2.0 / 3) * k_metres_per_mm * k_metres_per_mm;
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ class Builder {
     if (!used) return;
     for (const Vec3& p : mesh.positions)
       result.mesh.positions.push_back(k_metres_per_mm * transform_point(instance.world, p));
-    if (mirrors(instance.world))
+    if (determinant(instance.world) < 0)
       for (std::size_t t = added_triangles_; t < result.mesh.triangles.size(); ++t) {
         std::swap(result.mesh.triangles[t][1], result.mesh.triangles[t][2]);
         std::swap(result.mesh.corner_uv[3 * t + 1], result.mesh.corner_uv[3 * t + 2]);
@@ -100,7 +100,7 @@ class Builder {
   /// Corner normals of a triangle in the frame of the scene; zero, which means the face normal, where there are none.
   void add_normals(const Transform& world, const TriangleMesh& mesh, std::size_t t, bool shaded) {
     const Vec3 x{world[0], world[4], world[8]}, y{world[1], world[5], world[9]}, z{world[2], world[6], world[10]};
-    const double side = mirrors(world) ? -1 : 1;
+    const double side = determinant(world) < 0 ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3 n;
       if (shaded && mesh.normals.has_value(t)) n = mesh.normals.values[mesh.normals.indices[t][k]];
@@ -249,10 +249,6 @@ class Builder {
 
   /// From uv with v upwards to that of glTF.
   static Vec2 gltf_uv(Vec2 uv) { return {uv.x, 1 - uv.y}; }
-
-  static bool mirrors(const Transform& t) {
-    return dot(Vec3{t[0], t[4], t[8]}, cross(Vec3{t[1], t[5], t[9]}, Vec3{t[2], t[6], t[10]})) < 0;
-  }
 
   const Scene& scene_;
   std::filesystem::path file_;

@@ -219,7 +219,7 @@ SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels
   const double finest = std::min({texels_per_repeat, (k_most_side - 2 * k_gutter - 2) / std::max(longest, 1e-300),
                                   1e9 / std::max(farthest, 1e-300)});
   // Coarser and coarser until the asked number of texels is enough, and then until any is.
-  for (const double most_texels : {double{most_side} * most_side, k_most_texels})
+  for (const double most_texels : {static_cast<double>(most_side) * most_side, k_most_texels})
     for (double scale = finest; scale > k_coarsest * finest; scale *= k_coarser)
       if (auto atlas = Cutter(surface, reading, sky, scale, most_texels).cut(charts)) return std::move(*atlas);
   throw InvalidInput("weather: " + std::to_string(charts.size()) + " charts do not fit into a picture");

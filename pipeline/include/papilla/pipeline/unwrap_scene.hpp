@@ -40,6 +40,9 @@ struct UnwrapOptions {
   std::vector<std::pair<std::string, double>> density;
 };
 
+/// UnwrapOptions::grain_mm, or what stands for it when it is not given.
+double grain_size(const UnwrapOptions& options);
+
 struct UnwrapSeconds {
   double segment = 0, solve = 0, pack = 0, total = 0;
 };

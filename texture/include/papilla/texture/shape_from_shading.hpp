@@ -31,13 +31,13 @@ struct ShadingOptions {
 
 /// Pictures of any size: those longer than `largest_piece_px` are cut into pieces, several of which are solved at a
 /// time on all threads. Memory is 8 bytes a pixel for the result (none with HeightWriter), 9 KB a column for the rows
-/// in work, and a constant for the pieces in work; time grows with the pixels. tsai-shah: a piece includes as many
-/// pixels to its left and above as there are steps, all that influence it; the result is that of the whole picture to
-/// the last bit, up to half of largest_piece_px steps. variational and pentland: waves longer than a few pixels of the
-/// picture at half of largest_piece_px a side come from that, the others from pieces with free borders that overlap by
-/// 128 pixels (a quarter of largest_piece_px, if that is less) and are mixed by linear ramps, across the borders of
-/// periodic pictures too. How much that differs from the whole is measured in the tests and the report of the
-/// benchmark.
+/// in work, and a constant for the pieces in work; time grows with the pixels. tsai-shah: pieces of the whole
+/// `largest_piece_px`, and as many pixels to their left and above as there are steps, all that influence them; the
+/// result is that of the whole picture to the last bit, up to largest_piece_px steps. variational and pentland: waves
+/// longer than a few pixels of the picture at half of largest_piece_px a side come from that, the others from pieces
+/// with free borders that overlap by 128 pixels (a quarter of largest_piece_px, if that is less) and are mixed by linear
+/// ramps, across the borders of periodic pictures too. How much that differs from the whole is measured in the tests and
+/// the report of the benchmark.
 
 /// What a shape-from-shading method returns.
 struct ShadingResult {
@@ -91,7 +91,7 @@ ShadingResult shape_from_shading_pentland_by_rows(const SampleRows& picture, con
 /// Light less than 0.01 off the viewing direction is taken as (0.01, 0.01, 1), as the source does: at exactly frontal
 /// light the flat start would stay flat.
 /// Fast, local, noisy: kept as the source's method, `variational` has half its error.
-/// Cost: O(pixels) a step. Deterministic.
+/// Cost: O(pixels) a step; all steps of a row are taken in the cache. Deterministic.
 /// @throws InvalidInput as shape_from_shading_variational().
 /// Tsai and Shah, Shape from shading using linear approximation, 1994; Schulze 2005, equations 8.1 to 8.5.
 ShadingResult shape_from_shading_tsai_shah(const GreyImage& image, const ShadingOptions& options = {});

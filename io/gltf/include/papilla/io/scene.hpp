@@ -150,6 +150,9 @@ struct Instance {
 Transform multiply(const Transform& a, const Transform& b) noexcept;
 Vec3 transform_point(const Transform& t, Vec3 p) noexcept;
 
+/// Of the linear part: below 0 for one that mirrors.
+double determinant(const Transform& t) noexcept;
+
 /// Turns the scene's axes to glTF's Y up (the identity when it is Y up already): Z up becomes Y up, X stays.
 Transform to_y_up(UpAxis up) noexcept;
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "papilla/io/scene.hpp"
+
+namespace papilla::app {
+
+/// How many tags the file had, and what became of those that are missing.
+inline nlohmann::ordered_json tags_json(const TagSurvival& tags) {
+  using Json = nlohmann::ordered_json;
+  Json restored = Json::array(), lost = Json::array();
+  for (const MissingTag& tag : tags.missing)
+    if (tag.restored_by.empty())
+      lost.push_back(tag.material);
+    else
+      restored.push_back({{"material", tag.material}, {"by", tag.restored_by}});
+  return {{"expected", tags.expected}, {"restored", restored}, {"lost", lost}};
+}
+
+}  // namespace papilla::app
