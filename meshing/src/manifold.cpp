@@ -27,8 +27,7 @@ using namespace detail;
 /// Copies move by at most this fraction of the shortest edge around, so that no triangle turns over.
 constexpr double k_largest_move = 0.2;
 
-/// Where the directions into a fan's triangles, of length 1, add up to less, the fan lies all around its vertex, as
-/// those of double sheets do.
+/// Where the directions into a fan's triangles, of length 1, add up to less, the fan lies all around its vertex.
 constexpr double k_least_inward = 0.1;
 
 /// Copies keep this fraction of the gap from every other vertex: twice the weld's tolerance at the default gap.
@@ -218,7 +217,12 @@ class FansAround {
 class Splitter {
  public:
   Splitter(TriangleMesh& mesh, const EdgeTable& edges, double gap, ManifoldResult& result)
-      : mesh_(mesh), edges_(edges), gap_(gap), result_(result), opposite_(opposite_halfedges(mesh.triangles, edges)) {}
+      : mesh_(mesh),
+        edges_(edges),
+        gap_(gap),
+        result_(result),
+        opposite_(opposite_halfedges(mesh.triangles, edges)),
+        is_double_(mesh.triangles.size(), 0) {}
 
   void run() {
     find_bad_edges();
@@ -253,9 +257,17 @@ class Splitter {
       if (!is_bad(h, mesh_.triangles)) continue;
       bad_edges_.push_back(e);
       for (const Index half : h) opposite_[half] = k_none;
+      note_double_sheets(h);
       if (h.size() > 2) pair_around(mesh_, h, opposite_);
     }
     result_.parted_edges = bad_edges_.size();
+  }
+
+  void note_double_sheets(std::span<const Index> halfedges) {
+    for (std::size_t i = 0; i < halfedges.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (are_front_and_back(halfedges[i], halfedges[j], mesh_.triangles))
+          is_double_[triangle_of(halfedges[i])] = is_double_[triangle_of(halfedges[j])] = 1;
   }
 
   /// Gives every fan of a vertex but the first its own copy of the vertex.
@@ -286,16 +298,18 @@ class Splitter {
     mesh_.positions.push_back(Vec3{mesh_.positions[v]});
     ++result_.added_vertices;
     Vec3 inward{}, outward{};
-    bool at_bad_edge = false;
+    bool at_bad_edge = false, is_double = true;
     for (; begin < end && corners[begin].fan == fan; ++begin) {
       const Index corner = corners[begin].corner;
       new_corners_.emplace_back(corner, copy);
       inward = inward + towards_opposite_side(corner);
       outward = outward + normalized(area_vector_at(corner));
+      is_double = is_double && is_double_[triangle_of(corner)];
       at_bad_edge = at_bad_edge || std::binary_search(parted.begin(), parted.end(), corner);
     }
-    if (norm(inward) < k_least_inward) inward = -outward;
-    if (at_bad_edge) moves.emplace_back(copy, std::min(gap_, k_largest_move * shortest) * normalized(inward));
+    // Either side of a double sheet goes to where it is seen from, so that neither hides the other.
+    const Vec3 way = is_double ? outward : norm(inward) < k_least_inward ? -outward : inward;
+    if (at_bad_edge) moves.emplace_back(copy, std::min(gap_, k_largest_move * shortest) * normalized(way));
     return begin;
   }
 
@@ -371,6 +385,7 @@ class Splitter {
   std::vector<Index> opposite_;
   std::vector<std::pair<Index, Index>> new_corners_;  ///< Corner, vertex.
   std::vector<std::size_t> bad_edges_;
+  std::vector<std::uint8_t> is_double_;  ///< Per triangle: front or back of a double sheet.
   std::optional<FreePlaces> places_;
 };
 
