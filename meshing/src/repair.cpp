@@ -32,6 +32,9 @@ using namespace detail;
 /// Wider than any noise of coordinates, narrower than the slots and panel gaps that designers draw.
 constexpr double k_stitched_gap = 2e-4;
 
+/// A measured distance exceeds the true one by a hundredth at most.
+constexpr double k_measured_within = 1.01;
+
 /// Beyond, distances overflow the trees they are measured with [mm].
 constexpr double k_farthest_measured = 1e15;
 
@@ -257,8 +260,8 @@ class SoupRepair {
     result.sampled = change.sampled;
     result.lost_mm = change.lost_mm;
     result.added_mm = change.added_mm;
-    if (change.lost_mm <= scale_.tolerance_mm && change.added_mm <= std::max(scale_.tolerance_mm, scale_.fill_holes_mm))
-      return;
+    const double allowed = k_measured_within * scale_.tolerance_mm;
+    if (change.lost_mm <= allowed && change.added_mm <= std::max(allowed, scale_.fill_holes_mm)) return;
     RepairResult refused;
     refused.mesh = piece(triangles);
     refused.refused_triangles = triangles.size();
@@ -322,14 +325,15 @@ RepairScale scale_of(const TriangleMesh& mesh, const RepairOptions& options) {
   const WeldOptions weld;
   const double weld_mm = options.weld_mm.value_or(weld.relative_tolerance * reference);
   const double gap_mm = k_stitched_gap * bounds.diagonal(), stitch_mm = options.stitch_mm.value_or(gap_mm);
-  return {.reference_mm = reference,
-          .weld = {weld_mm, weld.feature_fraction, k_degenerate_altitude * reference},
-          .stitch_mm = stitch_mm,
-          .fill_holes_mm = options.fill_holes_mm,
-          .tolerance_mm = options.tolerance_mm.value_or(std::max(
-              {weld_mm, stitch_mm, gap_mm, k_most_parting_steps * ManifoldOptions{}.relative_gap * reference})),
-          .max_passes = options.max_passes,
-          .sample_above = options.sample_above};
+  return {
+      .reference_mm = reference,
+      .weld = {weld_mm, weld.feature_fraction, k_degenerate_altitude * reference},
+      .stitch_mm = stitch_mm,
+      .fill_holes_mm = options.fill_holes_mm,
+      .tolerance_mm = options.tolerance_mm.value_or(weld_mm + std::max(stitch_mm, gap_mm) +
+                                                    k_most_parting_steps * ManifoldOptions{}.relative_gap * reference),
+      .max_passes = options.max_passes,
+      .sample_above = options.sample_above};
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ struct RepairOptions {
   std::optional<double> weld_mm = {};    ///< Weld tolerance; not given: 1e-6 of that length.
   std::optional<double> stitch_mm = {};  ///< Widest gap between faces that is closed; not given: 2e-4 of the diagonal;
                                          ///< 0: gaps stay.
-  std::optional<double> tolerance_mm = {};  ///< The furthest that the surface may move; not given: the wider of both,
-                                            ///< 2e-4 of the diagonal, and what parting sheets takes.
+  std::optional<double> tolerance_mm = {};  ///< The furthest that the surface may move; not given: 2e-4 of the diagonal
+                                            ///< (or `stitch_mm`), and what welding and parting sheets may take.
   double fill_holes_mm = 0;                 ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
   std::size_t max_passes = 8;               ///< At least 1.
   std::size_t sample_above = 100'000;       ///< Pieces of more triangles are measured by samples.
