@@ -58,10 +58,9 @@ void add_repair(CLI::App& program) {
                    "Widest gap between faces to close; default: 2e-4 of each part's diagonal, 0: none")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
-  verb->add_option(
-          "--tolerance", options->repair.repair.tolerance_mm,
-          "Pieces whose surface would move further stay as they are; default: 2e-4 of each part's diagonal, or "
-          "more where --weld or --stitch are")
+  verb->add_option("--tolerance", options->repair.repair.tolerance_mm,
+                   "Pieces whose surface would move further stay as they are; default: 2.5e-4 of each part's diagonal, "
+                   "more with a wider --weld or --stitch")
       ->type_name("MM")
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--fill-holes", options->repair.repair.fill_holes_mm,
