@@ -59,6 +59,22 @@ CornerAttribute<Vec2> scaled(CornerAttribute<Vec2> uv, double factor) {
   return uv;
 }
 
+/// What single precision adds to a number.
+double rounding(double x) { return static_cast<double>(static_cast<float>(x)) - x; }
+
+/// Moves what is measured, uv in millimetres, by what a GLB's rounding does to what is written: positions in metres,
+/// repeats of the grain with v downwards.
+void round_as_written(TriangleMesh& measured, const CornerAttribute<Vec2>& repeats, const double (&size_mm)[2]) {
+  for (Vec3& p : measured.positions)
+    p = p + (1 / k_metres_per_mm) *
+                Vec3{rounding(k_metres_per_mm * p.x), rounding(k_metres_per_mm * p.y), rounding(k_metres_per_mm * p.z)};
+  for (std::size_t i = 0; i < repeats.values.size(); ++i) {
+    const Vec2 repeat = repeats.values[i];
+    measured.uv.values[i] =
+        measured.uv.values[i] + Vec2{size_mm[0] * rounding(repeat.x), -size_mm[1] * rounding(1 - repeat.y)};
+  }
+}
+
 /// How many charts each method got.
 std::string charts_by_method(const std::vector<ChartChoice>& choices) {
   std::map<std::string, std::size_t> count;
@@ -93,6 +109,7 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   work.mesh.uv = repeats_of(part.flattening, grain.size_mm);
   work.report.mesh = work.mesh;
   work.report.mesh.uv = std::move(part.flattening.uv);
+  round_as_written(work.report.mesh, work.mesh.uv, grain.size_mm);
 }
 
 /// The seams of uv that stay, in millimetres: their mesh need not be welded, nor have uv everywhere.
