@@ -251,7 +251,7 @@ Json repair_numbers_json(const RepairResult& result) {
 Json repair_json(const RepairSceneResult& result, const WrittenRepair& written, const RepairSceneOptions& options) {
   Json unsettled = Json::array();
   for (std::size_t i = 0; i < result.parts.size(); ++i)
-    if (!result.parts[i].settled) unsettled.push_back(result.scene.parts[i].name);
+    if (!result.parts[i].settled) unsettled.push_back(shown_name(result.scene.parts[i]));
   Json json{{"before", counters_json(result.before)},
             {"after", counters_json(written.after)},
             {"max_deviation_mm", written.max_deviation_mm(result.total)},
