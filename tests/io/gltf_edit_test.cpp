@@ -385,6 +385,7 @@ class GltfFilesTest : public GltfEditTest {
     scene_ = read_gltf(folder_ / "a/in.gltf", {}, &origin_);
     relief_ = tagged(0, 0, "grain", 700);
     relief_.uv = torn_uv(1);
+    for (const char c : std::string(k_png)) map_.bytes.push_back(static_cast<std::byte>(c));
     relief_.normal_map = &map_;
   }
 
@@ -396,7 +397,7 @@ class GltfFilesTest : public GltfEditTest {
   }
 
   static constexpr const char* k_png = "\x89PNG\r\n\x1a\n any";
-  const EncodedImage map_{"grain normal", "image/png", "", std::vector<std::byte>(16), ""};
+  EncodedImage map_{"grain normal", "image/png", "", {}, ""};
   GltfSurfaceEdit relief_;
 };
 
@@ -404,7 +405,7 @@ TEST_F(GltfFilesTest, AreCopiedAndNewDataGetFilesOfTheirOwn) {
   edit_to("b/out.gltf");
   EXPECT_EQ(test::content_of(folder_ / "b/shape.bin"), test::content_of(folder_ / "a/shape.bin"));
   EXPECT_EQ(test::content_of(folder_ / "b/maps/my map.png"), k_png);
-  EXPECT_EQ(test::content_of(folder_ / "b/out-grain_normal.png"), std::string(16, '\0'));
+  EXPECT_EQ(test::content_of(folder_ / "b/out-grain_normal.png"), k_png);
   const auto json = test::RawGltf(folder_ / "b/out.gltf").json;
   EXPECT_EQ(json["buffers"][0]["uri"], "shape.bin");
   EXPECT_EQ(json["buffers"][1]["uri"], "out.bin");
