@@ -16,6 +16,7 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/picture_memory.hpp"
+#include "progress_printer.hpp"
 #include "standard_output.hpp"
 
 namespace papilla::app {
@@ -30,6 +31,7 @@ struct CommonOptions {
   int threads = 0;
   std::uint64_t seed = 1;
   std::uint64_t max_memory = 0;
+  std::optional<double> time_limit_s;
 };
 
 /// The values of the options that name files to read, separated by commas.
@@ -43,70 +45,33 @@ std::string inputs_of(const CLI::App& verb) {
   return names;
 }
 
-/// Prints "stage 42 % 3 s left" on one line of the terminal, or one JSON object a line.
-class ProgressPrinter {
- public:
-  explicit ProgressPrinter(bool as_json) : as_json_(as_json) {}
-  ~ProgressPrinter() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
-  }
-  ProgressPrinter(const ProgressPrinter&) = delete;
-  ProgressPrinter& operator=(const ProgressPrinter&) = delete;
-
-  void operator()(std::string_view stage, double fraction) {
-    if (stage != stage_) {
-      stage_ = stage;
-      stage_clock_ = Stopwatch();
-      last_ = -1;
-    }
-    const double now = total_.seconds();
-    if (as_json_) {
-      if (now - last_ < 0.1 && fraction < 1) return;
-      const Json line{{"stage", stage}, {"fraction", fraction}, {"seconds", now}};
-      fmt::print(stderr, "{}\n", shown(line.dump(-1, ' ', false, Json::error_handler_t::replace)));
-      last_ = now;
-      return;
-    }
-    if (now < 1 || now - last_ < 0.1) return;
-    last_ = now;
-    const double spent = stage_clock_.seconds();
-    std::string line = fmt::format("{} {:3.0f} %", shown(stage), 100 * fraction);
-    if (fraction > 0.01 && fraction < 1)
-      line += fmt::format("  {:.2g} %/s  {:.0f} s left", 100 * fraction / std::max(spent, 1e-3),
-                          spent * (1 - fraction) / fraction);
-    fmt::print(stderr, "\r\033[K{}", line);
-    std::fflush(stderr);
-    drawn_ = true;
-  }
-
- private:
-  bool as_json_, drawn_ = false;
-  std::string stage_;
-  Stopwatch total_, stage_clock_;
-  double last_ = -1;
-};
-
-void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbBody& body) {
+void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDeadline at_deadline,
+              const VerbBody& body) {
   const bool json_on_stdout = common.json == "-";
   std::optional<oneapi::tbb::global_control> limit;
   if (common.threads > 0)
     limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
 
-  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, common.seed, 0};
+  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, {}, common.seed, 0};
+  if (common.time_limit_s) context.deadline = Deadline(*common.time_limit_s);
   const bool wants_json = common.progress == "json";
   std::shared_ptr<ProgressPrinter> printer;
   if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))
-    printer = std::make_shared<ProgressPrinter>(wants_json);
+    printer = std::make_shared<ProgressPrinter>(wants_json ? ProgressPrinter::Form::json : ProgressPrinter::Form::line);
   std::string stage = "reading";
-  context.progress = [printer, &stage](const Progress& done) {
+  const bool cancels = at_deadline == VerbInfo::AtDeadline::is_cancelled;
+  context.progress = [printer, &stage, cancels, deadline = context.deadline](const Progress& done) {
     if (stage != done.stage) stage = done.stage;
-    if (printer) (*printer)(done.stage, done.fraction);
-    return true;
+    if (printer) printer->report(done.stage, done.fraction);
+    return !cancels || !deadline.passed();
   };
   set_picture_memory(common.max_memory);
   Json result;
   try {
     result = body(context);
+  } catch (const Cancelled&) {
+    throw SolverFailure(
+        fmt::format("the time limit of {:g} s is reached, at '{}': no result", *common.time_limit_s, stage));
   } catch (const std::bad_alloc&) {
     const std::string inputs = inputs_of(verb);
     throw InvalidInput((inputs.empty() ? verb.get_name() : inputs) + ": no memory is left, at '" + stage + "'");
@@ -153,9 +118,16 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->transform(one_of({"auto", "json", "none"}))
       ->capture_default_str()
       ->group("Common");
-  verb->callback([verb, common, body = std::move(body)] {
+  verb->add_option("--time-limit", common->time_limit_s,
+                   info.at_deadline == VerbInfo::AtDeadline::ends
+                       ? "End after so long, with the best valid result so far"
+                       : "End after so long, with exit code 4 and no result when it is not done")
+      ->check(not_negative())
+      ->type_name("S")
+      ->group("Common");
+  verb->callback([verb, common, at_deadline = info.at_deadline, body = std::move(body)] {
     declare_files(*verb);
-    run_verb(*verb, *common, body);
+    run_verb(*verb, *common, at_deadline, body);
   });
   return verb;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "json/json.hpp"
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
 
 namespace papilla::app {
@@ -27,6 +28,7 @@ struct VerbContext {
   Console console;
   ProgressCallback progress;  ///< Draws on stderr when that is a terminal and the work takes over a second.
   int threads = 0;            ///< 0: all cores.
+  Deadline deadline;          ///< --time-limit.
   std::uint64_t seed = 1;
   int exit_code = 0;  ///< Set by a verb that ends normally but not with 0.
 };
@@ -35,6 +37,8 @@ struct VerbInfo {
   std::string name;
   std::string summary;  ///< One sentence.
   std::string example;  ///< A command line that works as printed.
+  /// What a time limit does: the verb ends with the best valid result so far, or it is cancelled and has none.
+  enum class AtDeadline { ends, is_cancelled } at_deadline = AtDeadline::is_cancelled;
 };
 
 /// The body of a verb: does the work, prints for people, returns the machine-readable result.

@@ -22,8 +22,6 @@ void param_detail::check_best_options(const BestOptions& options, std::string_vi
     refuse("tolerance is " + std::to_string(options.tolerance) + ", it must lie between 0 and 1");
   if (options.max_iterations < 0)
     refuse("max_iterations is " + std::to_string(options.max_iterations) + ", it must not be negative");
-  if (!(options.time_limit_s >= 0))
-    refuse("time_limit_s is " + std::to_string(options.time_limit_s) + ", it must not be negative");
   if (!(options.energy_limit >= 4))
     refuse("energy_limit is " + std::to_string(options.energy_limit) + ", it must be at least 4");
 }
@@ -32,7 +30,7 @@ MultilevelOptions param_detail::multilevel_options(const BestOptions& options) {
   MultilevelOptions result;
   result.max_iterations = options.max_iterations;
   result.tolerance = options.tolerance;
-  result.time_limit_s = options.time_limit_s;
+  result.deadline = options.deadline;
   result.energy_limit = options.energy_limit;
   return result;
 }

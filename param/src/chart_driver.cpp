@@ -36,9 +36,15 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
     result.failure = "it has no area";
     return result;
   }
+  if (options.fall_back && options.deadline.passed()) {
+    result.failure = "no time is left";
+    result.stop = StopReason::time_limit;
+    return result;
+  }
   ChartMap map = method(chart);
   result.choice = std::move(map.choice);
   result.failure = map.failure;
+  if (!result.failure.empty() && options.deadline.passed()) result.stop = StopReason::time_limit;
   if (!result.failure.empty()) return result;
   if (!map.keep_place) normalise(chart, options.up, options.scale_to_area, map.uv);
   if (!options.allow_flips) result.failure = map_failure(chart, map.uv);
@@ -51,7 +57,7 @@ MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, cons
 
 /// A map of low distortion, for a chart that the method has no valid one for.
 bool unfold_instead(const ChartSurface& chart, const DriverOptions& options, MappedChart& result) {
-  if (result.wrong_topology || !(result.area > 0)) return false;
+  if (result.wrong_topology || !(result.area > 0) || options.deadline.passed()) return false;
   MultilevelMap map = map_multilevel(to_unit(chart).surface, {});
   if (!map.failure.empty()) return false;
   normalise(chart, options.up, true, map.uv);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "disk_chart.hpp"
+#include "papilla/core/deadline.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -40,6 +41,7 @@ struct DriverOptions {
   /// What trace errors are divided by: the charts' area, or 1.
   bool error_per_area = true;
   TriplanarOptions projection;
+  Deadline deadline;                             ///< Charts not begun by then are projected when fall_back.
   std::vector<MethodChoice>* choices = nullptr;  ///< Filled per chart when given; its size is that of the chart set.
 };
 
@@ -51,6 +53,7 @@ DriverOptions driver_options(std::string_view function, const Options& options) 
   driver.up = options.up;
   driver.fall_back = options.fall_back;
   driver.projection = options.projection;
+  if constexpr (requires { options.deadline; }) driver.deadline = options.deadline;
   return driver;
 }
 

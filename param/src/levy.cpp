@@ -58,7 +58,6 @@ void check(const LevyOptions& options, std::size_t vertices) {
   weight(options.smoothness, "smoothness");
   weight(options.orthogonality, "orthogonality");
   weight(options.length, "length");
-  weight(options.time_limit_s, "time_limit_s");
   if (options.smoothness + options.orthogonality + options.length == 0) refuse("all three weights are 0");
   if (!(options.tolerance > 0 && options.tolerance < 1))
     refuse("tolerance is " + std::to_string(options.tolerance) + ", it must lie between 0 and 1");
@@ -274,7 +273,7 @@ class LevyMap {
     trace.push_back({clock_.seconds(), rounds.length_error()});
     StopReason stop = StopReason::iteration_limit;
     for (int round = 0; round < options_.length_rounds && stop == StopReason::iteration_limit; ++round) {
-      if (options_.time_limit_s > 0 && clock_.seconds() > options_.time_limit_s)
+      if (options_.deadline.passed())
         stop = StopReason::time_limit;
       else if (!rounds.advance())
         stop = StopReason::converged;
@@ -355,7 +354,7 @@ class LevyMap {
     double before = total();
     trace.push_back({clock_.seconds(), before});
     for (int round = 0; round < options_.max_rounds; ++round) {
-      if (options_.time_limit_s > 0 && clock_.seconds() > options_.time_limit_s) return StopReason::time_limit;
+      if (options_.deadline.passed()) return StopReason::time_limit;
       const bool u_done = advance(for_u, v.value, u), v_done = advance(for_v, u.value, v);
       take(u, v);
       const double after = total();

@@ -34,8 +34,6 @@ void check(const MaillotOptions& options) {
     refuse("max_iterations is " + std::to_string(options.max_iterations) + ", it must not be negative");
   if (!(options.distortion_limit == 0 || options.distortion_limit >= 1))
     refuse("distortion_limit is " + std::to_string(options.distortion_limit) + ", it must be 0 or at least 1");
-  if (!(options.time_limit_s >= 0))
-    refuse("time_limit_s is " + std::to_string(options.time_limit_s) + ", it must not be negative");
 }
 
 struct StartMap {
@@ -91,7 +89,7 @@ ChartMap map_chart(const ChartSurface& chart, const MaillotOptions& options) {
   descent.max_iterations = options.max_iterations;
   descent.tolerance = options.tolerance;
   descent.negligible = k_exact * area_of(unit.surface);
-  descent.time_limit_s = options.time_limit_s;
+  descent.deadline = options.deadline;
   descent.allow_flips = options.allow_flips;
   descent.reuse_factor = true;
   DescentProblem problem{unit.surface.triangles, &energy};

@@ -398,7 +398,7 @@ DescentResult iterate(const DescentProblem& problem, std::vector<Vec2>& uv, cons
       result.stop = StopReason::converged;
       break;
     }
-    if (options.time_limit_s > 0 && clock.seconds() > options.time_limit_s) {
+    if (options.deadline.passed()) {
       result.stop = StopReason::time_limit;
       break;
     }

@@ -7,16 +7,17 @@
 
 #include "border_guard.hpp"
 #include "map_energy.hpp"
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/trace.hpp"
 
 namespace papilla::param_detail {
 
 struct DescentOptions {
   int max_iterations = 100;
-  int least_iterations = 0;   ///< For convergence: near a saddle, the first gains are small.
-  double tolerance = 1e-6;    ///< Stop when the energy falls by less than this fraction in an iteration.
-  double negligible = 0;      ///< Stop also when the energy is below this.
-  double time_limit_s = 0;    ///< 0: none.
+  int least_iterations = 0;  ///< For convergence: near a saddle, the first gains are small.
+  double tolerance = 1e-6;   ///< Stop when the energy falls by less than this fraction in an iteration.
+  double negligible = 0;     ///< Stop also when the energy is below this.
+  Deadline deadline;
   bool allow_flips = false;   ///< Let triangles turn over; the energy must then be finite for such.
   bool reuse_factor = false;  ///< Factor again only when a step disappoints: for energies that are nearly quadratic.
   /// Far from the minimum, make the steps of Newton's method for the logarithm of the energy. These go the same way,

@@ -50,14 +50,13 @@ constexpr double k_deep_tolerance = 1.5e-3;
 /// A tube begins as round as it is, which may be a saddle.
 constexpr int k_tube_iterations = 3;
 
+constexpr const char* k_no_time = "no time is left";
+
 constexpr int k_relax_sweeps = 10;
 constexpr int k_guarded_sweeps = 5;  // dearer, and Newton's steps do as well
 
 /// Where the border stops all vertices at once, they go on one by one: so many times per level.
 constexpr int k_most_unblocked = 4;
-
-/// What a time limit that is used up still leaves: one look at the clock.
-constexpr double k_least_seconds = 1e-9;
 
 /// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
 /// factorization takes 2 kB per vertex.
@@ -193,7 +192,7 @@ class Multilevel {
     while (!run_from_current()) {
       // A finer start has more room.
       while (hierarchy_.removed_count() < base_removed_) hierarchy_.remove_again();
-      if (base_removed_ == 0) return false;
+      if (base_removed_ == 0 || options_.deadline.passed()) return false;
       const std::size_t enough = k_growth * hierarchy_.vertex_count();
       while (hierarchy_.removed_count() > 0 && hierarchy_.vertex_count() < enough) hierarchy_.restore();
       base_removed_ = hierarchy_.removed_count();
@@ -298,6 +297,7 @@ class Multilevel {
     if (!start_on_circle(level)) return fail("Tutte's map of the coarsened chart is not valid");
     std::vector<MapLevel> left_alone{level};  // levels before the border was watched
     for (bool first = true;; first = false) {
+      if (options_.deadline.passed() && hierarchy_.removed_count() > 0) return fail(k_no_time);
       minimise(level);
       if (first && is_deep() && !start_as_tube(level)) start_finer(level, left_alone.front());
       std::string why = "the chart overlaps itself";
@@ -373,7 +373,6 @@ class Multilevel {
     add_trace_sample(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
     const SymmetricDirichlet dirichlet(level.rest);
-    const double start = clock_.seconds();
     DescentOptions descent;
     descent.max_iterations = last ? options_.max_iterations : k_coarse_iterations;
     descent.tolerance = last ? options_.tolerance : k_coarse_tolerance;
@@ -384,8 +383,7 @@ class Multilevel {
     for (int i = 0; i <= k_most_unblocked; ++i) {
       if (i > 0) relax(level, sweeps, k_relax_tolerance, guarded_);
       descent.leave_when_blocked = i < k_most_unblocked;
-      if (options_.time_limit_s > 0)
-        descent.time_limit_s = std::max(options_.time_limit_s - (clock_.seconds() - start), k_least_seconds);
+      descent.deadline = options_.deadline;
       const double begin = clock_.seconds();
       const BorderBarrier barrier = make_barrier(level);
       const DescentResult result =

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chart_pieces.hpp"
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/param/best.hpp"
 
@@ -15,7 +16,7 @@ namespace papilla::param_detail {
 struct MultilevelOptions {
   int max_iterations = 50;
   double tolerance = 1e-3;
-  double time_limit_s = 0;
+  Deadline deadline;                                              ///< A chart without a map by then is a failure.
   bool only_when_rough = false;                                   ///< No iterations on a map that is smooth already.
   double energy_limit = std::numeric_limits<double>::infinity();  ///< A map with a larger mean energy is a failure.
 };

@@ -101,9 +101,10 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   work.charts = part.segment_seconds;
   work.unwrap = part.solve_seconds;
   work.report.method = part.method;
-  work.report.reason = wanted != "auto"      ? "as the material says"
-                       : part.reason.empty() ? charts_by_method(part.choices)
-                                             : part.reason;
+  work.report.reason = !part.reason.empty() ? part.reason
+                       : wanted != "auto"   ? "as the material says"
+                                            : charts_by_method(part.choices);
+  work.report.stop = part.flattening.stop;
   work.report.charts = part.flattening.charts.count;
   work.report.seam_mm = part.flattening.charts.seam_length_mm;
   work.report.grain_continued_mm = part.grain_continued_mm;
@@ -469,11 +470,13 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
     work.mesh = own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own);
   }
   if (options.plan.in_place && !options.plan.keep_copies) find_equal(works);
+  UnwrapOptions in_time = options.unwrap;
+  in_time.method.deadline = options.unwrap.method.deadline.earlier_by(k_seconds_to_finish * triangles);
   SharedProgress done(progress, "surfaces", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
     Work& work = works[i];
     try {
-      if (work.equal_to == nullptr) process(work, context, options.unwrap, result.grains);
+      if (work.equal_to == nullptr) process(work, context, in_time, result.grains);
     } catch (const SolverFailure& error) {
       throw SolverFailure("part '" + work.surface->label + "': " + error.what());
     } catch (const InvalidInput& error) {

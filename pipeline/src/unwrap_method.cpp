@@ -38,7 +38,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
   if (o.tolerance)
     o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
-  if (o.time_limit_s) o.maillot.time_limit_s = o.best.time_limit_s = o.levy.time_limit_s = *o.time_limit_s;
+  o.maillot.deadline = o.best.deadline = o.levy.deadline = o.deadline;
   for (const PlacedPin& pin : o.pins)
     if (is_for_part(pin.part, context.part)) o.levy.pins.push_back(pin_on(mesh, pin));
   for (const PlacedIsoLine& line : o.iso_lines)
@@ -88,7 +88,7 @@ Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, const MethodO
   constexpr int k_max_halvings = 6;
   for (int i = 0;; ++i) {
     Flattening flattening = map_charts(cut_open(mesh, charts), charts, options, choices);
-    if (flattening.notes.empty() || i == k_max_halvings) {
+    if (flattening.notes.empty() || i == k_max_halvings || options.deadline.passed()) {
       keep_cuts(mesh, charts.cuts, flattening.charts);
       return flattening;
     }
@@ -117,7 +117,9 @@ std::string reason_for_triplanar(double extent_mm, const PartContext& context) {
 Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
                          FlattenedPart& part) {
   const Stopwatch clock;
-  const ChartSet charts = segment_charts(mesh, segmentation_of(o, context)).charts;
+  SegmentationOptions segmentation = segmentation_of(o, context);
+  segmentation.progress = [deadline = o.deadline](const Progress&) { return !deadline.passed(); };
+  const ChartSet charts = segment_charts(mesh, segmentation).charts;
   part.segment_seconds += clock.seconds();
   part.choices.clear();
   return map_or_halve(mesh, charts, o, part.choices);
@@ -198,6 +200,19 @@ bool takes_charts(UnwrapMethod method) {
   }
 }
 
+namespace {
+
+/// Planar projections, which take next to no time.
+void project_for_want_of_time(const TriangleMesh& mesh, MethodOptions& o, FlattenedPart& part) {
+  o.method = UnwrapMethod::triplanar;
+  part.reason = "the time limit left no time for another";
+  part.choices.clear();
+  part.flattening = flatten_triplanar(mesh, o.triplanar).flattening;
+  part.flattening.stop = StopReason::time_limit;
+}
+
+}  // namespace
+
 FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options) {
   MethodOptions o = prepare(mesh, options, context);
   FlattenedPart part;
@@ -205,8 +220,17 @@ FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context,
     part.reason = reason_for_triplanar(bounds_of(mesh).diagonal(), context);
     if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;
   }
+  const bool may_project = takes_charts(o.method) && o.charts == ChartSource::automatic;
+  if (may_project && o.deadline.passed()) {
+    project_for_want_of_time(mesh, o, part);
+  } else {
+    try {
+      part.flattening = flatten(mesh, o, context, part);
+    } catch (const Cancelled&) {  // Only a segmentation whose time is up ends so.
+      project_for_want_of_time(mesh, o, part);
+    }
+  }
   part.method = unwrap_method_name(o.method);
-  part.flattening = flatten(mesh, o, context, part);
   if (o.grain != GrainSource::up && o.method != UnwrapMethod::environment)
     part.flattening.uv = turn_to_grain(mesh, part.flattening, o.grain_direction);
   return part;

@@ -173,6 +173,8 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
   std::vector<double> start(parts.size(), 0);
   double triangles = 0;
   for (const Part& part : parts) triangles += static_cast<double>(part.mesh.triangles.size());
+  UnwrapOptions in_time = options;
+  in_time.method.deadline = options.method.deadline.earlier_by(k_seconds_to_finish * triangles);
   SharedProgress done(progress, "unwrap", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
     const std::string place = "part '" + shown_name(parts[p]) + "': ";
@@ -181,7 +183,7 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
     try {
       PartContext context = shared_context;
       context.part = shown_name(parts[p]);
-      result.parts[p] = unwrap_part(parts[p].mesh, context, options);
+      result.parts[p] = unwrap_part(parts[p].mesh, context, in_time);
     } catch (const SolverFailure& error) {
       result.parts[p].failure = place + error.what();
       failures[p] = std::make_exception_ptr(SolverFailure(result.parts[p].failure));

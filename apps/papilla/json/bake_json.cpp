@@ -131,6 +131,7 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
                              {"material", surface.material},
                              {"unwrap", surface.method},
                              {"reason", surface.reason},
+                             {"stop", to_string(surface.stop)},
                              {"same_as", surface.same_as.empty() ? Json(nullptr) : Json(surface.same_as)},
                              {"charts", surface.charts},
                              {"seam_mm", surface.seam_mm},

@@ -108,9 +108,6 @@ void add_method_options(CLI::App& verb, UnwrapOption& options) {
       ->check(not_negative());
   verb.add_option("--tolerance", m.tolerance, "Of the same: stop when the error falls by less than this fraction")
       ->check(in_range(1e-15, 0.999));
-  verb.add_option("--time-limit", m.time_limit_s, "Of best, maillot, levy: stop iterating a chart after so long")
-      ->check(not_negative())
-      ->type_name("S");
   verb.add_option("--phi", m.maillot.length_weight, "Of maillot: weight of lengths against areas")
       ->check(in_range(0.0, 1.0))
       ->capture_default_str();

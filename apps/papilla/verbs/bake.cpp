@@ -69,6 +69,7 @@ Json run(const Options& options, VerbContext& context) {
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options(options.output);
   wanted.read = options.scene.read_options();
+  wanted.bake.unwrap.method.deadline = context.deadline;
   wanted.write = options.write_options();
   wanted.for_pictures = options.pictures;
   if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
@@ -105,7 +106,8 @@ void add_bake(CLI::App& program) {
   CLI::App* verb = add_verb(
       program,
       {"bake", "The main job: grain and touch onto a scene, as glTF; a glTF scene keeps all else that it holds.",
-       "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report"},
+       "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report",
+       VerbInfo::AtDeadline::ends},
       [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))

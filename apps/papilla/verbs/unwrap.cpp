@@ -40,6 +40,7 @@ Json run(const Options& options, VerbContext& context) {
     throw UsageError("-o " + options.output + ": " + extension.string() + " has no place for texture coordinates");
   UnwrapOptions unwrap = options.unwrap.options();
   unwrap.sides = options.sides.options(options.output);
+  unwrap.method.deadline = context.deadline;
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
@@ -65,7 +66,7 @@ void add_unwrap(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"unwrap", "Make charts and texture coordinates in millimetres.",
-                             "papilla unwrap part.stl -o part.glb --picture part.png"},
+                             "papilla unwrap part.stl -o part.glb --picture part.png", VerbInfo::AtDeadline::ends},
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("IN", options->input, "Mesh, CAD or glTF file"))->type_name("IN")->required();
   writes(verb->add_option("-o,--output", options->output, "File with texture coordinates: .glb, .obj"))

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -15,7 +16,7 @@ struct BestOptions {
   /// steps have less than it still to gain, by how the last one's gain and the slopes go down; in (0, 1).
   double tolerance = 1e-3;
   int max_iterations = 50;  ///< Newton iterations on the whole chart; at least 0.
-  double time_limit_s = 0;  ///< Per chart, for the iterations on the whole chart; 0: none.
+  Deadline deadline;        ///< Charts that have no map by then are projected, the others are left as they are.
   /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.
   double energy_limit = std::numeric_limits<double>::infinity();
   bool fall_back = true;        ///< Project charts that are no disk, with a note; false: throw.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -59,8 +60,8 @@ struct LevyOptions {
   /// Rounds that ask for lengths anew, along the directions just found, where `length` counts and the border is free,
   /// the coupling conformal, the solver direct; at least 0: evenness of lengths is all.
   int length_rounds = 1;
-  int max_sweeps = 1000;    ///< Of gauss_seidel, per round; at least 1.
-  double time_limit_s = 0;  ///< Per chart; 0: none.
+  int max_sweeps = 1000;  ///< Of gauss_seidel, per round; at least 1.
+  Deadline deadline;      ///< As BestOptions has it.
   /// With pins the chart keeps the place and scale that they give. Pins on a free border must differ in u and in v.
   std::vector<LevyPin> pins;
   std::vector<LevyIsoLine> iso_lines;

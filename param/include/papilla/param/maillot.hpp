@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -27,7 +28,7 @@ struct MaillotOptions {
   double tolerance = 1e-3;   ///< Stop when E falls by less than this fraction in an iteration, or below 1e-12 of the
                              ///< area; in (0, 1).
   int max_iterations = 500;  ///< At least 0.
-  double time_limit_s = 0;   ///< Per chart; 0: none.
+  Deadline deadline;         ///< As BestOptions has it.
   /// E has no wall against triangles that collapse. The descent ends where it would raise the mean symmetric Dirichlet
   /// energy (of the map scaled to equal area) above this multiple of the start's; at least 1, or 0: no limit.
   double distortion_limit = 1.004;

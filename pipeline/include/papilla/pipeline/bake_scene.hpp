@@ -27,8 +27,9 @@ struct BakeOptions {
 struct BakedSurface {
   std::uint32_t part = 0, slot = 0;  ///< As in PartSurface.
   std::string label, material;
-  std::string same_as;         ///< In place: the label of the equal surface whose new uv these are; or empty.
-  std::string method, reason;  ///< Of the unwrap; "kept" when its own uv stays.
+  std::string same_as;                   ///< In place: the label of the equal surface whose new uv these are; or empty.
+  std::string method, reason;            ///< Of the unwrap; "kept" when its own uv stays.
+  StopReason stop = StopReason::direct;  ///< Of the unwrap.
   std::uint32_t charts = 0;
   double seam_mm = 0;
   double grain_continued_mm = 0;  ///< Of the seam: where the grain goes on; 0 when its own uv stays.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/meshing/segmentation.hpp"
 #include "papilla/param/automatic.hpp"
 #include "papilla/param/best.hpp"
@@ -111,7 +112,9 @@ struct MethodOptions {
   std::vector<PlacedIsoLine> iso_lines;  ///< Of levy.
   /// Of the methods that iterate; not given: the method's own.
   std::optional<int> iterations;
-  std::optional<double> tolerance, time_limit_s;
+  std::optional<double> tolerance;
+  /// What iterates ends then, charts and parts without a map are projected instead; charts that have to be kept fail.
+  Deadline deadline;
 };
 
 struct FlattenedPart {

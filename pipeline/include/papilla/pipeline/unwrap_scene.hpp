@@ -43,6 +43,9 @@ struct UnwrapOptions {
 /// UnwrapOptions::grain_mm, or what stands for it when it is not given.
 double grain_size(const UnwrapOptions& options);
 
+/// What has to be done with every triangle when the time for maps is up: projection, packing, measuring, writing.
+inline constexpr double k_seconds_to_finish = 5e-6;
+
 struct UnwrapSeconds {
   double segment = 0, solve = 0, pack = 0, total = 0;
 };
