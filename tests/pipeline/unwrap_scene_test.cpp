@@ -48,6 +48,27 @@ TEST(Unwrap, EveryMethodByNameGivesFiniteUvWithoutMirrors) {
   }
 }
 
+TEST(Unwrap, ProjectsWhatThereIsNoTimeFor) {
+  for (const UnwrapMethod method : {UnwrapMethod::automatic, UnwrapMethod::best, UnwrapMethod::lscm}) {
+    UnwrapOptions options = options_of(method);
+    options.method.deadline = Deadline(0);
+    const UnwrapResult result = unwrap_scene(scene_of(test::cylinder(30, 80, 24, 6)), options);
+    EXPECT_EQ(result.parts[0].method, "triplanar");
+    EXPECT_NE(result.parts[0].reason.find("time limit"), std::string::npos);
+    EXPECT_EQ(result.stop, StopReason::time_limit);
+    const TriangleMesh& mesh = result.scene.parts[0].mesh;
+    const DistortionReport r = measure_distortion(mesh, mesh.uv);
+    EXPECT_EQ(r.without_uv + r.flipped + r.overlapping_triangles, 0u);
+  }
+}
+
+TEST(Unwrap, ChartsThatHaveToBeKeptFailWithoutTime) {
+  UnwrapOptions options = options_of(UnwrapMethod::best);
+  options.method.charts = ChartSource::keep;
+  options.method.deadline = Deadline(0);
+  EXPECT_THROW(unwrap_scene(scene_of(test::cylinder(30, 80, 24, 6)), options), SolverFailure);
+}
+
 TEST(Unwrap, AutomaticProjectsWhatIsSmallerThanTheGrain) {
   UnwrapOptions options = options_of(UnwrapMethod::automatic);
   options.tile_mm = {100, 100};
