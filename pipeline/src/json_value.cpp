@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/near_name.hpp"

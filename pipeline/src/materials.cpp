@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/materials.hpp"
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "json_value.hpp"

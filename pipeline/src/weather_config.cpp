@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "json_value.hpp"
 #include "papilla/pipeline/weather_scene.hpp"

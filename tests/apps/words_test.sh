@@ -41,7 +41,7 @@ says "did you mean 'lscm'?" 2 "$papilla" unwrap a.stl -o b.glb --method lscn
 says "--chord: 0 is not from 0.000001 to 1000" 2 "$papilla" inspect a.stl --chord 0
 says "--budget: -5 is not above 0" 2 "$papilla" bake a.stl -m b.json -o c.glb --budget -5
 says "--weld: 'x' is no number" 2 "$papilla" repair a.stl -o b.stl --weld x
-says "evaluate" 2 "$papilla" evaluate tesselation -o "$out/evaluation"
+says "kind: 'tesselation' is none of param,weld," 2 "$papilla" evaluate tesselation -o "$out/evaluation"
 says "did you mean 'tessellation'?" 2 "$papilla" evaluate tesselation -o "$out/evaluation"
 says "unknown option '--devise'; did you mean '--device'?" 2 "$player" --devise sim
 says "--motion: 'strok' is none of stroke,circle,slide,tap; did you mean 'stroke'?" 2 "$player" a.glb --motion strok
@@ -50,7 +50,8 @@ says "--motion: 'strok' is none of stroke,circle,slide,tap; did you mean 'stroke
 [[ $? -eq 3 ]] || fail "a missing file is no input error"
 grep -q '"error": ".*missing.stl' "$out/error.json" || fail "inspect --json -: $(cat "$out/error.json")"
 grep -q '"exit_code": 3' "$out/error.json" || fail "inspect --json -: no exit code"
-"$player" "$out/missing.glb" --json - 2>/dev/null | grep -q '"error"' || fail "player --json -: no error"
+"$player" "$out/missing.glb" --json - >"$out/error.json" 2>/dev/null
+grep -q '"error"' "$out/error.json" || fail "player --json -: no error"
 
 # A picture of grain that is not there, of which material?
 cat >"$out/materials.json" <<'JSON'

@@ -122,7 +122,7 @@ check_private_headers() {
 check_pipeline() {
   breach_each "pipeline must not include %s" < <(cpp_sources pipeline | includes | grep -E ' <(CLI/|iostream>|boost/(asio|beast))')
   breach_each "a header of pipeline must not include %s" < <(cpp_sources pipeline | grep -E '/src/.*\.hpp$' | includes |
-    grep ' <nlohmann/')
+    grep ' <nlohmann/json.hpp')
 }
 
 # Everything is written by write_atomically(), printed by print_out(), and what is printed has no names that steer a

@@ -109,7 +109,10 @@ class Player : public ::testing::Test {
   void expect_refusal(const Outcome& outcome, int code) const {
     EXPECT_EQ(outcome.code, code) << outcome.error;
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
-    EXPECT_EQ(outcome.out, "");
+    if (outcome.out.empty()) return;  // Without `--json -`.
+    EXPECT_EQ(outcome.json()["exit_code"], code);
+    EXPECT_NE(outcome.error.find(outcome.json()["error"].get<std::string>()), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.json().size(), 2U);
   }
 
   fs::path folder_ = fs::temp_directory_path() / ("papilla-player-test-" + std::to_string(::getpid()));

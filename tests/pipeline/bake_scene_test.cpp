@@ -171,7 +171,7 @@ TEST_F(BakeTest, SlopesAreLimitedByFrictionAndTheMeanHeightStays) {
     for (const float h : relief.mm) sum += static_cast<double>(h);
     return sum / static_cast<double>(relief.mm.size());
   };
-  const BakeResult limited = run(scene_of({square("dash")}));
+  const BakeResult limited = run(scene_of({square("dash"), square("knob")}));
   rule.height.max_slope = 1000;
   const BakeResult steep = run(scene_of({square("dash")}));
   const Grain &grain = limited.grains.at("grain"), &before = steep.grains.at("grain");
@@ -190,7 +190,7 @@ TEST_F(BakeTest, SlopesAreLimitedByFrictionAndTheMeanHeightStays) {
 
 TEST_F(BakeTest, HeightsBeyondWhatATagMayHaveAreShrunkWithAWarning) {
   rules_.materials.at("grain").height.depth_mm = 50;
-  const BakeResult result = run(scene_of({square("dash")}));
+  const BakeResult result = run(scene_of({square("dash"), square("knob")}));
   EXPECT_LE(result.scene.materials.at(0).haptic->height->scale_m, 0.02 * (1 + 1e-6));
   ASSERT_EQ(result.scene.warnings.size(), 1U);
   EXPECT_EQ(result.scene.warnings[0], "material 'grain': height: 100 mm are beyond the limit of 20 mm; shrunk to 20");
