@@ -35,6 +35,9 @@ constexpr double k_stitched_gap = 2e-4;
 /// A measured distance exceeds the true one by a hundredth at most.
 constexpr double k_measured_within = 1.01;
 
+/// Distances below this share of the tolerance need not be told apart.
+constexpr double k_told_apart = 0.02;
+
 /// Beyond, distances overflow the trees they are measured with [mm].
 constexpr double k_farthest_measured = 1e15;
 
@@ -251,12 +254,12 @@ class SoupRepair {
       result.lost_mm = result.added_mm = result.max_deviation_mm;
       return;
     }
-    const SurfaceChange change =
-        surface_change(mesh_, triangles, result.mesh,
-                       {.least_altitude_mm = (k_touching_distance + 2 * k_rounding_distance) * scale_.reference_mm,
-                        .reach_mm = scale_.tolerance_mm,
-                        .floor_mm = k_rounding_distance * scale_.reference_mm,
-                        .sample_above = scale_.sample_above});
+    const SurfaceChange change = surface_change(
+        mesh_, triangles, result.mesh,
+        {.least_altitude_mm = (k_touching_distance + 2 * k_rounding_distance) * scale_.reference_mm,
+         .reach_mm = scale_.tolerance_mm,
+         .floor_mm = std::max(k_told_apart * scale_.tolerance_mm, 4 * k_touching_distance * scale_.reference_mm),
+         .sample_above = scale_.sample_above});
     result.sampled = change.sampled;
     result.lost_mm = change.lost_mm;
     result.added_mm = change.added_mm;

@@ -18,6 +18,7 @@
 namespace papilla::detail {
 namespace {
 
+constexpr std::uint32_t k_pieces = 256;     ///< Of a triangle, beside those that what it is compared with asks for.
 constexpr std::size_t k_samples = 4096;     ///< Triangles that samples are taken from.
 constexpr double k_cells_a_diagonal = 256;  ///< The grid's cells are this fraction of the box's diagonal.
 constexpr double k_most_cells = 64;         ///< Triangles that touch more are taken without a look at each.
@@ -89,6 +90,7 @@ double farthest(const TriangleMesh& mesh, std::span<const Index> from, const Tri
   const TriangleMesh target = shape_of(to, to_triangles);
   DeviationOptions options;
   options.mean_samples = 0;
+  options.pieces_per_triangle = k_pieces;
   options.settled_below_mm = floor_mm;
   return one_sided_deviation(shape_of(mesh, from), TriangleBvh(target.positions, target.triangles), floor_mm, options)
       .bound;

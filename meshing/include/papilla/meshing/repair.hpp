@@ -24,7 +24,7 @@ struct RepairOptions {
   std::optional<double> tolerance_mm = {};  ///< The furthest that the surface may move; not given: 2e-4 of the diagonal
                                             ///< (or `stitch_mm`), and what welding and parting sheets may take.
   double fill_holes_mm = 0;                 ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
-  std::size_t max_passes = 8;               ///< At least 1.
+  std::size_t max_passes = 16;              ///< At least 1.
   std::size_t sample_above = 100'000;       ///< Pieces of more triangles are measured by samples.
   ProgressCallback progress = {};           ///< Told the fraction done; may be empty.
 };
@@ -87,11 +87,11 @@ struct RepairResult {
   double tolerance_mm = 0;      ///< The furthest that the surface may move. Pieces that would move further are refused.
   double max_deviation_mm = 0;  ///< Upper bound: the sum over all operations and passes of the furthest each moved the
                                 ///< surface. What fills a hole is new surface and does not count.
-  double lost_mm = 0;           ///< Measured: no point of the surface that came is farther from the one that is left.
-                                ///< Triangles flatter than 1.2e-6 of the
-                                ///< reference length are no surface.
-  double added_mm = 0;          ///< The other way round: what fills gaps and holes counts.
-  bool sampled = false;         ///< Both are the largest met at samples where pieces are larger than `sample_above`.
+  double lost_mm = 0;   ///< Measured: no point of the surface that came is farther from the one that is left. Triangles
+                        ///< flatter than 1.2e-6 of the reference length are no surface; distances below a fiftieth of
+                        ///< the tolerance are not told apart.
+  double added_mm = 0;  ///< The other way round: what fills gaps and holes counts.
+  bool sampled = false;  ///< Both are the largest met at samples where pieces are larger than `sample_above`.
   std::size_t refused_triangles = 0;  ///< Of pieces that stay as they came, because they would have moved too far.
   double refused_mm = 0;              ///< How far.
   std::set<std::uint32_t> two_sided;  ///< Materials (TriangleMesh::material, 0 without) of sheets whose back was
