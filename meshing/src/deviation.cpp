@@ -106,6 +106,7 @@ class TriangleRefiner {
     pending_.clear();
     pending_.push_back({whole, bound, hint});
     for (std::size_t pieces = 0; !pending_.empty();) {
+      std::pop_heap(pending_.begin(), pending_.end(), bound_less);
       const Pending next = pending_.back();
       pending_.pop_back();
       if (next.bound <= limit())
@@ -161,13 +162,21 @@ class TriangleRefiner {
       settled_bound = std::max(settled_bound, bound);
       return true;
     }
-    return cut_along_prism({whole.piece, bound, found.triangle}) || halve({whole.piece, bound, found.triangle}, centre);
+    const Pending next{whole.piece, bound, found.triangle};
+    return cut_along_prism(next) || cut_off_near(next) || halve(next, centre);
+  }
+
+  static bool bound_less(const Pending& a, const Pending& b) noexcept { return a.bound < b.bound; }
+
+  void pend(const Pending& piece) {
+    pending_.push_back(piece);
+    std::push_heap(pending_.begin(), pending_.end(), bound_less);
   }
 
   void push(const ConvexPiece& piece, double bound, Index hint) {
     constexpr std::size_t k_most_corners = 8;  // three cuts add at most three corners
     if (piece.size() <= k_most_corners) {
-      pending_.push_back({piece, bound, hint});
+      pend({piece, bound, hint});
       return;
     }
     ConvexPiece first, second;
@@ -175,8 +184,8 @@ class TriangleRefiner {
     for (std::size_t i = 0; i <= middle; ++i) first.add(piece[i]);
     for (std::size_t i = middle; i < piece.size(); ++i) second.add(piece[i]);
     second.add(piece[0]);
-    pending_.push_back({first, bound, hint});
-    pending_.push_back({second, bound, hint});
+    pend({first, bound, hint});
+    pend({second, bound, hint});
   }
 
   /// Cuts along the planes through the edges of the closest triangle, upright on it. Inside, the distance to it is
@@ -235,6 +244,38 @@ class TriangleRefiner {
     push(inside, bound, hint);
   }
 
+  /// Cuts off what lies beside the closest triangle within the limit. On both sides of the middle of a gap between two
+  /// triangles each covers its side so, where halves would have to become as short as the gap is wide.
+  bool cut_off_near(const Pending& whole) {
+    constexpr double k_least_share = 0.1;    // of the piece's extent away from the triangle
+    constexpr double k_within_limit = 0.99;  // so that rounding does not leave the near piece above it
+    const TriangleFrame& frame = to_.frame(whole.hint);
+    Vec3 away;
+    double farthest = 0;
+    for (const Vec3& v : whole.piece.corners()) {
+      const Vec3 d = v - closest_on_triangle(v, frame);
+      if (dot(d, d) > farthest) {
+        farthest = dot(d, d);
+        away = d;
+      }
+    }
+    farthest = std::sqrt(farthest);
+    if (!(farthest > limit())) return false;
+    const Vec3 direction = normalized(away);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& v : whole.piece.corners()) {
+      low = std::min(low, dot(v, direction));
+      high = std::max(high, dot(v, direction));
+    }
+    const double level = high - farthest + k_within_limit * limit();
+    if (!(level - low >= k_least_share * (high - low))) return false;
+    const auto halves = whole.piece.cut(level * direction, direction, 0);
+    if (halves.behind.size() == 0 || halves.ahead.size() == 0) return false;
+    push(halves.behind, std::min(whole.bound, distance_bound(halves.behind, whole.hint)), whole.hint);
+    push(halves.ahead, whole.bound, whole.hint);
+    return true;
+  }
+
   bool halve(const Pending& whole, const Vec3& centre) {
     Vec3 longest;
     for (std::size_t i = 0; i < whole.piece.size(); ++i)
@@ -256,7 +297,7 @@ class TriangleRefiner {
   double known_ = 0, local_ = 0;
   Index triangle_ = 0;
   Peak* peak_ = nullptr;
-  std::vector<Pending> pending_;
+  std::vector<Pending> pending_;  ///< A heap: the largest bound first, so that what is left at the limit is small.
 };
 
 /// The distances of one surface to another, step by step.

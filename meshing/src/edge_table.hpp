@@ -42,6 +42,10 @@ inline Index from_vertex(const std::vector<Triangle>& triangles, Index halfedge)
 inline Index to_vertex(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
   return triangles[triangle_of(halfedge)][next_corner(corner_of(halfedge))];
 }
+/// The corner of its triangle that the half-edge does not touch.
+inline Index apex_of(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
+  return from_vertex(triangles, previous_halfedge(halfedge));
+}
 /// True when the half-edge runs from its edge's smaller to its larger vertex.
 inline bool runs_up(const std::vector<Triangle>& triangles, Index halfedge) noexcept {
   return from_vertex(triangles, halfedge) < to_vertex(triangles, halfedge);

@@ -27,12 +27,21 @@ using namespace detail;
 /// Copies move by at most this fraction of the shortest edge around, so that no triangle turns over.
 constexpr double k_largest_move = 0.2;
 
+/// Where the directions into a fan's triangles, of length 1, add up to less, the fan lies all around its vertex.
+constexpr double k_least_inward = 0.1;
+
 /// Copies keep this fraction of the gap from every other vertex: twice the weld's tolerance at the default gap.
 constexpr double k_clearance = 0.6;
 
+/// Of two half-edges of one edge: are their triangles front and back of a double sheet?
+bool are_front_and_back(Index a, Index b, const std::vector<Triangle>& triangles) {
+  return apex_of(triangles, a) == apex_of(triangles, b);
+}
+
 bool is_bad(std::span<const Index> halfedges, const std::vector<Triangle>& triangles) {
   return halfedges.size() > 2 ||
-         (halfedges.size() == 2 && runs_up(triangles, halfedges[0]) == runs_up(triangles, halfedges[1]));
+         (halfedges.size() == 2 && (runs_up(triangles, halfedges[0]) == runs_up(triangles, halfedges[1]) ||
+                                    are_front_and_back(halfedges[0], halfedges[1], triangles)));
 }
 
 /// The half-edges of one edge in the order of their triangles around it, counter-clockwise seen against the edge's
@@ -43,15 +52,15 @@ std::vector<Index> sorted_around(const TriangleMesh& mesh, std::span<const Index
   if (low > high) std::swap(low, high);
   const Vec3 origin = mesh.positions[low], axis = normalized(mesh.positions[high] - origin);
   const auto apex = [&](Index h) {
-    const Vec3 w = mesh.positions[from_vertex(mesh.triangles, previous_halfedge(h))] - origin;
+    const Vec3 w = mesh.positions[apex_of(mesh.triangles, h)] - origin;
     return w - dot(w, axis) * axis;
   };
   const Vec3 x = normalized(apex(h0)), y = cross(axis, x);
   std::vector<std::tuple<double, bool, Index>> sorted;
   for (const Index h : halfedges) {
     const Vec3 w = apex(h);
-    // Downward first at equal angles: an opposite pair that lies in one place encloses nothing.
-    sorted.emplace_back(std::atan2(dot(w, y), dot(w, x)), runs_up(mesh.triangles, h), h);
+    // Upward first at equal angles: a double sheet ends the place before it and starts the one behind it.
+    sorted.emplace_back(std::atan2(dot(w, y), dot(w, x)), !runs_up(mesh.triangles, h), h);
   }
   std::sort(sorted.begin(), sorted.end());
   std::vector<Index> order;
@@ -60,7 +69,8 @@ std::vector<Index> sorted_around(const TriangleMesh& mesh, std::span<const Index
 }
 
 /// Pairs half-edges of one edge like brackets around it: the inner side of a downward one lies at growing angles, that
-/// of an upward one at falling angles, so a downward one and the next upward one after it bound one solid.
+/// of an upward one at falling angles, so a downward one and the next upward one after it bound one solid. Front and
+/// back of a double sheet bound none.
 void pair_around(const TriangleMesh& mesh, std::span<const Index> halfedges, std::vector<Index>& opposite) {
   const std::vector<Index> order = sorted_around(mesh, halfedges);
   std::vector<Index> open;
@@ -69,7 +79,7 @@ void pair_around(const TriangleMesh& mesh, std::span<const Index> halfedges, std
       if (opposite[h] != k_none) continue;
       if (!runs_up(mesh.triangles, h)) {
         if (round == 0) open.push_back(h);
-      } else if (!open.empty()) {
+      } else if (!open.empty() && !are_front_and_back(h, open.back(), mesh.triangles)) {
         opposite[h] = open.back();
         opposite[open.back()] = h;
         open.pop_back();
@@ -82,18 +92,18 @@ class FreePlaces {
  public:
   /// `starts`: where along() will start from, with steps of at most `step`.
   FreePlaces(const std::vector<Vec3>& positions, const std::vector<Vec3>& starts, double step, double clearance)
-      : clearance_(clearance), tree_(positions, near(positions, starts, k_tries * step + clearance)) {}
+      : clearance_(clearance), tree_(positions, near(positions, starts, k_most_parting_steps * step + clearance)) {}
 
-  /// start + m · step for the smallest m from 1 that is clear; m = 16 when none is.
+  /// start + m · step for the smallest m from 1 that is clear; m = k_most_parting_steps when none is.
   Vec3 along(const Vec3& start, const Vec3& step) {
     Vec3 place = start + step;
-    for (int m = 1; m < k_tries && !is_clear(place); ++m) place = place + step;
+    for (int m = 1; m < k_most_parting_steps && !is_clear(place); ++m) place = place + step;
     placed_.emplace(cell_of(place, clearance_, 0), place);
     return place;
   }
 
  private:
-  static constexpr int k_tries = 16, k_neighbours = 27, k_own = 0;
+  static constexpr int k_neighbours = 27, k_own = 0;
   using Cell = std::array<double, 3>;  // whole numbers, whatever their size
 
   /// The cell that p lies in, or one of the 26 around it.
@@ -207,7 +217,12 @@ class FansAround {
 class Splitter {
  public:
   Splitter(TriangleMesh& mesh, const EdgeTable& edges, double gap, ManifoldResult& result)
-      : mesh_(mesh), edges_(edges), gap_(gap), result_(result), opposite_(opposite_halfedges(mesh.triangles, edges)) {}
+      : mesh_(mesh),
+        edges_(edges),
+        gap_(gap),
+        result_(result),
+        opposite_(opposite_halfedges(mesh.triangles, edges)),
+        is_double_(mesh.triangles.size(), 0) {}
 
   void run() {
     find_bad_edges();
@@ -241,9 +256,18 @@ class Splitter {
       const auto h = edges_.halfedges(e);
       if (!is_bad(h, mesh_.triangles)) continue;
       bad_edges_.push_back(e);
+      for (const Index half : h) opposite_[half] = k_none;
+      note_double_sheets(h);
       if (h.size() > 2) pair_around(mesh_, h, opposite_);
     }
     result_.parted_edges = bad_edges_.size();
+  }
+
+  void note_double_sheets(std::span<const Index> halfedges) {
+    for (std::size_t i = 0; i < halfedges.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (are_front_and_back(halfedges[i], halfedges[j], mesh_.triangles))
+          is_double_[triangle_of(halfedges[i])] = is_double_[triangle_of(halfedges[j])] = 1;
   }
 
   /// Gives every fan of a vertex but the first its own copy of the vertex.
@@ -273,15 +297,19 @@ class Splitter {
     const Index copy = static_cast<Index>(mesh_.positions.size());
     mesh_.positions.push_back(Vec3{mesh_.positions[v]});
     ++result_.added_vertices;
-    Vec3 inward{};
-    bool at_bad_edge = false;
+    Vec3 inward{}, outward{};
+    bool at_bad_edge = false, is_double = true;
     for (; begin < end && corners[begin].fan == fan; ++begin) {
       const Index corner = corners[begin].corner;
       new_corners_.emplace_back(corner, copy);
       inward = inward + towards_opposite_side(corner);
+      outward = outward + normalized(area_vector_at(corner));
+      is_double = is_double && is_double_[triangle_of(corner)];
       at_bad_edge = at_bad_edge || std::binary_search(parted.begin(), parted.end(), corner);
     }
-    if (at_bad_edge) moves.emplace_back(copy, std::min(gap_, k_largest_move * shortest) * normalized(inward));
+    // Either side of a double sheet goes to where it is seen from, so that neither hides the other.
+    const Vec3 way = is_double ? outward : norm(inward) < k_least_inward ? -outward : inward;
+    if (at_bad_edge) moves.emplace_back(copy, std::min(gap_, k_largest_move * shortest) * normalized(way));
     return begin;
   }
 
@@ -301,6 +329,11 @@ class Splitter {
     const Vec3 v = mesh_.positions[from_vertex(mesh_.triangles, corner)];
     return std::min(norm(mesh_.positions[to_vertex(mesh_.triangles, corner)] - v),
                     norm(mesh_.positions[from_vertex(mesh_.triangles, previous_halfedge(corner))] - v));
+  }
+
+  Vec3 area_vector_at(Index corner) const {
+    const Index t = triangle_of(corner);
+    return area_vector(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
   }
 
   Vec3 towards_opposite_side(Index corner) const {
@@ -352,6 +385,7 @@ class Splitter {
   std::vector<Index> opposite_;
   std::vector<std::pair<Index, Index>> new_corners_;  ///< Corner, vertex.
   std::vector<std::size_t> bad_edges_;
+  std::vector<std::uint8_t> is_double_;  ///< Per triangle: front or back of a double sheet.
   std::optional<FreePlaces> places_;
 };
 

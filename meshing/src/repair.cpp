@@ -21,6 +21,7 @@
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "repair_steps.hpp"
 #include "scramble.hpp"
+#include "surface_change.hpp"
 #include "triangle_shape.hpp"
 
 namespace papilla {
@@ -30,6 +31,15 @@ using namespace detail;
 
 /// Wider than any noise of coordinates, narrower than the slots and panel gaps that designers draw.
 constexpr double k_stitched_gap = 2e-4;
+
+/// A measured distance exceeds the true one by a hundredth at most.
+constexpr double k_measured_within = 1.01;
+
+/// Distances below this share of the tolerance need not be told apart.
+constexpr double k_told_apart = 0.02;
+
+/// Beyond, distances overflow the trees they are measured with [mm].
+constexpr double k_farthest_measured = 1e15;
 
 /// The fewest triangles that a closed surface has.
 constexpr std::size_t k_least_solid = 4;
@@ -104,27 +114,32 @@ std::vector<std::vector<std::size_t>> parted_by_boxes(const std::vector<std::pai
 }
 
 RepairCounts operator+(RepairCounts a, const RepairCounts& b) {
-  for (std::size_t RepairCounts::*count :
-       {&RepairCounts::welded_equal, &RepairCounts::welded_near, &RepairCounts::repeated_corners,
-        &RepairCounts::collapsed_needles, &RepairCounts::flipped_caps, &RepairCounts::pushed_apexes,
-        &RepairCounts::duplicates, &RepairCounts::opposites, &RepairCounts::walls, &RepairCounts::t_junctions,
-        &RepairCounts::border_slivers, &RepairCounts::reversed, &RepairCounts::parted_edges,
-        &RepairCounts::added_vertices, &RepairCounts::stitched_gaps, &RepairCounts::filled_holes,
-        &RepairCounts::added_triangles})
-    a.*count += b.*count;
+  for (const auto& [name, count] : k_repair_counts) a.*count += b.*count;
   return a;
 }
 
-/// Adds what was done to a piece that has nothing to do with the others.
+/// Adds what was done to a piece, or a part, that has nothing to do with the others.
 void add(RepairResult& all, const RepairResult& piece) {
   all.counts = all.counts + piece.counts;
   for (double RepairDeviations::*operation :
        {&RepairDeviations::weld, &RepairDeviations::degenerate, &RepairDeviations::t_junctions,
         &RepairDeviations::partings, &RepairDeviations::stitches})
     all.deviations.*operation = std::max(all.deviations.*operation, piece.deviations.*operation);
-  all.max_deviation_mm = std::max(all.max_deviation_mm, piece.max_deviation_mm);
+  for (double RepairResult::*distance :
+       {&RepairResult::weld_tolerance_mm, &RepairResult::stitch_tolerance_mm, &RepairResult::tolerance_mm,
+        &RepairResult::max_deviation_mm, &RepairResult::lost_mm, &RepairResult::added_mm, &RepairResult::refused_mm})
+    all.*distance = std::max(all.*distance, piece.*distance);
+  all.sampled = all.sampled || piece.sampled;
+  all.refused_triangles += piece.refused_triangles;
+  all.two_sided.insert(piece.two_sided.begin(), piece.two_sided.end());
   all.passes = std::max(all.passes, piece.passes);
   all.settled = all.settled && piece.settled;
+}
+
+/// Can what was done have changed the shape of the surface?
+bool changes_shape(RepairCounts counts) {
+  counts.welded_equal = counts.reversed = counts.added_vertices = 0;
+  return !(counts == RepairCounts{});
 }
 
 /// The places of numbers in ascending order, equal ones in their own.
@@ -189,6 +204,7 @@ class SoupRepair {
       const auto triangles = components_.of(c);
       if (triangles.size() < k_least_solid || !edges_cancel(mesh_.triangles, triangles)) return;
       pieces_[c] = repair_solid(piece(triangles), scale_);
+      if (pieces_[c]) measure(triangles, *pieces_[c]);
       if (pieces_[c]) progress_.add(static_cast<double>(triangles.size()));
     });
   }
@@ -227,7 +243,36 @@ class SoupRepair {
     oneapi::tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
       pieces_[before + s] =
           std::make_unique<RepairResult>(repair_piece(piece(sets[s]), scale_, progress_of_piece(sets[s].size())));
+      measure(sets[s], *pieces_[before + s]);
     });
+  }
+
+  /// Measures how far a piece moved; one that moved too far becomes again what it was.
+  void measure(std::span<const Index> triangles, RepairResult& result) const {
+    if (!changes_shape(result.counts)) return;
+    if (scale_.reference_mm > k_farthest_measured) {
+      result.lost_mm = result.added_mm = result.max_deviation_mm;
+      return;
+    }
+    const SurfaceChange change = surface_change(
+        mesh_, triangles, result.mesh,
+        {.least_altitude_mm = (k_touching_distance + 2 * k_rounding_distance) * scale_.reference_mm,
+         .reach_mm = scale_.tolerance_mm,
+         .floor_mm = std::max(k_told_apart * scale_.tolerance_mm, 4 * k_touching_distance * scale_.reference_mm),
+         .sample_above = scale_.sample_above});
+    result.sampled = change.sampled;
+    result.lost_mm = change.lost_mm;
+    result.added_mm = change.added_mm;
+    const double allowed = k_measured_within * scale_.tolerance_mm;
+    if (change.lost_mm <= allowed && change.added_mm <= std::max(allowed, scale_.fill_holes_mm)) return;
+    RepairResult refused;
+    refused.mesh = piece(triangles);
+    refused.refused_triangles = triangles.size();
+    refused.refused_mm = std::max(change.lost_mm, change.added_mm);
+    refused.sampled = change.sampled;
+    refused.passes = result.passes;
+    refused.settled = true;
+    result = std::move(refused);
   }
 
   /// The triangles of sets of components, ascending within each set.
@@ -273,6 +318,7 @@ void check_options(const RepairOptions& options) {
   };
   require(options.weld_mm.value_or(0), "weld_mm");
   require(options.stitch_mm.value_or(0), "stitch_mm");
+  require(options.tolerance_mm.value_or(0), "tolerance_mm");
   require(options.fill_holes_mm, "fill_holes_mm");
 }
 
@@ -280,12 +326,17 @@ RepairScale scale_of(const TriangleMesh& mesh, const RepairOptions& options) {
   const Bounds3 bounds = bounds_of(mesh);
   const double reference = reference_length(bounds);
   const WeldOptions weld;
-  return {.reference_mm = reference,
-          .weld = {options.weld_mm.value_or(weld.relative_tolerance * reference), weld.feature_fraction,
-                   k_degenerate_altitude * reference},
-          .stitch_mm = options.stitch_mm.value_or(k_stitched_gap * bounds.diagonal()),
-          .fill_holes_mm = options.fill_holes_mm,
-          .max_passes = options.max_passes};
+  const double weld_mm = options.weld_mm.value_or(weld.relative_tolerance * reference);
+  const double gap_mm = k_stitched_gap * bounds.diagonal(), stitch_mm = options.stitch_mm.value_or(gap_mm);
+  return {
+      .reference_mm = reference,
+      .weld = {weld_mm, weld.feature_fraction, k_degenerate_altitude * reference},
+      .stitch_mm = stitch_mm,
+      .fill_holes_mm = options.fill_holes_mm,
+      .tolerance_mm = options.tolerance_mm.value_or(weld_mm + std::max(stitch_mm, gap_mm) +
+                                                    k_most_parting_steps * ManifoldOptions{}.relative_gap * reference),
+      .max_passes = options.max_passes,
+      .sample_above = options.sample_above};
 }
 
 }  // namespace
@@ -300,10 +351,20 @@ RepairResult repair(TriangleMesh mesh, const RepairOptions& options) {
   RepairResult result = SoupRepair(std::move(mesh), scale, options.progress).run();
   result.counts.welded_equal += merged;
   result.deviations.weld = std::max(result.deviations.weld, rounding_mm);
-  result.max_deviation_mm += rounding_mm;
+  for (double RepairResult::*distance :
+       {&RepairResult::max_deviation_mm, &RepairResult::lost_mm, &RepairResult::added_mm})
+    result.*distance += rounding_mm;
   result.weld_tolerance_mm = scale.weld.tolerance_mm;
   result.stitch_tolerance_mm = scale.stitch_mm;
+  result.tolerance_mm = scale.tolerance_mm;
   return result;
+}
+
+RepairResult total_repair(std::span<const RepairResult> results) {
+  RepairResult total;
+  total.settled = true;
+  for (const RepairResult& result : results) add(total, result);
+  return total;
 }
 
 }  // namespace papilla

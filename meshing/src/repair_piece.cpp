@@ -88,6 +88,8 @@ class Repair {
       drop_degenerate();
       found_t_junctions = close_t_junctions();
     }
+    all_.counts.kept_walls += kept_walls_;
+    all_.counts.kept_backs += kept_backs_;
   }
 
   void weld_cracks() {
@@ -100,10 +102,16 @@ class Repair {
 
   void drop_doubles() {
     DuplicateResult step;
-    forget_edges_if(drop_duplicates(all_.mesh, edges(), step));
+    drop_doubles(Backs::keep_seen, step);
+    kept_walls_ = step.kept_walls;
+    kept_backs_ = step.kept_backs;
+  }
+
+  void drop_doubles(Backs backs, DuplicateResult& step) {
+    forget_edges_if(drop_duplicates(all_.mesh, edges(), backs, step));
     all_.counts.duplicates += step.same;
     all_.counts.opposites += step.opposite;
-    all_.counts.walls += step.walls;
+    all_.two_sided.merge(step.two_sided);
   }
 
   void drop_degenerate() {
@@ -145,6 +153,9 @@ class Repair {
       turn();
       if (!has_bad_edges(all_.mesh.triangles, edges())) break;
     }
+    if (kept_walls_ + kept_backs_ == 0) return;
+    DuplicateResult step;  // a triangle that hangs together with its back around all three corners can't be parted
+    drop_doubles(Backs::drop, step);
   }
 
   void close_gaps() {
@@ -181,6 +192,7 @@ class Repair {
   ProgressCallback progress_;
   RepairResult all_;
   std::optional<EdgeTable> edges_;
+  std::size_t kept_walls_ = 0, kept_backs_ = 0;  ///< Of this pass.
 };
 
 double enclosed_volume(const TriangleMesh& mesh) {

@@ -34,11 +34,17 @@ struct WeldReach {
 };
 
 bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& reach, WeldResult& result);
-bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, DuplicateResult& result);
+
+/// What becomes of backs of double sheets.
+enum class Backs { keep_seen, drop };  ///< As remove_duplicates() has it, or none stays.
+bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, Backs backs, DuplicateResult& result);
+
 bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result);
 bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double reach_mm, double from_ends_mm,
                    TJunctionResult& result);
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result);
+/// Where others are in the way, copies that are parted go this many gaps far.
+inline constexpr int k_most_parting_steps = 16;
 bool part_sheets(TriangleMesh& mesh, const EdgeTable& edges, double gap_mm, ManifoldResult& result);
 bool fill_borders(TriangleMesh& mesh, const EdgeTable& edges, const FillHolesOptions& options, FillHolesResult& result);
 
@@ -54,7 +60,9 @@ struct RepairScale {
   WeldReach weld;
   double stitch_mm = 0;
   double fill_holes_mm = 0;
+  double tolerance_mm = 0;  ///< As RepairResult has it.
   std::size_t max_passes = 1;
+  std::size_t sample_above = 0;
 };
 
 /// Repairs a mesh whose equal positions are one vertex. `weld_tolerance_mm` and `stitch_tolerance_mm` of the result

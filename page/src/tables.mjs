@@ -60,11 +60,21 @@ function sidesList({ seen_from: from, eye_mm: eye, parts }) {
     element('ul', {}, ...changed.map((part) => element('li', {}, line(part)))));
 }
 
+/** What repair did to the surfaces before they were unwrapped. */
+function repairList({ operations, lost_mm: lost, added_mm: added, sampled, tolerance_mm: tolerance, refused }) {
+  const done = Object.entries(operations).filter(([, times]) => times).map(([name, times]) => `${times} ${name.replaceAll('_', ' ')}`);
+  if (refused.triangles) done.push(`not done: pieces of ${count(refused.triangles, 'triangle')} would have moved by ${number(refused.deviation_mm)} mm`);
+  return element('div', { id: 'repair' }, element('h3', {}, 'Repair'),
+    element('p', { class: 'note' }, `Surface lost within ${number(lost)} mm, added within ${number(added)} mm, ${sampled ? 'by samples of the large pieces' : 'measured both ways'}; ${number(tolerance)} mm allowed.`),
+    element('ul', {}, ...done.map((line) => element('li', {}, line))));
+}
+
 function fillPlan({ scene, report }) {
   const host = $('plan-table');
   const lost = [...(report?.losses ?? scene.losses), ...(report?.warnings ?? scene.warnings)];
   if (lost.length) host.append(element('ul', {}, ...lost.map((line) => element('li', {}, line))));
   if (report?.sides?.parts.length) host.append(sidesList(report.sides));
+  if (report?.repair && (report.repair.refused.triangles || Object.values(report.repair.operations).some(Boolean))) host.append(repairList(report.repair));
   if (!report?.plan) return host.append(element('p', {}, 'The file alone does not tell how it was made; bake --report writes a page with the plan.'));
   const rows = planRows(report.plan), stages = [...new Set(report.plan.map((step) => step.stage))];
   host.append(element('h3', {}, 'Left out, and why'), table([

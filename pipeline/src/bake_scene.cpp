@@ -60,6 +60,22 @@ CornerAttribute<Vec2> scaled(CornerAttribute<Vec2> uv, double factor) {
   return uv;
 }
 
+/// What single precision adds to a number.
+double rounding(double x) { return static_cast<double>(static_cast<float>(x)) - x; }
+
+/// Moves what is measured, uv in millimetres, by what a GLB's rounding does to what is written: positions in metres,
+/// repeats of the grain with v downwards.
+void round_as_written(TriangleMesh& measured, const CornerAttribute<Vec2>& repeats, const double (&size_mm)[2]) {
+  for (Vec3& p : measured.positions)
+    p = p + (1 / k_metres_per_mm) *
+                Vec3{rounding(k_metres_per_mm * p.x), rounding(k_metres_per_mm * p.y), rounding(k_metres_per_mm * p.z)};
+  for (std::size_t i = 0; i < repeats.values.size(); ++i) {
+    const Vec2 repeat = repeats.values[i];
+    measured.uv.values[i] =
+        measured.uv.values[i] + Vec2{size_mm[0] * rounding(repeat.x), -size_mm[1] * rounding(1 - repeat.y)};
+  }
+}
+
 /// How many charts each method got.
 std::string charts_by_method(const std::vector<ChartChoice>& choices) {
   std::map<std::string, std::size_t> count;
@@ -81,6 +97,7 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   options.repair = runs(*work.surface, Stage::repair);
   UnwrappedPart part = unwrap_part(work.mesh, context, options);
   work.repair = part.repair_seconds;
+  work.report.repaired = std::move(part.repaired);
   work.charts = part.segment_seconds;
   work.unwrap = part.solve_seconds;
   work.report.method = part.method;
@@ -96,6 +113,7 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   work.mesh.uv = repeats_of(part.flattening, grain.size_mm);
   work.report.mesh = work.mesh;
   work.report.mesh.uv = std::move(part.flattening.uv);
+  round_as_written(work.report.mesh, work.mesh.uv, grain.size_mm);
 }
 
 /// The seams of uv that stay, in millimetres: their mesh need not be welded, nor have uv everywhere.
@@ -151,7 +169,8 @@ class SceneMaterials {
   }
 
   /// The material that `surface` shall have, made on first use.
-  std::uint32_t material_of(const PartSurface& surface) {
+  /// @param both_sides It must be seen from both sides.
+  std::uint32_t material_of(const PartSurface& surface, bool both_sides) {
     const Part& part = scene_.parts[surface.part];
     const bool has_original = surface.slot < part.materials.size();
     const std::uint32_t original = has_original ? part.materials[surface.slot] : k_none;
@@ -160,8 +179,10 @@ class SceneMaterials {
     const bool kept = grain && !runs(surface, Stage::unwrap);
     const double mm_per_unit = kept ? surface.uv_mm_per_unit : 0;
     const bool felt = runs(surface, Stage::tag);
-    const auto [it, is_new] = made_.try_emplace({original, surface.material, mm_per_unit, felt}, 0);
-    if (is_new) it->second = make(original, rule, grain, mm_per_unit, felt);
+    const auto [it, is_new] = made_.try_emplace({original, surface.material, mm_per_unit, felt, both_sides}, 0);
+    if (!is_new) return it->second;
+    it->second = make(original, rule, grain, mm_per_unit, felt);
+    if (both_sides) scene_.materials[it->second].double_sided = true;
     return it->second;
   }
 
@@ -262,7 +283,7 @@ class SceneMaterials {
   Scene& scene_;
   const Materials& rules_;
   std::map<std::string, std::uint32_t> textures_;
-  std::map<std::tuple<std::uint32_t, std::string, double, bool>, std::uint32_t> made_;
+  std::map<std::tuple<std::uint32_t, std::string, double, bool, bool>, std::uint32_t> made_;
 };
 
 /// Leaves out the materials that no triangle uses any more, and renumbers the rest.
@@ -407,6 +428,13 @@ void finish(std::vector<Work>& works, BakeResult& result) {
 
 }  // namespace
 
+RepairResult repair_of(const std::vector<BakedSurface>& surfaces) {
+  std::vector<RepairResult> repaired;
+  for (const BakedSurface& surface : surfaces)
+    if (surface.repaired) repaired.push_back(*surface.repaired);
+  return total_repair(repaired);
+}
+
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
                       const ProgressCallback& progress) {
   BakeResult result;
@@ -467,10 +495,13 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   }
   reassemble(result.scene, surfaces, works);
   SceneMaterials materials(result, rules);
+  std::set<const PartSurface*> without_back;
+  for (const Work& work : works)
+    if (work.report.repaired && !work.report.repaired->two_sided.empty()) without_back.insert(work.surface);
   std::vector<std::pair<const PartSurface*, std::uint32_t>> chosen;
   for (const PartSurface& surface : surfaces)
     if (!surface.material.empty() && !surface.is_left_out)
-      chosen.emplace_back(&surface, materials.material_of(surface));
+      chosen.emplace_back(&surface, materials.material_of(surface, without_back.contains(&surface)));
   for (const auto& [surface, material] : chosen) {
     Part& part = result.scene.parts[surface->part];
     if (part.materials.size() <= surface->slot) part.materials.resize(surface->slot + 1, material);

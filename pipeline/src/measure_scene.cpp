@@ -41,12 +41,11 @@ float linear(unsigned char srgb) { return static_cast<float>(linear_from_srgb(sr
 
 }  // namespace
 
-SceneDistortion measure_scene(const Scene& scene, MeasureOptions options,
-                              const std::function<bool(std::size_t)>& wanted) {
+SceneDistortion measure_scene(const Scene& scene, MeasureOptions options) {
   SceneDistortion result;
   for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
     const TriangleMesh& mesh = scene.parts[p].mesh;
-    if (mesh.uv.empty() || mesh.triangles.empty() || (wanted && !wanted(p))) continue;
+    if (mesh.uv.empty() || mesh.triangles.empty()) continue;
     TriangleMesh shape;
     shape.positions = mesh.positions;
     shape.triangles = mesh.triangles;

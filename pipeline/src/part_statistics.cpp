@@ -4,9 +4,11 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "papilla/core/error.hpp"
 #include "papilla/io/node_places.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 
 namespace papilla {
 
@@ -28,6 +30,16 @@ Bounds3 scene_bounds(const Scene& scene) {
   for (const Instance& use : instances(scene))
     for (const Vec3& p : scene.parts[use.part].mesh.positions) bounds.add(transform_point(use.world, p));
   return bounds;
+}
+
+double single_precision_mm(const Scene& scene, bool placed) {
+  const auto farthest = [](const Bounds3& bounds) {
+    return bounds.is_empty() ? 0 : norm(upper(bounds.high, -bounds.low));
+  };
+  double distance = placed ? farthest(scene_bounds(scene)) : 0;
+  if (!placed)
+    for (const Part& part : scene.parts) distance = std::max(distance, farthest(bounds_of(part.mesh)));
+  return std::ldexp(distance, -24);
 }
 
 std::vector<std::size_t> uses_of_parts(const Scene& scene) {

@@ -8,7 +8,6 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/node_places.hpp"
-#include "papilla/meshing/deviation.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 
 namespace papilla {
@@ -32,21 +31,12 @@ std::vector<RepairResult> repair_parts(Scene& scene, const RepairOptions& option
   return results;
 }
 
-/// The largest distance between any part's surface before and after, both ways; an upper bound over all points.
-double measured_deviation(const std::vector<TriangleMesh>& before, const Scene& after) {
-  double deviation = 0;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (!before[i].triangles.empty() && !after.parts[i].mesh.triangles.empty())
-      deviation = std::max(deviation, surface_deviation(before[i], after.parts[i].mesh).bound());
-  return deviation;
-}
-
-/// Back sides of double sheets are dropped, so what is left must be seen from both.
-void make_double_sided(Scene& scene, const std::vector<RepairResult>& results) {
-  for (std::size_t i = 0; i < results.size(); ++i)
-    if (results[i].counts.opposites > results[i].counts.walls)
-      for (const std::uint32_t m : scene.parts[i].materials)
-        if (m < scene.materials.size()) scene.materials[m].double_sided = true;
+/// Backs of double sheets are dropped, so what is left must be seen from both sides.
+std::set<PartSlot> slots_without_back(const std::vector<RepairResult>& parts) {
+  std::set<PartSlot> slots;
+  for (std::uint32_t p = 0; p < parts.size(); ++p)
+    for (const std::uint32_t slot : parts[p].two_sided) slots.emplace(p, slot);
+  return slots;
 }
 
 }  // namespace
@@ -56,19 +46,10 @@ RepairSceneResult repair_scene(Scene scene, const RepairSceneOptions& options, c
   RepairSceneResult result;
   result.before = total_statistics(part_statistics(scene, progress));
   if (!options.keep_copies) result.shared = share_identical_parts(scene);
-  std::vector<TriangleMesh> originals;
-  if (options.verify)
-    for (const Part& part : scene.parts) originals.push_back(part.mesh);
   result.parts = repair_parts(scene, options.repair, progress);
-  result.after = total_statistics(part_statistics(scene, progress));
-  make_double_sided(scene, result.parts);
+  result.total = total_repair(result.parts);
+  show_both_sides(scene, slots_without_back(result.parts), options.sides.add_materials);
   result.sides = turn_sheets(scene, options.sides);
-  for (std::size_t i = 0; i < result.parts.size(); ++i) {
-    result.max_deviation_mm = std::max(result.max_deviation_mm, result.parts[i].max_deviation_mm);
-    result.weld_tolerance_mm = std::max(result.weld_tolerance_mm, result.parts[i].weld_tolerance_mm);
-    if (!result.parts[i].settled) result.unsettled.push_back(shown_name(scene.parts[i]));
-  }
-  if (options.verify) result.measured_deviation_mm = measured_deviation(originals, scene);
   result.scene = std::move(scene);
   result.seconds = clock.seconds();
   return result;

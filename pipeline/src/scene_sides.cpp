@@ -30,58 +30,44 @@ PartSides summary_of(const Part& part, const MeshSheets& mesh) {
   return sides;
 }
 
-/// Makes materials double sided where a part has a sheet without side.
-class DoubleSides {
- public:
-  DoubleSides(Scene& scene, bool add_materials) : scene_(scene), add_materials_(add_materials) {}
-
-  void add(const PartSheets& part) {
-    const std::vector<std::uint32_t>& slot = scene_.parts[part.part].mesh.material;
-    for (const SheetSide& sheet : part.sheets)
-      if (sheet.is_ambiguous())
-        for (const Index t : sheet.triangles) slots_.emplace(part.part, slot.empty() ? 0 : slot[t]);
-  }
-
-  void apply() {
-    std::vector<std::size_t> other_uses(scene_.materials.size(), 0);
-    for (std::uint32_t p = 0; p < scene_.parts.size(); ++p)
-      for (std::uint32_t s = 0; s < scene_.parts[p].materials.size(); ++s)
-        if (const std::uint32_t m = scene_.parts[p].materials[s]; m < other_uses.size() && !slots_.contains({p, s}))
-          ++other_uses[m];
-    std::map<std::uint32_t, std::uint32_t> copies;
-    for (const auto& [p, s] : slots_) {
-      Part& part = scene_.parts[p];
-      if (s >= part.materials.size()) {
-        if (s == 0 && add_materials_) part.materials.push_back(plain_material());
-        continue;
-      }
-      std::uint32_t& material = part.materials[s];
-      if (material >= other_uses.size() || scene_.materials[material].double_sided) continue;
-      if (other_uses[material] > 0) {
-        const auto [copy, is_new] = copies.try_emplace(material, static_cast<std::uint32_t>(scene_.materials.size()));
-        if (is_new) scene_.materials.push_back(Material(scene_.materials[material]));
-        material = copy->second;
-      }
-      scene_.materials[material].double_sided = true;
-    }
-  }
-
- private:
-  std::uint32_t plain_material() {
-    if (!plain_) {
-      plain_ = static_cast<std::uint32_t>(scene_.materials.size());
-      scene_.materials.emplace_back().double_sided = true;
-    }
-    return *plain_;
-  }
-
-  Scene& scene_;
-  bool add_materials_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> slots_;  ///< Part and slot.
-  std::optional<std::uint32_t> plain_;
-};
+void add_ambiguous(const Scene& scene, const PartSheets& part, std::set<PartSlot>& slots) {
+  const std::vector<std::uint32_t>& slot = scene.parts[part.part].mesh.material;
+  for (const SheetSide& sheet : part.sheets)
+    if (sheet.is_ambiguous())
+      for (const Index t : sheet.triangles) slots.emplace(part.part, slot.empty() ? 0 : slot[t]);
+}
 
 }  // namespace
+
+void show_both_sides(Scene& scene, const std::set<PartSlot>& slots, bool add_materials) {
+  std::vector<std::size_t> other_uses(scene.materials.size(), 0);
+  for (std::uint32_t p = 0; p < scene.parts.size(); ++p)
+    for (std::uint32_t s = 0; s < scene.parts[p].materials.size(); ++s)
+      if (const std::uint32_t m = scene.parts[p].materials[s]; m < other_uses.size() && !slots.contains({p, s}))
+        ++other_uses[m];
+  std::optional<std::uint32_t> plain;
+  std::map<std::uint32_t, std::uint32_t> copies;
+  for (const auto& [p, s] : slots) {
+    Part& part = scene.parts[p];
+    if (s >= part.materials.size()) {
+      if (s > 0 || !add_materials) continue;
+      if (!plain) {
+        plain = static_cast<std::uint32_t>(scene.materials.size());
+        scene.materials.emplace_back().double_sided = true;
+      }
+      part.materials.push_back(*plain);
+      continue;
+    }
+    std::uint32_t& material = part.materials[s];
+    if (material >= other_uses.size() || scene.materials[material].double_sided) continue;
+    if (other_uses[material] > 0) {
+      const auto [copy, is_new] = copies.try_emplace(material, static_cast<std::uint32_t>(scene.materials.size()));
+      if (is_new) scene.materials.push_back(Material(scene.materials[material]));
+      material = copy->second;
+    }
+    scene.materials[material].double_sided = true;
+  }
+}
 
 SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
   SceneSides found;
@@ -116,12 +102,12 @@ SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::
 
 SceneSides turn_sheets(Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
   SceneSides found = find_sides(scene, options, view);
-  DoubleSides double_sides(scene, options.add_materials);
+  std::set<PartSlot> ambiguous;
   for (const PartSheets& part : found.sheets) {
-    double_sides.add(part);
+    add_ambiguous(scene, part, ambiguous);
     if (!part.turn.empty()) turn_triangles(scene.parts[part.part].mesh, part.turn);
   }
-  double_sides.apply();
+  show_both_sides(scene, ambiguous, options.add_materials);
   return found;
 }
 

@@ -90,17 +90,31 @@ void pack_unique_uv(const UnwrapOptions& options, UnwrapResult& result) {
   result.unique = std::move(atlas);
 }
 
-/// Edges through which two triangles or more run in the same direction.
-std::size_t opposed_edges(const TriangleMesh& mesh) {
-  std::vector<std::pair<Index, Index>> sides;
+/// Counts the edges at which charts end because of what the mesh is.
+void count_edges(const TriangleMesh& mesh, UnwrappedPart& part) {
+  struct Side {
+    Index low, high;
+    bool up;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
   sides.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sides.push_back({t[k], t[(k + 1) % 3]});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index from = t[k], to = t[(k + 1) % 3];
+      if (from != to) sides.push_back({std::min(from, to), std::max(from, to), from < to});
+    }
   std::sort(sides.begin(), sides.end());
-  std::size_t count = 0;
-  for (std::size_t i = 1; i < sides.size(); ++i)
-    count += sides[i] == sides[i - 1] && (i == 1 || sides[i] != sides[i - 2]);
-  return count;
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
+    const auto up = static_cast<std::size_t>(std::count_if(sides.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                           sides.begin() + static_cast<std::ptrdiff_t>(end),
+                                                           [](const Side& side) { return side.up; }));
+    part.shared_edges += end - begin > 1;
+    part.nonmanifold_edges += end - begin > 2;
+    part.opposed_edges += (up > 1) + (end - begin - up > 1);
+    part.opposed_pairs += end - begin == 2 && up != 1;
+  }
 }
 
 }  // namespace
@@ -123,9 +137,14 @@ PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
 UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
   UnwrappedPart result;
   const Stopwatch repair_clock;
-  mesh = options.repair ? repair(std::move(mesh)).mesh : weld_equal(std::move(mesh)).mesh;
+  if (options.repair) {
+    result.repaired = repair(std::move(mesh));
+    mesh = std::exchange(result.repaired->mesh, {});
+  } else {
+    mesh = weld_equal(std::move(mesh)).mesh;
+  }
   result.repair_seconds = repair_clock.seconds();
-  result.opposed_edges = opposed_edges(mesh);
+  count_edges(mesh, result);
   const Stopwatch clock;
   static_cast<FlattenedPart&>(result) = flatten_part(mesh, context, options.method);
   if (options.method.method != UnwrapMethod::environment) {

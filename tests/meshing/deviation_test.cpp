@@ -229,5 +229,26 @@ TEST(SurfaceDeviation, RefusesWhatItCannotMeasure) {
   EXPECT_EQ(surface_deviation(TriangleMesh{}, TriangleMesh{}).bound(), 0);
 }
 
+/// Over a long gap the distance is that to its nearer side, the same all along its middle.
+TEST(SurfaceDeviation, GapsLongAndNarrowAreSettled) {
+  for (const double gap : {1e-2, 1e-5, 1e-7})
+    for (const double tilt : {0.0, 1e-6}) {
+      TriangleMesh sheet, sides;
+      sheet.positions = {{0, 0, 0}, {1000, 0, 0}, {1000, 100, 0}, {0, 100, 0}};
+      sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+      sides.positions = {{0, 0, 0},           {1000, 0, tilt},     {1000, 50, 0},  {0, 50, 0},
+                         {0, 50 + gap, tilt}, {1000, 50 + gap, 0}, {1000, 100, 0}, {0, 100, tilt}};
+      sides.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+      DeviationOptions options;
+      options.two_sided = false;
+      options.pieces_per_triangle = 500;
+      options.absolute_tolerance_mm = 0;
+      const OneSidedDeviation found = surface_deviation(sheet, sides, options).from_to;
+      EXPECT_EQ(found.unsettled, 0u) << gap << ' ' << tilt;
+      EXPECT_GE(found.value, 0.98 * gap / 2);
+      EXPECT_LE(found.bound, 1.02 * std::max(gap / 2, tilt) + tilt);
+    }
+}
+
 }  // namespace
 }  // namespace papilla

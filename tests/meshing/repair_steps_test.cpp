@@ -79,18 +79,27 @@ TEST(Duplicates, KeepsTheFirstAndTellsTheSense) {
 TEST(Duplicates, DoubleSheetKeepsOneSide) {
   const DuplicateResult result = remove_duplicates(weld_equal(joined(grid(5, 5), reversed(grid(5, 5)))).mesh);
   EXPECT_EQ(result.opposite, 50u);
-  EXPECT_EQ(result.walls, 0u);
+  EXPECT_EQ(result.kept_walls + result.kept_backs, 0u);
+  EXPECT_EQ(result.two_sided, std::set<std::uint32_t>{0});
   EXPECT_EQ(result.mesh.triangles.size(), 50u);
 }
 
-TEST(Duplicates, WallBetweenTouchingSolidsGoes) {
-  TriangleMesh two = weld_equal(joined(voxels({{0, 0, 0}}), voxels({{1, 0, 0}}))).mesh;
+TEST(Duplicates, WallBetweenTouchingSolidsStays) {
+  const TriangleMesh two = weld_equal(joined(voxels({{0, 0, 0}}), voxels({{1, 0, 0}}))).mesh;
   const DuplicateResult result = remove_duplicates(two);
-  EXPECT_EQ(result.walls, 2u);
-  const MeshStatistics s = mesh_statistics(result.mesh);
-  EXPECT_EQ(s.nonmanifold_edges, 0u);
-  EXPECT_EQ(s.boundary_edges, 0u);
-  EXPECT_NEAR(*s.volume_mm3, 2, 1e-12);
+  EXPECT_EQ(result.kept_walls, 2u);
+  EXPECT_EQ(result.mesh.triangles, two.triangles);
+}
+
+TEST(Duplicates, SheetOfTwoColoursKeepsBothSides) {
+  TriangleMesh sheet = weld_equal(joined(grid(5, 5), reversed(grid(5, 5)))).mesh;
+  sheet.material.assign(50, 3);
+  sheet.material.resize(100, 4);
+  EXPECT_EQ(remove_duplicates(sheet).kept_backs, 50u);
+  sheet.material.assign(100, 3);
+  const DuplicateResult result = remove_duplicates(sheet);
+  EXPECT_EQ(result.opposite, 50u);
+  EXPECT_EQ(result.two_sided, std::set<std::uint32_t>{3});
 }
 
 /// A grid whose vertex in the middle was moved onto the line between two neighbours, so that a cap arises.

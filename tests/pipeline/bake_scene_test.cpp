@@ -94,6 +94,18 @@ class BakeTest : public testing::Test {
   Materials rules_;
 };
 
+/// The back of a double sheet is dropped, so that the front must be seen from both sides.
+TEST_F(BakeTest, DoubleSheetsAreSeenFromBothSides) {
+  Part twice = square("dash_twice");
+  twice.mesh.triangles.insert(twice.mesh.triangles.end(), {{0, 2, 1}, {0, 3, 2}});
+  const BakeResult result = run(scene_of({twice, square("dash_once")}));
+  ASSERT_EQ(result.surfaces.size(), 2U);
+  EXPECT_EQ(result.surfaces[0].repaired.value().counts.opposites, 2U);
+  EXPECT_EQ(repair_of(result.surfaces).counts.opposites, 2U);
+  EXPECT_TRUE(result.scene.materials[result.scene.parts[0].materials.at(0)].double_sided);
+  EXPECT_FALSE(result.scene.materials[result.scene.parts[1].materials.at(0)].double_sided);
+}
+
 TEST_F(BakeTest, APartWithoutGrainGetsNothingAndCostsNothing) {
   const BakeResult result = run(scene_of({square("knob"), square("floor")}));
   EXPECT_TRUE(result.scene.images.empty());

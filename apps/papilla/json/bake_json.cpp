@@ -138,11 +138,13 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
                              {"grain_continued_mm", surface.grain_continued_mm},
                              {"seam_visibility", seams_json(surface.seams)},
                              {"notes", surface.notes},
+                             {"repair", surface.repaired ? repair_numbers_json(*surface.repaired) : Json()},
                              {"distortion", distortion_json(surface.distortion)}});
   json["materials"] = Json::array();
   for (const auto& [name, grain] : result.grains) json["materials"].push_back(grain_json(name, grain));
   json["uv"] = own_uv_json(result.plan.surfaces);
   json["distortion"] = total_json(result.surfaces);
+  json["repair"] = repair_numbers_json(repair_of(result.surfaces));
   json["sides"] = sides_json(result.plan.sides, options.plan.sides);
   json["losses"] = result.scene.losses;
   json["warnings"] = result.scene.warnings;

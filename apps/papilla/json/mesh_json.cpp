@@ -82,44 +82,6 @@ Json faces_json(const std::vector<CadFaceNote>& notes) {
   return faces;
 }
 
-Json operations_json(const std::vector<RepairResult>& results) {
-  const auto sum = [&](std::size_t RepairCounts::*count) {
-    std::size_t total = 0;
-    for (const RepairResult& r : results) total += r.counts.*count;
-    return total;
-  };
-  return {{"welded_equal", sum(&RepairCounts::welded_equal)},
-          {"welded_near", sum(&RepairCounts::welded_near)},
-          {"repeated_corners", sum(&RepairCounts::repeated_corners)},
-          {"collapsed_needles", sum(&RepairCounts::collapsed_needles)},
-          {"flipped_caps", sum(&RepairCounts::flipped_caps)},
-          {"pushed_apexes", sum(&RepairCounts::pushed_apexes)},
-          {"duplicates", sum(&RepairCounts::duplicates)},
-          {"opposites", sum(&RepairCounts::opposites)},
-          {"walls", sum(&RepairCounts::walls)},
-          {"t_junctions", sum(&RepairCounts::t_junctions)},
-          {"border_slivers", sum(&RepairCounts::border_slivers)},
-          {"reversed", sum(&RepairCounts::reversed)},
-          {"parted_edges", sum(&RepairCounts::parted_edges)},
-          {"added_vertices", sum(&RepairCounts::added_vertices)},
-          {"stitched_gaps", sum(&RepairCounts::stitched_gaps)},
-          {"filled_holes", sum(&RepairCounts::filled_holes)},
-          {"added_triangles", sum(&RepairCounts::added_triangles)}};
-}
-
-Json deviations_json(const std::vector<RepairResult>& results) {
-  const auto largest = [&](double RepairDeviations::*operation) {
-    double deviation = 0;
-    for (const RepairResult& r : results) deviation = std::max(deviation, r.deviations.*operation);
-    return deviation;
-  };
-  return {{"weld", largest(&RepairDeviations::weld)},
-          {"degenerate", largest(&RepairDeviations::degenerate)},
-          {"t_junctions", largest(&RepairDeviations::t_junctions)},
-          {"partings", largest(&RepairDeviations::partings)},
-          {"stitches", largest(&RepairDeviations::stitches)}};
-}
-
 Json simplified_part_json(const std::string& name, const SimplifyResult& part, std::size_t triangles_after) {
   return {{"name", name},
           {"triangles_before", part.triangles_before},
@@ -268,21 +230,42 @@ Json tessellation_json(const Scene& scene, const CadReport& report) {
       {"warnings", scene.warnings}};
 }
 
-Json repair_json(const RepairSceneResult& result, const RepairSceneOptions& options) {
-  return {{"before", counters_json(result.before)},
-          {"after", counters_json(result.after)},
-          {"max_deviation_mm", result.max_deviation_mm},
-          {"measured_deviation_mm", or_null(result.measured_deviation_mm)},
-          {"weld_tolerance_mm", result.weld_tolerance_mm},
-          {"operations", operations_json(result.parts)},
-          {"deviations_mm", deviations_json(result.parts)},
-          {"sides", sides_json(result.sides, options.sides)},
-          {"parts", result.parts.size()},
-          {"identical_parts", shared_parts_json(result.shared, result.scene)},
-          {"unsettled", result.unsettled},
-          {"losses", result.scene.losses},
-          {"warnings", result.scene.warnings},
-          {"seconds", result.seconds}};
+Json repair_numbers_json(const RepairResult& result) {
+  Json operations;
+  for (const auto& [name, count] : k_repair_counts) operations[std::string(name)] = result.counts.*count;
+  const RepairDeviations& d = result.deviations;
+  return {{"operations", operations},
+          {"deviations_mm",
+           {{"weld", d.weld},
+            {"degenerate", d.degenerate},
+            {"t_junctions", d.t_junctions},
+            {"partings", d.partings},
+            {"stitches", d.stitches}}},
+          {"tolerance_mm", result.tolerance_mm},
+          {"lost_mm", result.lost_mm},
+          {"added_mm", result.added_mm},
+          {"sampled", result.sampled},
+          {"refused", {{"triangles", result.refused_triangles}, {"deviation_mm", result.refused_mm}}}};
+}
+
+Json repair_json(const RepairSceneResult& result, const WrittenRepair& written, const RepairSceneOptions& options) {
+  Json unsettled = Json::array();
+  for (std::size_t i = 0; i < result.parts.size(); ++i)
+    if (!result.parts[i].settled) unsettled.push_back(shown_name(result.scene.parts[i]));
+  Json json{{"before", counters_json(result.before)},
+            {"after", counters_json(written.after)},
+            {"max_deviation_mm", written.max_deviation_mm(result.total)},
+            {"rounding_mm", written.rounding_mm},
+            {"weld_tolerance_mm", result.total.weld_tolerance_mm}};
+  json.update(repair_numbers_json(result.total));
+  json.update({{"sides", sides_json(result.sides, options.sides)},
+               {"parts", result.parts.size()},
+               {"identical_parts", shared_parts_json(result.shared, result.scene)},
+               {"unsettled", unsettled},
+               {"losses", result.scene.losses},
+               {"warnings", result.scene.warnings},
+               {"seconds", result.seconds}});
+  return json;
 }
 
 Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options) {

@@ -27,6 +27,8 @@ Json parts_json(const UnwrapResult& result) {
                      {"grain_continued_mm", part.grain_continued_mm},
                      {"seam_visibility", seams_json(part.seams)},
                      {"opposed_edges", part.opposed_edges},
+                     {"nonmanifold_edges", part.nonmanifold_edges},
+                     {"repair_first", part.is_far_from_manifold()},
                      {"notes", std::move(notes)},
                      {"failure", part.failure.empty() ? Json() : Json(part.failure)}});
   }
@@ -59,7 +61,6 @@ Json unwrap_json(const UnwrapResult& result, const UnwrapOptions& options, const
           {"unique", unique},
           {"sides", sides_json(result.sides, options.sides)},
           {"distortion", distortion_json(distortion.report)},
-          {"worst_chart", worst_chart_json(result.scene, distortion)},
           {"parts", parts_json(result)},
           {"losses", result.scene.losses},
           {"warnings", result.scene.warnings}};

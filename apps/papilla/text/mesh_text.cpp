@@ -121,18 +121,41 @@ std::string tessellation_text(const Scene& scene, const CadReport& report) {
   return text;
 }
 
-std::string repair_text(const RepairSceneResult& result) {
-  std::string text = header_row() + counters_row("before", result.before) + counters_row("after", result.after);
-  text += shown_format("largest deviation {:.3g} mm, weld tolerance {:.3g} mm\n", result.max_deviation_mm,
-                       result.weld_tolerance_mm);
-  if (result.measured_deviation_mm) {
-    bool walls = false;
-    for (const RepairResult& part : result.parts) walls |= part.counts.walls > 0;
-    text += shown_format("measured deviation at most {:.3g} mm, both ways{}\n", *result.measured_deviation_mm,
-                         walls ? ", with the walls between solids that were dropped" : "");
+std::string repair_numbers_text(const RepairResult& result) {
+  std::string done, text;
+  for (const auto& [name, count] : k_repair_counts) {
+    if (result.counts.*count == 0) continue;
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    done += shown_format("{}{} {}", done.empty() ? "" : ", ", result.counts.*count, words);
   }
-  text += sides_text(result.sides, true);
-  for (const std::string& name : result.unsettled) text += shown_format("not settled: {}\n", name);
+  if (!done.empty())
+    text += shown_format("repaired: {}\nsurface lost within {:.3g} mm, added within {:.3g} mm, {}; {:.3g} mm allowed\n",
+                         done, result.lost_mm, result.added_mm,
+                         result.sampled ? "by samples of the large pieces" : "measured both ways", result.tolerance_mm);
+  if (result.counts.opposites > 0)
+    text += shown_format("double sheets: {} backs dropped, their fronts are shown from both sides\n",
+                         result.counts.opposites);
+  if (result.counts.kept_walls > 0)
+    text += shown_format("not done: {} backs of double sheets stay, as each side goes on into other surface\n",
+                         result.counts.kept_walls);
+  if (result.counts.kept_backs > 0)
+    text += shown_format("not done: {} backs of double sheets stay, as they look different from their fronts\n",
+                         result.counts.kept_backs);
+  if (result.refused_triangles > 0)
+    text += shown_format(
+        "not done: pieces of {} triangles stay as they came, as repair would have moved them by {:.3g} mm\n",
+        result.refused_triangles, result.refused_mm);
+  return text;
+}
+
+std::string repair_text(const RepairSceneResult& result, const WrittenRepair& written) {
+  std::string text = header_row() + counters_row("before", result.before) + counters_row("after", written.after);
+  text += shown_format("largest deviation {:.3g} mm as written, weld tolerance {:.3g} mm\n",
+                       written.max_deviation_mm(result.total), result.total.weld_tolerance_mm);
+  text += repair_numbers_text(result.total) + sides_text(result.sides, true);
+  for (std::size_t i = 0; i < result.parts.size(); ++i)
+    if (!result.parts[i].settled) text += shown_format("not settled: {}\n", result.scene.parts[i].name);
   return text;
 }
 
@@ -166,7 +189,13 @@ std::string unwrap_remarks(const UnwrapResult& result) {
   std::string text = sides_text(result.sides, true);
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
     const UnwrappedPart& part = result.parts[p];
-    if (part.opposed_edges > 0)
+    if (part.is_far_from_manifold())
+      text += shown_format(
+          "part '{}' falls into {} charts, as {} of its {} inner edges have three triangles or more, or two that are "
+          "wound against each other: repair it first, papilla repair IN -o CLEAN\n",
+          result.scene.parts[p].name, part.flattening.charts.count, part.nonmanifold_edges + part.opposed_pairs,
+          part.shared_edges);
+    else if (part.opposed_edges > 0)
       text += shown_format(
           "part '{}': charts end at {} edges of triangles that are wound against each other; papilla repair turns "
           "them\n",

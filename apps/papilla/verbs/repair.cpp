@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <limits>
 #include <memory>
 
 #include "file_options.hpp"
@@ -6,6 +7,7 @@
 #include "option_checks.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
+#include "papilla/pipeline/part_statistics.hpp"
 #include "scene_output.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
@@ -18,17 +20,22 @@ struct Options {
   RepairSceneOptions repair;
   SideOption sides;
   SceneOptions read;
+  bool verify = false;
 };
 
 Json run(const Options& options, VerbContext& context) {
   RepairSceneOptions repair = options.repair;
+  if (options.verify) repair.repair.sample_above = std::numeric_limits<std::size_t>::max();
   repair.sides = options.sides.options(options.out);
   Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
   RepairSceneResult result =
       named_by(options.in, [&] { return repair_scene(std::move(scene), repair, context.progress); });
   write_output(result.scene, options.out, context.console);
-  context.console.print(repair_text(result));
-  Json json = repair_json(result, repair);
+  // What is said is what is written, in the file's precision.
+  const WrittenRepair written{total_statistics(part_statistics(read_scene(options.out))),
+                              single_precision_mm(result.scene, !repair.sides.add_materials)};
+  context.console.print(repair_text(result, written));
+  Json json = repair_json(result, written, repair);
   json["output"] = options.out;
   return json;
 }
@@ -52,11 +59,16 @@ void add_repair(CLI::App& program) {
                    "Widest gap between faces to close; default: 2e-4 of each part's diagonal, 0: none")
       ->type_name("MM")
       ->check(not_negative());
+  verb->add_option("--tolerance", options->repair.repair.tolerance_mm,
+                   "Pieces whose surface would move further stay as they are; default: 2.5e-4 of each part's diagonal, "
+                   "more with a wider --weld or --stitch")
+      ->type_name("MM")
+      ->check(not_negative());
   verb->add_option("--fill-holes", options->repair.repair.fill_holes_mm,
                    "Fill holes that fit into a box of this diagonal")
       ->type_name("MM")
       ->check(not_negative());
-  verb->add_flag("--verify", options->repair.verify, "Measure the deviation from the input, not only bound it");
+  verb->add_flag("--verify", options->verify, "Measure the deviation of large parts whole, too, not by samples");
   verb->add_flag("--keep-copies", options->repair.keep_copies, "Do not make identical parts instances of one");
   options->sides.add_to(*verb);
   options->read.add_to(*verb);

@@ -36,8 +36,8 @@ std::string trace_csv(const Trace& trace) {
 
 Json run(const Options& options, VerbContext& context) {
   if (const auto extension = std::filesystem::path(options.output).extension();
-      extension == ".stl" || extension == ".STL")
-    throw UsageError("-o " + options.output + ": STL has no place for texture coordinates");
+      extension == ".stl" || extension == ".STL" || extension == ".off" || extension == ".OFF")
+    throw UsageError("-o " + options.output + ": " + extension.string() + " has no place for texture coordinates");
   UnwrapOptions unwrap = options.unwrap.options();
   unwrap.sides = options.sides.options(options.output);
   unwrap.method.deadline = context.deadline;
@@ -45,17 +45,18 @@ Json run(const Options& options, VerbContext& context) {
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
       named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
-  const SceneDistortion distortion =
-      measure_scene(result.scene, {}, [&](std::size_t p) { return result.parts[p].failure.empty(); });
   write_output(result.scene, options.output, context.console);
+  const Scene written = read_scene(options.output);  // what is said is what is written, in the file's precision
+  const SceneDistortion distortion = measure_scene(written);
   if (!options.trace.empty()) write_atomically(options.trace, trace_csv(result.trace));
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));
   const std::string method = unwrap_method_name(unwrap.method.method);
   context.console.print(shown_format("{}: {} charts in {:.3f} s\n", method, result.charts, result.seconds.total) +
-                        distortion_text(result.scene, distortion) + unwrap_remarks(result));
+                        distortion_text(written, distortion) + unwrap_remarks(result));
   Json json{{"method", method}};
   json.update(unwrap_json(result, unwrap, distortion));
+  json["worst_chart"] = worst_chart_json(written, distortion);
   return json;
 }
 

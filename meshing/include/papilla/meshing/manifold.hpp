@@ -25,12 +25,12 @@ struct ManifoldResult {
 /// Makes the mesh manifold by parting it where sheets touch. At an edge of more than two triangles those are paired
 /// around the edge, each with the next one on its inner side, so that touching solids part into solids; what finds no
 /// partner gets a border. Edges whose two triangles run the same way are cut (orient() leaves them only where a surface
-/// is non-orientable). Then every vertex is copied until each copy has one fan of triangles. Copies at parted edges
-/// move into their own sheet by `relative_gap`, or a fifth of the shortest edge around when that is less, and by up to
-/// sixteen times that where other vertices are in the way; copies of a vertex where sheets only touch in that point
-/// stay where they are.
-/// Good input is welded by index, without degenerate and duplicate triangles, and oriented. O(n), with parted edges
-/// O(n log n); deterministic.
+/// is non-orientable), and those between front and back of a double sheet. Then every vertex is copied until each copy
+/// has one fan of triangles. Copies at parted edges move into their own sheet (behind it where their fan lies all
+/// around them, before it where it is one side of a double sheet) by `relative_gap`, or a fifth of the shortest edge
+/// around when that is less, and by up to sixteen times that where other vertices are in the way; copies of a vertex
+/// where sheets only touch in that point stay where they are. Good input is welded by index, oriented, without
+/// degenerate triangles and duplicates that run the same way. O(n), with parted edges O(n log n); deterministic.
 /// @throws InvalidInput when an index is out of range, a position is not finite or the option is out of range.
 ManifoldResult split_nonmanifold(TriangleMesh mesh, const ManifoldOptions& options = {});
 

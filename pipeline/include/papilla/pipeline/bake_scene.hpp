@@ -35,6 +35,7 @@ struct BakedSurface {
   double grain_continued_mm = 0;  ///< Of the seam: where the grain goes on; 0 when its own uv stays.
   SeamVisibility seams;           ///< For the grain's tile, a grain being an eighth of it.
   std::vector<std::string> notes;
+  std::optional<RepairResult> repaired;  ///< Without its mesh; when it was.
   DistortionReport distortion;
   TriangleMesh mesh;         ///< The surface with uv in millimetres.
   CornerAttribute<Vec2> uv;  ///< In place: the new uv in repeats of the grain; empty when its own stay.
@@ -48,6 +49,9 @@ struct BakeResult {
   std::vector<Vec2> mm_per_uv;            ///< Per material of `scene`; 0 when unknown.
   std::map<std::string, double> seconds;  ///< Per stage: summed over the surfaces.
 };
+
+/// total_repair() of the surfaces that were repaired.
+RepairResult repair_of(const std::vector<BakedSurface>& surfaces);
 
 /// The main job: plan_bake(), then for every surface what its plan says and nothing else. Surfaces run in parallel; the
 /// result does not depend on the number of threads.

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,10 +19,8 @@ struct SceneDistortion {
 };
 
 /// @param options its `part` is set here.
-/// @param wanted says by number which parts are measured; empty: all.
-/// @throws InvalidInput when no such part has uv.
-SceneDistortion measure_scene(const Scene& scene, MeasureOptions options = {},
-                              const std::function<bool(std::size_t)>& wanted = {});
+/// @throws InvalidInput when no part has uv.
+SceneDistortion measure_scene(const Scene& scene, MeasureOptions options = {});
 
 /// The chart that has the largest share of a scene's distortion, Σ A (E - 4) of symmetric Dirichlet E over area A: one
 /// sliver can make up most of the mean.
@@ -58,7 +55,7 @@ struct DistortionTotals {
 DistortionTotals total_distortion(const std::vector<const DistortionReport*>& reports);
 
 /// Gives every triangle that has uv the colour of its distortion, as corner colours; the others are grey.
-/// @param report of measure_scene() for this scene with all parts wanted.
+/// @param report of measure_scene() for this scene.
 void colour_by_distortion(const SceneDistortion& distortion, double worst, Scene& scene);
 
 }  // namespace papilla

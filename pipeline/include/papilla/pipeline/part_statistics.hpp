@@ -19,6 +19,10 @@ std::vector<MeshStatistics> part_statistics(const Scene& scene, const ProgressCa
 /// The box around all parts as instances place them, along the file's axes.
 Bounds3 scene_bounds(const Scene& scene);
 
+/// The most that a file in single precision moves a vertex [mm].
+/// @param placed The file holds parts where their nodes place them, not in their own frames.
+double single_precision_mm(const Scene& scene, bool placed);
+
 /// How many nodes show each part.
 std::vector<std::size_t> uses_of_parts(const Scene& scene);
 

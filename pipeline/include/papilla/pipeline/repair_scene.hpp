@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,6 @@ namespace papilla {
 struct RepairSceneOptions {
   RepairOptions repair;
   SceneSideOptions sides;
-  bool verify = false;       ///< Measure the deviation from the input, not only bound it.
   bool keep_copies = false;  ///< Do not make identical parts instances of one.
 };
 
@@ -25,18 +23,26 @@ struct RepairSceneResult {
   Scene scene;
   std::vector<SharedPart> shared;
   SceneSides sides;
-  MeshStatistics before, after;                 ///< Of all parts together.
-  std::vector<RepairResult> parts;              ///< In the order of Scene::parts; without their meshes.
-  double max_deviation_mm = 0;                  ///< The largest bound of any part.
-  double weld_tolerance_mm = 0;                 ///< The largest of any part.
-  std::optional<double> measured_deviation_mm;  ///< Both ways, an upper bound over all points; when asked to verify.
-  std::vector<std::string> unsettled;           ///< Names of parts that were still changing when the passes ended.
+  MeshStatistics before;            ///< Of all parts together.
+  std::vector<RepairResult> parts;  ///< In the order of Scene::parts; without their meshes.
+  RepairResult total;               ///< total_repair() of these.
   double seconds = 0;
 };
 
-/// repair() of every part of a scene, then turn_sheets(); identical parts are shared first. Where the back sides of
-/// double sheets were dropped the materials become double sided. Parts run in parallel; the result does not depend on
-/// the number of threads.
+/// What the file holds that a repaired scene was written to.
+struct WrittenRepair {
+  MeshStatistics after;    ///< Of all parts together, as they are read from it.
+  double rounding_mm = 0;  ///< The most that its precision moves a vertex.
+
+  /// How far the surface was moved, both ways.
+  double max_deviation_mm(const RepairResult& total) const noexcept {
+    return (total.lost_mm > total.added_mm ? total.lost_mm : total.added_mm) + rounding_mm;
+  }
+};
+
+/// repair() of every part of a scene, then turn_sheets(); identical parts are shared first. Where the backs of double
+/// sheets were dropped the materials become double sided: show_both_sides(). Parts run in parallel; the result does not
+/// depend on the number of threads.
 /// @throws InvalidInput naming the part.
 RepairSceneResult repair_scene(Scene scene, const RepairSceneOptions& options = {},
                                const ProgressCallback& progress = {});

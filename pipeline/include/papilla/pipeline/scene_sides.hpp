@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "papilla/io/scene.hpp"
@@ -56,9 +58,16 @@ struct SceneSides {
 /// @throws InvalidInput as instances().
 SceneSides find_sides(const Scene& scene, const SceneSideOptions& options = {}, std::span<const Volume> view = {});
 
-/// Turns the sheets over that face away from those who see them (turn_triangles()), and makes the materials of
-/// ambiguous ones double sided: copies of them, of the same name, where other parts share them. Runs before charts are
-/// made, so that new uv are not mirrored; uv that a turned sheet has already keep their place and become mirrored.
+/// A part and a slot of its materials (TriangleMesh::material).
+using PartSlot = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Makes the materials of these slots double sided: copies of them, of the same name, where other slots share them.
+/// @param add_materials As SceneSideOptions has it.
+void show_both_sides(Scene& scene, const std::set<PartSlot>& slots, bool add_materials);
+
+/// Turns the sheets over that face away from those who see them (turn_triangles()), and lets
+/// show_both_sides() those of ambiguous ones. Runs before charts are made, so that new uv are not mirrored; uv that a
+/// turned sheet has already keep their place and become mirrored.
 /// @throws InvalidInput as find_sides().
 SceneSides turn_sheets(Scene& scene, const SceneSideOptions& options = {}, std::span<const Volume> view = {});
 

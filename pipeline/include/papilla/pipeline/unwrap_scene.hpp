@@ -7,6 +7,7 @@
 
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
+#include "papilla/meshing/repair.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/pack_unique.hpp"
 #include "papilla/param/seam_visibility.hpp"
@@ -50,11 +51,18 @@ struct UnwrapSeconds {
 };
 
 struct UnwrappedPart : FlattenedPart {
-  SeamVisibility seams;           ///< For the tile and the grain's size.
-  double grain_continued_mm = 0;  ///< Length of the seam over which the grain goes on.
-  std::size_t opposed_edges = 0;  ///< Of two triangles that are wound against each other: charts end there.
-  std::string failure;            ///< Why the part has no uv; empty when it has.
+  SeamVisibility seams;                  ///< For the tile and the grain's size.
+  double grain_continued_mm = 0;         ///< Length of the seam over which the grain goes on.
+  std::size_t opposed_edges = 0;         ///< Of two triangles that are wound against each other: charts end there.
+  std::size_t shared_edges = 0;          ///< Of two triangles or more.
+  std::size_t nonmanifold_edges = 0;     ///< Of these, of three triangles or more: charts end there, too.
+  std::size_t opposed_pairs = 0;         ///< Of these, of two that are wound against each other.
+  std::optional<RepairResult> repaired;  ///< Without its mesh; when repair was wanted.
+  std::string failure;                   ///< Why the part has no uv; empty when it has.
   double repair_seconds = 0, solve_seconds = 0;
+
+  /// A twentieth of the inner edges ends charts: repair() leaves fewer and larger ones.
+  bool is_far_from_manifold() const noexcept { return 20 * (nonmanifold_edges + opposed_pairs) > shared_edges; }
 };
 
 struct UnwrapResult {
