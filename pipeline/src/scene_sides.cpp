@@ -83,6 +83,29 @@ class DoubleSides {
 
 }  // namespace
 
+std::string_view to_string(Viewpoint viewpoint) noexcept {
+  switch (viewpoint) {
+    case Viewpoint::none: break;
+    case Viewpoint::inside: return "inside";
+    case Viewpoint::view: return "view";
+    case Viewpoint::room: return "room";
+    case Viewpoint::around: return "around";
+  }
+  return "none";
+}
+
+std::string_view to_string(SideReason reason) noexcept {
+  switch (reason) {
+    case SideReason::seen: return "seen";
+    case SideReason::neighbour: return "neighbour";
+    case SideReason::seen_around: return "seen_around";
+    case SideReason::both_sides_seen: return "both_sides_seen";
+    case SideReason::unseen: return "unseen";
+    case SideReason::non_orientable: break;
+  }
+  return "non_orientable";
+}
+
 SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
   SceneSides found;
   if (options.keep) return found;
