@@ -191,7 +191,7 @@ TEST_F(BakeFileTest, NewUvBecomeOneMoreChannelAndAllElseStays) {
 /// The room, its left and right wall facing out.
 fs::path room_file(const fs::path& folder) {
   Scene scene = test::room();
-  for (const std::size_t wall : {2, 3}) test::turn_all(scene.parts[wall].mesh);
+  for (const std::size_t wall : {2U, 3U}) test::turn_all(scene.parts[wall].mesh);
   write_glb(scene, folder / "room.glb");
   return folder / "room.glb";
 }
