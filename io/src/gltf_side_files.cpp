@@ -42,30 +42,35 @@ std::string extension_of(const std::string& mime_type) {
   return kind == "jpeg" ? ".jpg" : kind.empty() ? "" : "." + plain(kind);
 }
 
+/// Without recursion: a former output may be nested as deep as it is long.
+template <class AnyJson>
+void collect(const AnyJson& json, std::set<std::string>& uris) {
+  std::vector<const AnyJson*> waiting{&json};
+  while (!waiting.empty()) {
+    const AnyJson& part = *waiting.back();
+    waiting.pop_back();
+    if (part.is_object())
+      if (const auto uri = part.find("uri"); uri != part.end() && uri->is_string()) {
+        const std::string& text = uri->template get_ref<const std::string&>();
+        if (text.find(':') == std::string::npos) uris.insert(percent_decoded(text));
+      }
+    if (part.is_structured())
+      for (const AnyJson& child : part) waiting.push_back(&child);
+  }
+}
+
 }  // namespace
 
 bool is_gltf_with_files(const fs::path& output) { return equals_ignoring_case(output.extension().string(), ".gltf"); }
 
-void collect_uris(const Json& json, std::set<std::string>& uris) {
-  std::vector<const Json*> waiting{&json};  // No recursion: a former output may be nested as deep as it is long.
-  while (!waiting.empty()) {
-    const Json& part = *waiting.back();
-    waiting.pop_back();
-    if (part.is_object())
-      if (const auto uri = part.find("uri"); uri != part.end() && uri->is_string()) {
-        const std::string& text = uri->get_ref<const std::string&>();
-        if (text.find(':') == std::string::npos) uris.insert(percent_decoded(text));
-      }
-    if (part.is_structured())
-      for (const Json& child : part) waiting.push_back(&child);
-  }
-}
+void collect_uris(const Json& json, std::set<std::string>& uris) { collect(json, uris); }
 
 std::set<std::string> named_files(const fs::path& gltf) {
   std::set<std::string> files;
   if (!is_gltf_with_files(gltf)) return files;
   const auto text = present_content(gltf);
-  if (text) collect_uris(Json::parse(*text, nullptr, false), files);
+  // Unlike ordered_json, whose objects copy their members when they grow, this one is parsed without recursion.
+  if (text) collect(nlohmann::json::parse(*text, nullptr, false), files);
   return files;
 }
 
