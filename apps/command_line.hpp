@@ -44,9 +44,11 @@ inline bool wants_json_on_stdout(int argc, char** argv) {
 inline std::string unknown_word(const CLI::App& program) {
   const CLI::App* verb = &program;
   while (!verb->get_subcommands().empty()) verb = verb->get_subcommands().front();
-  const std::vector<std::string> words = verb->remaining();
+  std::vector<std::string> words = verb->remaining();
+  std::erase(words, "--");  // CLI11 lists it, too; it is no word.
   if (words.empty()) return "";
-  const std::string word = words.front().substr(0, words.front().find('='));
+  std::string word = words.front();
+  if (word.starts_with("-")) word.resize(std::min(word.size(), word.find('=')));  // An option's value.
   const std::string place = verb == &program ? "" : verb->get_name() + ": ";
   std::vector<std::string> known;
   if (word.starts_with("-")) {
@@ -72,7 +74,7 @@ inline int report_parse_error(const CLI::App& program, const CLI::ParseError& er
   // The rest says how to get help.
   std::string text = complaint.str();
   if (text.starts_with(error.what())) text = text.substr(std::string_view(error.what()).size());
-  if (as_json) print_error_json(message, k_exit_usage);
+  if (as_json) print_failure_json({message, k_exit_usage});
   // Only the message has what was typed: its line feeds are no ends of lines.
   std::fputs((shown(message) + shown_lines(text)).c_str(), stderr);
   return k_exit_usage;

@@ -23,38 +23,56 @@ class UsageError : public Error {
   using Error::Error;
 };
 
-/// Prints {"error": what, "exit_code": number} on standard output, if that can be written.
-inline void print_error_json(const std::string& what, int exit_code) noexcept {
+/// Why a program ends without, or with less than, what it was asked for.
+struct Failure {
+  std::string what;
+  int exit_code = k_exit_input;
+};
+
+/// {"error": what, "exit_code": number}.
+inline nlohmann::ordered_json failure_json(const Failure& failure) {
+  return {{"error", failure.what}, {"exit_code", failure.exit_code}};
+}
+
+/// Prints failure_json() on standard output, if that can be written.
+inline void print_failure_json(const Failure& failure) noexcept {
   try {
-    print_out(json_text({{"error", what}, {"exit_code", exit_code}}));
+    print_out(json_text(failure_json(failure)));
   } catch (const std::exception&) {
     std::clearerr(stdout);  // The message on stderr is enough.
   }
 }
 
-/// Prints the exception in flight as one line on stderr and returns its exit code. Call it in a catch block.
-/// @param as_json It is printed as JSON on standard output, too.
-inline int report_exception(const char* program, bool as_json = false) {
-  const auto report = [program, as_json](const char* what, int exit_code) {
-    if (as_json) print_error_json(what, exit_code);
-    std::fprintf(stderr, "%s: error: %s\n", program, shown(what).c_str());
-    return exit_code;
-  };
+/// Prints the failure as one line on stderr and returns its exit code.
+inline int print_failure(const char* program, const Failure& failure) {
+  std::fprintf(stderr, "%s: error: %s\n", program, shown(failure.what).c_str());
+  return failure.exit_code;
+}
+
+/// The exception in flight. Call it in a catch block.
+inline Failure failure_in_flight() {
   try {
     throw;
   } catch (const UsageError& error) {
-    return report(error.what(), k_exit_usage);
+    return {error.what(), k_exit_usage};
   } catch (const OverwriteRefused& error) {
-    return report(error.what(), k_exit_usage);
+    return {error.what(), k_exit_usage};
   } catch (const SolverFailure& error) {
-    return report(error.what(), k_exit_solver);
+    return {error.what(), k_exit_solver};
   } catch (const DeviceError& error) {
-    return report(error.what(), k_exit_device);
+    return {error.what(), k_exit_device};
   } catch (const std::bad_alloc&) {
-    return report("out of memory", k_exit_input);
+    return {"out of memory", k_exit_input};
   } catch (const std::exception& error) {
-    return report(error.what(), k_exit_input);
+    return {error.what(), k_exit_input};
   }
+}
+
+/// print_failure() of failure_in_flight(). @param as_json It is printed as JSON on standard output, too.
+inline int report_exception(const char* program, bool as_json = false) {
+  const Failure failure = failure_in_flight();
+  if (as_json) print_failure_json(failure);
+  return print_failure(program, failure);
 }
 
 }  // namespace papilla::app

@@ -22,7 +22,7 @@ _papilla_first_choices() {
 
 _papilla() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} program=${COMP_WORDS[0]}
-  local help verbs words='' verb=${COMP_WORDS[1]-}
+  local help verbs words='' listed='' verb=${COMP_WORDS[1]-}
   help=$("$program" --help 2>/dev/null) || return 0
   verbs=$(_papilla_verbs <<<"$help")
   if [[ -n $verbs ]] && ((COMP_CWORD > 1)) && grep -qxF -- "$verb" <<<"$verbs"; then
@@ -30,15 +30,16 @@ _papilla() {
     verbs=''
   fi
 
-  if [[ $previous == -* ]]; then
+  # What was typed goes into no script: sed runs commands, and compgen -W expands its words.
+  if [[ $previous =~ ^--?[A-Za-z][A-Za-z0-9-]*$ ]]; then
     words=$(_papilla_choices "$previous" <<<"$help")
     # A list of choices goes on behind its last comma.
-    if [[ -n $words && $current == *,* ]]; then words=$(sed "s|^|${current%,*},|" <<<"$words"); fi
+    if [[ -n $words && $current == *,* ]]; then listed=${current%,*},; fi
   fi
   if [[ -z $words && $current == -* ]]; then words=$(_papilla_options <<<"$help"); fi
   if [[ -z $words && $COMP_CWORD -eq 1 ]]; then words=$verbs; fi
   if [[ -z $words && $COMP_CWORD -eq 2 ]]; then words=$(_papilla_first_choices <<<"$help"); fi
-  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+  mapfile -t COMPREPLY < <(compgen -P "$listed" -W "$words" -- "${current#"$listed"}")
 }
 
 # Where nothing of this fits, file names are completed.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "json/json.hpp"
 #include "papilla/core/one_line.hpp"
@@ -16,6 +17,12 @@ namespace {
 constexpr std::chrono::milliseconds k_tick{500};
 constexpr double k_least_pause_s = 0.1;  ///< Between two lines.
 constexpr double k_quiet_s = 1;          ///< Shorter work shows nothing on a terminal.
+
+/// Nobody is told of a standard error that can't be written: the work goes on.
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
 
 std::string duration(double seconds) {
   if (seconds < 60) return fmt::format("{:.0f} s", std::max(1.0, std::round(seconds)));
@@ -39,7 +46,7 @@ ProgressPrinter::~ProgressPrinter() {
   }
   ended_.notify_one();
   ticker_.join();
-  if (drawn_) fmt::print(stderr, "\r\033[K");
+  if (drawn_) print("\r\033[K");
 }
 
 void ProgressPrinter::tick() {
@@ -61,14 +68,14 @@ void ProgressPrinter::draw() {
   const double now = total_.seconds();
   if (form_ == Form::json) {
     const Json line{{"stage", stage_}, {"fraction", fraction_}, {"seconds", now}};
-    fmt::print(stderr, "{}\n", shown(line.dump(-1, ' ', false, Json::error_handler_t::replace)));
+    print(shown(line.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n");
   } else {
     if (now < k_quiet_s) return;
     std::string line = fmt::format("{} {:3.0f} %  {}", shown(stage_), std::floor(100 * fraction_), duration(now));
-    if (const double left = seconds_left(fraction_, stage_clock_.seconds()); left > 0)
-      line += fmt::format(", about {} left", duration(left));
-    fmt::print(stderr, "\r\033[K{}", line);
-    std::fflush(stderr);
+    const double spent = stage_clock_.seconds();
+    if (const double left = seconds_left(fraction_, spent); left > 0)
+      line += fmt::format(", {:.2g} %/s, about {} left", 100 * fraction_ / spent, duration(left));
+    print("\r\033[K" + line);
     drawn_ = true;
   }
   last_drawn_s_ = now;

@@ -118,7 +118,7 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->transform(one_of({"auto", "json", "none"}))
       ->capture_default_str()
       ->group("Common");
-  verb->add_option("--time-limit", common->time_limit_s,
+  verb->add_option("--time-limit,--timeout", common->time_limit_s,
                    info.at_deadline == VerbInfo::AtDeadline::ends
                        ? "End after so long, with the best valid result so far"
                        : "End after so long, with exit code 4 and no result when it is not done")

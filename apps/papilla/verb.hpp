@@ -26,9 +26,11 @@ class Console {
 /// What every verb gets beside its own options.
 struct VerbContext {
   Console console;
-  ProgressCallback progress;  ///< Draws on stderr when that is a terminal and the work takes over a second.
-  int threads = 0;            ///< 0: all cores.
-  Deadline deadline;          ///< --time-limit.
+  /// Draws on stderr when that is a terminal and the work takes over a second. Returns false at the deadline, unless
+  /// the verb ends by itself.
+  ProgressCallback progress;
+  int threads = 0;    ///< 0: all cores.
+  Deadline deadline;  ///< --time-limit.
   std::uint64_t seed = 1;
   int exit_code = 0;  ///< Set by a verb that ends normally but not with 0.
 };
@@ -44,7 +46,8 @@ struct VerbInfo {
 /// The body of a verb: does the work, prints for people, returns the machine-readable result.
 using VerbBody = std::function<Json(VerbContext&)>;
 
-/// Adds a verb with the options that all verbs share (--json, --quiet, --threads, --seed, --max-memory, --progress).
+/// Adds a verb with the options that all verbs share (--json, --quiet, --threads, --seed, --max-memory, --progress,
+/// --time-limit).
 /// The caller adds its own options to the returned command, bound to an object that `body` shares.
 CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body);
 

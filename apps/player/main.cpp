@@ -10,7 +10,6 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -185,6 +184,18 @@ void print_status(const LoopStatus& s) {
   std::fflush(stderr);
 }
 
+/// Why a run that has ended is a failure, though it has a report.
+void check_end(const RunReport& report, bool file_changed, const std::string& file) {
+  if (report.loop.device_lost) throw DeviceError(report.device + ": the device was lost");
+  if (report.loop.fault == ForceGuard::Fault::stale_input)
+    throw DeviceError(report.device + ": no fresh position, forces are off");
+  if (report.loop.fault == ForceGuard::Fault::not_finite)
+    throw DeviceError(report.device + ": a position or force was not finite, forces are off");
+  if (file_changed) throw DeviceError(file + ": changed while it was played, forces are off");
+  if (g_signal != 0)
+    throw DeviceError(report.device + ": stopped by signal " + std::to_string(g_signal) + ", forces are off");
+}
+
 int run(const Options& options) {
   const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
@@ -269,24 +280,18 @@ int run(const Options& options) {
     if (shown) print_status(status), std::fputc('\n', stderr);
   }
 
-  std::exception_ptr unwritten;  // Rethrown after the other outputs are written.
+  std::optional<app::Failure> failure;
   try {
     if (!options.record.empty()) write_atomically(options.record, record_csv(rows));
+    check_end(report, file_changed, options.file);
   } catch (const Error&) {
-    unwritten = std::current_exception();
+    failure = app::failure_in_flight();
   }
   if (!options.quiet && options.json != "-") app::print_out(summary(report));
-  write_json(options, to_json(report));
-  if (unwritten) std::rethrow_exception(unwritten);
-  if (report.loop.device_lost) throw DeviceError(report.device + ": the device was lost");
-  if (report.loop.fault == ForceGuard::Fault::stale_input)
-    throw DeviceError(report.device + ": no fresh position, forces are off");
-  if (report.loop.fault == ForceGuard::Fault::not_finite)
-    throw DeviceError(report.device + ": a position or force was not finite, forces are off");
-  if (file_changed) throw DeviceError(options.file + ": changed while it was played, forces are off");
-  if (g_signal != 0)
-    throw DeviceError(report.device + ": stopped by signal " + std::to_string(g_signal) + ", forces are off");
-  return app::k_exit_done;
+  nlohmann::ordered_json json = to_json(report);
+  if (failure) json.update(app::failure_json(*failure));
+  write_json(options, json);
+  return failure ? app::print_failure("papilla-player", *failure) : app::k_exit_done;
 }
 
 int list_devices(const Options& options) {

@@ -18,34 +18,28 @@ namespace {
 
 using Json = GltfFile::Json;
 
-/// A key within a JSON pointer [RFC 6901].
-std::string escaped(const std::string& key) {
-  std::string text;
-  for (const char c : key) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return text;
-}
-
-void compare(const Json& before, const Json& after, const std::string& pointer, std::vector<GltfChange>& changes) {
+void compare(const Json& before, const Json& after, const Json::json_pointer& pointer,
+             std::vector<GltfChange>& changes) {
   if (before.is_object() && after.is_object()) {
     for (const auto& [key, value] : before.items()) {
-      const std::string member = pointer + "/" + escaped(key);
+      const Json::json_pointer member = pointer / key;
       if (const auto found = after.find(key); found != after.end())
         compare(value, *found, member, changes);
       else
-        changes.push_back({"removed", member});
+        changes.push_back({"removed", member.to_string()});
     }
     for (const auto& [key, value] : after.items())
-      if (!before.contains(key)) changes.push_back({"added", pointer + "/" + escaped(key)});
+      if (!before.contains(key)) changes.push_back({"added", (pointer / key).to_string()});
   } else if (before.is_array() && after.is_array()) {
     for (std::size_t i = 0; i < std::max(before.size(), after.size()); ++i) {
-      const std::string element = pointer + "/" + std::to_string(i);
+      const Json::json_pointer element = pointer / i;
       if (i < before.size() && i < after.size())
         compare(before[i], after[i], element, changes);
       else
-        changes.push_back({i < before.size() ? "removed" : "added", element});
+        changes.push_back({i < before.size() ? "removed" : "added", element.to_string()});
     }
   } else if (before != after) {
-    changes.push_back({"changed", pointer});
+    changes.push_back({"changed", pointer.to_string()});
   }
 }
 
@@ -147,7 +141,7 @@ void edit_file(const std::filesystem::path& source, Scene& scene, const GltfOrig
   take_materials(file.json, origin, scene);
   write_manifest(scene, origin, file.json);
   file.write();
-  compare(file.original(), file.json, "", result.changes);
+  compare(file.original(), file.json, Json::json_pointer(), result.changes);
 }
 
 }  // namespace

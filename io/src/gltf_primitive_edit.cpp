@@ -329,7 +329,8 @@ class PrimitiveEditor {
     for (const auto& [name, value] : json["extensions"].items())
       if (name != k_draco && name != "KHR_materials_variants")
         notes_.push_back("mesh " + std::to_string(number.first) + ", primitive " + std::to_string(number.second) +
-                         ": its extension " + name + " stays as it is, though vertices were added for the grain's uv");
+                         ": its extension " + name +
+                         " stays as it is, though the primitive's vertices or their order changed");
   }
 
   void add_attributes(const Member& member, const VertexGroup& group) {

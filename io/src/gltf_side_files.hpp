@@ -38,10 +38,13 @@ class GltfSideFiles {
 
   /// Writes all of them.
   /// @throws IoError when a file has other content and is none that the former output named: it may be another scene's.
+  ///         Nothing is written then.
   void write() const;
 
  private:
   std::string add(const std::string& stem, const std::string& extension, std::string bytes);
+  /// Whether a file is to be written: there is none of that content. @param former Those that may be replaced.
+  bool is_new(const std::string& name, const std::string& bytes, const std::set<std::string>& former) const;
 
   std::filesystem::path output_;
   std::set<std::string> taken_;                          ///< Names, relative to the output's folder.

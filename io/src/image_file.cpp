@@ -71,8 +71,8 @@ std::unique_ptr<ImageOutput> make_output(const fs::path& path, const ImageSpec& 
 
 /// The file's bytes; `path` only names it and chooses the format.
 std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
+  OIIO::Filesystem::IOVecOutput memory;  // Before the output, whose destructor may write into it.
   const auto output = make_output(path, spec);
-  OIIO::Filesystem::IOVecOutput memory;
   if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec))
     throw InvalidInput(path.string() + ": " + first_line(output->geterror()));
   if (!output->write_image(source, pixels) || !output->close())
@@ -118,9 +118,10 @@ class StreamOutput final : public OIIO::Filesystem::IOProxy {
 /// Writes row by row what read(y, row) gives, values of type T.
 template <class T, class Read>
 void write_rows(const fs::path& path, const ImageSpec& spec, const Read& read) {
-  const auto output = make_output(path, spec);
+  auto made = make_output(path, spec);
   write_atomically(path, [&](std::ostream& out) {
-    StreamOutput stream(path.string(), out);
+    StreamOutput stream(path.string(), out);  // Before the output, whose destructor may write into it.
+    const auto output = std::move(made);
     std::vector<T> row(static_cast<std::size_t>(spec.width));
     const auto require = [&](bool done) {
       stream.rethrow();
@@ -167,12 +168,13 @@ GreyImage read_grey_image(const fs::path& path, std::size_t bytes_per_pixel) {
 
 ColorImage read_color_image(const fs::path& path, std::size_t bytes_per_pixel) {
   PictureInput input(path, k_max_image_pixels);
-  return input.is_float() ? read_picture(path).color : read_rgb(input, bytes_per_pixel);
+  return input.is_float() ? read_picture(path, bytes_per_pixel + sizeof(float)).color
+                          : read_rgb(input, bytes_per_pixel);
 }
 
-Picture read_picture(const fs::path& path) {
+Picture read_picture(const fs::path& path, std::size_t bytes_per_pixel) {
   ImageBands bands(path, k_max_image_pixels, std::numeric_limits<int>::max());
-  bands.require_memory(sizeof(float) + 3);
+  bands.require_memory(bytes_per_pixel);
   GreyImage grey = bands.next(bands.height());
   return {std::move(grey), bands.sample()};
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "papilla/core/bounds.hpp"
@@ -29,6 +30,10 @@ bool is_large_thing(const std::string& word) {
       "armchair", "bed",  "bench",    "cabin", "cabinet", "car",   "chair", "cockpit", "couch", "dash",    "dashboard",
       "desk",     "door", "interior", "room",  "seat",    "shelf", "sofa",  "stool",   "table", "wardrobe"};
   return k_things.contains(word);
+}
+
+std::string with_article(const std::string& word) {
+  return (std::string_view("aeiou").find(word.front()) == std::string_view::npos ? "a " : "an ") + word;
 }
 
 /// The last word of a name in lower case: "sofa" of "Leather-Sofa_02".
@@ -82,7 +87,7 @@ void hint_at_unit(Scene& scene, const std::string& file_name) {
                             largest * mm / k_mm_per_metre, name, name);
   scene.warnings.push_back(fmt::format(
       "the file states no unit; in millimetres all of it is {:.3g} x {:.3g} x {:.3g} mm, {} {}{}", size.x, size.y,
-      size.z, is_small ? "small for" : "large for", is_large ? "a " + thing : "an interior", others));
+      size.z, is_small ? "small for" : "large for", is_large ? with_article(thing) : "an interior", others));
 }
 
 void add_part_nodes(Scene& scene, const std::string& fallback_name) {

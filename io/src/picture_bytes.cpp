@@ -207,6 +207,13 @@ class JpegBytes {
   std::string_view ahead_;
 };
 
+/// SOF0 to SOF15; the three markers between them are tables and an extension.
+bool is_frame(unsigned char marker) {
+  constexpr unsigned char k_huffman_tables = 0xc4, k_extension = 0xc8, k_arithmetic_tables = 0xcc;
+  return marker >= 0xc0 && marker <= 0xcf && marker != k_huffman_tables && marker != k_extension &&
+         marker != k_arithmetic_tables;
+}
+
 }  // namespace
 
 ByteSource source_of(std::string_view bytes) {
@@ -308,16 +315,29 @@ bool check_png(const ByteSource& next, const fs::path& path) {
 bool check_jpeg(const ByteSource& next, const fs::path& path) {
   constexpr int k_most_scans = 500;
   constexpr unsigned char k_end = 0xd9, k_scan = 0xda;
+  constexpr std::size_t k_frame_header = 6;  // Precision, height, width, number of components.
   JpegBytes bytes(next, path);
   int scans = 0;
+  unsigned char components = 0;
+  bool progressive = false, parted = false;
   for (bytes.skip(2);;) {
     const unsigned char marker = bytes.next_marker();
-    if (marker == k_end) return scans > 1;
+    if (marker == k_end) return progressive || parted || scans > 1;
     const bool stands_alone = marker == 1 || (marker >= 0xd0 && marker <= 0xd8);
     if (stands_alone) continue;
     const std::size_t high = bytes.byte(), length = high << 8U | bytes.byte();
     if (length < 2) throw InvalidInput(path.string() + ": is damaged: a segment without length");
-    bytes.skip(length - 2);
+    std::size_t rest = length - 2;
+    if (is_frame(marker) && rest >= k_frame_header) {
+      progressive |= (marker & 3U) == 2;
+      bytes.skip(k_frame_header - 1);
+      components = bytes.byte();
+      rest -= k_frame_header;
+    } else if (marker == k_scan && rest > 0) {
+      parted |= bytes.byte() < components;
+      --rest;
+    }
+    bytes.skip(rest);
     if (marker == k_scan && ++scans > k_most_scans)
       throw InvalidInput(
           fmt::format("{}: has more than {} scans, each a pass over the picture", path.string(), k_most_scans));

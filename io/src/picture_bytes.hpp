@@ -44,7 +44,8 @@ void check_bmp(std::string_view first_bytes, const std::filesystem::path& path);
 /// @throws InvalidInput naming `path` and the chunk or row that is damaged.
 bool check_png(const ByteSource& next, const std::filesystem::path& path);
 
-/// Counts the scans of a JPEG. @returns whether there are several, so that the reader holds the whole picture.
+/// Reads the markers of a JPEG [ITU-T T.81, B]. @returns whether the reader holds the whole picture, as libjpeg does
+/// when the frame is progressive, the first scan has not all of its components, or there are several scans.
 /// @throws InvalidInput naming `path` when the file ends early or has more than 500 scans, each of which costs a pass.
 bool check_jpeg(const ByteSource& next, const std::filesystem::path& path);
 

@@ -48,7 +48,7 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   const std::string extension = lower_extension(path);
   if (extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off")
     return read_mesh_scene(extension, path, options);
-  if (extension == ".glb" || extension == ".gltf") {
+  if (is_gltf_file(path)) {
     Scene scene = read_gltf(path, {.tags = options.tags, .tag_channel = options.tag_channel});
     scene.up = options.up.value_or(scene.up);
     return scene;
@@ -59,6 +59,11 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
 }
 
 }  // namespace
+
+bool is_gltf_file(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".glb" || extension == ".gltf";
+}
 
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, const ProgressCallback& progress) {
   require_file(path);

@@ -2,23 +2,16 @@
 #include "papilla/pipeline/bake_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/pipeline/assignment.hpp"
+#include "papilla/pipeline/hex_colour.hpp"
 
 namespace papilla {
 namespace {
-
-bool is_gltf(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".glb" || extension == ".gltf";
-}
 
 /// What the scene can't hold stays in the file.
 Scene read_for_edit(const std::filesystem::path& input, const ReadOptions& options, const ProgressCallback& progress,
@@ -133,7 +126,7 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
 }  // namespace
 
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options) {
-  if (!is_gltf(input)) return {false, "the input is no glTF file"};
+  if (!is_gltf_file(input)) return {false, "the input is no glTF file"};
   if (options.read.up && *options.read.up != UpAxis::y) return {false, "the scene is to be turned"};
   if (options.bake.plan.budget) return {false, "triangles are to be reduced"};
   const PerceptionOptions& perception = options.bake.plan.perception;

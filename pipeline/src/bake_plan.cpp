@@ -8,7 +8,6 @@
 #include <map>
 
 #include "papilla/core/error.hpp"
-#include "papilla/core/srgb.hpp"
 #include "papilla/io/node_places.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/meshing/orient.hpp"
@@ -178,11 +177,11 @@ std::vector<PartSurface> split_by_slot(const Scene& scene, const Assignment& ass
   return surfaces;
 }
 
-/// What the rules took, and warnings of those that took nothing.
-void note_rules(const Assignment& assignment, bool strict, Scene& scene, BakePlan& plan) {
+/// What the rules took, and warnings of those that took nothing. @param source What messages begin with.
+void note_rules(const Assignment& assignment, bool strict, const std::string& source, Scene& scene, BakePlan& plan) {
   const std::vector<std::string> problems = problems_of(assignment.uses, "rule", "/assign");
   if (strict && !problems.empty())
-    throw InvalidInput(fmt::format("{}{}", problems.front(),
+    throw InvalidInput(fmt::format("{}: {}{}", source, problems.front(),
                                    problems.size() > 1 ? fmt::format("; {} more rules", problems.size() - 1) : ""));
   scene.warnings.insert(scene.warnings.end(), problems.begin(), problems.end());
   plan.rules = assignment.uses;
@@ -190,19 +189,6 @@ void note_rules(const Assignment& assignment, bool strict, Scene& scene, BakePla
 }
 
 }  // namespace
-
-std::string hex_colour(const std::array<double, 4>& linear) {
-  const auto byte = [](double c) { return static_cast<int>(std::lround(255 * srgb_from_linear(c))); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(linear[0]), byte(linear[1]), byte(linear[2]));
-}
-
-std::array<double, 4> linear_colour(const std::string& hex) {
-  if (hex.size() != 7 || hex[0] != '#') throw InvalidInput("linear_colour: '" + hex + "' is no colour such as #20a0ff");
-  const auto channel = [&](std::size_t at) {
-    return linear_from_srgb(std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0);
-  };
-  return {channel(1), channel(3), channel(5), 1};
-}
 
 std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& assignment,
                                        const std::vector<PartPerception>& perception, bool in_place) {
@@ -237,10 +223,11 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& ass
 BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options,
                    const ProgressCallback& progress) {
   BakePlan plan;
+  // Before sheets are turned, which gives some a material that no rule means.
+  Assignment assignment = assign_materials(scene, rules);
+  note_rules(assignment, options.strict, rules.source, scene, plan);
   plan.sides = options.in_place ? find_sides(scene, options.sides, options.perception.view)
                                 : turn_sheets(scene, options.sides, options.perception.view);
-  Assignment assignment = assign_materials(scene, rules);
-  note_rules(assignment, options.strict, scene, plan);
   if (!options.in_place && !options.keep_copies) plan.shared = share_identical_parts(scene, assignment);
   const Stopwatch perception_clock;
   plan.perception = measure_perception(scene, options.perception, progress);

@@ -18,6 +18,7 @@
 #include "papilla/meshing/mesh_assembly.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"
+#include "papilla/pipeline/hex_colour.hpp"
 
 namespace papilla {
 namespace {

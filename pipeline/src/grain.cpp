@@ -17,6 +17,7 @@
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/tag_limits.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/texture.hpp"
 #include "papilla/texture/height_from_image.hpp"
@@ -116,7 +117,7 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
     return computed_source(rule, library);
   try {
-    Picture picture = read_picture(rule.texture);
+    Picture picture = read_picture(rule.texture, k_height_bytes_per_pixel + 3);
     return {std::move(picture.grey), std::move(picture.color)};
   } catch (const IoError& unread) {
     std::vector<std::string_view> recipes;

@@ -14,19 +14,6 @@
 namespace papilla {
 namespace {
 
-std::string escaped(std::string_view key) {
-  std::string out;
-  for (const char c : key) {
-    if (c == '~')
-      out += "~0";
-    else if (c == '/')
-      out += "~1";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string joined(const std::vector<std::string_view>& words) {
   std::string list;
   for (const auto word : words) list += (list.empty() ? "" : ", ") + std::string(word);
@@ -57,7 +44,7 @@ std::optional<JsonValue> JsonValue::get(const std::string& key) const {
   expect_object();
   const auto it = json_.find(key);
   if (it == json_.end()) return std::nullopt;
-  return JsonValue(*it, file_, pointer_ + "/" + escaped(key));
+  return JsonValue(*it, file_, (Json::json_pointer(pointer_) / key).to_string());
 }
 
 JsonValue JsonValue::at(std::size_t index) const {
@@ -128,23 +115,14 @@ JsonValue::Json read_json(const std::filesystem::path& path) {
 }
 
 SurfaceSelector read_selector(const JsonValue& value, const std::vector<std::string_view>& own) {
-  std::vector<std::string_view> known = {"part",  "mesh",         "node",       "instance",     "assembly",
-                                         "layer", "cad_material", "cad_colour", "gltf_material"};
+  std::vector<std::string_view> known;
+  for (const SelectorKey& key : selector_keys()) known.push_back(key.name);
   known.insert(known.end(), own.begin(), own.end());
   check_keys(value, known);
   SurfaceSelector selector;
-  const auto pattern = [&](const char* key, std::optional<std::string>& target) {
-    if (const auto v = value.get(key)) target = v->text();
-  };
-  pattern("part", selector.part);
-  pattern("mesh", selector.mesh);
-  pattern("node", selector.node);
-  pattern("instance", selector.instance);
-  pattern("assembly", selector.assembly);
-  pattern("layer", selector.layer);
-  pattern("cad_material", selector.cad_material);
-  if (const auto v = value.get("cad_colour")) selector.cad_colour = v->hex_colour();
-  pattern("gltf_material", selector.gltf_material);
+  for (const SelectorKey& key : selector_keys())
+    if (const auto v = value.get(std::string(key.name)))
+      selector.*key.pattern = key.kind == SelectorKey::Kind::colour ? v->hex_colour() : v->text();
   const auto add_exception = [&](const JsonValue& exception) {
     selector.except.push_back(read_selector(exception, {}));
     if (selector.except.back().is_empty()) exception.fail("selects nothing");

@@ -70,10 +70,11 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
 
 AssignRule read_assign(const JsonValue& value, const Materials& file) {
   AssignRule rule{read_selector(value, {"not", "material", "$comment"}), {}};
-  if (rule.is_empty())
-    value.fail(
-        "needs one of 'part', 'mesh', 'node', 'instance', 'assembly', 'layer', 'cad_material', 'cad_colour', "
-        "'gltf_material', 'not'");
+  if (rule.is_empty()) {
+    std::string keys;
+    for (const SelectorKey& key : selector_keys()) keys += "'" + std::string(key.name) + "', ";
+    value.fail("needs one of " + keys + "'not'");
+  }
   const JsonValue material = value.require("material");
   if (material.json().is_null()) return rule;
   rule.material = material.text();
@@ -93,6 +94,7 @@ Materials read_materials(const std::filesystem::path& path) {
     if (v->number(0, 1e9) != 1) v->fail("only version 1 is known");
 
   Materials file;
+  file.source = path.string();
   const JsonValue materials = root.require("materials");
   materials.expect_object();
   for (const auto& [name, unused] : materials.json().items())

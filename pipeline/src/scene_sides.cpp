@@ -39,6 +39,29 @@ void add_ambiguous(const Scene& scene, const PartSheets& part, std::set<PartSlot
 
 }  // namespace
 
+std::string_view to_string(Viewpoint viewpoint) noexcept {
+  switch (viewpoint) {
+    case Viewpoint::none: break;
+    case Viewpoint::inside: return "inside";
+    case Viewpoint::view: return "view";
+    case Viewpoint::room: return "room";
+    case Viewpoint::around: return "around";
+  }
+  return "none";
+}
+
+std::string_view to_string(SideReason reason) noexcept {
+  switch (reason) {
+    case SideReason::seen: return "seen";
+    case SideReason::neighbour: return "neighbour";
+    case SideReason::seen_around: return "seen_around";
+    case SideReason::both_sides_seen: return "both_sides_seen";
+    case SideReason::unseen: return "unseen";
+    case SideReason::non_orientable: break;
+  }
+  return "non_orientable";
+}
+
 void show_both_sides(Scene& scene, const std::set<PartSlot>& slots, bool add_materials) {
   std::vector<std::size_t> other_uses(scene.materials.size(), 0);
   for (std::uint32_t p = 0; p < scene.parts.size(); ++p)

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "papilla/core/error.hpp"
+#include "papilla/io/node_places.hpp"
 #include "papilla/meshing/identical_parts.hpp"
 
 namespace papilla {
@@ -88,7 +89,8 @@ std::vector<SharedPart> share_identical_parts(Scene& scene, const PartLabel& lab
   std::vector<SharedPart> shared;
   for (std::uint32_t i = 0; i < copies.size(); ++i)
     if (copies[i].original != i)
-      shared.push_back({scene.parts[i].name, scene.parts[i].id, i, copies[i].original, copies[i].max_distance_mm});
+      shared.push_back(
+          {shown_name(scene.parts[i]), scene.parts[i].id, i, copies[i].original, copies[i].max_distance_mm});
   if (shared.empty()) return shared;
   const std::size_t nodes = scene.nodes.size();
   for (std::uint32_t n = 0; n < nodes; ++n) {

@@ -12,45 +12,44 @@
 #include "papilla/core/glob.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/core/one_line.hpp"
-#include "papilla/core/srgb.hpp"
 #include "papilla/io/node_places.hpp"
-#include "papilla/pipeline/bake_plan.hpp"
+#include "papilla/pipeline/hex_colour.hpp"
 
 namespace papilla {
 namespace {
 
-bool equals(const std::string& wanted, const std::string& name) { return wanted == name; }
-
-/// A key of a selector: its pattern, the names that it is compared with, and how.
-struct Field {
-  const char* key;
-  std::optional<std::string> SurfaceSelector::*pattern;
-  std::vector<std::string> SurfacePlace::*names;
-  bool (*fits)(const std::string& pattern, const std::string& name);
-};
-
-constexpr std::array<Field, 9> k_fields = {{
-    {"part", &SurfaceSelector::part, &SurfacePlace::parts, matches_glob},
-    {"mesh", &SurfaceSelector::mesh, &SurfacePlace::meshes, matches_glob},
-    {"node", &SurfaceSelector::node, &SurfacePlace::nodes, matches_path_glob},
-    {"instance", &SurfaceSelector::instance, &SurfacePlace::instances, matches_glob},
-    {"assembly", &SurfaceSelector::assembly, &SurfacePlace::assemblies, matches_glob},
-    {"layer", &SurfaceSelector::layer, &SurfacePlace::layers, matches_glob},
-    {"cad_material", &SurfaceSelector::cad_material, &SurfacePlace::cad_materials, matches_glob},
-    {"cad_colour", &SurfaceSelector::cad_colour, &SurfacePlace::colours, equals},
-    {"gltf_material", &SurfaceSelector::gltf_material, &SurfacePlace::materials, matches_glob},
+constexpr std::array<SelectorKey, 9> k_keys = {{
+    {"part", &SurfaceSelector::part, &SurfacePlace::parts, SelectorKey::Kind::glob},
+    {"mesh", &SurfaceSelector::mesh, &SurfacePlace::meshes, SelectorKey::Kind::glob},
+    {"node", &SurfaceSelector::node, &SurfacePlace::nodes, SelectorKey::Kind::path_glob},
+    {"instance", &SurfaceSelector::instance, &SurfacePlace::instances, SelectorKey::Kind::glob},
+    {"assembly", &SurfaceSelector::assembly, &SurfacePlace::assemblies, SelectorKey::Kind::glob},
+    {"layer", &SurfaceSelector::layer, &SurfacePlace::layers, SelectorKey::Kind::glob},
+    {"cad_material", &SurfaceSelector::cad_material, &SurfacePlace::cad_materials, SelectorKey::Kind::glob},
+    {"cad_colour", &SurfaceSelector::cad_colour, &SurfacePlace::colours, SelectorKey::Kind::colour},
+    {"gltf_material", &SurfaceSelector::gltf_material, &SurfacePlace::materials, SelectorKey::Kind::glob},
 }};
 
-bool fits_field(const Field& field, const std::string& pattern, const SurfacePlace& place) {
-  const std::vector<std::string>& names = place.*field.names;
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return field.fits(pattern, name); });
+bool fits_name(SelectorKey::Kind kind, const std::string& pattern, const std::string& name) {
+  switch (kind) {
+    case SelectorKey::Kind::glob: break;
+    case SelectorKey::Kind::path_glob: return matches_path_glob(pattern, name);
+    case SelectorKey::Kind::colour: return pattern == name;
+  }
+  return matches_glob(pattern, name);
 }
 
-/// Whether all fields fit; exceptions are not looked at.
-bool fits_fields(const SurfaceSelector& selector, const SurfacePlace& place) {
-  return std::all_of(k_fields.begin(), k_fields.end(), [&](const Field& field) {
-    const auto& pattern = selector.*field.pattern;
-    return !pattern || fits_field(field, *pattern, place);
+bool fits_key(const SelectorKey& key, const std::string& pattern, const SurfacePlace& place) {
+  const std::vector<std::string>& names = place.*key.names;
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return fits_name(key.kind, pattern, name); });
+}
+
+/// Whether all keys fit; exceptions are not looked at.
+bool fits_keys(const SurfaceSelector& selector, const SurfacePlace& place) {
+  return std::all_of(k_keys.begin(), k_keys.end(), [&](const SelectorKey& key) {
+    const auto& pattern = selector.*key.pattern;
+    return !pattern || fits_key(key, *pattern, place);
   });
 }
 
@@ -81,11 +80,11 @@ std::vector<std::uint32_t> used_slots(const TriangleMesh& mesh) {
   return slots;
 }
 
-/// "; did you mean ..." of the names that a field is compared with.
-std::string near_name(const Field& field, const std::string& pattern, const std::vector<SurfacePlace>& places) {
+/// "; did you mean ..." of the names that a key is compared with.
+std::string near_name(const SelectorKey& key, const std::string& pattern, const std::vector<SurfacePlace>& places) {
   std::set<std::string_view> names;
-  for (const SurfacePlace& place : places) names.insert((place.*field.names).begin(), (place.*field.names).end());
-  if (field.fits == matches_path_glob) {
+  for (const SurfacePlace& place : places) names.insert((place.*key.names).begin(), (place.*key.names).end());
+  if (key.kind == SelectorKey::Kind::path_glob) {
     const std::string anywhere = "**/" + pattern;
     if (std::any_of(names.begin(), names.end(),
                     [&](std::string_view name) { return matches_path_glob(anywhere, std::string(name)); }))
@@ -95,15 +94,17 @@ std::string near_name(const Field& field, const std::string& pattern, const std:
   return did_you_mean(pattern, {names.begin(), names.end()});
 }
 
-std::string quoted_field(const Field& field, const std::string& pattern) {
-  return std::string(field.key) + " '" + shown(pattern) + "'";
+std::string quoted_key(const SelectorKey& key, const std::string& pattern) {
+  return std::string(key.name) + " '" + shown(pattern) + "'";
 }
 
 }  // namespace
 
+std::span<const SelectorKey> selector_keys() noexcept { return k_keys; }
+
 bool SurfaceSelector::is_empty() const {
-  return except.empty() && std::none_of(k_fields.begin(), k_fields.end(),
-                                        [&](const Field& field) { return (this->*field.pattern).has_value(); });
+  return except.empty() && std::none_of(k_keys.begin(), k_keys.end(),
+                                        [&](const SelectorKey& key) { return (this->*key.pattern).has_value(); });
 }
 
 std::vector<SurfacePlace> surface_places(const Scene& scene) {
@@ -148,29 +149,28 @@ std::vector<SurfacePlace> surface_places(const Scene& scene) {
 }
 
 bool fits(const SurfaceSelector& selector, const SurfacePlace& place) {
-  return fits_fields(selector, place) && std::none_of(selector.except.begin(), selector.except.end(),
-                                                      [&](const SurfaceSelector& other) { return fits(other, place); });
+  return fits_keys(selector, place) && std::none_of(selector.except.begin(), selector.except.end(),
+                                                    [&](const SurfaceSelector& other) { return fits(other, place); });
 }
 
 std::string text_of(const SurfaceSelector& selector) {
   std::string text;
-  for (const Field& field : k_fields)
-    if (const auto& pattern = selector.*field.pattern)
-      text += (text.empty() ? "" : ", ") + quoted_field(field, *pattern);
+  for (const SelectorKey& key : k_keys)
+    if (const auto& pattern = selector.*key.pattern) text += (text.empty() ? "" : ", ") + quoted_key(key, *pattern);
   for (const SurfaceSelector& other : selector.except) text += (text.empty() ? "not " : ", not ") + text_of(other);
   return text;
 }
 
 std::string reason_for_nothing(const SurfaceSelector& selector, const std::vector<SurfacePlace>& places) {
-  for (const Field& field : k_fields) {
-    const auto& pattern = selector.*field.pattern;
+  for (const SelectorKey& key : k_keys) {
+    const auto& pattern = selector.*key.pattern;
     if (!pattern || std::any_of(places.begin(), places.end(),
-                                [&](const SurfacePlace& place) { return fits_field(field, *pattern, place); }))
+                                [&](const SurfacePlace& place) { return fits_key(key, *pattern, place); }))
       continue;
-    return quoted_field(field, *pattern) + " matches nothing" + near_name(field, *pattern, places);
+    return quoted_key(key, *pattern) + " matches nothing" + near_name(key, *pattern, places);
   }
-  const bool are_excepted = std::any_of(places.begin(), places.end(),
-                                        [&](const SurfacePlace& place) { return fits_fields(selector, place); });
+  const bool are_excepted =
+      std::any_of(places.begin(), places.end(), [&](const SurfacePlace& place) { return fits_keys(selector, place); });
   return text_of(selector) + (are_excepted ? " leaves nothing" : " matches nothing together");
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 
 #include "papilla/core/error.hpp"
@@ -16,6 +17,9 @@ namespace {
 
 constexpr std::array<std::string_view, 5> k_methods = {"exact", "spectral", "brownian-surface", "cho",
                                                        "brownian-graph"};
+
+/// Memory that surface_like() takes for a pixel of its picture, itself included, at most: measured, 11 on 1024 x 1024.
+constexpr std::size_t k_like_bytes_per_pixel = 16;
 
 Synthesis grain(GrainKind kind, const SynthesisOptions& options) {
   GrainResult result = synthesize_grain(kind, {.size_px = options.size_px.value_or(GrainOptions{}.size_px),
@@ -78,7 +82,7 @@ Synthesis graph(const SynthesisOptions& options, double hurst) {
 
 Synthesis like_picture(const SynthesisOptions& options) {
   SurfaceLike like =
-      surface_like(read_grey_image(options.like),
+      surface_like(read_grey_image(options.like, k_like_bytes_per_pixel),
                    {.size = options.size_px.value_or(256), .seed = options.seed, .progress = options.progress});
   Synthesis result = from_surface(options, "like", std::exchange(like.surface, {}));
   result.like = std::move(like);

@@ -76,7 +76,7 @@ void pack_unique_uv(const UnwrapOptions& options, UnwrapResult& result) {
   UniqueAtlasOptions unique{options.unique->texture_px, options.unique->gutter_px, {}};
   for (std::size_t p = 0; p < result.parts.size(); ++p)
     unique.density.insert(unique.density.end(), result.parts[p].flattening.charts.count,
-                          density_of(scene.parts[p].name, options));
+                          density_of(shown_name(scene.parts[p]), options));
   UniqueAtlas atlas = pack_unique(all.uv, all.charts, unique);
   auto next = atlas.uv.values.begin();
   for (std::size_t p = 0; p < result.parts.size(); ++p) {

@@ -458,12 +458,13 @@ WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, dou
   note_files();
   WeatherResult result;
   const LayeredScene layered = layer_materials(scene, config);
+  std::vector<std::string> problems = problems_of(layered.uses, "layer", "/layers");
+  if (config.strict && !problems.empty()) throw InvalidInput(config.source + ": " + problems.front());
   const Scene& before = layered.scene ? *layered.scene : scene;
   cache.state().expect(before);
   result.scene = before;
   result.layers = layered.uses;
-  for (std::string& problem : problems_of(layered.uses, "layer", "/layers"))
-    result.scene.warnings.push_back(std::move(problem));
+  for (std::string& problem : problems) result.scene.warnings.push_back(std::move(problem));
   Pictures pictures(result);
   Job job{before, config, layered.layers, library, time, cache.state(), progress, instances(before), {}};
   std::vector<NewUv> uv;

@@ -33,6 +33,23 @@ full 'standard output' "$player" --help >/dev/full
 full 'standard output' "$player" --list-devices >/dev/full
 full /dev/full "$papilla" inspect one.obj --json /dev/full -q
 full /dev/full "$player" tagged.glb --seconds 0.05 --record /dev/full -q
+full /dev/full "$player" tagged.glb --seconds 0.05 --record /dev/full --json - >run.json
+# One document: the report, with the error.
+python3 - run.json <<'PYTHON' || fail "run.json: $(head -c 300 run.json)"
+import json, sys
+report = json.load(open(sys.argv[1]))
+assert report["exit_code"] == 3 and "/dev/full" in report["error"] and report["ticks"] > 0, report
+PYTHON
+
+# Progress that nobody can read is no error.
+"$papilla" unwrap one.obj -o a.glb --progress json -q 2>/dev/full || fail "exit $? where progress can't be written"
+
+# Longer than 4096 pixels: its relief is written row by row.
+{ printf 'P5\n5000 100\n255\n'; head -c 500000 /dev/urandom; } >long.pgm
+for extension in png tif exr; do
+  ln -s /dev/full "long.$extension"
+  full "long.$extension" "$papilla" height long.pgm -o "long.$extension" --method intensity -q
+done
 
 mkdir disk
 if mount -t tmpfs -o size=16k none disk 2>/dev/null; then

@@ -32,6 +32,15 @@ refused "$size" "$papilla" prepare large.pgm -o out.png --max-memory 40000000
 "$papilla" height large.pgm -o out.png --method intensity --max-memory 40000000 -q --json height.json || fail "not in bands"
 "$papilla" analyze large.pgm --max-memory 40M --only class -q || fail "not analysed in bands"
 
+# Where a picture is the grain, or the input of a measurement.
+printf 'v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n' >one.obj
+printf '{"materials": {"g": {"texture": "large.pgm", "size_mm": [45, 10]}}, "assign": [{"part": "*", "material": "g"}]}' >rules.json
+refused "$size" "$papilla" bake one.obj -m rules.json -o out.glb --max-memory 40000000
+refused "$size" "$papilla" synthesize fractal --like large.pgm -o out.png --max-memory 40000000
+for kind in fractal symmetry height; do
+  refused "$size" "$papilla" evaluate $kind large.pgm -o out --seconds 1 --max-memory 40000000
+done
+
 # 100000 x 100000 pixels in a file of 100 bytes, whatever --max-memory says.
 printf 'P5\n100000 100000\n255\nshort' >claims.pgm
 refused 'claims.pgm: claims 100000 x 100000 pixels' "$papilla" analyze claims.pgm --max-memory 100G

@@ -25,5 +25,22 @@ TEST(UnwrapOption, ReadsPlacesLinesAndParts) {
     EXPECT_THROW(parse_iso_line(bad), UsageError) << bad;
 }
 
+TEST(UnwrapOption, PartsWithoutANameAreHeldByTheirPath) {
+  Scene scene;
+  scene.parts.resize(2);
+  scene.parts[0].id = "path/#1";
+  scene.parts[1].name = "door";
+  MethodOptions method;
+  method.pins = {parse_pin("0,0,0=0,0@path/#1"), parse_pin("0,0,0=0,0@door")};
+  EXPECT_NO_THROW(check_held_parts(method, "a.glb", scene));
+  method.pins = {parse_pin("0,0,0=0,0@path/#2")};
+  try {
+    check_held_parts(method, "a.glb", scene);
+    ADD_FAILURE() << "not refused";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'path/#1'"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace papilla::app

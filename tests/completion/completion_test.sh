@@ -94,6 +94,19 @@ expect '' "$folder/papilla" measure area ''
 expect 'class' "$folder/papilla" measure area --only c
 expect 'fractal,class' "$folder/papilla" measure area --only fractal,c
 expect '' "$folder/missing" ''
+# What was typed is not run.
+pushd "$folder" >/dev/null
+# shellcheck disable=SC2016
+expect '$(touch${IFS}pwned),class' "$folder/papilla" measure area --only '$(touch${IFS}pwned),c'
+# shellcheck disable=SC2016
+expect '`touch pwned`,fractal' "$folder/papilla" measure area --only '`touch pwned`,f'
+expect '' "$folder/papilla" measure area $'-x/y/w pwned\ns/\\(-a\\)' 'c'
+if [[ -e pwned ]]; then
+  echo 'what was typed was run'
+  failures=$((failures + 1))
+fi
+popd >/dev/null
+expect 'fractal,fractal fractal,class' "$folder/papilla" measure area --only fractal,
 
 # The choices of the real programs: expect_choices PROGRAM VERB OPTION CHOICES
 expect_choices() {

@@ -12,6 +12,7 @@
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/picture_memory.hpp"
+#include "picture_bytes.hpp"
 
 namespace papilla {
 namespace {
@@ -173,6 +174,41 @@ TEST(DamagedPicture, FormatsThatAreDecodedBeforeTheirSizeIsKnownAreNotRead) {
             std::string::npos);
 }
 
+/// A segment of a JPEG.
+std::string segment(unsigned char marker, const std::string& content) {
+  const std::size_t length = content.size() + 2;
+  return "\xff"s + static_cast<char>(marker) + static_cast<char>(length >> 8U) + static_cast<char>(length) + content;
+}
+
+/// SOF of 512 x 512 pixels, unsubsampled.
+std::string frame(unsigned char marker, int components) {
+  std::string content = "\x08\x02\0\x02\0"s + static_cast<char>(components);
+  for (int c = 1; c <= components; ++c) content += static_cast<char>(c) + "\x11\0"s;
+  return segment(marker, content);
+}
+
+/// SOS of the first components; `last` is the last coefficient.
+std::string scan(int components, int last) {
+  std::string content(1, static_cast<char>(components));
+  for (int c = 1; c <= components; ++c) content += static_cast<char>(c) + "\0"s;
+  return segment(0xda, content + "\0"s + static_cast<char>(last) + "\0"s);
+}
+
+TEST(JpegScans, AnyButOneOfAllComponentsIsHeldWhole) {
+  const auto held_whole = [](const std::string& segments) {
+    const std::string bytes = "\xff\xd8" + segments + "\xff\xd9";
+    return io_detail::check_jpeg(io_detail::source_of(bytes), "a.jpg");
+  };
+  EXPECT_FALSE(held_whole(frame(0xc0, 1) + scan(1, 63)));
+  EXPECT_FALSE(held_whole(frame(0xc1, 3) + scan(3, 63)));
+  EXPECT_TRUE(held_whole(frame(0xc2, 1) + scan(1, 0))) << "progressive";
+  EXPECT_TRUE(held_whole(frame(0xca, 3) + scan(3, 0))) << "progressive, arithmetic";
+  EXPECT_TRUE(held_whole(frame(0xc0, 3) + scan(1, 63))) << "one component of three";
+  EXPECT_TRUE(held_whole(frame(0xc0, 1) + scan(1, 63) + scan(1, 63)));
+  EXPECT_FALSE(held_whole(segment(0xc4, "\xc2\0"s) + segment(0xcc, "\0"s) + frame(0xc0, 1) + scan(1, 63)));
+  EXPECT_FALSE(held_whole(segment(0xc2, "") + segment(0xda, ""))) << "too short to say";
+}
+
 /// Sets picture_memory() as long as it lives.
 class Budget {
  public:
@@ -209,6 +245,20 @@ TEST(PictureMemory, CountsWhatAReaderHolds) {
   const std::string gif =
       "GIF89a\xff\xff\xff\xff\x80\0\0\0\0\0\xff\xff\xff,\0\0\0\0\xff\xff\xff\xff\0\x02\x02\x4c\x01\0;"s;
   EXPECT_THROW(ImageBands(folder.write("a.gif", gif)), InvalidInput);
+}
+
+/// 512 x 512 pixels, of which only the constant coefficients are there, all 0.
+TEST(PictureMemory, CountsAProgressiveJpegOfOneScan) {
+  const TemporaryFolder folder;
+  const std::string tables =
+      segment(0xdb, "\0"s + std::string(64, '\1')) + segment(0xc4, "\0\1"s + std::string(15, '\0') + "\0"s);
+  const std::string blocks(64 * 64 / 8, '\0');  // A bit each: the code of the difference 0.
+  const auto file = folder.write("a.jpg", "\xff\xd8" + tables + frame(0xc2, 1) + scan(1, 0) + blocks + "\xff\xd9");
+  EXPECT_FLOAT_EQ(read_grey_image(file).pixels.back(), 128 / 255.0F);
+  // The bands take 64 rows as they are stored, as grey values and as those returned; libjpeg two bytes a coefficient.
+  constexpr std::uint64_t k_bands = std::uint64_t{3} * 64 * 512 * sizeof(float), k_held = std::uint64_t{2} * 512 * 512;
+  const Budget budget(k_bands + k_held / 2);
+  EXPECT_THROW(ImageBands{file}, InvalidInput);
 }
 
 }  // namespace

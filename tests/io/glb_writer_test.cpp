@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "io/scene_fixtures.hpp"
 #include "io/temporary_folder.hpp"
@@ -246,6 +248,33 @@ TEST_F(GlbWriter, AGltfWithFilesBesideItIsTheSameScene) {
   ASSERT_EQ(two.images.size(), one.images.size());
   for (std::size_t i = 0; i < one.images.size(); ++i) EXPECT_EQ(two.images[i].bytes, one.images[i].bytes);
   EXPECT_EQ(two.losses, one.losses);
+}
+
+TEST_F(GlbWriter, AGltfIsReplacedWhateverTheCaseOfItsExtension) {
+  const test::TemporaryFolder folder;
+  write_gltf(test::rich_scene(), folder / "a.Gltf");
+  EXPECT_TRUE(named_files(folder / "a.Gltf").contains("a.bin"));
+  Scene other = test::rich_scene();
+  other.parts[0].mesh.positions[0].x += 1;
+  EXPECT_NO_THROW(write_gltf(other, folder / "a.Gltf")) << "a.bin is its own";
+}
+
+TEST_F(GlbWriter, NamesOfFilesOfPicturesAreShort) {
+  Scene scene = test::rich_scene();
+  ASSERT_GT(scene.images.size(), 0U);
+  for (EncodedImage& image : scene.images) image.name = std::string(300, 'x');
+  const test::TemporaryFolder folder;
+  write_gltf(scene, folder / "a.gltf");
+  EXPECT_TRUE(std::filesystem::exists(folder / ("a-" + std::string(64, 'x') + ".png")));
+}
+
+/// A former output may be anything.
+TEST_F(GlbWriter, FormerFilesMayBeNestedDeep) {
+  const test::TemporaryFolder folder;
+  constexpr std::size_t k_deep = 1'000'000;
+  const std::string nested = std::string(k_deep, '[') + std::string(k_deep, ']');
+  folder.write("a.gltf", R"({"extras": )" + nested + R"(, "images": [{"uri": "my%20map.png"}, {"uri": "data:,x"}]})");
+  EXPECT_EQ(named_files(folder / "a.gltf"), std::set<std::string>{"my map.png"});
 }
 
 TEST_F(GlbWriter, LevelsOfDetailAreNodesThatNoSceneNames) {

@@ -434,6 +434,14 @@ TEST_F(GltfFilesTest, FilesOfAnotherSceneStay) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "b/out.gltf"));
 }
 
+TEST_F(GltfFilesTest, NothingIsWrittenWhenOneOfThemIsRefused) {
+  folder_.write("b/out.bin", "another");  // Written last.
+  EXPECT_THROW(edit_to("b/out.gltf"), IoError);
+  EXPECT_EQ(std::distance(std::filesystem::recursive_directory_iterator(folder_ / "b"),
+                          std::filesystem::recursive_directory_iterator()),
+            1);
+}
+
 TEST_F(GltfFilesTest, ThoseOfTheFormerOutputAreReplaced) {
   edit_to("b/out.gltf");
   folder_.write("b/out.bin", "old");

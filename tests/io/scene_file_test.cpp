@@ -53,6 +53,21 @@ TEST(SceneFile, MillimetresAreDoubtedWhereNothingIsThatSmall) {
   EXPECT_TRUE(warnings_of("10.3", std::nullopt).empty());
 }
 
+TEST(SceneFile, DoubtsNameTheThingWithItsArticle) {
+  const TemporaryFolder folder;
+  const auto warning_of = [&](const std::string& file) {
+    return read_scene(folder.write(file, "v 0 0 0\nv 200 0 0\nv 0 200 100\nf 1 2 3\n")).warnings.at(0);
+  };
+  EXPECT_NE(warning_of("armchair.obj").find("small for an armchair"), std::string::npos) << warning_of("armchair.obj");
+  EXPECT_NE(warning_of("sofa.obj").find("small for a sofa"), std::string::npos) << warning_of("sofa.obj");
+}
+
+TEST(SceneFile, GltfIsKnownByItsExtensionInAnyCase) {
+  for (const char* name : {"a.glb", "a.GLB", "a.Glb", "b/a.gltf", "a.GLTF", "a.Gltf"})
+    EXPECT_TRUE(is_gltf_file(name)) << name;
+  for (const char* name : {"a.obj", "gltf", "a.gltf.png", ".gltf/a"}) EXPECT_FALSE(is_gltf_file(name)) << name;
+}
+
 TEST(SceneFile, UnknownExtensionsListTheKnownOnes) {
   const TemporaryFolder folder;
   const auto read = message_of<InvalidInput>([&] { read_scene(folder.write("a.foo", "x")); });

@@ -14,9 +14,8 @@
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/meshing/orient.hpp"
 #include "papilla/texture/grain.hpp"
-#include "papilla_test/shapes.hpp"
+#include "pipeline/room_fixture.hpp"
 
 namespace papilla {
 namespace {
@@ -189,27 +188,10 @@ TEST_F(BakeFileTest, NewUvBecomeOneMoreChannelAndAllElseStays) {
   }
 }
 
-/// The room [0, 1000]³ mm, its left and right wall facing out.
+/// The room, its left and right wall facing out.
 fs::path room_file(const fs::path& folder) {
-  Scene scene;
-  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  const struct {
-    const char* name;
-    Vec3 corner, a, b;
-  } walls[] = {{"floor", {}, x, y}, {"ceiling", {0, 0, 1000}, y, x}, {"left", {}, z, y}, {"right", {1000, 0, 0}, y, z},
-               {"front", {}, z, x}, {"back", {0, 1000, 0}, x, z}};
-  for (const auto& wall : walls) {
-    Part part;
-    part.name = wall.name;
-    part.mesh = test::plane(1000, 1000, 4, 4);
-    part.mesh.uv = {};
-    for (Vec3& p : part.mesh.positions) p = wall.corner + p.x * wall.a + p.y * wall.b;
-    Node node;
-    node.part = static_cast<std::uint32_t>(scene.parts.size());
-    scene.roots.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
-    scene.nodes.push_back(node);
-    scene.parts.push_back(std::move(part));
-  }
+  Scene scene = test::room();
+  for (const std::size_t wall : {2U, 3U}) test::turn_all(scene.parts[wall].mesh);
   write_glb(scene, folder / "room.glb");
   return folder / "room.glb";
 }
@@ -269,6 +251,7 @@ TEST_F(BakeFileTest, OtherInputAndWhatChangesMeshesIsWrittenAnew) {
   BakeFileOptions options;
   EXPECT_TRUE(bake_way("a.glb", options).in_place);
   EXPECT_TRUE(bake_way("a.GLTF", options).in_place);
+  EXPECT_TRUE(bake_way("a.Gltf", options).in_place);
   EXPECT_FALSE(bake_way("a.step", options).in_place);
   options.bake.plan.budget = 1000;
   EXPECT_FALSE(bake_way("a.glb", options).in_place);

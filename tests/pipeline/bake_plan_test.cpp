@@ -5,6 +5,11 @@
 
 #include <limits>
 
+#include "io/temporary_folder.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/io/scene_file.hpp"
+#include "papilla/pipeline/hex_colour.hpp"
+
 namespace papilla {
 namespace {
 
@@ -136,6 +141,40 @@ TEST(Surfaces, APartWithTwoMaterialsHasTwoSurfaces) {
   EXPECT_EQ(surfaces[0].label, "dash/b");
   EXPECT_EQ(surfaces[0].triangles, (std::vector<std::uint32_t>{1}));
   EXPECT_EQ(surfaces[1].label, "dash/a");
+}
+
+/// A sheet without a side gets a white material; rules are for what the file has.
+TEST(Plan, RulesDoNotTakeMaterialsThatTurnedSheetsGet) {
+  const test::TemporaryFolder folder;
+  // A Moebius strip of three quads: it has one side only.
+  folder.write("sheet.off",
+               "OFF\n6 6 0\n20 0 5\n20 0 -5\n-10 17 5\n-10 17 -5\n-10 -17 5\n-10 -17 -5\n"
+               "3 0 1 2\n3 1 3 2\n3 2 3 4\n3 3 5 4\n3 4 5 1\n3 5 0 1\n");
+  for (const bool adds_materials : {false, true})
+    for (const auto key : {&SurfaceSelector::gltf_material, &SurfaceSelector::cad_colour}) {
+      Materials file = rules();
+      file.assign = {{}};
+      file.assign[0].*key = key == &SurfaceSelector::cad_colour ? "#ffffff" : "*";
+      file.assign[0].material = "hard";
+      BakePlanOptions options;
+      options.sides.add_materials = adds_materials;
+      const BakePlan plan = plan_bake(read_scene(folder / "sheet.off"), file, options);
+      EXPECT_EQ(plan.sides.ambiguous, 1U);
+      EXPECT_EQ(plan.scene.materials.size(), adds_materials ? 1U : 0U);
+      EXPECT_EQ(plan.rules.at(0).surfaces, 0U);
+      EXPECT_EQ(plan.surfaces.at(0).material, "");
+    }
+}
+
+TEST(Plan, StrictErrorsBeginWithTheFileOfTheRules) {
+  Materials file = rules();
+  file.source = "my rules.json";
+  BakePlanOptions options;
+  options.strict = true;
+  Scene scene;
+  scene.parts = {square("floor", 0)};
+  const std::string message = test::message_of<InvalidInput>([&] { plan_bake(scene, file, options); });
+  EXPECT_TRUE(message.starts_with("my rules.json: rule 1 (/assign/0): ")) << message;
 }
 
 TEST(Surfaces, ColoursRoundTripThroughSrgb) {

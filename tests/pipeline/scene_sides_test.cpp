@@ -2,63 +2,29 @@
 #include "papilla/pipeline/scene_sides.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "io/temporary_folder.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/io/scene_file.hpp"
-#include "papilla/meshing/orient.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/pipeline/repair_scene.hpp"
 #include "papilla/pipeline/unwrap_scene.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla_test/shapes.hpp"
+#include "pipeline/room_fixture.hpp"
 
 namespace papilla {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double k_side = 1000;
-
-void turn_all(TriangleMesh& mesh) { turn_triangles(mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 1)); }
-
-void add_part(Scene& scene, const std::string& name, TriangleMesh mesh, std::vector<std::uint32_t> materials = {}) {
-  Part part;
-  part.name = name;
-  part.mesh = std::move(mesh);
-  part.materials = std::move(materials);
-  Node node;
-  node.name = name;
-  node.part = static_cast<std::uint32_t>(scene.parts.size());
-  scene.roots.push_back(static_cast<std::uint32_t>(scene.nodes.size()));
-  scene.nodes.push_back(node);
-  scene.parts.push_back(std::move(part));
-}
-
-/// The six walls of the room [0, 1000]^3, fronts to its inside, with one material.
-Scene room() {
-  Scene scene;
-  scene.format = "STEP";
-  scene.materials.emplace_back().name = "paint";
-  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  const struct {
-    const char* name;
-    Vec3 corner, a, b;
-  } walls[] = {{"floor", {}, x, y}, {"ceiling", {0, 0, k_side}, y, x},
-               {"left", {}, y, z},  {"right", {k_side, 0, 0}, z, y},
-               {"front", {}, z, x}, {"back", {0, k_side, 0}, x, z}};
-  for (const auto& wall : walls) {
-    TriangleMesh mesh = test::plane(k_side, k_side, 4, 4);
-    for (Vec3& p : mesh.positions) p = wall.corner + p.x * wall.a + p.y * wall.b;
-    mesh.uv = {};
-    add_part(scene, wall.name, std::move(mesh), {0});
-  }
-  return scene;
-}
+using test::add_part;
+using test::room;
+using test::turn_all;
 
 const PartSides* sides_of(const SceneSides& sides, const std::string& part) {
   const auto found =
@@ -176,7 +142,6 @@ TEST(SceneSides, WhatIsTooFarAwayToBeLookedAtStays) {
 
 /// One rule with a grain of 40 mm for everything.
 Materials grain_everywhere(const fs::path& folder) {
-  fs::create_directories(folder);
   GrainOptions options;
   options.size_px = 64;
   write_grey_image(folder / "grain.png", synthesize_grain(GrainKind::spheres6, options).picture, 8);
@@ -210,9 +175,8 @@ TEST(SceneSides, BothDoorsOfTheCockpitFaceThePeople) {
   EXPECT_EQ(driver.facing_away, 1u);
   EXPECT_EQ(sides_of(driver, "door_panel_right")->facing_away, 1u);
 
-  const fs::path folder = fs::temp_directory_path() / ("papilla-sides-" + std::to_string(::getpid()));
-  const BakeResult baked = bake_scene(scene, grain_everywhere(folder));
-  fs::remove_all(folder);
+  const test::TemporaryFolder folder;
+  const BakeResult baked = bake_scene(scene, grain_everywhere(folder.path()));
   EXPECT_EQ(find_sides(baked.scene).facing_away, 0u);
   for (const auto& [name, inwards] : {std::pair{"door_panel_left", 1.0}, {"door_panel_right", -1.0}}) {
     const TriangleMesh& mesh = part_named(baked.scene, name).mesh;
@@ -235,8 +199,8 @@ TEST(SceneSides, BothDoorsOfTheCockpitFaceThePeople) {
 
 /// A flat sheet in two halves, whose uv meet at an angle along the middle.
 TEST(SceneSides, AChevronOfKeptUvIsReported) {
-  const fs::path folder = fs::temp_directory_path() / ("papilla-chevron-" + std::to_string(::getpid()));
-  const Materials rules = grain_everywhere(folder);
+  const test::TemporaryFolder folder;
+  const Materials rules = grain_everywhere(folder.path());
   const auto bake = [&](double degrees) {
     Scene scene;
     Part part;
@@ -258,7 +222,6 @@ TEST(SceneSides, AChevronOfKeptUvIsReported) {
     return bake_scene(std::move(scene), rules);
   };
   const BakeResult chevron = bake(40), straight = bake(0);
-  fs::remove_all(folder);
   ASSERT_EQ(chevron.surfaces.size(), 1u);
   EXPECT_EQ(chevron.surfaces[0].method, "kept");
   EXPECT_NEAR(chevron.surfaces[0].seams.turned_mm, 100, 1e-6);

@@ -94,6 +94,15 @@ TEST(SharedParts, NamesOfCopiesStayInTheTree) {
   expect_same_place(before, scene);
 }
 
+TEST(SharedParts, WithoutANameThePathIsListed) {
+  Scene scene = scene_of({{"a", bracket()}, {"", moved(bracket(), turned(0, {100, 0, 0}))}});
+  assign_part_ids(scene);
+  const std::vector<SharedPart> shared = share_identical_parts(scene);
+  ASSERT_EQ(shared.size(), 1U);
+  EXPECT_EQ(shared[0].name, shared[0].id);
+  EXPECT_NE(shared[0].name, "");
+}
+
 TEST(SharedParts, UnevenScaleGetsAChildInsteadOfShear) {
   Scene scene = scene_of({{"a", bracket()}, {"b", moved(bracket(), turned(30, {7, 8, 9}))}});
   scene.nodes[1].local = {1, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

@@ -409,6 +409,24 @@ TEST(Weather, SaysWhyNothingIsPainted) {
   EXPECT_NE(reason_for_no_paint(weather_scene(scene, config, 1)).find("has no material"), std::string::npos);
 }
 
+TEST(Weather, StrictLayersAreRefusedBeforeAnythingIsPainted) {
+  WeatherConfig config;
+  config.size = 16;
+  config.source = "snow.json";
+  config.layers.push_back({"base|colorfunction=white", {"paint"}});
+  config.layers.push_back({"base|colorfunction=white", {"no such material"}});
+  EXPECT_TRUE(weather_scene(two_sides(), config, 1).materials[0].painted());
+  config.strict = true;
+  bool painted = false;
+  try {
+    weather_scene(two_sides(), config, 1, [&](const Progress&) { return painted = true; });
+    ADD_FAILURE() << "not refused";
+  } catch (const InvalidInput& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("snow.json: layer 2 (/layers/1): ")) << error.what();
+  }
+  EXPECT_FALSE(painted);
+}
+
 TEST(Weather, ConfigurationErrorsNameTheKey) {
   const auto path =
       std::filesystem::temp_directory_path() / ("papilla-weather-" + std::to_string(::getpid()) + ".json");

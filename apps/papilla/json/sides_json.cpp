@@ -2,37 +2,11 @@
 #include "json/scene_json.hpp"
 
 namespace papilla::app {
-namespace {
-
-const char* name_of(Viewpoint viewpoint) {
-  switch (viewpoint) {
-    case Viewpoint::none: break;
-    case Viewpoint::inside: return "inside";
-    case Viewpoint::view: return "view";
-    case Viewpoint::room: return "room";
-    case Viewpoint::around: return "around";
-  }
-  return "none";
-}
-
-const char* name_of(SideReason reason) {
-  switch (reason) {
-    case SideReason::seen: return "seen";
-    case SideReason::neighbour: return "neighbour";
-    case SideReason::seen_around: return "seen_around";
-    case SideReason::both_sides_seen: return "both_sides_seen";
-    case SideReason::unseen: return "unseen";
-    case SideReason::non_orientable: break;
-  }
-  return "non_orientable";
-}
-
-}  // namespace
 
 Json sides_json(const SceneSides& sides, const SceneSideOptions& options) {
   if (options.keep) return nullptr;
   const bool has_eye = sides.viewpoint == Viewpoint::inside || sides.viewpoint == Viewpoint::room;
-  Json json{{"seen_from", name_of(sides.viewpoint)},
+  Json json{{"seen_from", to_string(sides.viewpoint)},
             {"eye_mm", has_eye ? Json{sides.eye.x, sides.eye.y, sides.eye.z} : Json(nullptr)},
             {"enclosure", sides.viewpoint == Viewpoint::room ? Json(sides.enclosure) : Json(nullptr)},
             {"open_components", sides.open_components},
@@ -42,7 +16,7 @@ Json sides_json(const SceneSides& sides, const SceneSideOptions& options) {
             {"parts", Json::array()}};
   for (const PartSides& part : sides.parts) {
     Json reasons = Json::array();
-    for (const SideReason reason : part.reasons) reasons.push_back(name_of(reason));
+    for (const SideReason reason : part.reasons) reasons.push_back(to_string(reason));
     json["parts"].push_back({{"part", part.part},
                              {"open_components", part.open_components},
                              {"facing_away", part.facing_away},

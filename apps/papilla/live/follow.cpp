@@ -50,7 +50,7 @@ Json follow_player(const FollowOptions& options, const std::function<PageContent
   const PageServer server(routes_of(page_html(content), player), options.port);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_stop = true; });
   ready(server.url());
-  while (!g_stop) std::this_thread::sleep_for(k_look);
+  while (!g_stop && !options.deadline.passed()) std::this_thread::sleep_for(k_look);
   return {{"url", server.url()}, {"file", file}, {"socket", socket}};
 }
 

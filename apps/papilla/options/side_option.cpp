@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/side_option.hpp"
 
-#include <filesystem>
-
 #include "options/vector_option.hpp"
+#include "papilla/io/scene_file.hpp"
 
 namespace papilla::app {
 
@@ -21,11 +20,10 @@ void SideOption::add_to(CLI::App& verb, bool turns) {
 }
 
 SceneSideOptions SideOption::options(const std::string& output) const {
-  const std::string extension = std::filesystem::path(output).extension().string();
   SceneSideOptions options;
   options.keep = keep;
   if (!inside.empty()) options.inside = parse_vector("--inside", inside);
-  options.add_materials = extension == ".glb" || extension == ".GLB" || extension == ".gltf" || extension == ".GLTF";
+  options.add_materials = is_gltf_file(output);
   return options;
 }
 

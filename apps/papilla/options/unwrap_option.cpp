@@ -12,6 +12,7 @@
 #include "option_checks.hpp"
 #include "options/vector_option.hpp"
 #include "papilla/core/near_name.hpp"
+#include "papilla/io/node_places.hpp"
 
 namespace papilla::app {
 namespace {
@@ -94,10 +95,11 @@ std::pair<std::string, double> parse_density(const std::string& text) {
 void check_part(const std::string& option, const std::string& pattern, const std::string& file, const Scene& scene) {
   if (pattern.empty() && scene.parts.size() != 1)
     throw UsageError(fmt::format("{}: {} has {} parts, say which by @PART", option, file, scene.parts.size()));
-  if (std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return is_for_part(pattern, p.name); }))
+  if (std::any_of(scene.parts.begin(), scene.parts.end(),
+                  [&](const Part& p) { return is_for_part(pattern, shown_name(p)); }))
     return;
   std::vector<std::string_view> known;
-  for (const Part& part : scene.parts) known.emplace_back(part.name);
+  for (const Part& part : scene.parts) known.emplace_back(shown_name(part));
   throw UsageError(option + ": " + file + " has no part named '" + pattern + "'" + did_you_mean(pattern, known));
 }
 

@@ -63,8 +63,7 @@ void write_report(const Options& options, const BakeResult& result, const VerbCo
 }
 
 Json run(const Options& options, VerbContext& context) {
-  if (const fs::path extension = fs::path(options.output).extension(); extension != ".glb" && extension != ".gltf")
-    throw UsageError("--output: '" + options.output + "' must end in .glb or .gltf");
+  if (!is_gltf_file(options.output)) throw UsageError("--output: '" + options.output + "' must end in .glb or .gltf");
   BakeFileOptions wanted = options.bake;
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options(options.output);

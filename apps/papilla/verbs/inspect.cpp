@@ -34,11 +34,12 @@ Json run(const Options& options, VerbContext& context) {
   if (wanted.asked()) perception = measure_perception(scene, wanted, context.progress);
   const SceneSides sides = find_sides(scene, look, wanted.view);
   context.console.print(inspect_text(scene, statistics, perception, sides));
-  if (options.nodes) context.console.print(nodes_text(surface_places(scene)));
+  const std::vector<SurfacePlace> places = options.nodes ? surface_places(scene) : std::vector<SurfacePlace>();
+  if (options.nodes) context.console.print(nodes_text(places));
   print_notes(scene, context.console);
   Json json{{"file", options.file}};
   json.update(inspect_json(scene, statistics, perception, sides_json(sides, look)));
-  if (options.nodes) json["nodes"] = nodes_json(surface_places(scene));
+  if (options.nodes) json["nodes"] = nodes_json(places);
   if (!options.picture.empty()) {
     write_color_image(options.picture, render_scene(scene, {.mode = RenderMode::triangles}));
     json["picture"] = options.picture;

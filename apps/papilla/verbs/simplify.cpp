@@ -32,8 +32,7 @@ void check(const Options& o) {
     throw UsageError("simplify: one of --tolerance, --ratio, --budget, --lod or --lod-tolerances is needed");
   if (s.budget && (s.tolerance_mm || s.ratio))
     throw UsageError("simplify: --budget cannot be combined with --tolerance or --ratio");
-  const std::filesystem::path extension = std::filesystem::path(o.out).extension();
-  if (s.levels.asked() && !o.as_nodes && extension != ".glb" && extension != ".gltf")
+  if (s.levels.asked() && !o.as_nodes && !is_gltf_file(o.out))
     throw UsageError("simplify: --output: '" + o.out +
                      "' must end in .glb or .gltf to hold levels of detail; or give --lod-nodes");
   double last = s.tolerance_mm.value_or(0);

@@ -54,7 +54,7 @@ Json run_follow(const Options& options, const VerbContext& context) {
   bool opened = false;
   std::optional<PageDoor> door;
   Json json = follow_player(
-      {*options.follow, options.input, options.port},
+      {*options.follow, options.input, options.port, context.deadline},
       [&](const std::string& file) { return content_of(file, scene_of(file, options, context).json); },
       [&](const std::string& url) {
         context.console.print("following the player at " + url + " until Ctrl-C\n");

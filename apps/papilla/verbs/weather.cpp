@@ -9,6 +9,7 @@
 #include "options/scene_option.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/file_guard.hpp"
+#include "papilla/core/progress.hpp"
 #include "scene_output.hpp"
 #include "shown_format.hpp"
 #include "verbs.hpp"
@@ -43,12 +44,14 @@ void rebuild_on_change(const Options& options, WeatherBuilder& builder, const Ve
       forget_written_outputs();
       build = builder.build(options.build, true, context);
       context.console.print(shown_format("{} painted anew in {:.2f} s\n", build.painted, build.seconds));
+    } catch (const Cancelled&) {
+      throw;
     } catch (const Error& error) {
       context.console.print(shown_format("{}\n", error.what()));
     }
   };
   context.console.print("waiting for changes; Ctrl-C ends\n");
-  follow_files(list, again, [] { return g_stop.load(); });
+  follow_files(list, again, [&] { return g_stop || context.deadline.passed(); });
 }
 
 Json run(const Options& options, VerbContext& context) {

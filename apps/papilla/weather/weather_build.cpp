@@ -63,7 +63,8 @@ std::string layers_text(const std::vector<RuleUse>& layers) {
 }  // namespace
 
 WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live, const VerbContext& context) {
-  const WeatherConfig config = read_weather_config(options.config);
+  WeatherConfig config = read_weather_config(options.config);
+  config.strict = options.strict;
   WeatherBuild build;
   const Stopwatch clock;
   std::vector<WeatherView> views;
@@ -71,8 +72,6 @@ WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live
     WeatherResult result = weather_scene(scene_, config, config.times[step], cache_, context.progress);
     if (const std::string reason = reason_for_no_paint(result); !reason.empty())
       throw InvalidInput(file_ + ", with " + options.config + ": " + reason);
-    const std::vector<std::string> problems = problems_of(result.layers, "layer", "/layers");
-    if (options.strict && !problems.empty()) throw InvalidInput(options.config + ": " + problems.front());
     if (step == 0) context.console.print(layers_text(result.layers));
     const std::string file = file_of(options.output, step, config.times.size());
     write_output(result.scene, file, context.console);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
@@ -9,6 +10,13 @@
 #include "papilla/texture/resample.hpp"
 
 namespace papilla {
+namespace {
+
+/// Memory that the methods take for a pixel, the picture included, at most: measured, 20 on 1100 x 1100 pixels.
+constexpr std::size_t k_bytes_per_pixel = 24;
+
+}  // namespace
+
 std::vector<int> rising_sides(int shorter_side) {
   constexpr int k_first = 64, k_last = 4096;
   std::vector<int> sides;
@@ -18,7 +26,7 @@ std::vector<int> rising_sides(int shorter_side) {
 }
 
 std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
-  const GreyImage image = read_grey_image(input.file);
+  const GreyImage image = read_grey_image(input.file, k_bytes_per_pixel);
   const std::vector<int> sides = rising_sides(std::min(image.width, image.height));
   std::vector<EvaluationRun> runs;
   for (const FractalMethod& method : fractal_methods()) {

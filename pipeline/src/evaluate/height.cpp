@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <numeric>
 
@@ -20,6 +21,10 @@ namespace papilla {
 namespace {
 
 constexpr const char* k_intensity = "intensity";
+
+/// Memory that the methods take for a pixel, with picture, true relief and result, at most: measured, 188 on a relief
+/// of 1500 x 1500 pixels.
+constexpr std::size_t k_bytes_per_pixel = 192;
 
 constexpr std::array<int, 6> k_iterations = {5, 10, 20, 50, 100, 200};
 constexpr double k_growth_by_steps = 2.5;
@@ -131,7 +136,7 @@ EvaluationRun residual_run(const EvaluationInput& input, const ShadingMethod& me
 }  // namespace
 
 std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input) {
-  const GreyImage image = read_grey_image(input.file);
+  const GreyImage image = read_grey_image(input.file, k_bytes_per_pixel);
   std::vector<EvaluationRun> runs;
   if (is_relief(input.file, image))
     for (const Vec3 light : {Vec3{0.3, 0.3, 1}, Vec3{1, 0, 1}, Vec3{1, 1, 1}})

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/node_places.hpp"
 
 namespace papilla {
 namespace {
@@ -69,10 +70,10 @@ void set_atlas_uv(Scene& scene, std::span<const Instance> all, std::vector<NewUv
       const TriangleMesh& mesh = scene.parts[part].mesh;
       original.emplace(part, mesh);
       if (!mesh.uv1.empty())
-        scene.losses.push_back("part '" + scene.parts[part].name +
+        scene.losses.push_back("part '" + shown_name(scene.parts[part]) +
                                "': the coordinates of what the atlas replaced, for the second ones were taken");
       if (!scene.parts[part].levels.empty())
-        scene.losses.push_back("part '" + scene.parts[part].name +
+        scene.losses.push_back("part '" + shown_name(scene.parts[part]) +
                                "': its levels of detail, which the atlas does not fit");
       scene.parts[part].levels.clear();
     } else {

@@ -35,7 +35,8 @@ std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::pa
                                    const GlbWriteOptions& options = {});
 
 /// The same as a .gltf file with its binary data and pictures in files beside it, named after it: dash.gltf, dash.bin,
-/// dash-leather.png. Takes twice the memory of the binary data.
+/// dash-leather.png. Takes twice the memory of the binary data. The files are replaced one by one, the .gltf last: a
+/// failure in between leaves the new ones of some.
 /// @throws IoError, too, when a file beside it exists with other content and the former .gltf of that name did not name
 ///         it: it may belong to another scene.
 std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::path& path,

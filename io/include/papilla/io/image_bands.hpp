@@ -41,8 +41,7 @@ class ImageBands {
   ///         finite or its magnitude is over a million.
   GreyImage next(int rows);
 
-  /// Every k-th pixel of every k-th row read so far, in colour, k such that the whole picture gives at most 1024 a
-  /// side.
+  /// Every n-th pixel of every n-th row read so far, in colour; n as for sample_side.
   const ColorImage& sample() const noexcept;
 
  private:

@@ -39,8 +39,9 @@ struct Picture {
 };
 
 /// read_grey_image() and read_color_image() of one file.
+/// @param bytes_per_pixel what the caller is going to take for a pixel, grey value and colour included.
 /// @throws IoError, InvalidInput as read_grey_image().
-Picture read_picture(const std::filesystem::path& path);
+Picture read_picture(const std::filesystem::path& path, std::size_t bytes_per_pixel = sizeof(float) + 3);
 
 /// The same as read_color_image() for a picture in memory, PNG or JPEG; `name` only names it in messages.
 /// @throws InvalidInput as read_color_image().

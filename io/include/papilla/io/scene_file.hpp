@@ -11,6 +11,9 @@
 
 namespace papilla {
 
+/// Whether a file is glTF by its extension, in any case: .glb, .gltf.
+bool is_gltf_file(const std::filesystem::path& path);
+
 /// Reads a file by its extension, in any case: .step .stp .p21 .iges .igs .brep .brp, .stl, .obj,
 /// .ply, .off, .glb, .gltf.
 /// CAD surfaces are tessellated; faces that could not be are named in Scene::losses.

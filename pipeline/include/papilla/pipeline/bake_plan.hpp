@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -80,11 +79,5 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
 /// @param in_place As in BakePlanOptions.
 std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& assignment,
                                        const std::vector<PartPerception>& perception = {}, bool in_place = false);
-
-/// "#rrggbb" in sRGB of a linear colour.
-std::string hex_colour(const std::array<double, 4>& linear);
-
-/// A linear colour of "#rrggbb" in sRGB.
-std::array<double, 4> linear_colour(const std::string& hex);
 
 }  // namespace papilla

@@ -48,6 +48,7 @@ struct AssignRule : SurfaceSelector {
 struct Materials {
   std::map<std::string, MaterialRule> materials;
   std::vector<AssignRule> assign;
+  std::string source = "materials";  ///< The file's name in messages.
 };
 
 /// Reads MATERIALS.json; relative picture names are taken from the file's own folder.

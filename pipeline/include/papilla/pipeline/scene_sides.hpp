@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,10 @@
 #include "papilla/meshing/sheet_sides.hpp"
 
 namespace papilla {
+
+/// "inside", "both_sides_seen" and so on, as in reports.
+std::string_view to_string(Viewpoint viewpoint) noexcept;
+std::string_view to_string(SideReason reason) noexcept;
 
 /// Options of turn_sheets().
 struct SceneSideOptions {
@@ -53,7 +58,7 @@ struct SceneSides {
   double seconds = 0;
 };
 
-/// find_sheet_sides() of the parts that nodes show; those with a material that is blended hide nothing.
+/// find_sheet_sides() of the parts that nodes show, at its cost; those with a material that is blended hide nothing.
 /// @param view Where eyes can be; counts when `inside` is not given.
 /// @throws InvalidInput as instances().
 SceneSides find_sides(const Scene& scene, const SceneSideOptions& options = {}, std::span<const Volume> view = {});
@@ -68,10 +73,12 @@ void show_both_sides(Scene& scene, const std::set<PartSlot>& slots, bool add_mat
 /// Turns the sheets over that face away from those who see them (turn_triangles()), and lets
 /// show_both_sides() those of ambiguous ones. Runs before charts are made, so that new uv are not mirrored; uv that a
 /// turned sheet has already keep their place and become mirrored.
+/// Cost: as find_sides(), and O(triangles).
 /// @throws InvalidInput as find_sides().
 SceneSides turn_sheets(Scene& scene, const SceneSideOptions& options = {}, std::span<const Volume> view = {});
 
 /// Takes back the turning of the sheets of one part of which no triangle is flagged, and counts them as left.
+/// Cost: O(triangles of the part).
 /// @param number Index into `sides.parts` and `sides.sheets`. @param flags One a triangle of the part.
 void leave_sheets(SceneSides& sides, std::size_t number, const std::vector<std::uint8_t>& flags);
 

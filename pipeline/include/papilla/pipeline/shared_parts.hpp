@@ -12,7 +12,7 @@ namespace papilla {
 
 /// A part that was replaced by another one that equals it.
 struct SharedPart {
-  std::string name, id;        ///< Its own, as they were.
+  std::string name, id;        ///< Its shown_name() and its own id, as they were.
   std::uint32_t number = 0;    ///< In the scene's old numbers.
   std::uint32_t original = 0;  ///< In the scene's new numbers.
   double max_distance_mm = 0;  ///< Largest distance between corresponding vertices.

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "papilla/io/scene.hpp"
@@ -36,17 +38,31 @@ struct SurfacePlace {
   std::vector<std::string> parts, meshes, nodes, instances, assemblies, layers, cad_materials, colours, materials;
 };
 
+/// A key of a selector in a settings file: its pattern, the names that it is compared with, and how.
+struct SelectorKey {
+  enum class Kind { glob, path_glob, colour };
+  std::string_view name;
+  std::optional<std::string> SurfaceSelector::*pattern;
+  std::vector<std::string> SurfacePlace::*names;
+  Kind kind;
+};
+
+/// All keys that have a pattern; "not" has none.
+std::span<const SelectorKey> selector_keys() noexcept;
+
 /// All places of a scene: nodes depth first, then the parts that no node shows; slots ascending.
+/// Cost: O(uses x slots x depth), each with its names.
 /// @throws InvalidInput as instances().
 std::vector<SurfacePlace> surface_places(const Scene& scene);
 
+/// Cost: O(keys given x names of the place), exceptions included.
 bool fits(const SurfaceSelector& selector, const SurfacePlace& place);
 
 /// "part 'dash*', not layer 'hidden'": the selector in words.
 std::string text_of(const SurfaceSelector& selector);
 
 /// Why a selector fits none of the places: "part 'dahs_*' matches nothing; did you mean 'dash_skin'?".
-/// @pre It fits none.
+/// Cost: O(keys given x places). @pre It fits none.
 std::string reason_for_nothing(const SurfaceSelector& selector, const std::vector<SurfacePlace>& places);
 
 /// What a rule, or a layer, took of a scene as it was read. A surface is the triangles of one part that share a
@@ -75,6 +91,7 @@ struct LabelledParts {
 
 /// Makes parts whose uses get different labels several parts, one for each way they are labelled, and lets the nodes
 /// show those. The first use keeps the part; the ids of the others are the paths of their first nodes.
+/// Cost: O(places log places), and a copy of a mesh for each part that is made.
 /// @param places surface_places() of the scene. @param label Of each place.
 LabelledParts split_by_label(Scene& scene, const std::vector<SurfacePlace>& places,
                              const std::vector<std::uint32_t>& label);

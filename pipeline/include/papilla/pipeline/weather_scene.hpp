@@ -34,6 +34,7 @@ struct WeatherConfig {
   std::vector<WeatherLayer> layers;    ///< From the lowest to the highest.
   std::filesystem::path folder;        ///< Where the names within are looked for.
   std::string source = "weather";      ///< The configuration's name in messages.
+  bool strict = false;                 ///< A layer that lies on no surface is an error; no key of the file.
 
   int atlas_side() const { return atlas > 0 ? atlas : 4 * size; }
 };
@@ -117,7 +118,7 @@ std::string reason_for_no_paint(const WeatherResult& result);
 /// coordinates than the colour is replaced. Materials without uv, or that no layer fits, stay as they are and are named
 /// in the result.
 /// @param cache Materials that have been painted with the same recipes before are taken from it; belongs to this scene.
-/// @throws InvalidInput for a recipe that is none, naming it.
+/// @throws InvalidInput for a recipe that is none, naming it, and for strict layers before anything is painted.
 WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache,
                             const ProgressCallback& progress = {});
 WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time,

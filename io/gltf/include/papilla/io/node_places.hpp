@@ -21,7 +21,7 @@ struct NodePlace {
   std::optional<std::uint32_t> parent;  ///< Node above it.
 };
 
-/// The places of all nodes; of one that no root leads to, all is empty.
+/// The places of all nodes; of one that no root leads to, all is empty. Cost: O(nodes x depth), for the paths.
 /// @throws InvalidInput as instances().
 std::vector<NodePlace> node_places(const Scene& scene);
 
