@@ -9,7 +9,7 @@ source "$(dirname "$0")/failures.sh" "$2"
 
 printf 'mtllib one.mtl\nv 0 0 0\nv 10 0 0\nv 0 10 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl g\nf 1/1 2/2 3/3\n' >one.obj
 printf 'newmtl g\n' >one.mtl
-printf '{"layers": [{"recipe": "dots"}], "size": 16}' >config.json
+printf '{"layers": [{"recipe": "dust"}], "size": 16}' >config.json
 
 # ends COMMAND...: with exit code 0; 124 is that of `timeout`, long after the limit.
 ends() { timeout 120 "$@" >out.txt 2>&1 </dev/null || fail "exit $?: $*: $(cat out.txt)"; }
