@@ -2,6 +2,7 @@
 #include "papilla/haptic/safety.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace papilla {
 
@@ -16,7 +17,7 @@ Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s, const Contac
     fault_ = Fault::stale_input;
   if (fault_ != Fault::none) return last_ = {};
 
-  force_n = faded_in(force_n, period_s, contact.in_contact);
+  force_n = faded_in(force_n, period_s, contact);
   const double size = norm(force_n);
   if (size > limits_.max_force_n) force_n = (limits_.max_force_n / size) * force_n;
   const bool goes_on = contact.in_contact && contact_s_ >= limits_.new_contact_s;
@@ -29,22 +30,26 @@ Vec3 ForceGuard::apply(Vec3 force_n, double period_s, double age_s, const Contac
   return last_;
 }
 
-Vec3 ForceGuard::faded_in(Vec3 force_n, double period_s, bool in_contact) noexcept {
+Vec3 ForceGuard::faded_in(Vec3 force_n, double period_s, const ContactStep& contact) noexcept {
   const double size = norm(force_n);
   if (faded_in_s_ < limits_.soft_start_s && (size > 0 || faded_in_s_ > 0)) faded_in_s_ += period_s;
   const double share = limits_.soft_start_s > 0 ? std::min(1.0, faded_in_s_ / limits_.soft_start_s) : 1;
-  if (!in_contact) {
-    withheld_n_ = raw_n_ = 0;
+  if (!contact.in_contact) {
+    withheld_n_ = raw_n_ = work_j_ = 0;
     return share * force_n;
   }
+  work_j_ -= dot(last_, contact.moved_m);
   withheld_n_ = std::clamp(withheld_n_ + (1 - share) * (size - raw_n_), 0.0, size);
   raw_n_ = size;
-  return withheld_n_ > 0 ? ((size - withheld_n_) / size) * force_n : force_n;
+  if (withheld_n_ == 0) return force_n;
+  const double paid = std::sqrt(2 * share * contact.stiffness * std::max(0.0, work_j_)) - (size - withheld_n_);
+  withheld_n_ -= std::clamp(paid, 0.0, std::min(withheld_n_, size * period_s / limits_.soft_start_s));
+  return ((size - withheld_n_) / size) * force_n;
 }
 
 void ForceGuard::resume() noexcept {
   fault_ = Fault::none;
-  faded_in_s_ = contact_s_ = withheld_n_ = raw_n_ = 0;
+  faded_in_s_ = contact_s_ = withheld_n_ = raw_n_ = work_j_ = 0;
   last_ = {};
 }
 

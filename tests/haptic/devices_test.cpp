@@ -209,7 +209,9 @@ TEST(ForceGuard, FadingInGivesNoEnergyToAHandInAWall) {
     double work = 0, last_depth = 0, last_force = 0;
     for (int i = 1; i < 300; ++i) {
       const double depth = std::max(0.0, depth_at(i * k_period));
-      const double force = guard.apply({0, 0, k_stiffness * depth}, k_period, 0, {depth > 0, 0}).z;
+      const double force =
+          guard.apply({0, 0, k_stiffness * depth}, k_period, 0, {depth > 0, 0, k_stiffness, {0, 0, last_depth - depth}})
+              .z;
       const double step = (last_force + force) / 2 * (depth - last_depth);
       work += step;
       ASSERT_GE(work, -1e-12) << "hand " << hand << " at " << i << " ms";
@@ -231,6 +233,22 @@ TEST(ForceGuard, AWallIsAsStiffAsItIsOnceFadedInAndWholeInTheNextContact) {
   EXPECT_EQ(press(0.3), 0);  // Less than what is held back.
   EXPECT_EQ(press(0), 0);
   EXPECT_EQ(press(0.3), 0.3);
+}
+
+/// A hand that jumps 1 mm into a wall of 400 N/m and slides on with a friction of 0.5: that work pays for the rest.
+TEST(ForceGuard, WhatFadingInHeldBackReturnsWhileFrictionPaysForIt) {
+  ForceGuard guard({.max_force_n = 100, .slew_n_per_s = 1e9, .steady_share = 1, .soft_start_s = 0.05});
+  double work = 0, last = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double slid = i == 0 ? 0 : 6e-5;
+    const Vec3 force = guard.apply({-0.2, 0, 0.4}, 1e-3, 0, {true, 0, 400, {slid, 0, i == 0 ? -1e-3 : 0}});
+    EXPECT_NEAR(force.z, -2 * force.x, 1e-12);
+    const double stored = dot(force, force) / (2 * 400);
+    work += last * slid;
+    EXPECT_LE(stored, work + 1e-6 * (i < 50)) << i;  // At first no more than the share of the first millisecond.
+    last = -force.x;
+  }
+  EXPECT_NEAR(last, 0.2, 1e-12);
 }
 
 TEST(ForceGuard, NoNumberAndOldInputMeanNoForceUntilResumed) {

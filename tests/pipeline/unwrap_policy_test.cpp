@@ -34,7 +34,7 @@ Materials grain_everywhere() {
 void expect_equal_as_written(const std::vector<Vec2>& baked, const std::vector<Vec2>& unwrapped,
                              const std::string& where) {
   ASSERT_EQ(baked.size(), unwrapped.size()) << where;
-  const auto rounding = [](double x) { return 1.2e-7 * (std::abs(x) + k_tile_mm); };
+  const auto rounding = [](double x) { return 1e-6 * (std::abs(x) + k_tile_mm); };
   for (std::size_t i = 0; i < baked.size(); ++i) {
     ASSERT_NEAR(baked[i].x, unwrapped[i].x, rounding(unwrapped[i].x)) << where;
     ASSERT_NEAR(baked[i].y, unwrapped[i].y, rounding(unwrapped[i].y)) << where;

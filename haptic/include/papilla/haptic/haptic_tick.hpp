@@ -70,7 +70,8 @@ class HapticTick {
  private:
   ContactStep contact_step(const ProxyState& state, Vec3 moved) const noexcept {
     if (!state.in_contact) return {};
-    return {true, surface_->material(state.material).stiffness * std::abs(dot(state.normal, moved))};
+    const double stiffness = surface_->material(state.material).stiffness;
+    return {true, stiffness * std::abs(dot(state.normal, moved)), stiffness, moved};
   }
 
   /// Bristle friction where the material has it; Coulomb's is in the proxy.

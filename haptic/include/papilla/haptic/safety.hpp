@@ -21,7 +21,9 @@ SafetyLimits safety_limits(double max_force_n) noexcept;
 /// What the guard knows of the contact behind a force.
 struct ContactStep {
   bool in_contact = false;
-  double spring_n = 0;  ///< k·|n·Δx|, by which a spring along n changes with the hand's own way in this tick.
+  double spring_n = 0;   ///< k·|n·Δx|, by which a spring along n changes with the hand's own way in this tick.
+  double stiffness = 0;  ///< k [N/m].
+  Vec3 moved_m;          ///< Δx.
 };
 
 /// The last stage before a device. For every input the output is finite, at most max_force_n long, and exactly zero
@@ -36,7 +38,9 @@ struct ContactStep {
 /// in soft_start_s, and in a contact that share s(t) is the one of each change of their size,
 ///     |F| = integral of s(t) d|f|,
 /// so that a wall that becomes stiffer while a hand is in it gives it no energy: F²/(2·s·k) is what it stores of the
-/// work that was put in. Until that contact ends its wall is felt deeper by what was held back, over k.
+/// work that was put in. What is held back so returns in soft_start_s and more while friction or damping pay for it:
+/// |F| rises as far as F²/(2·s·k) is less than the work of the hand in this contact. Else the wall is felt deeper, by
+/// what is held back over k, until the contact ends.
 class ForceGuard {
  public:
   enum class Fault { none, not_finite, stale_input };
@@ -52,13 +56,13 @@ class ForceGuard {
   void resume() noexcept;
 
  private:
-  Vec3 faded_in(Vec3 force_n, double period_s, bool in_contact) noexcept;
+  Vec3 faded_in(Vec3 force_n, double period_s, const ContactStep& contact) noexcept;
 
   SafetyLimits limits_;
   Vec3 last_;
   double faded_in_s_ = 0, contact_s_ = 0;
-  double withheld_n_ = 0,
-         raw_n_ = 0;  ///< Of the contact that goes on: what the fade-in holds back; |f| of the last tick.
+  /// Of the contact that goes on: what the fade-in holds back, |f| of the last tick, work of the hand.
+  double withheld_n_ = 0, raw_n_ = 0, work_j_ = 0;
   Fault fault_ = Fault::none;
 };
 
