@@ -29,15 +29,18 @@ struct Failure {
   int exit_code = k_exit_input;
 };
 
-/// {"error": what, "exit_code": number}.
-inline nlohmann::ordered_json failure_json(const Failure& failure) {
-  return {{"error", failure.what}, {"exit_code", failure.exit_code}};
+/// Adds "error": what and "exit_code": number.
+inline void add_failure(nlohmann::ordered_json& json, const Failure& failure) {
+  json["error"] = failure.what;
+  json["exit_code"] = failure.exit_code;
 }
 
-/// Prints failure_json() on standard output, if that can be written.
+/// Prints an object of that on standard output, if that can be written.
 inline void print_failure_json(const Failure& failure) noexcept {
   try {
-    print_out(json_text(failure_json(failure)));
+    nlohmann::ordered_json json;
+    add_failure(json, failure);
+    print_out(json_text(json));
   } catch (const std::exception&) {
     std::clearerr(stdout);  // The message on stderr is enough.
   }

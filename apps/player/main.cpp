@@ -289,7 +289,7 @@ int run(const Options& options) {
   }
   if (!options.quiet && options.json != "-") app::print_out(summary(report));
   nlohmann::ordered_json json = to_json(report);
-  if (failure) json.update(app::failure_json(*failure));
+  if (failure) app::add_failure(json, *failure);
   write_json(options, json);
   return failure ? app::print_failure("papilla-player", *failure) : app::k_exit_done;
 }

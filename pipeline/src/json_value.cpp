@@ -105,8 +105,14 @@ std::vector<std::string> JsonValue::texts() const {
 }
 
 JsonValue::Json read_json(const std::filesystem::path& path) {
+  constexpr int k_most_levels = 64;  // Objects are copied as they grow: deep ones cost the square of their depth.
+  const auto check_depth = [&](int depth, JsonValue::Json::parse_event_t, JsonValue::Json&) {
+    if (depth > k_most_levels)
+      throw InvalidInput(path.string() + ": is nested deeper than " + std::to_string(k_most_levels) + " levels");
+    return true;
+  };
   try {
-    return JsonValue::Json::parse(read_file(path));
+    return JsonValue::Json::parse(read_file(path), check_depth);
   } catch (const JsonValue::Json::parse_error& parse_error) {
     throw InvalidInput(path.string() + ": byte " + std::to_string(parse_error.byte) + ": is no valid JSON");
   } catch (const JsonValue::Json::out_of_range&) {

@@ -102,6 +102,10 @@ TEST(CInterface, FeelsAPlate) {
   int found = 0;
   for (int i = 0; i < 100; ++i) found = papilla_haptic_tick(haptic, below, 0, force);
   EXPECT_TRUE(found & PAPILLA_HAPTIC_CONTACT);
+  EXPECT_LT(force[1], 0.1);  // The first force fades in: a wall does not stiffen around a hand that is in it.
+  papilla_haptic_tick(haptic, above, 0, force);
+  for (int i = 0; i < 100; ++i) found = papilla_haptic_tick(haptic, below, 0, force);
+  EXPECT_TRUE(found & PAPILLA_HAPTIC_CONTACT);
   EXPECT_NEAR(force[1], 300 * 0.002, 300 * 1.2e-4);
   papilla_haptic_proxy(haptic, proxy, normal);
   EXPECT_NEAR(proxy[1], 0, 1.5e-4);

@@ -156,6 +156,15 @@ TEST_F(MaterialsTest, NamesTheJsonPointerOfWhatIsWrong) {
   EXPECT_NE(complaint("[]").find("must be an object"), std::string::npos);
 }
 
+TEST_F(MaterialsTest, DeepNestingIsRefusedBeforeItIsRead) {
+  std::string deep = "{\"materials\": ";
+  constexpr int levels = 200'000;
+  for (int i = 0; i < levels; ++i) deep += "{\"a\":";
+  deep += '1';
+  for (int i = 0; i < levels; ++i) deep += ",\"b\":0}";
+  EXPECT_EQ(complaint(deep + "}"), path_.string() + ": is nested deeper than 64 levels");
+}
+
 TEST_F(MaterialsTest, AMissingFileOrAFolderIsAnIoError) {
   EXPECT_THROW(read_materials(folder_ / "none.json"), IoError);
   EXPECT_THROW(read_materials(folder_), IoError);
