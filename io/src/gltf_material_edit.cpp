@@ -240,7 +240,9 @@ class MaterialEditor {
     material["name"] = name;
     const auto is_taken = [&](const Json& wanted) {
       const Json& all = file_.json["materials"];
-      return std::count_if(all.begin(), all.end(), [&](const Json& m) { return m.value("name", "") == wanted.get_ref<const std::string&>(); }) > 1;
+      return std::count_if(all.begin(), all.end(), [&](const Json& m) {
+               return m.value("name", "") == wanted.get_ref<const std::string&>();
+             }) > 1;
     };
     for (int i = 2; is_taken(material["name"]); ++i) material["name"] = name + " " + std::to_string(i);
   }
