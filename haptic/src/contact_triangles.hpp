@@ -193,8 +193,12 @@ inline Box3f ContactTriangles::box_around(Vec3 a, Vec3 b, double reach) noexcept
   return box;
 }
 
-/// Ericson, Real-Time Collision Detection (2005), 5.1.5: by the Voronoi region that x lies in.
+/// Ericson, Real-Time Collision Detection (2005), 5.1.5: by the Voronoi region that x lies in. An edge whose square
+/// vanishes beside the other numbers counts as its first corner.
 [[gnu::always_inline]] inline ContactTriangles::Foot ContactTriangles::foot(const Corners& t, Vec3 x) noexcept {
+  const auto share = [](double part, double whole) {
+    return part / std::max(whole, std::numeric_limits<double>::min());
+  };
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = x - t.a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return {t.a, 0, 0, Foot::On::corner, {}};
@@ -203,7 +207,7 @@ inline Box3f ContactTriangles::box_around(Vec3 a, Vec3 b, double reach) noexcept
   if (d3 >= 0 && d4 <= d3) return {t.b, 1, 0, Foot::On::corner, {}};
   const double vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const double v = d1 / (d1 - d3);
+    const double v = share(d1, d1 - d3);
     return {t.a + v * ab, v, 0, Foot::On::edge, ab};
   }
   const Vec3 cp = x - t.c;
@@ -211,15 +215,15 @@ inline Box3f ContactTriangles::box_around(Vec3 a, Vec3 b, double reach) noexcept
   if (d6 >= 0 && d5 <= d6) return {t.c, 0, 1, Foot::On::corner, {}};
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-    const double w = d2 / (d2 - d6);
+    const double w = share(d2, d2 - d6);
     return {t.a + w * ac, 0, w, Foot::On::edge, ac};
   }
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    const double w = share(d4 - d3, (d4 - d3) + (d5 - d6));
     return {t.b + w * (t.c - t.b), 1 - w, w, Foot::On::edge, t.c - t.b};
   }
-  const double scale = 1 / (va + vb + vc), v = vb * scale, w = vc * scale;
+  const double scale = share(1, va + vb + vc), v = vb * scale, w = vc * scale;
   return {t.a + v * ab + w * ac, v, w, Foot::On::face, {}};
 }
 

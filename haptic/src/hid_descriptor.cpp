@@ -184,6 +184,7 @@ class Parser {
     f.count = g.report_count;
     f.logical_min = g.logical_min;
     f.logical_max = upper(g.logical_min, g.logical_max, g.logical_max_unsigned);
+    if (f.logical_max < f.logical_min) fail(item.at, "has a logical maximum below its minimum");
     f.physical_min = g.physical_min;
     f.physical_max = upper(g.physical_min, g.physical_max, g.physical_max_unsigned);
     f.unit_exponent = g.unit_exponent;

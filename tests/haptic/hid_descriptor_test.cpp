@@ -87,6 +87,7 @@ TEST(HidDescriptor, RefusesWhatIsDamaged) {
   refused(DescriptorBuilder().usage(1).item(0x74, 200, 1).item(0x94, 65535, 2).input(2));
   refused(DescriptorBuilder().usage(1).size(72, 1).input(2));
   refused(DescriptorBuilder().item(0x18, 9, 1).item(0x28, 3, 1));
+  refused(DescriptorBuilder().usage(1).logical(-1, -2).size(8, 1).input(2));
   DescriptorBuilder deep;
   for (int i = 0; i < 40; ++i) deep.begin(1);
   refused(deep);

@@ -319,6 +319,22 @@ TEST(Proxy, NeverLosesAPlateOfSlivers) {
   EXPECT_LT(worst, 1e-5);  // Without friction it is above the probe.
 }
 
+TEST(Proxy, TrianglesOfNoWidthAreFelt) {
+  // As wide as a float can tell from zero: the square of an edge vanishes beside its products with other lengths.
+  for (const double width : {1e-40, 1e-45, 1e-20}) {
+    ContactMesh needle;
+    needle.positions = {{0, 0, -0.5}, {width, 0, 0.5}, {0, width, 0.5}};
+    needle.triangles = {{0, 1, 2}};
+    const ContactSurface surface(needle, {spring(500)}, {}, 5e-4);
+    Proxy proxy(surface);
+    proxy.reset({0.002, 1e-7, 0.1});
+    for (int i = 0; i < 60; ++i) {
+      const ProxyState& state = proxy.update({0.002 - 1e-4 * i, 1e-7, 0.1}, k_tick);
+      ASSERT_TRUE(is_finite(state.proxy) && is_finite(state.normal)) << width << " at tick " << i;
+    }
+  }
+}
+
 TEST(Proxy, SoupWithGapsDuplicatesAndTJunctionsHolds) {
   ContactMesh soup;
   std::mt19937 random(3);

@@ -50,5 +50,11 @@ TEST(DecodeGrey16, RefusesHugeClaimsBeforeDecoding) {
   EXPECT_THROW(decode_grey16(bytes, "g"), InvalidInput);
 }
 
+TEST(DecodeGrey16, RefusesChunksThatAnnounceMoreThanThereIs) {
+  auto bytes = std::vector<std::byte>(as_bytes(test::k_grey16_png).begin(), as_bytes(test::k_grey16_png).end());
+  bytes[33] = std::byte{0x49};  // The length of the chunk after IHDR: 1.2 GB, which were allocated.
+  EXPECT_THROW(decode_grey16(bytes, "g"), InvalidInput);
+}
+
 }  // namespace
 }  // namespace papilla

@@ -37,10 +37,23 @@ PngHeader read_header(std::span<const std::byte> bytes, const std::string& name)
   return header;
 }
 
+/// A chunk that announces more than there is would be allocated before it is read. What follows the last is left alone.
+void check_chunks(std::span<const std::byte> bytes, const std::string& name) {
+  constexpr std::uint32_t k_last = 0x49454e44;  // IEND
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {
+    const std::uint32_t length = big_endian(bytes, at);
+    if (length > bytes.size() - at - 12) break;
+    if (big_endian(bytes, at + 4) == k_last) return;
+    at += 12 + std::size_t{length};
+  }
+  throw InvalidInput(name + ": is damaged");
+}
+
 }  // namespace
 
 Grey16 decode_grey16(std::span<const std::byte> bytes, const std::string& name) {
   const PngHeader header = read_header(bytes, name);
+  check_chunks(bytes, name);
   tinygltf::Image image;
   std::string error, warning;
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());

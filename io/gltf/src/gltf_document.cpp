@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum class Kind { index, number, text, array, object, component_type, accessor_type, camera_type, stride };
+enum class Kind { index, whole, number, text, array, object, component_type, accessor_type, camera_type, stride };
 
 /// A member that tinygltf requires. "[]" follows the name of an array all of whose elements need it; members on the
 /// path may be missing.
@@ -69,6 +70,28 @@ constexpr std::array k_required = {
     Required{"cameras[].orthographic.znear", Kind::number},
 };
 
+/// Members that tinygltf skips in silence when they are written as fractions, but that the file's text is edited by.
+constexpr std::array k_whole = {
+    Required{"scene", Kind::whole, true},
+    Required{"scenes[].nodes[]", Kind::whole, true},
+    Required{"nodes[].mesh", Kind::whole, true},
+    Required{"nodes[].children[]", Kind::whole, true},
+    Required{"meshes[].primitives[].indices", Kind::whole, true},
+    Required{"meshes[].primitives[].material", Kind::whole, true},
+    Required{"meshes[].primitives[].mode", Kind::whole, true},
+    Required{"textures[].source", Kind::whole, true},
+    Required{"textures[].sampler", Kind::whole, true},
+    Required{"images[].bufferView", Kind::whole, true},
+    Required{"accessors[].bufferView", Kind::whole, true},
+    Required{"accessors[].byteOffset", Kind::whole, true},
+    Required{"bufferViews[].byteOffset", Kind::whole, true},
+    Required{"materials[].normalTexture.index", Kind::whole, true},
+    Required{"materials[].occlusionTexture.index", Kind::whole, true},
+    Required{"materials[].emissiveTexture.index", Kind::whole, true},
+    Required{"materials[].pbrMetallicRoughness.baseColorTexture.index", Kind::whole, true},
+    Required{"materials[].pbrMetallicRoughness.metallicRoughnessTexture.index", Kind::whole, true},
+};
+
 bool is_index(const Json& value) { return value.is_number_integer() && value.get<std::int64_t>() >= 0; }
 
 bool is_one_of(const Json& value, std::initializer_list<Json> allowed) {
@@ -79,6 +102,7 @@ bool is_one_of(const Json& value, std::initializer_list<Json> allowed) {
 std::pair<bool, std::string_view> is_of(const Json& value, Kind kind) {
   switch (kind) {
     case Kind::index: return {is_index(value), "is no whole number"};
+    case Kind::whole: return {value.is_number_integer(), "is no whole number"};
     case Kind::number: return {value.is_number(), "is no number"};
     case Kind::text: return {value.is_string(), "is no string"};
     case Kind::array: return {value.is_array(), "is no array"};
@@ -130,12 +154,18 @@ std::string find_camera_without_lens(const Json& document) {
   return "";
 }
 
-/// The first member that tinygltf requires and that is missing or of another kind, for messages:
-/// "accessors[3].componentType is missing". Empty when there is none.
-std::string find_missing_member(const Json& document) {
-  for (const Required& required : k_required)
+/// The first member that is missing or of another kind, for messages: "accessors[3].componentType is missing". Empty
+/// when there is none.
+std::string find_bad_member(const Json& document, std::span<const Required> members) {
+  for (const Required& required : members)
     if (std::string found = find_in(document, required.path, required, ""); !found.empty()) return found;
-  return find_camera_without_lens(document);
+  return "";
+}
+
+/// The same of those that tinygltf requires.
+std::string find_missing_member(const Json& document) {
+  const std::string found = find_bad_member(document, k_required);
+  return found.empty() ? find_camera_without_lens(document) : found;
 }
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are read in place");
@@ -502,6 +532,8 @@ Document load_document(const std::filesystem::path& path) {
   Json json = parse_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file,
                            document.warnings);
   check_meshopt_numbers(json, document.file);
+  if (const std::string bad = find_bad_member(json, k_whole); !bad.empty())
+    throw InvalidInput(document.file + ": " + bad);
   const auto primitives = count_primitives(json);
   const bool has_chunk = document.binary && 20 + std::size_t{word(bytes, 12)} < word(bytes, 8);
   document.empty_buffers = fill_empty_buffers(json, has_chunk);

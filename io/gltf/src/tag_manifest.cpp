@@ -69,9 +69,11 @@ TagManifest manifest_of(const Json& json, std::vector<HapticWarning>& warnings) 
     TagManifest::Surface surface;
     surface.part = entry.value("part", "");
     surface.node = entry.value("node", "");
-    if (!entry.at("material").is_null()) surface.material = entry.at("material").get<std::uint32_t>();
-    if (surface.material && *surface.material >= manifest.materials.size())
-      throw InvalidInput("a surface names material " + std::to_string(*surface.material));
+    if (const Json& material = entry.at("material"); !material.is_null()) {
+      if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= manifest.materials.size())
+        throw InvalidInput("a surface names material " + material.dump());
+      surface.material = material.get<std::uint32_t>();
+    }
     surface.area_m2 = entry.at("area").get<double>();
     if (entry.contains("box")) {
       const auto box = entry.at("box").get<std::array<double, 6>>();
