@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "papilla/core/atomic_file.hpp"
 #include "papilla/core/file_guard.hpp"
 
 /// Which options name files: every option of both programs whose value is a path is marked by one of these, so that no
@@ -57,6 +58,17 @@ inline void declare_files(const CLI::App& command) {
           declare_output(std::filesystem::path(value) / name, option->get_name());
       }
     }
+}
+
+/// Checks that the files which the command's options name can be written, before the work begins.
+/// @throws IoError naming the file and the reason.
+inline void require_outputs(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const auto known = file_options().find(option);
+    if (known == file_options().end() || known->second.use != FileOption::Use::output) continue;
+    for (const std::string& value : option->results())
+      if (!value.empty() && value != "-") require_writable(value);
+  }
 }
 
 }  // namespace papilla::app

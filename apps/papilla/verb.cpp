@@ -127,6 +127,7 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->group("Common");
   verb->callback([verb, common, at_deadline = info.at_deadline, body = std::move(body)] {
     declare_files(*verb);
+    require_outputs(*verb);
     run_verb(*verb, *common, at_deadline, body);
   });
   return verb;

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <streambuf>
@@ -133,6 +134,7 @@ class Registration {
 
 // A temporary file is ".papilla-" + 32 hexadecimal digits + ".tmp". As long as its process lives it is locked (flock),
 // whatever the container or machine it runs in; the system drops the lock when the process dies.
+constexpr std::size_t k_least_space = 4096;  ///< Bytes without which no file is begun: a block.
 constexpr std::string_view k_prefix = ".papilla-", k_suffix = ".tmp", k_hex = "0123456789abcdef";
 
 std::string temporary_name() { return std::string(k_prefix).append(random_token()).append(k_suffix); }
@@ -258,35 +260,64 @@ fs::path link_target(const fs::path& path) {
   fail(path, ELOOP);
 }
 
+/// Where a file is written: what the path leads to, and what is there now.
+struct Place {
+  fs::path target, folder;
+  std::optional<struct stat> old;
+  /// A device or a pipe (/dev/stdout, /dev/null) can't be replaced by renaming.
+  bool is_replaced() const noexcept { return !old || S_ISREG(old->st_mode); }
+};
+
+Place place_of(const fs::path& path) {
+  if (path.filename().empty()) throw IoError("'" + path.string() + "': is not the name of a file");
+  Place place;
+  place.target = link_target(path);
+  place.folder = folder_of(place.target);
+  std::error_code error;
+  if (!fs::is_directory(place.folder, error))
+    throw IoError(path.string() + ": the folder " + place.folder.string() + " does not exist");
+  struct stat old {};
+  if (::stat(place.target.c_str(), &old) == 0) place.old = old;
+  if (place.old && S_ISDIR(old.st_mode)) throw IoError(path.string() + ": is a directory");
+  return place;
+}
+
+Descriptor open_folder(const Place& place, const fs::path& path) {
+  const int opened = ::open(place.folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) fail(path, errno);
+  return Descriptor(opened);
+}
+
 }  // namespace
 
 void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  if (path.filename().empty()) throw IoError("'" + path.string() + "': is not the name of a file");
-  const fs::path target = link_target(path);
-  std::error_code error;
-  const fs::path folder = folder_of(target);
-  if (!fs::is_directory(folder, error))
-    throw IoError(path.string() + ": the folder " + folder.string() + " does not exist");
-  struct stat old {};
-  const bool is_there = ::stat(target.c_str(), &old) == 0;
-  if (is_there && S_ISDIR(old.st_mode)) throw IoError(path.string() + ": is a directory");
+  const Place place = place_of(path);
   note_output(path);
-  // A device or a pipe (/dev/stdout, /dev/null) can't be replaced by renaming.
-  if (is_there && !S_ISREG(old.st_mode)) {
-    const int opened = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (!place.is_replaced()) {
+    const int opened = ::open(place.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
     if (opened < 0) fail(path, errno);
     const Descriptor device(opened);
     return fill(device, path, write);
   }
-  const int opened = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
-  if (opened < 0) fail(path, errno);
-  const Descriptor directory(opened);
-  remove_dead_temporaries(directory, folder);
-  Temporary temporary(directory, target, is_there ? 0600 : 0666);  // A new file gets what umask leaves.
-  const Registration registration(folder / temporary.name());
+  const Descriptor directory = open_folder(place, path);
+  remove_dead_temporaries(directory, place.folder);
+  Temporary temporary(directory, place.target, place.old ? 0600 : 0666);  // A new file gets what umask leaves.
+  const Registration registration(place.folder / temporary.name());
   fill(temporary.file(), path, write);
-  if (is_there) temporary.adopt(old);
+  if (place.old) temporary.adopt(*place.old);
   temporary.rename();
+}
+
+void require_writable(const fs::path& path) {
+  const Place place = place_of(path);
+  if (!place.is_replaced()) {
+    if (::access(place.target.c_str(), W_OK) != 0) fail(path, errno);
+    return;
+  }
+  const Descriptor directory = open_folder(place, path);
+  const Temporary temporary(directory, place.target, 0600);
+  const Registration registration(place.folder / temporary.name());
+  fill(temporary.file(), path, [](std::ostream& out) { out << std::string(k_least_space, '\0'); });
 }
 
 void write_atomically(const fs::path& path, std::string_view content) {

@@ -107,7 +107,8 @@ class PatchCutter {
 
 std::vector<ChartOutline> cut_patch(const SegmentedMesh& surface, const SeamWeights& weights,
                                     const SegmentationOptions& options, std::vector<Index> triangles,
-                                    PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts) {
+                                    PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts,
+                                    const std::function<void(std::size_t)>& finished) {
   PatchCutter patch(surface, weights, options.disks, cutter, seam, cuts);
   std::vector<ChartOutline> charts;
   patch.run(std::move(triangles), [&](const Piece& piece, Work& work) {
@@ -123,6 +124,7 @@ std::vector<ChartOutline> cut_patch(const SegmentedMesh& surface, const SeamWeig
     if (piece.size() > 1 && work.halvings < k_max_halvings && overlaps_itself(outline.place))
       return patch.halve(piece, outline, work);
     charts.push_back(std::move(outline));
+    finished(piece.size());
   });
   return charts;
 }

@@ -3,7 +3,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <mutex>
 #include <string>
 
 #include "check_mesh.hpp"
@@ -25,6 +24,7 @@ void check_options(const SegmentationOptions& options) {
   require(options.seam_cost >= 0 && options.seam_cost < 1e300, "seam_cost", options.seam_cost);
   require(options.feature_angle_deg > 0 && options.feature_angle_deg <= 180, "feature_angle_deg",
           options.feature_angle_deg);
+  require(options.union_trials >= 0 && options.union_trials <= 1e3, "union_trials", options.union_trials);
   require(is_fraction(options.speck_area_fraction), "speck_area_fraction", options.speck_area_fraction);
   require(is_fraction(options.small_area_fraction), "small_area_fraction", options.small_area_fraction);
 }
@@ -39,16 +39,10 @@ std::vector<ChartOutline> cut_patches(const SegmentedMesh& surface, const SeamWe
   PieceCutter cutter(surface, seam);
   std::vector<std::vector<ChartOutline>> pieces(count);
   std::vector<PatchCuts> cuts(count);
-  std::mutex progress_mutex;
-  std::size_t done = 0;
+  SharedProgress done(progress_within(options.progress, 0.3, 0.7), "charts", static_cast<double>(surface.size()));
   oneapi::tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t p) {
-    const std::size_t size = patches[p].size();
-    pieces[p] = cut_patch(surface, weights, options, std::move(patches[p]), cutter, seam, cuts[p]);
-    if (!options.progress) return;
-    const std::lock_guard lock(progress_mutex);
-    done += size;
-    report_progress(options.progress, "charts",
-                    0.3 + 0.4 * static_cast<double>(done) / static_cast<double>(surface.size()));
+    pieces[p] = cut_patch(surface, weights, options, std::move(patches[p]), cutter, seam, cuts[p],
+                          [&](std::size_t triangles) { done.add(static_cast<double>(triangles)); });
   });
   std::vector<ChartOutline> charts;
   for (std::uint32_t p = 0; p < count; ++p) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "chart_field.hpp"
@@ -18,10 +19,12 @@ struct PatchCuts {
 
 /// Cuts a patch until every piece has the topology asked for, is not worth another relief cut, and has an outline that
 /// does not overlap itself. Marks `seam`. May run in parallel for different patches.
-/// @param triangles connected, with seams or borders around.
+/// @param triangles connected, with seams or borders around. @param finished  told the triangles of each piece that is
+/// done.
 std::vector<ChartOutline> cut_patch(const SegmentedMesh& surface, const SeamWeights& weights,
                                     const SegmentationOptions& options, std::vector<Index> triangles,
-                                    PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts);
+                                    PieceCutter& cutter, std::vector<std::uint8_t>& seam, PatchCuts& cuts,
+                                    const std::function<void(std::size_t)>& finished);
 
 /// Only the topology: cuts a patch until every piece is of genus 0 with a border, or a disk.
 void open_patch(const SegmentedMesh& surface, const SeamWeights& weights, bool disks, std::vector<Index> triangles,

@@ -21,6 +21,8 @@ constexpr double k_first_error = 1e-6, k_last_error = 4;  ///< Of the largest pa
 constexpr double k_used = 0.97;                           ///< This share of the budget is good enough.
 constexpr double k_narrow = 1.05;                         ///< So is a tolerance known to this factor.
 constexpr int k_most_trials = 12;
+/// A budget out of reach: so many times the fewest triangles are as good as these, for less deviation.
+constexpr double k_pays = 1.05;
 
 using IndexLists = std::vector<std::vector<Index>>;
 
@@ -43,10 +45,13 @@ class BudgetRun {
     note(indices, result.trace);
     if (drawn(indices) > budget_) {
       const double error = find_error(indices);
-      if (drawn(indices) <= budget_)
+      if (drawn(indices) <= budget_) {
         result.tolerance_mm = find_tolerance(error, indices, result.trace);
-      else
+      } else {
+        result.tolerance_mm = error;
+        indices = within(error);
         note(indices, result.trace);
+      }
     }
     result.triangles = drawn(indices);
     result.reached = result.triangles <= budget_;
@@ -71,15 +76,28 @@ class BudgetRun {
     trace.push_back({clock_.seconds(), static_cast<double>(drawn(indices)) / static_cast<double>(budget_)});
   }
 
-  /// The first error of a doubling ladder at which unmeasured collapses meet the budget, or the last one. Leaves their
-  /// result in `indices`.
+  /// A tolerance that was tried, with what it drew.
+  struct Trial {
+    double tolerance_mm = 0;
+    std::size_t triangles = 0;
+  };
+
+  /// The first error of a doubling ladder at which unmeasured collapses meet the budget. Where none does, the first one
+  /// that leaves hardly more than the last. Leaves the last result in `indices`.
   double find_error(IndexLists& indices) const {
     double largest = 0;
     for (const auto& simplifier : simplifiers_) largest = std::max(largest, simplifier->diagonal());
-    double error = k_first_error * largest;
-    for (; drawn(indices) > budget_ && error < k_last_error * largest; error *= 2)
+    std::vector<Trial> ladder;
+    for (double error = k_first_error * largest; drawn(indices) > budget_ && error < k_last_error * largest;
+         error *= 2) {
       each([&](std::size_t i) { indices[i] = simplifiers_[i]->collapse(indices[i], error / parts_[i].importance, 0); });
-    return error / 2;
+      ladder.push_back({error, drawn(indices)});
+    }
+    if (ladder.empty() || ladder.back().triangles <= budget_) return ladder.empty() ? 0 : ladder.back().tolerance_mm;
+    const double hardly_more = k_pays * static_cast<double>(ladder.back().triangles);
+    return std::find_if(ladder.begin(), ladder.end(),
+                        [&](const Trial& t) { return static_cast<double>(t.triangles) <= hardly_more; })
+        ->tolerance_mm;
   }
 
   IndexLists within(double tolerance_mm) const {
@@ -91,12 +109,6 @@ class BudgetRun {
     });
     return result;
   }
-
-  /// A tolerance that was tried, with what it drew.
-  struct Trial {
-    double tolerance_mm = 0;
-    std::size_t triangles = 0;
-  };
 
   /// Between two trials: where a power law through both meets a count just below the budget, but not too near to
   /// either.
@@ -140,7 +152,8 @@ class BudgetRun {
       result.parts[i] = simplifiers_[i]->result(indices[i], limit / parts_[i].importance);
       if (!result.reached) result.parts[i].stop = StopReason::iteration_limit;
     });
-    if (result.tolerance_mm > 0) return;
+    if (result.tolerance_mm > 0 && result.reached) return;
+    result.tolerance_mm = 0;  // Out of reach: what is held, not what was allowed.
     for (std::size_t i = 0; i < parts_.size(); ++i)
       result.tolerance_mm = std::max(result.tolerance_mm, parts_[i].importance * result.parts[i].deviation.bound());
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -27,10 +28,10 @@ constexpr int k_max_rounds = 100;
 
 /// What a stretch must be like for the union to be tried.
 struct Trial {
-  double cone_rad;           ///< A vertex with more curvature than this ends a stretch.
-  double least_joint;        ///< It is at least this fraction of the smaller chart's border.
-  double max_log_scale;      ///< The scale that it may bring in, by the estimate that prepares the solve.
-  std::size_t solve_budget;  ///< All solves together may visit this many times the triangles there are.
+  double cone_rad;       ///< A vertex with more curvature than this ends a stretch.
+  double least_joint;    ///< It is at least this fraction of the smaller chart's border.
+  double max_log_scale;  ///< The scale that it may bring in, by the estimate that prepares the solve.
+  double solve_budget;   ///< All solves together may visit this many times the triangles there are.
 };
 /// What unfolds easily comes first, then what is curved along the stretch or hangs together by little.
 constexpr Trial k_trials[] = {{10 * k_radians_per_degree, 0.15, 0.5, 8}, {90 * k_radians_per_degree, 0.05, 2, 20}};
@@ -66,9 +67,10 @@ class Unfolder {
   }
 
   std::vector<ChartOutline> run() {
-    for (const Trial& trial : k_trials) {
-      trial_ = trial;
-      budget_ = trial.solve_budget * surface_.size();
+    for (trial_number_ = 0; trial_number_ < std::size(k_trials); ++trial_number_) {
+      trial_ = k_trials[trial_number_];
+      budget_ = static_cast<std::size_t>(budget_of(trial_));
+      tell();
       rounds();
     }
     std::erase_if(charts_, [](const ChartOutline& c) { return c.triangles.empty(); });
@@ -76,6 +78,19 @@ class Unfolder {
   }
 
  private:
+  double budget_of(const Trial& trial) const {
+    return options_.union_trials * trial.solve_budget * static_cast<double>(surface_.size());
+  }
+
+  /// Whole trials and the solves of this one, each hundredth once.
+  void tell() {
+    const double begun = budget_of(trial_), used = begun > 0 ? 1 - static_cast<double>(budget_) / begun : 0;
+    const double fraction = (static_cast<double>(trial_number_) + used) / std::size(k_trials);
+    if (fraction < told_ + 0.01) return;
+    told_ = fraction;
+    report_progress(options_.progress, "charts", 0.7 + 0.2 * fraction);
+  }
+
   void register_border(Index c) {
     for (Index i = 0; i < charts_[c].border.size(); ++i) {
       chart_of_[charts_[c].border[i]] = c;
@@ -251,6 +266,7 @@ class Unfolder {
     std::vector<Index> triangles = charts_[s.a].triangles;
     triangles.insert(triangles.end(), charts_[s.b].triangles.begin(), charts_[s.b].triangles.end());
     budget_ -= std::min(budget_, triangles.size());
+    tell();
     set_seam(s, 0);
     const Piece piece = cutter_.cut(std::move(triangles));
     set_seam(s, 1);
@@ -327,6 +343,8 @@ class Unfolder {
   std::vector<ChartOutline> charts_;
   std::vector<Index> chart_of_, place_of_;  ///< Per half-edge on an outer border.
   Trial trial_ = k_trials[0];
+  std::size_t trial_number_ = 0;
+  double told_ = 0;
   std::size_t budget_ = 0;
 };
 

@@ -7,10 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "chart_driver.hpp"
+#include "best_map.hpp"
 #include "chart_solvers.hpp"
 #include "map_descent.hpp"
-#include "multilevel_map.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla {
@@ -97,7 +96,8 @@ std::string number(double value) {
 /// Tries one method after the other.
 class ChartMapper {
  public:
-  ChartMapper(const ChartSurface& chart, const AutomaticOptions& options) : chart_(chart), options_(options) {}
+  ChartMapper(const ChartSurface& chart, const AutomaticOptions& options, SharedProgress& mapped)
+      : chart_(chart), options_(options), mapped_(mapped) {}
 
   ChartMap run() {
     const double defect = largest_defect_deg(chart_);
@@ -124,6 +124,7 @@ class ChartMapper {
     const SymmetricDirichlet energy(rest);
     const double sum = total_energy({chart_.triangles, &energy}, uv);
     if (!(sum <= most * area_of(chart_))) return false;
+    mapped_.add(static_cast<double>(chart_.triangles.size()));
     result_.trace = {{clock_.seconds(), sum}};
     result_.uv = std::move(uv);
     result_.choice = std::move(choice);
@@ -131,9 +132,7 @@ class ChartMapper {
   }
 
   ChartMap best(double defect) {
-    MultilevelMap solution = map_multilevel(to_unit(chart_).surface, multilevel_options(options_.best));
-    ChartMap map{std::move(solution.uv), std::move(solution.failure), solution.stop, std::move(solution.trace)};
-    for (TraceSample& sample : map.trace) sample.error *= area_of(chart_);
+    ChartMap map = map_best(chart_, options_.best, mapped_);
     map.choice = {"best", defect <= options_.developable_deg
                               ? "curved too little to show at any vertex, but neither developable nor nearly flat"
                               : "angles around an interior vertex miss 2π by " + number(defect) + "°"};
@@ -142,6 +141,7 @@ class ChartMapper {
 
   const ChartSurface& chart_;
   const AutomaticOptions& options_;
+  SharedProgress& mapped_;
   Stopwatch clock_;
   ChartMap result_;
 };
@@ -156,9 +156,10 @@ AutomaticResult flatten_automatic(const TriangleMesh& mesh, const ChartSet& char
   driver.up = options.up;
   driver.unfold = false;
   driver.choices = &choices;
+  SharedProgress mapped(options.best.progress, "map", static_cast<double>(mesh.triangles.size()));
   AutomaticResult result;
   result.flattening = flatten_charts(
-      mesh, charts, [&](const ChartSurface& chart) { return ChartMapper(chart, options).run(); }, driver);
+      mesh, charts, [&](const ChartSurface& chart) { return ChartMapper(chart, options, mapped).run(); }, driver);
   for (std::uint32_t c = 0; c < charts.count; ++c)
     if (!choices[c].method.empty())
       result.choices.push_back({c, std::move(choices[c].method), std::move(choices[c].reason)});

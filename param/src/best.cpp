@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "chart_driver.hpp"
+#include "best_map.hpp"
 #include "multilevel_map.hpp"
 #include "papilla/core/error.hpp"
 
@@ -13,6 +13,16 @@ namespace {
 using namespace param_detail;
 
 constexpr const char* k_function = "flatten_best";
+
+MultilevelOptions multilevel_options(const BestOptions& options) {
+  MultilevelOptions result;
+  result.max_iterations = options.max_iterations;
+  result.tolerance = options.tolerance;
+  result.newton_vertices = options.newton_vertices;
+  result.deadline = options.deadline;
+  result.energy_limit = options.energy_limit;
+  return result;
+}
 
 }  // namespace
 
@@ -26,28 +36,25 @@ void param_detail::check_best_options(const BestOptions& options, std::string_vi
     refuse("energy_limit is " + std::to_string(options.energy_limit) + ", it must be at least 4");
 }
 
-MultilevelOptions param_detail::multilevel_options(const BestOptions& options) {
-  MultilevelOptions result;
-  result.max_iterations = options.max_iterations;
-  result.tolerance = options.tolerance;
-  result.deadline = options.deadline;
-  result.energy_limit = options.energy_limit;
-  return result;
+ChartMap param_detail::map_best(const ChartSurface& chart, const BestOptions& options, SharedProgress& mapped) {
+  WorkProgress work(mapped, static_cast<double>(chart.triangles.size()));
+  MultilevelOptions multilevel = multilevel_options(options);
+  multilevel.progress = [&](double fraction) { work.reach(fraction); };
+  MultilevelMap solution = map_multilevel(to_unit(chart).surface, multilevel);
+  ChartMap map{std::move(solution.uv), std::move(solution.failure), solution.stop, std::move(solution.trace)};
+  // From per unit of area to the sum over the chart.
+  for (TraceSample& sample : map.trace) sample.error *= area_of(chart);
+  work.reach(1);
+  return map;
 }
 
 Flattening flatten_best(const TriangleMesh& mesh, const ChartSet& charts, const BestOptions& options) {
   check_best_options(options, k_function);
-  const auto method = [&](const ChartSurface& chart) {
-    const UnitChart unit = to_unit(chart);
-    MultilevelMap solution = map_multilevel(unit.surface, multilevel_options(options));
-    ChartMap map{std::move(solution.uv), std::move(solution.failure), solution.stop, std::move(solution.trace)};
-    // From per unit of area to the sum over the chart.
-    for (TraceSample& sample : map.trace) sample.error *= area_of(chart);
-    return map;
-  };
+  SharedProgress mapped(options.progress, "map", static_cast<double>(mesh.triangles.size()));
   DriverOptions driver = driver_options(k_function, options);
   driver.unfold = false;
-  return flatten_charts(mesh, charts, method, driver);
+  return flatten_charts(
+      mesh, charts, [&](const ChartSurface& chart) { return map_best(chart, options, mapped); }, driver);
 }
 
 }  // namespace papilla

@@ -58,9 +58,10 @@ constexpr int k_guarded_sweeps = 5;  // dearer, and Newton's steps do as well
 /// Where the border stops all vertices at once, they go on one by one: so many times per level.
 constexpr int k_most_unblocked = 4;
 
-/// Levels with more vertices are relaxed vertex by vertex only: their long waves are right already, and the
-/// factorization takes 2 kB per vertex.
-constexpr std::size_t k_most_factored = 200'000;
+/// Shares of the run time, for progress: all levels but the last, and with the last one relaxed.
+constexpr double k_share_of_levels = 0.5, k_share_before_newton = 0.7;
+
+/// Of levels that are only relaxed: their long waves are right already.
 constexpr int k_fine_sweeps = 30;
 
 /// A level whose energy per area is this much of that of the level before, at most, counts as smooth.
@@ -244,7 +245,7 @@ class Multilevel {
   bool start_as_tube(MapLevel& level) {
     set_vertex_count(k_deep_base_vertices);
     if (has_one_end(make_level(), chart_.positions)) {
-      set_vertex_count(k_most_factored);
+      set_vertex_count(options_.newton_vertices);
       MapLevel whole = make_level();
       if (widen_tube(whole) && energy_of(whole) < k_much_worse * mean_energy_ * whole.area) {
         level = std::move(whole);
@@ -303,6 +304,7 @@ class Multilevel {
       std::string why = "the chart overlaps itself";
       if (is_simple(level)) {
         store_uv(level);
+        tell(hierarchy_.removed_count() == 0 ? 1 : k_share_of_levels);
         if (hierarchy_.removed_count() == 0) break;
         if (!guarded_) left_alone.push_back(level);
         if (refine(level)) continue;
@@ -360,7 +362,7 @@ class Multilevel {
   static bool is_simple(const MapLevel& level) { return make_barrier(level).is_simple(level.uv); }
 
   void minimise(MapLevel& level) {
-    const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= k_most_factored;
+    const bool last = hierarchy_.removed_count() == 0, factored = level.vertices.size() <= options_.newton_vertices;
     add_trace_sample(level, last);
     if (last && factored && options_.only_when_rough && level.slivers.empty() &&
         energy_of(level) <= k_smooth * mean_energy_ * level.area)
@@ -370,6 +372,7 @@ class Multilevel {
     const double relax_tolerance = well_relaxed ? 0.1 * options_.tolerance : k_relax_tolerance;
     relax(level, last && !factored ? k_fine_sweeps : sweeps, relax_tolerance, guarded_);
     if (last) restore_slivers(level, guarded_);
+    if (last) tell(k_share_before_newton);
     add_trace_sample(level, last);
     if (!factored || (last && options_.max_iterations == 0)) return;
     const SymmetricDirichlet dirichlet(level.rest);
@@ -397,6 +400,12 @@ class Multilevel {
       descent.max_iterations -= result.iterations;
       if (!guarded_ || result.stop != StopReason::line_search_stalled || descent.max_iterations == 0) break;
     }
+  }
+
+  /// @param share  of the time, about, that it takes until here when all vertices are back.
+  void tell(double share) const {
+    const auto back = static_cast<double>(hierarchy_.vertex_count());
+    if (options_.progress) options_.progress(share * back / (back + static_cast<double>(hierarchy_.removed_count())));
   }
 
   void add_trace_sample(const MapLevel& level, bool last) {

@@ -1,30 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "chart_pieces.hpp"
 #include "papilla/core/deadline.hpp"
 #include "papilla/core/trace.hpp"
-#include "papilla/param/best.hpp"
 
 namespace papilla::param_detail {
 
 struct MultilevelOptions {
   int max_iterations = 50;
   double tolerance = 1e-3;
+  std::size_t newton_vertices = 200'000;
+  std::function<void(double)> progress;                           ///< Told the fraction that is done; may be empty.
   Deadline deadline;                                              ///< A chart without a map by then is a failure.
   bool only_when_rough = false;                                   ///< No iterations on a map that is smooth already.
   double energy_limit = std::numeric_limits<double>::infinity();  ///< A map with a larger mean energy is a failure.
 };
-
-/// @throws InvalidInput, in the name of `function`, for options out of range.
-void check_best_options(const BestOptions& options, std::string_view function);
-
-MultilevelOptions multilevel_options(const BestOptions& options);
 
 struct MultilevelMap {
   std::vector<Vec2> uv;  ///< Per vertex; when `failure` says why there is none, empty, unless energy_limit refuses it.

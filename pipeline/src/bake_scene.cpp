@@ -476,14 +476,17 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   SharedProgress done(progress, "surfaces", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
     Work& work = works[i];
+    WorkProgress worked(done, static_cast<double>(work.surface->triangles.size()));
     try {
-      if (work.equal_to == nullptr) process(work, context, in_time, result.grains);
+      UnwrapOptions own = in_time;
+      own.method.progress = worked.callback();
+      if (work.equal_to == nullptr) process(work, context, own, result.grains);
     } catch (const SolverFailure& error) {
       throw SolverFailure("part '" + work.surface->label + "': " + error.what());
     } catch (const InvalidInput& error) {
       throw InvalidInput("part '" + work.surface->label + "': " + error.what());
     }
-    done.add(static_cast<double>(work.surface->triangles.size()));
+    worked.reach(1);
   });
 
   if (options.plan.in_place) {

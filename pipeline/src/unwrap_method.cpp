@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
@@ -15,6 +16,31 @@
 
 namespace papilla {
 namespace {
+
+constexpr double k_share_of_charts = 0.5;  ///< Of the time for a part, for progress.
+
+/// Triangles of a part up to which two seam costs are tried: twice the time is no matter there.
+std::size_t most_charted_twice(UnwrapEffort effort) {
+  switch (effort) {
+    case UnwrapEffort::fast: return 0;
+    case UnwrapEffort::normal: return 50'000;
+    case UnwrapEffort::best: break;
+  }
+  return std::numeric_limits<std::size_t>::max();
+}
+
+void set_effort(MethodOptions& o) {
+  if (o.effort == UnwrapEffort::fast) {
+    o.segmentation.union_trials *= 0.15;
+    o.best.newton_vertices = 20'000;
+    o.best.tolerance = 1e-2;
+  }
+  if (o.effort == UnwrapEffort::best) {
+    o.best.newton_vertices = std::numeric_limits<std::size_t>::max();
+    o.best.tolerance = 1e-5;
+    o.best.max_iterations = 500;
+  }
+}
 
 /// Gives every method what they all share.
 MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, const PartContext& context) {
@@ -33,12 +59,14 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   share(o.natural), share(o.maillot), share(o.levy), share(o.lscm), share(o.reference), share(o.best);
   o.natural.fall_back = true;
   if (fall_back) o.best.energy_limit = 4 + worth_halving(o.segmentation);
+  set_effort(o);
   if (o.iterations) o.maillot.max_iterations = o.best.max_iterations = *o.iterations;
   if (o.iterations) o.levy.length_rounds = *o.iterations;
   if (o.iterations) o.levy.max_rounds = o.reference.arap_iterations = std::max(*o.iterations, 1);
   if (o.tolerance)
     o.maillot.tolerance = o.best.tolerance = o.levy.tolerance = o.reference.arap_tolerance = *o.tolerance;
   o.maillot.deadline = o.best.deadline = o.levy.deadline = o.lscm.deadline = o.reference.deadline = o.deadline;
+  o.best.progress = progress_within(o.progress, k_share_of_charts, 1);
   for (const PlacedPin& pin : o.pins)
     if (is_for_part(pin.part, context.part)) o.levy.pins.push_back(pin_on(mesh, pin));
   for (const PlacedIsoLine& line : o.iso_lines)
@@ -118,7 +146,10 @@ Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const
                          FlattenedPart& part) {
   const Stopwatch clock;
   SegmentationOptions segmentation = segmentation_of(o, context);
-  segmentation.progress = [deadline = o.deadline](const Progress&) { return !deadline.passed(); };
+  segmentation.progress = [&o](const Progress& done) {
+    report_progress(o.progress, done.stage, k_share_of_charts * done.fraction);
+    return !o.deadline.passed();
+  };
   const ChartSet charts = segment_charts(mesh, segmentation).charts;
   part.segment_seconds += clock.seconds();
   part.choices.clear();
@@ -159,9 +190,8 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
     require_manifold(mesh);
     return map_or_halve(mesh, components_as_charts(mesh), o, part.choices);
   }
-  // Twice the time is no matter on parts of this size.
-  constexpr std::size_t k_most_triangles = 50'000;
-  if (o.choose_seam_cost && mesh.triangles.size() <= k_most_triangles) return chart_twice(mesh, o, context, part);
+  if (o.choose_seam_cost && mesh.triangles.size() <= most_charted_twice(o.effort))
+    return chart_twice(mesh, o, context, part);
   return chart_and_map(mesh, o, context, part);
 }
 
@@ -181,6 +211,12 @@ const std::map<std::string, UnwrapMethod>& unwrap_methods() {
                                                          {"arap", UnwrapMethod::arap},
                                                          {"best", UnwrapMethod::best},
                                                          {"auto", UnwrapMethod::automatic}};
+  return names;
+}
+
+const std::map<std::string, UnwrapEffort>& unwrap_efforts() {
+  static const std::map<std::string, UnwrapEffort> names{
+      {"fast", UnwrapEffort::fast}, {"normal", UnwrapEffort::normal}, {"best", UnwrapEffort::best}};
   return names;
 }
 

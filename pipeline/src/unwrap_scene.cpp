@@ -178,12 +178,14 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
   SharedProgress done(progress, "unwrap", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
     const std::string place = "part '" + shown_name(parts[p]) + "': ";
-    const auto size = static_cast<double>(parts[p].mesh.triangles.size());
+    WorkProgress work(done, static_cast<double>(parts[p].mesh.triangles.size()));
     start[p] = clock.seconds();
     try {
       PartContext context = shared_context;
       context.part = shown_name(parts[p]);
-      result.parts[p] = unwrap_part(parts[p].mesh, context, in_time);
+      UnwrapOptions own = in_time;
+      own.method.progress = work.callback();
+      result.parts[p] = unwrap_part(parts[p].mesh, context, own);
     } catch (const SolverFailure& error) {
       result.parts[p].failure = place + error.what();
       failures[p] = std::make_exception_ptr(SolverFailure(result.parts[p].failure));
@@ -191,7 +193,7 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
       result.parts[p].failure = place + error.what();
       failures[p] = std::make_exception_ptr(InvalidInput(result.parts[p].failure));
     }
-    done.add(size);
+    work.reach(1);
   });
   if (std::all_of(failures.begin(), failures.end(), [](const auto& failure) { return failure != nullptr; }))
     std::rethrow_exception(failures.front());

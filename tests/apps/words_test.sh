@@ -47,6 +47,17 @@ grep -q '"exit_code": 3' "$out/error.json" || fail "inspect --json -: no exit co
 "$player" "$out/missing.glb" --json - >"$out/error.json" 2>/dev/null
 grep -q '"error"' "$out/error.json" || fail "player --json -: no error"
 
+# What can't be written is known before anything is read.
+says "$out/nowhere/a.glb: the folder $out/nowhere does not exist" 3 "$papilla" bake "$data/exchange/slider.stl" \
+  -m "$out/missing.json" -o "$out/nowhere/a.glb"
+says "$out/nowhere/a.csv: the folder" 3 "$papilla" unwrap "$out/missing.stl" -o "$out/a.glb" --trace "$out/nowhere/a.csv"
+
+# A budget that can't be reached.
+says "the budget of 1 triangles can't be reached" 4 "$papilla" simplify "$data/exchange/slider.stl" -o "$out/strict.glb" \
+  --budget 1 --strict
+[[ ! -e $out/strict.glb ]] || fail "simplify --strict: wrote a file"
+"$papilla" simplify "$data/exchange/slider.stl" -o "$out/strict.glb" --budget 1 -q || fail "simplify --budget 1"
+
 # A picture of grain that is not there, of which material?
 cat >"$out/materials.json" <<'JSON'
 {"materials": {"hide": {"texture": "lether", "size_mm": [40, 40]}}, "assign": [{"part": "*", "material": "hide"}]}

@@ -94,6 +94,18 @@ TEST_F(AtomicFile, WritesMoreThanABlockInAnyPieces) {
   EXPECT_EQ(content(folder_ / "a.bin"), expected);
 }
 
+TEST_F(AtomicFile, WhatCanNotBeWrittenIsKnownBefore) {
+  write_atomically(folder_ / "a.txt", "old");
+  EXPECT_NO_THROW(require_writable(folder_ / "a.txt"));
+  EXPECT_NO_THROW(require_writable(folder_ / "new.txt"));
+  EXPECT_NO_THROW(require_writable("/dev/null"));
+  EXPECT_EQ(content(folder_ / "a.txt"), "old");
+  EXPECT_EQ(files().size(), 1U) << "it leaves nothing";
+  EXPECT_THROW(require_writable(folder_ / "missing" / "a.txt"), IoError);
+  EXPECT_THROW(require_writable(folder_.path()), IoError);
+  EXPECT_THROW(require_writable("/proc/a.txt"), IoError) << "no file can be made there, not even by root";
+}
+
 TEST_F(AtomicFile, AFailureKeepsTheOldFileAndLeavesNothing) {
   write_atomically(folder_ / "a.txt", "old");
   const auto fail = [](std::ostream& out) {

@@ -68,5 +68,29 @@ TEST(SharedProgress, CancelThrows) {
   EXPECT_NO_THROW(silent.add(1));
 }
 
+TEST(Progress, APieceOfAWorkHasItsRange) {
+  std::vector<double> told;
+  const ProgressCallback piece =
+      progress_within([&](const Progress& done) { return told.push_back(done.fraction), true; }, 0.5, 0.75);
+  piece({"map", 0});
+  piece({"map", 0.5});
+  piece({"map", 1});
+  EXPECT_EQ(told, (std::vector<double>{0.5, 0.625, 0.75}));
+  EXPECT_FALSE(progress_within({}, 0, 1));
+}
+
+TEST(WorkProgress, CountsEachFractionOnce) {
+  double last = 0;
+  SharedProgress all([&](const Progress& done) { return last = done.fraction, true; }, "work", 200);
+  WorkProgress one(all, 100), other(all, 100);
+  one.reach(0.5);
+  EXPECT_EQ(last, 0.25);
+  one.reach(0.25);  // Begun again.
+  other.reach(0.5);
+  EXPECT_EQ(last, 0.5);
+  one.reach(1), other.reach(1);
+  EXPECT_EQ(last, 1);
+}
+
 }  // namespace
 }  // namespace papilla

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -403,6 +404,31 @@ TEST(Segmentation, EmptyMeshAndBadOptions) {
   SegmentationOptions options;
   options.feature_angle_deg = 0;
   EXPECT_THROW(segment_charts(cube(), options), InvalidInput);
+  options = {};
+  options.union_trials = -1;
+  EXPECT_THROW(segment_charts(cube(), options), InvalidInput);
+}
+
+TEST(Segmentation, FewerTrialsJoinFewerCharts) {
+  const TriangleMesh mesh = terrain(40, 3, 5);
+  SegmentationOptions options;
+  const std::uint32_t usual = segment_charts(mesh, options).charts.count;
+  options.union_trials = 0;
+  const SegmentationResult none = segment_charts(mesh, options);
+  EXPECT_GT(none.charts.count, usual);
+  expect_disks(mesh, none);
+}
+
+TEST(Segmentation, ProgressGoesOnWithinOnePatch) {
+  std::vector<double> told;
+  SegmentationOptions options;
+  options.progress = [&](const Progress& done) { return told.push_back(done.fraction), true; };
+  segment_charts(terrain(40, 3, 5), options);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
+  for (const double begin : {0.3, 0.7})
+    EXPECT_GE(std::count_if(told.begin(), told.end(), [&](double f) { return f > begin && f < begin + 0.2; }), 2)
+        << "after " << begin;
 }
 
 TEST(ChartTopology, KnownShapes) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "papilla/core/error.hpp"
 #include "papilla_test/shapes.hpp"
 
@@ -52,6 +54,21 @@ TEST(TriangleBudget, LeavesAloneWhatFitsAndSaysWhatCannot) {
   const BudgetResult cannot = simplify_to_budget(parts, 5);
   EXPECT_FALSE(cannot.reached);
   EXPECT_EQ(cannot.triangles, 12U);
+}
+
+TEST(TriangleBudget, OutOfReachItEndsWhereMoreDeviationSavesNothing) {
+  // The border stays, so 2 · 120 - 2 triangles must; the ripples of 0.05 mm are gone long before 100 mm are used up.
+  TriangleMesh sheet = test::plane(100, 100, 60, 60);
+  for (Vec3& p : sheet.positions) p.z = 0.05 * std::sin(p.x) * std::sin(1.3 * p.y);
+  SimplifyOptions options;
+  options.lock_border = true;
+  const BudgetResult r = simplify_to_budget(std::vector<BudgetPart>{{&sheet}}, 10, options);
+  EXPECT_FALSE(r.reached);
+  EXPECT_GE(r.triangles, 238U);
+  EXPECT_LE(r.triangles, 260U);
+  EXPECT_GT(r.tolerance_mm, 0.01);
+  EXPECT_LT(r.tolerance_mm, 0.5);
+  EXPECT_LE(r.parts[0].deviation.bound(), r.tolerance_mm);
 }
 
 TEST(TriangleBudget, PartsThatAreNotDrawnCountForNothing) {

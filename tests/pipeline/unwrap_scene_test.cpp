@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -60,6 +61,44 @@ TEST(Unwrap, ProjectsWhatThereIsNoTimeFor) {
     const DistortionReport r = measure_distortion(mesh, mesh.uv);
     EXPECT_EQ(r.without_uv + r.flipped + r.overlapping_triangles, 0u);
   }
+}
+
+/// A bowl with waves: no map of it is an isometry.
+TriangleMesh wavy_bowl(Index n) {
+  TriangleMesh mesh = test::plane(200, 200, n, n);
+  for (Vec3& p : mesh.positions)
+    p.z = 2e-3 * (p.x * p.x + p.y * p.y) + 1.5 * std::sin(0.1 * p.x) * std::cos(0.12 * p.y);
+  return mesh;
+}
+
+TEST(Unwrap, EffortsAreValidAndTheirDistortionFallsWithThem) {
+  const auto unwrapped = [](UnwrapEffort effort) {
+    UnwrapOptions options = options_of(UnwrapMethod::best);
+    options.method.effort = effort;
+    const UnwrapResult result = unwrap_scene(scene_of(wavy_bowl(170)), options);
+    const TriangleMesh& mesh = result.scene.parts[0].mesh;
+    const DistortionReport r = measure_distortion(mesh, mesh.uv);
+    EXPECT_EQ(r.without_uv + r.flipped + r.overlapping_triangles, 0u);
+    return r.symmetric_dirichlet.mean;
+  };
+  const double fast = unwrapped(UnwrapEffort::fast), normal = unwrapped(UnwrapEffort::normal),
+               best = unwrapped(UnwrapEffort::best);
+  EXPECT_LE(fast, 1.02 * normal);
+  EXPECT_LE(best, normal * (1 + 1e-3));
+}
+
+TEST(Unwrap, ProgressGoesOnWithinOnePart) {
+  std::vector<double> told;
+  UnwrapOptions options = options_of(UnwrapMethod::best);
+  options.method.choose_seam_cost = false;
+  unwrap_scene(scene_of(wavy_bowl(60)), options, [&](const Progress& done) {
+    if (done.stage == "unwrap") told.push_back(done.fraction);
+    return true;
+  });
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GE(told.size(), 8u);
+  EXPECT_EQ(told.back(), 1);
+  EXPECT_GE(std::count_if(told.begin(), told.end(), [](double f) { return f > 0.5 && f < 1; }), 3);
 }
 
 TEST(Unwrap, ChartsThatHaveToBeKeptFailWithoutTime) {

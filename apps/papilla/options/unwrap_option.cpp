@@ -195,6 +195,12 @@ PlacedIsoLine parse_iso_line(const std::string& text) {
   return line.points.size() < 2 ? refuse() : line;
 }
 
+void add_effort(CLI::App& verb, UnwrapEffort& effort) {
+  add_choice<UnwrapEffort>(verb, "--effort", effort, unwrap_efforts(),
+                           "Of charts, auto and best: fast: a little more distortion and more charts, soonest; normal "
+                           "(default); best: all that the methods have, several times the time");
+}
+
 void UnwrapOption::add_to(CLI::App& verb) {
   add_choice<UnwrapMethod>(
       verb, "--method", unwrap.method.method, unwrap_methods(),
@@ -202,6 +208,7 @@ void UnwrapOption::add_to(CLI::App& verb) {
       "overlap; lscm, levy: conformal; maillot, arap: lengths and areas; tutte, mvc: border on a circle; natural: the "
       "CAD surface's parameters; "
       "triplanar, planar, intermediate: projections; environment: sphere map, for previews");
+  add_effort(verb, unwrap.method.effort);
   add_choice<ChartSource>(verb, "--charts", unwrap.method.charts,
                           {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
                           "auto (default): segment the surface; keep: each component is one chart");

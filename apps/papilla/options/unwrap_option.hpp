@@ -9,6 +9,9 @@
 
 namespace papilla::app {
 
+/// --effort fast|normal|best.
+void add_effort(CLI::App& verb, UnwrapEffort& effort);
+
 /// The options of `unwrap` that say how: method, charts, grain, layout and those of single methods.
 struct UnwrapOption {
   UnwrapOptions unwrap;

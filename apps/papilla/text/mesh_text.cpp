@@ -165,8 +165,9 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
   if (result.perception) text += left_out_table(scene, *result.perception);
   if (result.budget && !result.budget->reached)
     text += shown_format(
-        "the budget of {} triangles can't be reached: borders, seams and features allow no fewer than {}\n",
-        *options.budget, result.budget->triangles);
+        "the budget of {} triangles can't be reached: {} are left within {:.3g} mm, and more deviation saves hardly "
+        "any\n",
+        *options.budget, result.budget->triangles, result.budget->tolerance_mm);
   text += shown_format("{:>10} {:>10} {:>12}  part\n", "before", "after", "deviation mm");
   for (std::size_t i = 0; i < result.parts.size(); ++i)
     if (const SimplifyResult& part = result.parts[i]; part.triangles_before > 0)

@@ -10,6 +10,7 @@
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
+#include "options/unwrap_option.hpp"
 #include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/io/named_files.hpp"
@@ -88,7 +89,7 @@ Json run(const Options& options, VerbContext& context) {
   if (const auto& budget = result.plan.budget)
     context.console.print(shown_format("budget of {} triangles: {} within {:.3g} mm{}\n", *wanted.bake.plan.budget,
                                        budget->triangles, budget->tolerance_mm,
-                                       budget->reached ? "" : "; borders, seams and features allow no fewer"));
+                                       budget->reached ? "" : "; more deviation saves hardly any"));
   context.console.print(bake_table(result));
   print_notes(result.scene, context.console);
   context.console.print(changes_line(result.changes));
@@ -118,6 +119,7 @@ void add_bake(CLI::App& program) {
   reads(verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
   verb->add_flag("--keep-copies", options->bake.bake.plan.keep_copies, "Do not make identical parts instances of one");
+  add_effort(*verb, options->bake.bake.unwrap.method.effort);
   verb->add_option("--budget", options->bake.bake.plan.budget,
                    "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
       ->type_name("N")

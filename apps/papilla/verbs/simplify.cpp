@@ -21,7 +21,7 @@ struct Options {
   std::string in, out;
   SimplifySceneOptions simplify;
   PerceptionOption perception;
-  bool one_sided = false, merge_faces = false;
+  bool one_sided = false, merge_faces = false, strict = false;
   bool as_nodes = false;  ///< Levels as nodes instead of MSFT_lod.
   SceneOptions read;
 };
@@ -52,6 +52,9 @@ Json run(const Options& options, VerbContext& context) {
   Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
   SimplifySceneResult result =
       named_by(options.in, [&] { return simplify_scene(std::move(scene), wanted, context.progress); });
+  if (options.strict && result.budget && !result.budget->reached)
+    throw SolverFailure(fmt::format("{}: the budget of {} triangles can't be reached: {} are left within {:.3g} mm",
+                                    options.in, *wanted.budget, result.budget->triangles, result.budget->tolerance_mm));
   context.console.print(simplify_text(result, wanted));
   Json json = simplify_json(result, wanted);
   if (options.as_nodes) levels_to_nodes(result.scene);
@@ -110,6 +113,7 @@ void add_simplify(CLI::App& program) {
       ->type_name("DEG")
       ->check(in_range(0.0, 180.0))
       ->capture_default_str();
+  verb->add_flag("--strict", options->strict, "Write nothing, and end with 4, when the budget can't be reached");
   verb->add_flag("--lock-border", options->simplify.simplify.lock_border, "Keep every border vertex");
   verb->add_flag("--merge-faces", options->merge_faces, "Simplify over the borders of CAD faces and file groups");
   verb->add_flag("--one-sided", options->one_sided, "Measure only from the result to the input");

@@ -72,6 +72,10 @@ bool is_unsigned(int component_type) {
 
 }  // namespace
 
+int index_in(const tinygltf::Value& object, const std::string& name) {
+  return object.Has(name) && object.Get(name).IsInt() ? object.Get(name).GetNumberAsInt() : -1;
+}
+
 std::size_t component_size(int component_type) {
   switch (component_type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:

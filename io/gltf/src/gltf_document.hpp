@@ -36,6 +36,9 @@ std::size_t component_size(int component_type);
 /// glTF 2.0, 3.11: how a normalized integer becomes a real number. Floats stay as they are.
 double normalize(double value, int component_type);
 
+/// The whole number that a member of an extension is; -1 where it is none.
+int index_in(const tinygltf::Value& object, const std::string& name);
+
 /// Reads accessors; every offset, stride and count is checked against the buffers before anything is
 /// allocated. One object serves a whole file and limits the total number of elements that it returns.
 class AccessorReader {

@@ -154,13 +154,13 @@ class PrimitiveReader {
     const tinygltf::Value& ids = extension.Get("attributes");
     for (CompressedAttribute& wanted : attributes) {
       const auto accessor = attribute(primitive, wanted.name);
-      if (!accessor || !ids.Has(wanted.name) || !ids.Get(wanted.name).IsNumber()) continue;
+      wanted.id = index_in(ids, wanted.name);
+      if (!accessor || wanted.id < 0) continue;
       wanted.accessor = *accessor;
-      wanted.id = ids.Get(wanted.name).GetNumberAsInt();
       request.components[wanted.id] = std::max(request.components[wanted.id], wanted.components);
       reader_.spend(request.max_points, where);
     }
-    const int view = extension.Get("bufferView").IsNumber() ? extension.Get("bufferView").GetNumberAsInt() : -1;
+    const int view = index_in(extension, "bufferView");
     const std::string place = document_.file + ": " + where;
     const DracoMesh mesh = decode_draco(reader_.view(view, where + ", Draco"), request, place);
     vertices.count = mesh.points;

@@ -86,8 +86,7 @@ class InstanceReader {
   std::vector<double> numbers(const tinygltf::Value& attributes, const char* name, int components,
                               const std::string& where) {
     if (!attributes.Has(name)) return {};
-    const tinygltf::Value& accessor = attributes.Get(name);
-    return reader_.numbers(accessor.IsNumber() ? accessor.GetNumberAsInt() : -1, components, where + ", " + name);
+    return reader_.numbers(gltf::index_in(attributes, name), components, where + ", " + name);
   }
 
   const std::string& file_;

@@ -92,22 +92,19 @@ struct GltfVertexReader::File {
     const std::size_t corners =
         primitive.indices >= 0 ? reader.accessor(primitive.indices, where).count : position.count;
     request.max_triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
-    const auto id_of = [&](const std::string& name) {
-      return ids.Has(name) && ids.Get(name).IsNumber() ? ids.Get(name).GetNumberAsInt() : -1;
-    };
     for (const auto& [name, number] : primitive.attributes) {
-      if (id_of(name) < 0) continue;
-      int& components = request.components[id_of(name)];
+      const int id = gltf::index_in(ids, name);
+      if (id < 0) continue;
+      int& components = request.components[id];
       components = std::max(components, static_cast<int>(components_of(reader.accessor(number, where))));
       reader.spend(request.max_points, where);
     }
-    const int view =
-        extension->second.Get("bufferView").IsNumber() ? extension->second.Get("bufferView").GetNumberAsInt() : -1;
+    const int view = gltf::index_in(extension->second, "bufferView");
     const gltf::DracoMesh mesh =
         gltf::decode_draco(reader.view(view, where + ", Draco"), request, document.file + ": " + where);
     count = mesh.points;
     for (const auto& [name, number] : primitive.attributes) {
-      const int id = id_of(name);
+      const int id = gltf::index_in(ids, name);
       if (id < 0) continue;
       const tinygltf::Accessor& accessor = reader.accessor(number, where);
       attributes.push_back(

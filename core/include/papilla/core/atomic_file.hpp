@@ -23,6 +23,10 @@ void write_atomically(const std::filesystem::path& path, const std::function<voi
 /// The same for content that fits into memory.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Tells before long work whether `path` can be written: writes a block beside it, which is removed.
+/// @throws IoError as write_atomically() would.
+void require_writable(const std::filesystem::path& path);
+
 /// Removes the temporary files of writes under way; may be called from a signal handler, after which
 /// the process must end.
 void remove_temporaries() noexcept;

@@ -34,6 +34,14 @@ inline void report_progress(const ProgressCallback& callback, std::string_view s
   if (callback && !callback({stage, fraction})) throw Cancelled("cancelled during '" + std::string(stage) + "'");
 }
 
+/// The fraction of a work that is a piece of another, from `begin` to `end` of it. Empty when the callback is.
+inline ProgressCallback progress_within(ProgressCallback whole, double begin, double end) {
+  if (!whole) return {};
+  return [whole = std::move(whole), begin, end](const Progress& done) {
+    return whole({done.stage, begin + (end - begin) * done.fraction});
+  };
+}
+
 /// Reports the progress of a stage that several threads share: one report at a time, about 200 in all.
 class SharedProgress {
  public:
@@ -58,6 +66,31 @@ class SharedProgress {
   std::string stage_;
   double all_, done_ = 0, next_ = 0;
   std::mutex mutex_;
+};
+
+/// How far one of the works has come that a SharedProgress counts. Used by one thread at a time.
+class WorkProgress {
+ public:
+  /// @param size  of the work, in the unit of `all`.
+  WorkProgress(SharedProgress& all, double size) : all_(&all), size_(size) {}
+
+  /// At least this fraction of the work is done.
+  /// @throws Cancelled as report_progress().
+  void reach(double fraction) {
+    if (!(fraction > reached_)) return;
+    const double more = fraction - reached_;
+    reached_ = fraction;
+    all_->add(more * size_);
+  }
+
+  /// Counts what a callback of the work is told.
+  ProgressCallback callback() {
+    return [this](const Progress& done) { return reach(done.fraction), true; };
+  }
+
+ private:
+  SharedProgress* all_;
+  double size_, reached_ = 0;
 };
 
 }  // namespace papilla

@@ -17,10 +17,11 @@ struct SegmentationOptions {
   double feature_angle_deg = 45;      ///< Edges bent more than this are the first seams; in (0, 180].
   double small_area_fraction = 1e-3;  ///< A chart below this fraction of a neighbour's area joins it; in [0, 1].
   double speck_area_fraction =
-      1e-5;            ///< A patch below this fraction of its component's area joins its longest
-                       ///< neighbour whatever that one's size, which bounds the number of charts; in [0, 1].
-  bool disks = true;   ///< Every chart a disk. Else holes stay that a flat sheet could have: they need no cut.
-  bool unfold = true;  ///< Charts may go on over feature edges where they unfold into the plane.
+      1e-5;                 ///< A patch below this fraction of its component's area joins its longest
+                            ///< neighbour whatever that one's size, which bounds the number of charts; in [0, 1].
+  bool disks = true;        ///< Every chart a disk. Else holes stay that a flat sheet could have: they need no cut.
+  bool unfold = true;       ///< Charts may go on over feature edges where they unfold into the plane.
+  double union_trials = 1;  ///< How many unions that need a solve are tried, of the usual number; >= 0.
   /// The direction in the surface in which grain should run at a place with this outward normal. When given, charts are
   /// joined over feature edges only where the grain goes on in its direction.
   std::function<Vec3(Vec3)> grain = {};

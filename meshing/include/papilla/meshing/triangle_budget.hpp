@@ -29,10 +29,10 @@ struct BudgetResult {
 /// Simplifies the parts of a scene so that it draws at most `max_triangles`: simplify() with the smallest common
 /// tolerance that does, found by regula falsi to 5 % or until at least 97 % of the budget are used. The number of
 /// triangles falls with the tolerance but for small noise, so that a slightly smaller tolerance may do, too. A scene
-/// that needs nothing comes back as it is. What cannot be reached within any tolerance is simplified as far as it goes,
-/// measured and not limited. Cost: one pass of collapses without measuring per doubling of the error from 1e-6 of the
-/// largest part, and 3 to 7 times simplify(); parts are independent and parallel. Deterministic, whatever the number of
-/// threads.
+/// that needs nothing comes back as it is. What cannot be reached within any tolerance is simplified as far as it pays:
+/// within the first tolerance of those doubled that leaves at most 5 % more triangles than there must be. Cost: one
+/// pass of collapses without measuring per doubling of the error from 1e-6 of the largest part, and 3 to 7 times
+/// simplify(); parts are independent and parallel. Deterministic, whatever the number of threads.
 /// @param options Its tolerance and target do not matter.
 /// @throws InvalidInput as simplify(), naming the part; also for a missing mesh, an importance that is not positive, or
 /// a

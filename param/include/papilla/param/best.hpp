@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <limits>
 
 #include "papilla/core/deadline.hpp"
+#include "papilla/core/progress.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -16,7 +18,10 @@ struct BestOptions {
   /// steps have less than it still to gain, by how the last one's gain and the slopes go down; in (0, 1).
   double tolerance = 1e-3;
   int max_iterations = 50;  ///< Newton iterations on the whole chart; at least 0.
-  Deadline deadline;        ///< Charts that have no map by then are projected, the others are left as they are.
+  /// Levels with more vertices are relaxed vertex by vertex only: a step takes 2 kB of memory per vertex.
+  std::size_t newton_vertices = 200'000;
+  ProgressCallback progress;  ///< Told the fraction of the triangles that are mapped; may be empty.
+  Deadline deadline;          ///< Charts that have no map by then are projected, the others are left as they are.
   /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.
   double energy_limit = std::numeric_limits<double>::infinity();
   bool fall_back = true;        ///< Project charts that are no disk, with a note; false: throw.
@@ -40,7 +45,7 @@ struct BestOptions {
 ///
 /// Method: the chart is coarsened vertex by vertex to a few triangles, these are mapped by Tutte's method, and the
 /// vertices come back in order, each into the kernel of its ring; every level is relaxed, first vertex by vertex, then
-/// (up to 200,000 vertices) by projected Newton steps on a nested-dissection factorization, with a line search that
+/// (up to `newton_vertices`) by projected Newton steps on a nested-dissection factorization, with a line search that
 /// crosses no flip and goes further than the model says where the energy bends less. Slivers (doubled area below 1e-4
 /// of the longest edge squared, area below 1e-3 of the mean) count as having 1e-3 of the mean area until all vertices
 /// are relaxed; then the vertex opposite to the longest edge goes to where their own shape puts it. Charts that come

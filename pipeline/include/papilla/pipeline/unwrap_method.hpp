@@ -69,6 +69,16 @@ std::string unwrap_method_name(UnwrapMethod method);
 /// Whether the method maps charts that it is given; the others make their own.
 bool takes_charts(UnwrapMethod method);
 
+/// What time may be spent on charts and on the maps of best and automatic.
+enum class UnwrapEffort {
+  fast,    ///< Charts for one seam cost, few unions tried; no Newton steps on charts of over 20,000 vertices.
+  normal,  ///< As the methods' options say; two seam costs on parts of up to 50,000 triangles.
+  best,    ///< Two seam costs on every part, Newton steps on all charts until they gain less than 1e-5.
+};
+
+/// The efforts by the names that the command line has for them.
+const std::map<std::string, UnwrapEffort>& unwrap_efforts();
+
 /// Where the charts come from: made by segmentation, or every connected component is one.
 enum class ChartSource { automatic, keep };
 
@@ -91,12 +101,12 @@ struct PartContext {
 /// The chosen method and the options of each. Orientation, tile and fallback are set for all by flatten_part().
 struct MethodOptions {
   UnwrapMethod method = UnwrapMethod::automatic;
+  UnwrapEffort effort = UnwrapEffort::normal;
   GrainSource grain = GrainSource::up;
   Vec3 grain_direction{0, 0, 1};  ///< Of GrainSource::direction.
   ChartSource charts = ChartSource::automatic;
   SegmentationOptions segmentation;
-  bool choose_seam_cost =
-      true;  ///< choose_seam_cost() on parts of up to 50,000 triangles; false: as segmentation says.
+  bool choose_seam_cost = true;  ///< choose_seam_cost() where the effort allows it; false: as segmentation says.
   NaturalOptions natural;
   IntermediateOptions intermediate;
   PlanarOptions planar;
@@ -113,6 +123,7 @@ struct MethodOptions {
   /// Of the methods that iterate; not given: the method's own.
   std::optional<int> iterations;
   std::optional<double> tolerance;
+  ProgressCallback progress;  ///< Told the fraction of a part that is charted and mapped; may be empty.
   /// What iterates ends then, charts and parts without a map are projected instead; charts that have to be kept fail.
   Deadline deadline;
 };
