@@ -9,8 +9,7 @@ namespace papilla::app {
 
 /// How many tags the file had, and what became of those that are missing.
 inline nlohmann::ordered_json tags_json(const TagSurvival& tags) {
-  using Json = nlohmann::ordered_json;
-  Json restored = Json::array(), lost = Json::array();
+  nlohmann::ordered_json restored = nlohmann::ordered_json::array(), lost = restored;
   for (const MissingTag& tag : tags.missing)
     if (tag.restored_by.empty())
       lost.push_back(tag.material);

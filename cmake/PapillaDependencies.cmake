@@ -36,6 +36,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   find_package(TBB REQUIRED)
   find_package(OpenCASCADE REQUIRED)
   pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
+  find_package(assimp REQUIRED)
   find_package(OpenImageIO REQUIRED)
   # Debian's target names an OpenCV include directory that need not exist.
   set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")

@@ -2,6 +2,7 @@
 #include "flat_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "papilla/core/error.hpp"
@@ -27,6 +28,35 @@ class VertexList {
   std::vector<T> values_;
 };
 
+/// Texture coordinates: with the vertices, or else with the triangles.
+class UvList {
+ public:
+  void add(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv) {
+    of_vertices_.add(value_per_position(mesh, uv));
+  }
+
+  /// @param number  of the triangle in the flat mesh.
+  void add(const CornerAttribute<Vec2>& uv, std::size_t t, const std::array<std::size_t, 3>& order,
+           std::size_t number) {
+    if (!uv.has_value(t)) return;
+    of_triangles_.resize(number + 1);
+    auto& corners = of_triangles_.back().emplace();
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = uv.values[uv.indices[t][order[k]]];
+  }
+
+  void take(std::vector<Vec2>& of_vertices, std::vector<std::optional<std::array<Vec2, 3>>>& of_triangles,
+            std::size_t triangles) {
+    of_vertices = of_vertices_.take();
+    if (!of_vertices.empty() || of_triangles_.empty()) return;
+    of_triangles = std::move(of_triangles_);
+    of_triangles.resize(triangles);
+  }
+
+ private:
+  VertexList<Vec2> of_vertices_;
+  std::vector<std::optional<std::array<Vec2, 3>>> of_triangles_;
+};
+
 class Flattener {
  public:
   explicit Flattener(const Scene& scene) : scene_(scene) {}
@@ -34,13 +64,12 @@ class Flattener {
   FlatMesh flatten() {
     for (const Instance& instance : instances(scene_)) add(place(scene_, instance));
     flat_.normals = normals_.take();
-    flat_.uv = uv_.take();
+    uv_.take(flat_.uv, flat_.triangle_uv, flat_.triangles.size());
+    cad_uv_.take(flat_.cad_uv, flat_.triangle_cad_uv, flat_.triangles.size());
     if (has_colors_) flat_.colors = colors_.take();
-    if (!flat_.uv.empty()) flat_.triangle_uv.clear();
-    if (!flat_.triangle_uv.empty()) flat_.triangle_uv.resize(flat_.triangles.size());
     flat_.keeps.normals = !flat_.normals.empty();
     flat_.keeps.colors = !flat_.colors.empty();
-    flat_.keeps.uv = true;
+    flat_.keeps.uv = flat_.keeps.cad_uv = true;
     return std::move(flat_);
   }
 
@@ -50,7 +79,8 @@ class Flattener {
     if (flat_.positions.size() + mesh.positions.size() >= k_no_value)
       throw InvalidInput("write: the scene has more than 2^32 - 2 positions");
     normals_.add(value_per_position<Vec3>(mesh, {placed.normals, mesh.normals.indices}));
-    uv_.add(value_per_position(mesh, mesh.uv));
+    uv_.add(mesh, mesh.uv);
+    cad_uv_.add(mesh, mesh.cad_uv);
     has_colors_ |= !mesh.colors.empty();
     colors_.add(mesh.colors.empty() ? std::vector<Color>(mesh.positions.size())
                                     : value_per_position(mesh, mesh.colors));
@@ -65,17 +95,15 @@ class Flattener {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle& corners = mesh.triangles[t];
       flat_.triangles.push_back({offset + corners[order[0]], offset + corners[order[1]], offset + corners[order[2]]});
-      if (!mesh.uv.has_value(t)) continue;
-      flat_.triangle_uv.resize(flat_.triangles.size());
-      auto& uv = flat_.triangle_uv.back().emplace();
-      for (std::size_t k = 0; k < 3; ++k) uv[k] = mesh.uv.values[mesh.uv.indices[t][order[k]]];
+      uv_.add(mesh.uv, t, order, flat_.triangles.size() - 1);
+      cad_uv_.add(mesh.cad_uv, t, order, flat_.triangles.size() - 1);
     }
   }
 
   const Scene& scene_;
   FlatMesh flat_;
   VertexList<Vec3> normals_;
-  VertexList<Vec2> uv_;
+  UvList uv_, cad_uv_;
   VertexList<Color> colors_;
   bool has_colors_ = false;
 };

@@ -17,12 +17,12 @@ struct FlatMesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
   std::vector<Vec3> normals;  ///< As many as positions, or none; so are uv and colours.
-  std::vector<Vec2> uv;
+  std::vector<Vec2> uv, cad_uv;
   std::vector<Color> colors;  ///< White on parts without colours.
-  /// Per triangle, when `uv` has no place with the vertices; nothing on triangles without.
-  std::vector<std::optional<std::array<Vec2, 3>>> triangle_uv;
+  /// Per triangle, when `uv` or `cad_uv` has no place with the vertices; nothing on triangles without.
+  std::vector<std::optional<std::array<Vec2, 3>>> triangle_uv, triangle_cad_uv;
 
-  FormatKeeps keeps;  ///< Which attributes are here in full: normals, uv and colours.
+  FormatKeeps keeps;  ///< Which attributes are here in full: normals, uv, cad_uv and colours.
 };
 
 /// @throws InvalidInput as place(), or when there are 2^32 − 1 positions or more.

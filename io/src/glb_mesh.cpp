@@ -27,13 +27,14 @@ struct GlbLayout {
   int tex_coords = 0;
   bool colors = false, tangents = false;
   int tangent_tex_coord = 0;
+  bool cad_uv = false;
 };
 
 /// A vertex with everything that must agree for corners to share it. Texture coordinates are glTF's, v down. Zeros are
 /// positive, so that equal numbers are equal bits; what the layout leaves out is zero.
 struct GlbVertex {
   std::array<float, 3> position{}, normal{};
-  std::array<float, 2> uv0{}, uv1{};
+  std::array<float, 2> uv0{}, uv1{}, cad_uv{};
   std::array<std::uint16_t, 4> color{};
   float handedness = 0;  ///< 0 without tangents.
 };
@@ -53,7 +54,7 @@ class GlbVertices {
   void finish();
 
   std::vector<std::array<float, 3>> positions, normals;
-  std::vector<std::array<float, 2>> uv0, uv1;
+  std::vector<std::array<float, 2>> uv0, uv1, cad_uv;
   std::vector<std::array<std::uint16_t, 4>> colors;
   std::vector<float> handedness;
 
@@ -73,12 +74,12 @@ constexpr Index k_free = std::numeric_limits<Index>::max();
 /// Corners whose memory is fetched together; more would drive each other out of the first-level cache.
 constexpr std::size_t k_batch = 48;
 
-using Words = std::array<std::uint32_t, 13>;
+using Words = std::array<std::uint32_t, 15>;
 static_assert(sizeof(GlbVertex) == sizeof(Words));
 
 /// Odd numbers without pattern: the outputs of splitmix64 [Steele, Lea, Flood 2014].
-constexpr std::array<std::uint64_t, 13> k_factors = [] {
-  std::array<std::uint64_t, 13> factors{};
+constexpr std::array<std::uint64_t, 15> k_factors = [] {
+  std::array<std::uint64_t, 15> factors{};
   std::uint64_t state = 0;
   for (std::uint64_t& factor : factors) {
     std::uint64_t z = state += 0x9e3779b97f4a7c15U;
@@ -103,6 +104,7 @@ GlbVertices::GlbVertices(const GlbLayout& layout, std::size_t expected_vertices)
   normals.reserve(expected_vertices);
   if (layout.tex_coords > 0) uv0.reserve(expected_vertices);
   if (layout.tex_coords > 1) uv1.reserve(expected_vertices);
+  if (layout.cad_uv) cad_uv.reserve(expected_vertices);
   if (layout.colors) colors.reserve(expected_vertices);
   if (layout.tangents) handedness.reserve(expected_vertices);
 }
@@ -113,6 +115,7 @@ GlbVertex GlbVertices::vertex(Index number) const {
   vertex.normal = normals[number];
   if (layout_.tex_coords > 0) vertex.uv0 = uv0[number];
   if (layout_.tex_coords > 1) vertex.uv1 = uv1[number];
+  if (layout_.cad_uv) vertex.cad_uv = cad_uv[number];
   if (layout_.colors) vertex.color = colors[number];
   if (layout_.tangents) vertex.handedness = handedness[number];
   return vertex;
@@ -121,7 +124,8 @@ GlbVertex GlbVertices::vertex(Index number) const {
 bool GlbVertices::equals(Index number, const GlbVertex& v) const {
   return positions[number] == v.position && normals[number] == v.normal &&
          (layout_.tex_coords < 1 || uv0[number] == v.uv0) && (layout_.tex_coords < 2 || uv1[number] == v.uv1) &&
-         (!layout_.colors || colors[number] == v.color) && (!layout_.tangents || handedness[number] == v.handedness);
+         (!layout_.cad_uv || cad_uv[number] == v.cad_uv) && (!layout_.colors || colors[number] == v.color) &&
+         (!layout_.tangents || handedness[number] == v.handedness);
 }
 
 void GlbVertices::append(const GlbVertex& vertex) {
@@ -129,6 +133,7 @@ void GlbVertices::append(const GlbVertex& vertex) {
   normals.push_back(vertex.normal);
   if (layout_.tex_coords > 0) uv0.push_back(vertex.uv0);
   if (layout_.tex_coords > 1) uv1.push_back(vertex.uv1);
+  if (layout_.cad_uv) cad_uv.push_back(vertex.cad_uv);
   if (layout_.colors) colors.push_back(vertex.color);
   if (layout_.tangents) handedness.push_back(vertex.handedness);
 }
@@ -223,6 +228,14 @@ std::array<float, 2> uv_at(const Part& part, const CornerAttribute<Vec2>& attrib
   return result;
 }
 
+std::array<float, 2> cad_uv_at(const Part& part, std::size_t t, std::size_t k) {
+  if (!part.mesh.cad_uv.has_value(t)) return {0, 0};
+  const Vec2 uv = value_at(part, part.mesh.cad_uv, t, k, "CAD (u,v)");
+  const std::array<float, 2> result = {to_float(uv.x), to_float(uv.y)};
+  if (!all_finite(result)) fail(part, fmt::format("a CAD (u,v) of triangle {} is not finite", t));
+  return result;
+}
+
 std::array<std::uint16_t, 4> color_at(const Part& part, std::size_t t, std::size_t k) {
   const Color c = part.mesh.colors.has_value(t) ? value_at(part, part.mesh.colors, t, k, "colour") : Color{};
   const auto quantised = [](float x) {
@@ -279,6 +292,7 @@ class Collector {
       corner.normal = normal_of(t, k);
       if (layout_.tex_coords > 0) corner.uv0 = uv_at(part_, mesh.uv, t, k);
       if (layout_.tex_coords > 1) corner.uv1 = uv_at(part_, mesh.uv1, t, k);
+      if (layout_.cad_uv) corner.cad_uv = cad_uv_at(part_, t, k);
       if (layout_.colors) corner.color = color_at(part_, t, k);
     }
     const float handedness = layout_.tangents ? handedness_of(corners, layout_.tangent_tex_coord) : 0;
@@ -362,6 +376,7 @@ Json write_primitive(Primitive primitive, const GlbLayout& layout, GlbBuffer& bu
   if (layout.tangents) attributes["TANGENT"] = add_attribute(std::move(tangents), Json::object(), buffer);
   if (layout.tex_coords > 0) attributes["TEXCOORD_0"] = add_attribute(std::move(vertices.uv0), Json::object(), buffer);
   if (layout.tex_coords > 1) attributes["TEXCOORD_1"] = add_attribute(std::move(vertices.uv1), Json::object(), buffer);
+  if (layout.cad_uv) attributes["_CAD_UV"] = add_attribute(std::move(vertices.cad_uv), Json::object(), buffer);
   if (layout.colors) attributes["COLOR_0"] = add_attribute(std::move(vertices.colors), {{"normalized", true}}, buffer);
   return {{"attributes", std::move(attributes)}, {"indices", indices}};
 }
@@ -402,7 +417,8 @@ Json glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, con
   for (std::size_t slot = 0; slot < slots.size(); ++slot) {
     if (slots[slot].empty()) continue;
     const TriangleMesh& triangles = part.mesh;
-    GlbLayout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0, any_value(triangles.colors, slots[slot]), false, 0};
+    GlbLayout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0, any_value(triangles.colors, slots[slot]), false, 0,
+                     options.cad_uv && any_value(triangles.cad_uv, slots[slot])};
     if (any_value(triangles.uv1, slots[slot])) layout.tex_coords = 2;
     if (slot < part.materials.size()) {
       const std::uint32_t number = part.materials[slot];

@@ -244,6 +244,7 @@ struct GltfDocument {
     FormatKeeps keeps;
     keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
     keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
+    keeps.cad_uv = options.cad_uv;
     losses = scene_losses(scene, keeps);
     losses.insert(losses.end(), not_mirrored.begin(), not_mirrored.end());
   }

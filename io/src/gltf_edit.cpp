@@ -69,18 +69,44 @@ void add_restored(const Json& json, const Scene& scene, const GltfOrigin& origin
     }
 }
 
-WantedEdits by_primitive(const GltfOrigin& origin, const std::vector<GltfSurfaceEdit>& edits) {
+/// Adds copies of the meshes that several parts are of, and lets the nodes show them.
+/// @return the mesh of each part.
+std::vector<std::uint32_t> copy_meshes(const Scene& scene, const GltfOrigin& origin, GltfFile& file) {
+  std::vector<std::uint32_t> meshes;
+  std::set<std::uint32_t> taken;
+  for (const GltfOrigin::Part& part : origin.parts) {
+    meshes.push_back(part.mesh);
+    if (taken.insert(part.mesh).second) continue;
+    Json& list = file.json["meshes"];
+    meshes.back() = static_cast<std::uint32_t>(list.size());
+    list.push_back(Json(list[part.mesh]));
+    file.copy_animations("meshes", part.mesh, meshes.back());
+  }
+  const auto show = [&](std::uint32_t node, std::uint32_t part) {
+    if (meshes[part] != origin.parts[part].mesh) file.json["nodes"][node]["mesh"] = meshes[part];
+  };
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].part) show(origin.nodes[i], *scene.nodes[i].part);
+  for (const GltfOrigin::Level& level : origin.levels) show(level.node, level.part);
+  return meshes;
+}
+
+/// @param meshes  of the parts.
+WantedEdits by_primitive(const GltfOrigin& origin, const std::vector<std::uint32_t>& meshes,
+                         const std::vector<GltfSurfaceEdit>& edits) {
   WantedEdits wanted;
   for (const GltfSurfaceEdit& edit : edits) {
     const GltfOrigin::Part& part = origin.parts[edit.part];
     for (const GltfOrigin::Primitive& primitive : part.primitives)
-      if (primitive.slot == edit.slot) wanted[{part.mesh, primitive.number}] = &edit;
+      if (primitive.slot == edit.slot) wanted[{meshes[edit.part], primitive.number}] = &edit;
   }
   return wanted;
 }
 
 /// Gives the scene the materials of the file written.
-void take_materials(const Json& json, const GltfOrigin& origin, Scene& scene) {
+/// @param meshes  of the parts.
+void take_materials(const Json& json, const GltfOrigin& origin, const std::vector<std::uint32_t>& meshes,
+                    Scene& scene) {
   scene.materials.clear();
   if (json.contains("materials"))
     for (const Json& source : json["materials"]) {
@@ -93,7 +119,7 @@ void take_materials(const Json& json, const GltfOrigin& origin, Scene& scene) {
   scene.materials.emplace_back();
   for (std::size_t p = 0; p < scene.parts.size(); ++p)
     for (const GltfOrigin::Primitive& primitive : origin.parts[p].primitives) {
-      const Json& shown = json["meshes"][origin.parts[p].mesh]["primitives"][primitive.number];
+      const Json& shown = json["meshes"][meshes[p]]["primitives"][primitive.number];
       scene.parts[p].materials[primitive.slot] = shown.value("material", without);
     }
 }
@@ -135,10 +161,11 @@ void edit_file(const std::filesystem::path& source, Scene& scene, const GltfOrig
     result.notes.emplace_back(
         "the file's chunks that glTF does not define are left out: a .gltf has no place for them");
   add_restored(file.json, scene, origin, edits);
-  const WantedEdits wanted = by_primitive(origin, edits);
+  const std::vector<std::uint32_t> meshes = copy_meshes(scene, origin, file);
+  const WantedEdits wanted = by_primitive(origin, meshes, edits);
   const std::vector<EditedMaterial> materials = edit_materials(file, wanted, result.notes);
   edit_primitives(file, {source, scene, origin}, wanted, materials, result.notes);
-  take_materials(file.json, origin, scene);
+  take_materials(file.json, origin, meshes, scene);
   write_manifest(scene, origin, file.json);
   file.write();
   compare(file.original(), file.json, Json::json_pointer(), result.changes);

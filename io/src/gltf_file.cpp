@@ -256,6 +256,24 @@ std::size_t GltfFile::add(const char* list, Json entry) {
   return known->second;
 }
 
+void GltfFile::copy_animations(const char* list, std::size_t original, std::size_t copy) {
+  if (!json.contains("animations")) return;
+  static const Json::json_pointer place("/target/extensions/KHR_animation_pointer/pointer");
+  const std::string all = std::string("/") + list + "/", from = all + std::to_string(original) + "/";
+  for (Json& animation : json["animations"]) {
+    if (!animation.contains("channels")) continue;
+    Json& channels = animation["channels"];
+    for (std::size_t i = 0, count = channels.size(); i < count; ++i) {
+      if (!channels[i].contains(place)) continue;
+      const std::string pointer = channels[i][place].get<std::string>();
+      if (!pointer.starts_with(from)) continue;
+      Json channel = channels[i];
+      channel[place] = all + std::to_string(copy) + "/" + pointer.substr(from.size());
+      channels.push_back(std::move(channel));
+    }
+  }
+}
+
 void GltfFile::use_extension(const char* name) {
   Json& used = json["extensionsUsed"];
   if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);

@@ -41,6 +41,9 @@ class GltfFile {
   /// Appends an entry to a list of the document, unless there is an equal one, and returns its number.
   std::size_t add(const char* list, Json entry);
 
+  /// KHR_animation_pointer: what moves an entry of a list moves a copy of it, too.
+  void copy_animations(const char* list, std::size_t original, std::size_t copy);
+
   /// The name in the lists of extensions, when it is new.
   void use_extension(const char* name);
 

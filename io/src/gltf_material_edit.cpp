@@ -15,7 +15,6 @@ namespace {
 using Json = GltfFile::Json;
 
 constexpr const char *k_variants = "KHR_materials_variants", *k_transform = "KHR_texture_transform";
-constexpr const char* k_animated = "/target/extensions/KHR_animation_pointer/pointer";
 constexpr int k_most_channels = 8;  ///< A tag names one of 0..7.
 constexpr int k_triangles = 4;      ///< primitive.mode; strips and fans are 5 and 6.
 
@@ -67,7 +66,7 @@ class MaterialEditor {
     for (const EditedMaterial& material : materials_) {
       link_levels(material);
       if (material.original && *material.original != material.number)
-        copy_animations(*material.original, material.number);
+        file_.copy_animations("materials", *material.original, material.number);
     }
     return std::move(materials_);
   }
@@ -210,25 +209,6 @@ class MaterialEditor {
         return m.original == number.get<std::size_t>() && same_material(*m.edit, *material.edit);
       });
       if (level != materials_.end()) number = level->number;
-    }
-  }
-
-  /// KHR_animation_pointer: what moves a material moves its copy, too.
-  void copy_animations(std::size_t original, std::size_t copy) {
-    if (!file_.json.contains("animations")) return;
-    const Json::json_pointer place(k_animated);
-    const std::string from = "/materials/" + std::to_string(original) + "/";
-    for (Json& animation : file_.json["animations"]) {
-      if (!animation.contains("channels")) continue;
-      Json& channels = animation["channels"];
-      for (std::size_t i = 0, count = channels.size(); i < count; ++i) {
-        if (!channels[i].contains(place)) continue;
-        const std::string pointer = channels[i][place].get<std::string>();
-        if (!pointer.starts_with(from)) continue;
-        Json channel = channels[i];
-        channel[place] = "/materials/" + std::to_string(copy) + "/" + pointer.substr(from.size());
-        channels.push_back(std::move(channel));
-      }
     }
   }
 

@@ -234,14 +234,14 @@ class PrimitiveEditor {
     const PrimitiveNumber first = group.members.front().number;
     const bool decode = is_compressed(first);
     std::optional<GltfVertices> vertices;
-    if (decode) vertices = read(first);
+    if (decode) vertices = read(group.members.front());
     group.count = decode
                       ? vertices->count
                       : file_.json["accessors"][primitive(first)["attributes"]["POSITION"].get<std::size_t>()]["count"]
                             .get<std::size_t>();
     VertexSplitter(group).run();
     compute_tangents(group);
-    if ((!group.repeated.empty() || group.any_turned()) && !vertices) vertices = read(first);
+    if ((!group.repeated.empty() || group.any_turned()) && !vertices) vertices = read(group.members.front());
     Json attributes, targets;
     if (vertices) {
       attributes = write(vertices->attributes, group, decode);
@@ -254,9 +254,9 @@ class PrimitiveEditor {
     }
   }
 
-  GltfVertices read(PrimitiveNumber number) {
+  GltfVertices read(const Member& member) {
     if (!reader_) reader_ = std::make_unique<GltfVertexReader>(source_.path);
-    return reader_->read(number.first, number.second);
+    return reader_->read(source_.origin.parts[member.edit->part].mesh, member.number.second);
   }
 
   /// Accessors for the attributes with the repeated vertices.

@@ -69,6 +69,8 @@ class MtlReader {
     throw InvalidInput(fmt::format("{}: line {}: {}", path_.string(), line_, reason));
   }
 
+  std::string here() const { return fmt::format("line {}", line_); }
+
   double number(std::string_view& text) const {
     const std::string_view word = next_word(text);
     double value = 0;
@@ -136,14 +138,14 @@ class MtlReader {
     Material& material = current();
     if (name.empty()) fail(fmt::format("{} names no file", keyword));
     if (keyword == "map_Kd") {
-      if (const auto texture = pictures_.add_texture(name, line_, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, here(), options.clamp))
         material.base_color_texture = TextureReference{*texture, 0, 1, to_texture_transform(options)};
     } else if (keyword == "map_Ke") {
-      if (const auto texture = pictures_.add_texture(name, line_, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, here(), options.clamp))
         material.emissive_texture = TextureReference{*texture, 0, 1, to_texture_transform(options)};
     } else if (keyword == "norm" || keyword == "bump" || keyword == "map_Bump" || keyword == "map_bump") {
       if (keyword != "norm" && !is_normal_map(name)) return;
-      if (const auto texture = pictures_.add_texture(name, line_, options.clamp))
+      if (const auto texture = pictures_.add_texture(name, here(), options.clamp))
         material.normal_texture = TextureReference{*texture, 0, options.bump_factor, to_texture_transform(options)};
     } else {
       unused_.insert(std::string(keyword));
@@ -192,13 +194,13 @@ class MtlReader {
   }
 
   bool is_normal_map(const std::string& name) {
-    const fs::path file = pictures_.locate(name, line_);
+    const fs::path file = pictures_.locate(name, here());
     if (file.empty()) return false;
     try {
       if (looks_like_normal_map(read_color_image(file))) return true;
       scene_.losses.push_back("bump map '" + shown(name) + "' (it is no normal map)");
     } catch (const InvalidInput& error) {
-      pictures_.note_undecoded(file, line_, error.what());
+      pictures_.note_undecoded(file, here(), error.what());
     }
     return false;
   }

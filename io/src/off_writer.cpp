@@ -27,6 +27,7 @@ std::string channel(double linear) { return fmt::format("{:.6f}", srgb_from_line
 std::vector<std::string> write_off(const Scene& scene, const std::filesystem::path& path) {
   FlatMesh mesh = flatten(scene);
   mesh.keeps.uv = mesh.triangle_uv.empty();
+  mesh.keeps.cad_uv = false;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "{}{}{}OFF\n# papilla {}, millimetres\n{} {} 0\n", mesh.uv.empty() ? "" : "ST",

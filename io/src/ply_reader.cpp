@@ -203,6 +203,7 @@ class PlyReader {
     const auto normal = properties.scalars<3>({{"nx", "ny", "nz"}});
     const auto uv =
         properties.scalars<2>({{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}});
+    const auto cad_uv = properties.scalars<2>({{"cad_u", "cad_v"}});
     const auto color = find_colors(properties);
     if (!position) body_.fail("the vertices have no properties x, y, z");
     mesh_.positions.reserve(element.count);
@@ -212,6 +213,7 @@ class PlyReader {
       if (!is_finite(mesh_.positions.back())) body_.fail(fmt::format("vertex {} is not finite", i));
       if (normal) mesh_.normals.push_back(normalized(finite_or_zero(vec3_at(*normal))));
       if (uv) mesh_.uv.push_back(uv_at(*uv));
+      if (cad_uv) mesh_.cad_uv.push_back(uv_at(*cad_uv));
       if (color) mesh_.colors.push_back(color_at(element, *color));
     }
     note_losses(element, properties);
@@ -231,30 +233,35 @@ class PlyReader {
   void read_polygons(const PlyElement& element) {
     PlyProperties properties(element);
     const std::size_t indices = find_indices(properties, element, body_);
-    const auto texcoord = properties.list("texcoord");
+    const auto texcoord = properties.list("texcoord"), cad = properties.list("cad_uv");
     const auto texture = properties.scalar("texnumber");
     const auto color = find_colors(properties);
     std::vector<Index> corners;
-    std::vector<Vec2> uv;
+    std::vector<Vec2> uv, cad_uv;
     for (std::uint64_t f = 0; f < element.count; ++f) {
       corners.clear();
       uv.clear();
+      cad_uv.clear();
       read_row(element, [&](std::size_t place) {
         if (place == indices)
           for (const double value : list_) corners.push_back(vertex_number(value));
-        if (place == texcoord)
-          for (std::size_t k = 0; k + 1 < list_.size(); k += 2)
-            uv.push_back(finite_or_zero(Vec2{list_[k], list_[k + 1]}));
+        if (place == texcoord) append_pairs(uv);
+        if (place == cad) append_pairs(cad_uv);
       });
-      if (uv.size() != corners.size()) {
-        bad_uv_ += !uv.empty();
-        uv.clear();
+      for (std::vector<Vec2>* pairs : {&uv, &cad_uv}) {
+        if (pairs->size() == corners.size()) continue;
+        bad_uv_ += !pairs->empty();
+        pairs->clear();
       }
-      PolygonMesh::Polygon polygon{corners, uv, {}, texture ? texture_number(row_[*texture]) : 0};
+      PolygonMesh::Polygon polygon{corners, uv, {}, texture ? texture_number(row_[*texture]) : 0, cad_uv};
       if (color) polygon.color = color_at(element, *color);
       add(polygon);
     }
     note_losses(element, properties);
+  }
+
+  void append_pairs(std::vector<Vec2>& pairs) {
+    for (std::size_t k = 0; k + 1 < list_.size(); k += 2) pairs.push_back(finite_or_zero(Vec2{list_[k], list_[k + 1]}));
   }
 
   void add(const PolygonMesh::Polygon& polygon) {
@@ -311,7 +318,7 @@ class PlyReader {
     for (const auto& [name, line] : header_.texture_files) {
       Material material;
       material.name = one_line(name);
-      if (const auto texture = pictures.add_texture(name, line, false))
+      if (const auto texture = pictures.add_texture(name, fmt::format("line {}", line), false))
         material.base_color_texture = TextureReference{*texture, 0, 1, {}};
       part.materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
       scene_.materials.push_back(std::move(material));

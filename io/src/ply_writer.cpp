@@ -44,6 +44,13 @@ void append_real(std::string& bytes, Vec2 v) {
   append_real(bytes, v.y);
 }
 
+/// A list of a pair per corner, or of none.
+void append_corners(std::string& bytes, const std::optional<std::array<Vec2, 3>>& uv) {
+  append(bytes, static_cast<std::uint8_t>(uv ? 6 : 0));
+  if (uv)
+    for (const Vec2 corner : *uv) append_real(bytes, corner);
+}
+
 /// Colours that are not finite are white.
 void append_color(std::string& bytes, const Color& color) {
   const auto byte = [](double x) { return static_cast<std::uint8_t>(std::isfinite(x) ? std::lround(255 * x) : 255); };
@@ -62,9 +69,11 @@ std::string header(const FlatMesh& mesh) {
   properties("float", {"x", "y", "z"});
   if (!mesh.normals.empty()) properties("float", {"nx", "ny", "nz"});
   if (!mesh.uv.empty()) properties("float", {"s", "t"});
+  if (!mesh.cad_uv.empty()) properties("float", {"cad_u", "cad_v"});
   if (!mesh.colors.empty()) properties("uchar", {"red", "green", "blue", "alpha"});
   text += fmt::format("element face {}\nproperty list uchar uint vertex_indices\n", mesh.triangles.size());
   if (!mesh.triangle_uv.empty()) text += "property list uchar float texcoord\n";
+  if (!mesh.triangle_cad_uv.empty()) text += "property list uchar float cad_uv\n";
   return text + "end_header\n";
 }
 
@@ -77,16 +86,14 @@ std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::pa
     append_real(bytes, mesh.positions[v]);
     if (!mesh.normals.empty()) append_real(bytes, mesh.normals[v]);
     if (!mesh.uv.empty()) append_real(bytes, mesh.uv[v]);
+    if (!mesh.cad_uv.empty()) append_real(bytes, mesh.cad_uv[v]);
     if (!mesh.colors.empty()) append_color(bytes, mesh.colors[v]);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     append(bytes, std::uint8_t{3});
     for (const Index corner : mesh.triangles[t]) append(bytes, corner);
-    if (mesh.triangle_uv.empty()) continue;
-    const auto& uv = mesh.triangle_uv[t];
-    append(bytes, static_cast<std::uint8_t>(uv ? 6 : 0));
-    if (uv)
-      for (const Vec2 corner : *uv) append_real(bytes, corner);
+    if (!mesh.triangle_uv.empty()) append_corners(bytes, mesh.triangle_uv[t]);
+    if (!mesh.triangle_cad_uv.empty()) append_corners(bytes, mesh.triangle_cad_uv[t]);
   }
   write_atomically(path, bytes);
   return scene_losses(scene, mesh.keeps);

@@ -18,8 +18,8 @@ namespace papilla {
 class PolygonMesh {
  public:
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;  ///< As many as positions, or none; so are uv and colours.
-  std::vector<Vec2> uv;
+  std::vector<Vec3> normals;  ///< As many as positions, or none; so are uv, cad_uv and colours.
+  std::vector<Vec2> uv, cad_uv;
   std::vector<Color> colors;
 
   struct Polygon {
@@ -27,6 +27,7 @@ class PolygonMesh {
     std::span<const Vec2> uv;  ///< As many as corners, or none.
     std::optional<Color> color;
     std::uint32_t material = 0;
+    std::span<const Vec2> cad_uv = {};  ///< As many as corners, or none.
   };
 
   /// Cuts a polygon into triangles. One of fewer than three corners is only counted.
@@ -40,12 +41,25 @@ class PolygonMesh {
   TriangleMesh finish();
 
  private:
-  void add_triangle(const Polygon& polygon, std::array<std::size_t, 3> corners, Index first_uv, Index color);
+  /// Values that polygons bring per corner; the indices may end early.
+  struct PolygonUv {
+    std::vector<Vec2> values;
+    std::vector<Triangle> indices;
+
+    void add_triangle(std::size_t triangle, const std::array<std::size_t, 3>& corners, Index first);
+  };
+
+  /// Where the values of a polygon begin.
+  struct First {
+    Index uv, cad_uv, color;
+  };
+
+  void add_triangle(const Polygon& polygon, std::array<std::size_t, 3> corners, const First& first);
 
   TriangleMesh mesh_;
-  std::vector<Vec2> polygon_uv_;
+  PolygonUv polygon_uv_, polygon_cad_uv_;
   std::vector<Color> polygon_colors_;
-  std::vector<Triangle> uv_indices_, color_indices_;  ///< Into the two lists above; may end early.
+  std::vector<Triangle> color_indices_;  ///< Into the list above; may end early.
   std::vector<Vec3> points_;
   std::size_t short_polygons_ = 0;
 };

@@ -7,6 +7,7 @@
 #include "mesh_file_scene.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
+#include "papilla/io/assimp_reader.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
@@ -49,13 +50,16 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   if (extension == ".stl" || extension == ".obj" || extension == ".ply" || extension == ".off")
     return read_mesh_scene(extension, path, options);
   if (is_gltf_file(path)) {
-    Scene scene = read_gltf(path, {.tags = options.tags, .tag_channel = options.tag_channel});
+    Scene scene = read_gltf(path, {.tags = options.tags, .tag_channel = options.tag_channel, .cad_uv = true});
     scene.up = options.up.value_or(scene.up);
     return scene;
   }
   if (is_cad_extension(path)) return read_cad_scene(path, options, progress);
-  throw InvalidInput(path.string() + ": the extension '" + extension +
-                     "' is unknown; known are .step .stp .p21 .iges .igs .brep .brp .stl .obj .ply .off .glb .gltf");
+  if (is_assimp_extension(path)) return read_assimp(path, options, progress);
+  throw InvalidInput(
+      path.string() + ": the extension '" + extension +
+      "' is unknown; known are .step .stp .p21 .iges .igs .brep .brp .stl .obj .ply .off .glb .gltf .fbx .3mf "
+      ".dae .ac .x3d .blend");
 }
 
 }  // namespace

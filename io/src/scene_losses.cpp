@@ -60,7 +60,7 @@ class Losses {
     note(keeps_.uv, parts_with([](const Part& p) { return !p.mesh.uv.empty(); }), "parts' texture coordinates");
     note(keeps_.uv1, parts_with([](const Part& p) { return !p.mesh.uv1.empty(); }),
          "parts' second texture coordinates");
-    note(false, parts_with([](const Part& p) { return !p.mesh.cad_uv.empty(); }), "parts' CAD (u,v)");
+    note(keeps_.cad_uv, parts_with([](const Part& p) { return !p.mesh.cad_uv.empty(); }), "parts' CAD (u,v)");
     note(keeps_.colors, parts_with([](const Part& p) { return !p.mesh.colors.empty(); }), "parts' vertex colours");
     note(keeps_.faces, parts_with([](const Part& p) { return !p.mesh.face.empty(); }), "parts' face numbers");
   }

@@ -17,6 +17,7 @@ struct FormatKeeps {
   bool normals = false, uv = false, uv1 = false, colors = false;
   bool faces = false;   ///< Face numbers of triangles.
   bool extras = false;  ///< Of scene, nodes and parts.
+  bool cad_uv = false;
 };
 
 /// What the shown parts of the scene hold that the format has no place for, one sentence each.

@@ -23,12 +23,12 @@ std::vector<std::byte> to_bytes(const std::string& text) {
 
 }  // namespace
 
-fs::path ScenePictures::locate(const std::string& name, std::size_t line) {
+fs::path ScenePictures::locate(const std::string& name, const std::string& where) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
   std::string refusal;
   for (const std::string& candidate : {name, slashed, fs::path(slashed).filename().string()}) try {
-      if (const auto file = resolve_reference({file_.parent_path(), place(line), candidate})) return *file;
+      if (const auto file = resolve_reference({file_.parent_path(), place(where), candidate})) return *file;
     } catch (const InvalidInput& error) {
       if (refusal.empty()) refusal = error.what();
     }
@@ -37,15 +37,15 @@ fs::path ScenePictures::locate(const std::string& name, std::size_t line) {
   return {};
 }
 
-void ScenePictures::note_undecoded(const fs::path& picture, std::size_t line, const std::string& reason) {
-  if (picture_mime_type(read_file(picture)).empty()) throw InvalidInput(place(line) + ": " + reason);
+void ScenePictures::note_undecoded(const fs::path& picture, const std::string& where, const std::string& reason) {
+  if (picture_mime_type(read_file(picture)).empty()) throw InvalidInput(place(where) + ": " + reason);
   scene_.warnings.push_back(shown(reason));
 }
 
-std::optional<std::uint32_t> ScenePictures::add_texture(const std::string& name, std::size_t line, bool clamp) {
+std::optional<std::uint32_t> ScenePictures::add_texture(const std::string& name, const std::string& where, bool clamp) {
   const auto key = std::make_pair(name, clamp);
   if (const auto known = textures_.find(key); known != textures_.end()) return known->second;
-  const auto image = add_image(name, line);
+  const auto image = add_image(name, where);
   if (!image) return std::nullopt;
   Texture texture;
   texture.image = image;
@@ -55,14 +55,14 @@ std::optional<std::uint32_t> ScenePictures::add_texture(const std::string& name,
   return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
 }
 
-std::optional<std::uint32_t> ScenePictures::add_image(const std::string& name, std::size_t line) {
+std::optional<std::uint32_t> ScenePictures::add_image(const std::string& name, const std::string& where) {
   if (const auto known = images_.find(name); known != images_.end()) return known->second;
-  const fs::path picture = locate(name, line);
+  const fs::path picture = locate(name, where);
   if (picture.empty()) return std::nullopt;
   try {
     scene_.images.push_back(load_image(picture));
   } catch (const InvalidInput& error) {
-    note_undecoded(picture, line, error.what());
+    note_undecoded(picture, where, error.what());
     return std::nullopt;
   }
   return images_[name] = static_cast<std::uint32_t>(scene_.images.size() - 1);

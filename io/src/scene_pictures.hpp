@@ -20,22 +20,24 @@ class ScenePictures {
   ScenePictures(std::filesystem::path file, Scene& scene) : file_(std::move(file)), scene_(scene) {}
 
   /// The texture that shows the picture, new or known; nothing when the picture can't be had.
-  /// @param line  of the file in which the name stands.
+  /// @param where  in the file the name stands: "line 3".
   /// @throws InvalidInput as locate(), and when the file is no picture.
-  std::optional<std::uint32_t> add_texture(const std::string& name, std::size_t line, bool clamp);
+  std::optional<std::uint32_t> add_texture(const std::string& name, const std::string& where, bool clamp);
+
+  /// The same without a texture.
+  std::optional<std::uint32_t> add_image(const std::string& name, const std::string& where);
 
   /// The picture's file: as named, with Windows separators, or under its bare name in the folder. Empty, with a
   /// warning, when there is none.
   /// @throws InvalidInput as resolve_reference(), unless the folder holds a file of the bare name.
-  std::filesystem::path locate(const std::string& name, std::size_t line);
+  std::filesystem::path locate(const std::string& name, const std::string& where);
 
   /// Adds a warning for a picture of a known format that can't be decoded.
   /// @throws InvalidInput with the place and the reason when the file begins as no picture does.
-  void note_undecoded(const std::filesystem::path& picture, std::size_t line, const std::string& reason);
+  void note_undecoded(const std::filesystem::path& picture, const std::string& where, const std::string& reason);
 
  private:
-  std::string place(std::size_t line) const { return file_.string() + ": line " + std::to_string(line); }
-  std::optional<std::uint32_t> add_image(const std::string& name, std::size_t line);
+  std::string place(const std::string& where) const { return file_.string() + ": " + where; }
   EncodedImage load_image(const std::filesystem::path& picture) const;
 
   std::filesystem::path file_;

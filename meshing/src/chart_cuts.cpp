@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/meshing/chart_cuts.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "check_mesh.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/chart_topology.hpp"
 #include "papilla/meshing/submesh.hpp"
 #include "piece_cuts.hpp"
 #include "seam_set.hpp"
@@ -31,16 +33,44 @@ ChartSet open_charts(const TriangleMesh& mesh, const ChartSet& charts, bool disk
   return charts_between(surface, seam);
 }
 
-ChartSet halve_charts(const TriangleMesh& mesh, const ChartSet& charts, std::span<const std::uint32_t> numbers) {
-  check_charts(mesh, charts, "halve_charts");
+ChartSet open_closed_charts(const TriangleMesh& mesh, const ChartSet& charts) {
+  const std::vector<ChartTopology> topologies = chart_topologies(mesh, charts);
+  const auto is_open = [](const ChartTopology& t) { return !t.closed() && t.genus() == 0; };
+  if (std::all_of(topologies.begin(), topologies.end(), is_open)) return charts;
   const SegmentedMesh surface(mesh);
   const SeamWeights weights(surface, k_feature_angle_deg);
+  std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
+  PieceCutter cutter(surface, seam);
+  for (auto& triangles : triangles_of_charts(charts_between(surface, seam)))
+    if (!is_open(topologies[charts.of_triangle[triangles.front()]]))
+      open_patch(surface, weights, true, std::move(triangles), cutter, seam);
+  return charts_between(surface, seam);
+}
+
+struct ChartHalver::Surface {
+  explicit Surface(const TriangleMesh& m) : mesh(m), surface(m), weights(surface, k_feature_angle_deg) {}
+
+  const TriangleMesh& mesh;
+  SegmentedMesh surface;
+  SeamWeights weights;
+};
+
+ChartHalver::ChartHalver(const TriangleMesh& mesh) {
+  check_mesh(mesh, "ChartHalver");
+  surface_ = std::make_unique<Surface>(mesh);
+}
+
+ChartHalver::~ChartHalver() = default;
+
+ChartSet ChartHalver::halve(const ChartSet& charts, std::span<const std::uint32_t> numbers) const {
+  const auto& [mesh, surface, weights] = *surface_;
+  check_charts(mesh, charts, "ChartHalver");
   std::vector<std::uint8_t> seam = seams_of(surface, charts.of_triangle, charts.cuts);
   PieceCutter cutter(surface, seam);
   const auto triangles = triangles_of_charts(charts);
   for (const std::uint32_t c : numbers) {
     if (c >= charts.count)
-      throw InvalidInput("halve_charts: chart " + std::to_string(c) + " of " + std::to_string(charts.count));
+      throw InvalidInput("ChartHalver: chart " + std::to_string(c) + " of " + std::to_string(charts.count));
     if (triangles[c].size() < 2) continue;
     const Piece piece = cutter.cut(triangles[c]);
     for (const Index h : cut_in_halves(piece, weights)) {

@@ -41,20 +41,32 @@ double cotangent(double angle) {
 
 }  // namespace
 
-std::vector<double> angle_defects(const Piece& piece) {
+namespace {
+
+std::vector<std::array<double, 3>> all_angles(const Piece& piece) {
+  std::vector<std::array<double, 3>> angles;
+  angles.reserve(piece.size());
+  for (Index t = 0; t < piece.size(); ++t) angles.push_back(triangle_angles(piece, t));
+  return angles;
+}
+
+std::vector<double> defects_from(const Piece& piece, const std::vector<std::array<double, 3>>& angles) {
   std::vector<double> defect(piece.vertex_count());
   for (Index v = 0; v < defect.size(); ++v) defect[v] = piece.on_border(v) ? std::numbers::pi : 2 * std::numbers::pi;
-  for (Index t = 0; t < piece.size(); ++t) {
-    const auto angle = triangle_angles(piece, t);
-    for (std::size_t k = 0; k < 3; ++k) defect[piece.triangles[t][k]] -= angle[k];
-  }
+  for (Index t = 0; t < piece.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) defect[piece.triangles[t][k]] -= angles[t][k];
   return defect;
 }
 
+}  // namespace
+
+std::vector<double> angle_defects(const Piece& piece) { return defects_from(piece, all_angles(piece)); }
+
 ChartField::ChartField(const Piece& piece) {
   cluster(piece);
-  connect(piece);
-  defect_ = angle_defects(piece);
+  const std::vector<std::array<double, 3>> angles = all_angles(piece);
+  connect(piece, angles);
+  defect_ = defects_from(piece, angles);
   charge_.assign(centre_.size(), 0);
   area_.assign(centre_.size(), 0);
   for (Index v = 0; v < node_.size(); ++v)
@@ -91,7 +103,7 @@ void ChartField::cluster(const Piece& piece) {
 }
 
 /// Conductances by finite volumes: the length of the dual edges between two nodes over the distance of their centres.
-void ChartField::connect(const Piece& piece) {
+void ChartField::connect(const Piece& piece, const std::vector<std::array<double, 3>>& angles) {
   std::vector<Vec3> middle(centre_.size());
   std::vector<double> members(centre_.size(), 0);
   for (Index v = 0; v < node_.size(); ++v)
@@ -102,10 +114,8 @@ void ChartField::connect(const Piece& piece) {
   for (Index n = 0; n < middle.size(); ++n) middle[n] = (1 / members[n]) * middle[n];
 
   std::vector<double> cotangents(piece.opposite.size());
-  for (Index t = 0; t < piece.size(); ++t) {
-    const auto angle = triangle_angles(piece, t);
-    for (Index k = 0; k < 3; ++k) cotangents[3 * t + k] = cotangent(angle[(k + 2) % 3]);
-  }
+  for (Index t = 0; t < piece.size(); ++t)
+    for (Index k = 0; k < 3; ++k) cotangents[3 * t + k] = cotangent(angles[t][(k + 2) % 3]);
   for (Index h = 0; h < piece.opposite.size(); ++h) {
     const Index other = piece.opposite[h];
     if (other == k_none || other < h) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
@@ -47,7 +48,7 @@ class ChartField {
     double weight;
   };
   void cluster(const Piece& piece);
-  void connect(const Piece& piece);
+  void connect(const Piece& piece, const std::vector<std::array<double, 3>>& angles);
   void sum_up();
 
   std::vector<Index> node_;     ///< Per vertex; k_none on the border.

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <limits>
 #include <queue>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace papilla::detail {
 namespace {
@@ -13,9 +14,25 @@ constexpr double k_infinity = std::numeric_limits<double>::infinity();
 /// A cut ends on the border where the distance to the nearer end is at least this share of the sum of both.
 constexpr double k_least_share = 0.3;
 
-Vec3 centroid(const Piece& piece, Index t) {
-  const Triangle& c = piece.triangles[t];
-  return (1.0 / 3) * (piece.positions[c[0]] + piece.positions[c[1]] + piece.positions[c[2]]);
+/// Distances between the centroids of neighbouring triangles.
+struct Steps {
+  std::vector<double> over;  ///< Per half-edge; 0 on borders.
+  double mean = 0;
+};
+
+Steps steps_of(const Piece& piece) {
+  std::vector<Vec3> middle;
+  middle.reserve(piece.size());
+  for (const Triangle& c : piece.triangles)
+    middle.push_back((1.0 / 3) * (piece.positions[c[0]] + piece.positions[c[1]] + piece.positions[c[2]]));
+  Steps steps{std::vector<double>(piece.opposite.size(), 0)};
+  for (Index h = 0; h < steps.over.size(); ++h) {
+    if (piece.opposite[h] == k_none) continue;
+    steps.over[h] = norm(middle[triangle_of(piece.opposite[h])] - middle[triangle_of(h)]);
+    steps.mean += steps.over[h];
+  }
+  steps.mean /= static_cast<double>(std::max(steps.over.size(), std::size_t{1}));
+  return steps;
 }
 
 /// Distances over the triangles from sources, and which source is nearest.
@@ -24,28 +41,41 @@ struct Growth {
   std::vector<Index> source;
 };
 
-Growth grow(const Piece& piece, const std::vector<Index>& sources) {
-  using Entry = std::tuple<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+/// Shortest paths without a sorted queue: what is nearer than a limit goes on in any order, and again when it turns out
+/// to be nearer still; then the limit rises. The distances are those of Dijkstra's order, to the last bit.
+Growth grow(const Piece& piece, const Steps& steps, const std::vector<Index>& sources) {
+  constexpr double k_steps_at_once = 3;
   Growth growth{std::vector<double>(piece.size(), k_infinity), std::vector<Index>(piece.size(), k_none)};
   for (Index s = 0; s < sources.size(); ++s) {
     growth.distance[sources[s]] = 0;
     growth.source[sources[s]] = s;
-    queue.emplace(0, sources[s]);
   }
-  while (!queue.empty()) {
-    const auto [distance, t] = queue.top();
-    queue.pop();
-    if (distance > growth.distance[t]) continue;
-    for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-      if (piece.opposite[h] == k_none) continue;
-      const Index other = triangle_of(piece.opposite[h]);
-      const double there = distance + norm(centroid(piece, other) - centroid(piece, t));
-      if (!(there < growth.distance[other])) continue;
-      growth.distance[other] = there;
-      growth.source[other] = growth.source[t];
-      queue.emplace(there, other);
+  std::vector<Index> near = sources, far;
+  double limit = k_steps_at_once * steps.mean;
+  while (!near.empty()) {
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const Index t = near[i];
+      for (Index h = 3 * t; h < 3 * t + 3; ++h) {
+        if (piece.opposite[h] == k_none) continue;
+        const Index other = triangle_of(piece.opposite[h]);
+        const double there = growth.distance[t] + steps.over[h];
+        if (!(there < growth.distance[other])) continue;
+        // Beyond the limit it waits already, unless nothing led there.
+        if (there <= limit)
+          near.push_back(other);
+        else if (growth.distance[other] == k_infinity)
+          far.push_back(other);
+        growth.distance[other] = there;
+        growth.source[other] = growth.source[t];
+      }
     }
+    near.clear();
+    std::erase_if(far, [&](Index t) { return growth.distance[t] <= limit; });
+    double nearest = k_infinity;
+    for (const Index t : far) nearest = std::min(nearest, growth.distance[t]);
+    limit = nearest + k_steps_at_once * steps.mean;
+    for (const Index t : far)
+      if (growth.distance[t] <= limit) near.push_back(t);
   }
   return growth;
 }
@@ -128,10 +158,11 @@ class Crossing {
 };
 
 /// The least costly cut between two triangles, or that at equal distances from them.
-std::vector<Index> cut_between(const Piece& piece, const SeamWeights& weights, Index a, const Growth& from_a, Index b) {
-  std::vector<Index> cuts = Crossing(piece, weights).run(from_a.distance, grow(piece, {b}).distance);
+std::vector<Index> cut_between(const Piece& piece, const Steps& steps, const SeamWeights& weights, Index a,
+                               const Growth& from_a, Index b) {
+  std::vector<Index> cuts = Crossing(piece, weights).run(from_a.distance, grow(piece, steps, {b}).distance);
   if (!cuts.empty()) return cuts;
-  const Growth halves = grow(piece, {a, b});
+  const Growth halves = grow(piece, steps, {a, b});
   for (Index h = 0; h < piece.opposite.size(); ++h) {
     const Index other = piece.opposite[h];
     if (other != k_none && h < other && halves.source[h / 3] != halves.source[other / 3]) cuts.push_back(h);
@@ -146,15 +177,17 @@ std::vector<Index> cut_in_halves(const Piece& piece, const SeamWeights& weights)
     return static_cast<Index>(std::max_element(growth.distance.begin(), growth.distance.end()) -
                               growth.distance.begin());
   };
-  const Index a = farthest(grow(piece, {0}));
-  const Growth from_a = grow(piece, {a});
+  const Steps steps = steps_of(piece);
+  const Index a = farthest(grow(piece, steps, {0}));
+  const Growth from_a = grow(piece, steps, {a});
   Index b = farthest(from_a);
   if (a == b) b = a == 0 ? 1 : 0;  // all triangles in one place
-  return cut_between(piece, weights, a, from_a, b);
+  return cut_between(piece, steps, weights, a, from_a, b);
 }
 
 std::vector<Index> cut_apart(const Piece& piece, const SeamWeights& weights, Index a, Index b) {
-  return cut_between(piece, weights, a, grow(piece, {a}), b);
+  const Steps steps = steps_of(piece);
+  return cut_between(piece, steps, weights, a, grow(piece, steps, {a}), b);
 }
 
 }  // namespace papilla::detail

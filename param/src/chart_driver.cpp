@@ -4,28 +4,15 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "check_mesh.hpp"
+#include "mapped_chart.hpp"
 #include "multilevel_map.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::param_detail {
 namespace {
-
-/// What one chart came to.
-struct MappedChart {
-  CornerAttribute<Vec2> uv;           ///< Triangles in the order of the chart.
-  std::vector<std::uint32_t> pieces;  ///< Chart number within this one, per triangle; empty: all 0.
-  std::uint32_t piece_count = 1;
-  std::string failure;        ///< Why the method gave no map.
-  std::vector<Vec2> refused;  ///< A valid map of too much distortion.
-  std::string instead;        ///< What the chart got then.
-  bool wrong_topology = false;
-  double area = 0;
-  StopReason stop = StopReason::direct;
-  Trace trace;
-  MethodChoice choice;
-};
 
 MappedChart map_chart(const ChartSurface& chart, const ChartMethod& method, const DriverOptions& options) {
   MappedChart result;
@@ -140,6 +127,10 @@ Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, cons
   oneapi::tbb::parallel_for(std::uint32_t{0}, charts.count, [&](std::uint32_t c) {
     if (members.of(c).empty()) return;
     const ChartSurface surface = cutter.cut(c, members.of(c));
+    if (options.memory && options.memory->maps().recall(members.of(c), surface, mapped[c])) {
+      if (options.choices) (*options.choices)[c] = mapped[c].choice;
+      return;
+    }
     mapped[c] = map_chart(surface, method, options);
     if (options.choices) (*options.choices)[c] = mapped[c].choice;
     if (mapped[c].failure.empty() || !options.fall_back) return;
@@ -165,6 +156,7 @@ Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, cons
       result.notes.push_back({c, what + "; " + mapped[c].instead});
     }
     append(mapped[c], own, result);
+    if (options.memory) options.memory->maps().keep(own, std::move(mapped[c]));
     mapped[c] = {};
   }
   result.charts.seam_length_mm = seam_length(mesh, across, result.charts.of_triangle);

@@ -8,6 +8,7 @@
 
 #include "disk_chart.hpp"
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -44,6 +45,7 @@ struct DriverOptions {
   bool error_per_area = true;
   TriplanarOptions projection;
   Deadline deadline;                             ///< Charts not begun by then are projected when fall_back.
+  ChartMemory* memory = nullptr;                 ///< Charts that it has are not mapped again.
   std::vector<MethodChoice>* choices = nullptr;  ///< Filled per chart when given; its size is that of the chart set.
 };
 
@@ -56,6 +58,7 @@ DriverOptions driver_options(std::string_view function, const Options& options) 
   driver.fall_back = options.fall_back;
   driver.projection = options.projection;
   driver.deadline = options.deadline;
+  driver.memory = options.memory;
   return driver;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -247,16 +248,46 @@ class Measurement {
     }
   }
 
+  /// Per chart: the number of its group, below that of the charts.
+  std::vector<std::size_t> scaled_together() const {
+    std::vector<std::size_t> group(report_.charts, 0);
+    if (options_.normalize == UvNormalization::chart) std::iota(group.begin(), group.end(), std::size_t{0});
+    if (options_.normalize != UvNormalization::part || options_.part.empty()) return group;
+    std::map<std::uint32_t, std::size_t> group_of_part;
+    for (std::size_t t = 0; t < raw_.size(); ++t)
+      group[report_.per_triangle[t].chart] =
+          group_of_part.try_emplace(options_.part[t], group_of_part.size()).first->second;
+    return group;
+  }
+
+  /// The factor of each chart: that of its group, √(area in space / area in uv).
   void choose_scale() {
-    double area = 0;
+    const std::vector<std::size_t> group_of_chart = scaled_together();
+    std::vector<double> area(report_.charts, 0), uv_area(report_.charts, 0);
     for (std::size_t t = 0; t < raw_.size(); ++t) {
       report_.area_mm2 += raw_[t].area;
+      const std::size_t group = group_of_chart[report_.per_triangle[t].chart];
       if (report_.per_triangle[t].degenerate_3d) continue;
-      area += raw_[t].area;
+      area[group] += raw_[t].area;
+      uv_area[group] += std::abs(raw_[t].signed_uv_area);
       report_.uv_area += std::abs(raw_[t].signed_uv_area);
     }
-    scale_ = report_.uv_area > 0 ? std::sqrt(area / report_.uv_area) : 0;
+    scale_.assign(report_.charts, 1);
+    bool is_first = true;
+    for (std::size_t t = 0; t < raw_.size(); ++t) {
+      double& scale = scale_[report_.per_triangle[t].chart];
+      const std::size_t group = group_of_chart[report_.per_triangle[t].chart];
+      if (options_.normalize != UvNormalization::none)
+        scale = uv_area[group] > 0 ? std::sqrt(area[group] / uv_area[group]) : 0;
+      if (!report_.per_triangle[t].measured) continue;
+      MinMax& all = report_.uv_scale;
+      all.min = is_first ? scale : std::min(all.min, scale);
+      all.max = is_first ? scale : std::max(all.max, scale);
+      is_first = false;
+    }
   }
+
+  double scale_of(std::size_t triangle) const { return scale_[report_.per_triangle[triangle].chart]; }
 
   void measure_triangles() {
     const double texels_per_uv2 =
@@ -267,10 +298,11 @@ class Measurement {
       d.texels_per_mm = std::sqrt(std::abs(raw_[t].signed_uv_area) / raw_[t].area * texels_per_uv2);
       if (!d.measured) return;
       const auto [sigma1, sigma2] = singular_values(jacobian(raw_[t].pair));
-      d.sigma1 = scale_ * sigma1;
-      d.sigma2 = scale_ * std::abs(sigma2);
+      const double scale = scale_of(t);
+      d.sigma1 = scale * sigma1;
+      d.sigma2 = scale * std::abs(sigma2);
       // Below rounding of σ1 the sum formula has no digits left: σ1 σ2 is the ratio of areas.
-      const double ratio = scale_ * scale_ * std::abs(raw_[t].signed_uv_area) / raw_[t].area;
+      const double ratio = scale * scale * std::abs(raw_[t].signed_uv_area) / raw_[t].area;
       if (d.sigma2 < 1e-8 * d.sigma1) d.sigma2 = ratio / d.sigma1;
       const double grown = d.sigma1 * d.sigma1 + d.sigma2 * d.sigma2;
       const double shrunk = 1 / (d.sigma1 * d.sigma1) + 1 / (d.sigma2 * d.sigma2);
@@ -286,9 +318,9 @@ class Measurement {
     r.area_ratio.min = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t < raw_.size(); ++t) {
       const TriangleDistortion& d = r.per_triangle[t];
-      const double a = raw_[t].area;
+      const double a = raw_[t].area, scale = scale_of(t);
       if (!d.degenerate_3d) {
-        const double image = scale_ * scale_ * raw_[t].signed_uv_area * orientation_[d.chart];
+        const double image = scale * scale * raw_[t].signed_uv_area * orientation_[d.chart];
         r.maillot_area += 2 * (image - a) * (image - a) / a;  // doubled areas, as in the source
         maillot_weight += 2 * a;
       }
@@ -307,7 +339,7 @@ class Measurement {
       r.angle_error_deg.mean += a * d.angle_error_deg;
       r.angle_error_deg.max = std::max(r.angle_error_deg.max, d.angle_error_deg);
       const Jacobian j = jacobian(raw_[t].pair);
-      const double gradients = scale_ * scale_ * (j.x.x * j.x.y + j.y.x * j.y.y);  // ∇u · ∇v
+      const double gradients = scale * scale * (j.x.x * j.x.y + j.y.x * j.y.y);  // ∇u · ∇v
       orthogonality += a * gradients * gradients;
       const double e1 = 1 / (d.sigma1 * d.sigma1) - 1, e2 = 1 / (d.sigma2 * d.sigma2) - 1;
       r.green_lagrange += a * ratio * (e1 * e1 + e2 * e2);
@@ -363,7 +395,8 @@ class Measurement {
         sides_, [](const Side& s) { return s.uv_edge(); },
         [&](std::size_t begin, std::size_t end) {
           const Side& s = sides_[begin];
-          const double space = length_of(s), plane = scale_ * norm(uv_of(next(s.corner)) - uv_of(s.corner));
+          const double space = length_of(s);
+          const double plane = scale_of(s.corner / 3) * norm(uv_of(next(s.corner)) - uv_of(s.corner));
           if (space > 0) {
             const double difference = plane * plane - space * space;
             report_.edge_length_error += std::abs(plane - space);
@@ -387,7 +420,7 @@ class Measurement {
     const Vec3 edge = position_of(b) - position_of(corner), to_top = position_of(c) - position_of(corner);
     const double square = dot(edge, edge), height = norm(cross(edge, to_top)) / std::sqrt(square);
     const Vec2 foot = uv_of(corner) + (dot(edge, to_top) / square) * (uv_of(b) - uv_of(corner));
-    return (scale_ / height) * (uv_of(c) - foot);
+    return (scale_of(corner / 3) / height) * (uv_of(c) - foot);
   }
 
   void add_homogeneity(const Side& a, const Side& b, double& jump, double& weight) const {
@@ -453,7 +486,7 @@ class Measurement {
   std::vector<RawTriangle> raw_;
   std::vector<Side> sides_;
   std::vector<double> orientation_;  ///< Per chart: -1 when mirrored.
-  double scale_ = 1;
+  std::vector<double> scale_;        ///< Of uv, per chart.
   DistortionReport report_;
 };
 

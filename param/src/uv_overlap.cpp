@@ -54,29 +54,37 @@ bool overlap(const UvTriangle& a, const UvTriangle& b) {
 /// Bounding volume hierarchy over some of the triangles, split at the median of the longer side.
 class Hierarchy {
  public:
-  Hierarchy(const std::vector<UvTriangle>& triangles, std::vector<std::uint32_t> members)
-      : triangles_(&triangles), members_(std::move(members)) {
+  struct Member {
+    Rectangle box;
+    std::uint32_t triangle = 0;
+  };
+
+  Hierarchy(const std::vector<UvTriangle>& triangles, const std::vector<std::uint32_t>& members)
+      : triangles_(&triangles) {
+    members_.reserve(members.size());
+    for (const std::uint32_t t : members) members_.push_back({bounds(triangles[t]), t});
     build(0, static_cast<std::uint32_t>(members_.size()));
   }
 
-  std::span<const std::uint32_t> members() const { return members_; }
+  std::span<const Member> members() const { return members_; }
 
-  bool anything_over(std::uint32_t t) const {
-    const Rectangle box = bounds((*triangles_)[t]);
+  bool anything_over(const Member& member) const {
     std::uint32_t stack[64];
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
       const Node& node = nodes_[stack[--top]];
-      if (!node.box.meets(box)) continue;
+      if (!node.box.meets(member.box)) continue;
       if (node.count == 0) {
         stack[top++] = node.first;
         stack[top++] = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
         continue;
       }
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const std::uint32_t other = members_[i];
-        if (other != t && overlap((*triangles_)[t], (*triangles_)[other])) return true;
+        const Member& other = members_[i];
+        if (other.triangle != member.triangle && other.box.meets(member.box) &&
+            overlap((*triangles_)[member.triangle], (*triangles_)[other.triangle]))
+          return true;
       }
     }
     return false;
@@ -93,7 +101,7 @@ class Hierarchy {
     const auto self = nodes_.size();
     nodes_.emplace_back();
     Rectangle box;
-    for (std::uint32_t i = begin; i < end; ++i) box.include(bounds((*triangles_)[members_[i]]));
+    for (std::uint32_t i = begin; i < end; ++i) box.include(members_[i].box);
     nodes_[self].box = box;
     if (end - begin <= k_leaf_size) {
       nodes_[self].first = begin;
@@ -101,21 +109,19 @@ class Hierarchy {
       return;
     }
     const bool split_x = box.x1 - box.x0 > box.y1 - box.y0;
-    const auto centre = [&](std::uint32_t t) {
-      const Rectangle r = bounds((*triangles_)[t]);
-      return split_x ? r.x0 + r.x1 : r.y0 + r.y1;
+    const auto key = [split_x](const Member& m) {
+      return std::pair(split_x ? m.box.x0 + m.box.x1 : m.box.y0 + m.box.y1, m.triangle);
     };
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(
-        members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
-        [&](std::uint32_t a, std::uint32_t b) { return std::pair(centre(a), a) < std::pair(centre(b), b); });
+    std::nth_element(members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
+                     [&](const Member& a, const Member& b) { return key(a) < key(b); });
     build(begin, middle);
     nodes_[self].first = static_cast<std::uint32_t>(nodes_.size());
     build(middle, end);
   }
 
   const std::vector<UvTriangle>* triangles_;
-  std::vector<std::uint32_t> members_;
+  std::vector<Member> members_;
   std::vector<Node> nodes_;
 };
 
@@ -216,12 +222,12 @@ Covered cover_rows(const std::vector<UvTriangle>& triangles, const std::vector<s
 UvOverlap find_uv_overlap(const std::vector<UvTriangle>& triangles, int rows) {
   UvOverlap result;
   result.overlaps.assign(triangles.size(), 0);
-  auto groups = groups_of(triangles);
+  const auto groups = groups_of(triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    const Hierarchy hierarchy(triangles, std::move(groups[g]));
+    const Hierarchy hierarchy(triangles, groups[g]);
     const auto members = hierarchy.members();
     oneapi::tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t i) {
-      result.overlaps[members[i]] = hierarchy.anything_over(members[i]);
+      result.overlaps[members[i].triangle] = hierarchy.anything_over(members[i]);
     });
   });
   std::vector<std::uint32_t> chosen;

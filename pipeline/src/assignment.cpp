@@ -33,24 +33,25 @@ std::size_t first_fitting(const Materials& rules, const SurfacePlace& place) {
 
 }  // namespace
 
-bool assigns_uses_apart(const Scene& scene, const Materials& rules) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> material_of;
+bool assigns_groups_apart(const Scene& scene, const Materials& rules, std::span<const std::uint32_t> groups) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> material_of;  // By group and slot.
   for (const SurfacePlace& place : surface_places(scene)) {
+    if (!place.node) continue;
     const std::size_t rule = first_fitting(rules, place);
     const std::string material = rule < rules.assign.size() ? rules.assign[rule].material : "";
-    if (material_of.try_emplace({place.part, place.slot}, material).first->second != material) return true;
+    if (material_of.try_emplace({groups[*place.node], place.slot}, material).first->second != material) return true;
   }
   return false;
 }
 
-Assignment assign_materials(Scene& scene, const Materials& rules) {
+Assignment assign_materials(Scene& scene, const Materials& rules, std::span<GltfOrigin::Level> levels) {
   std::map<std::string, std::uint32_t> label_of{{"", 0}};
   std::vector<const MaterialRule*> rule_of_label{nullptr};
   for (const auto& [name, rule] : rules.materials) {
     label_of[name] = static_cast<std::uint32_t>(rule_of_label.size());
     rule_of_label.push_back(&rule);
   }
-  const std::vector<SurfacePlace> places = surface_places(scene);
+  const std::vector<SurfacePlace> places = surface_places(scene, levels);
   std::vector<RuleCount> counts(rules.assign.size());
   std::vector<std::uint32_t> labels(places.size(), 0);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -69,7 +70,7 @@ Assignment assign_materials(Scene& scene, const Materials& rules) {
   for (std::size_t r = 0; r < rules.assign.size(); ++r)
     result.uses.push_back({text_of(rules.assign[r]), counts[r].taken.size(), counts[r].uses,
                            problem_of(rules.assign[r], counts[r], places)});
-  LabelledParts labelled = split_by_label(scene, places, labels);
+  LabelledParts labelled = split_by_label(scene, places, labels, levels);
   result.split = std::move(labelled.split);
   for (const std::vector<std::uint32_t>& slots : labelled.labels) {
     std::vector<const MaterialRule*>& assigned = result.parts.emplace_back().rules;

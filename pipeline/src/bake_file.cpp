@@ -15,10 +15,10 @@ namespace {
 
 /// What the scene can't hold stays in the file.
 Scene read_for_edit(const std::filesystem::path& input, const ReadOptions& options, const ProgressCallback& progress,
-                    GltfOrigin* origin) {
+                    GltfOrigin& origin) {
   require_file(input);
   report_progress(progress, "read", 0);
-  Scene scene = read_gltf(input, {.tags = options.tags, .coarser_parts = true}, origin);
+  Scene scene = read_gltf(input, {.tags = options.tags, .coarser_parts = true}, &origin);
   scene.losses.clear();
   report_progress(progress, "read", 1);
   return scene;
@@ -37,6 +37,11 @@ GltfSurfaceEdit turned_only(const PartSurface& surface) {
   edit.turned = surface.turned;
   edit.keeps_material = true;
   return edit;
+}
+
+/// What was split comes from one mesh.
+void split_origin(const std::vector<SplitPart>& split, GltfOrigin& origin) {
+  for (const SplitPart& part : split) origin.parts.push_back(GltfOrigin::Part(origin.parts[part.original]));
 }
 
 /// Turns the triangles of the origin that the plan turned in the scene.
@@ -96,20 +101,24 @@ void read_again(const std::filesystem::path& output, BakeResult& result) {
 }
 
 /// Why a scene that was read for an edit can't be edited.
-constexpr const char* k_uses_apart = "the uses of one mesh get different materials";
+constexpr const char* k_instances_apart =
+    "the instances that one node lists (EXT_mesh_gpu_instancing) get different materials";
 
 /// @return false when the scene has to be written anew.
 bool edit_file(const std::filesystem::path& input, const std::filesystem::path& output, const Materials& rules,
                const BakeFileOptions& options, const ProgressCallback& progress, BakeFileResult& result) {
   const Stopwatch total;
   GltfOrigin origin;
-  Scene scene = read_for_edit(input, options.read, progress, &origin);
-  if (assigns_uses_apart(scene, rules)) return false;
+  Scene scene = read_for_edit(input, options.read, progress, origin);
+  if (assigns_groups_apart(scene, rules, origin.nodes)) return false;
   const double read_seconds = total.seconds();
   BakeOptions bake = options.bake;
   bake.plan.in_place = true;
+  bake.plan.levels = origin.levels;
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, bake, progress);
   result.seconds["read"] = read_seconds;
+  split_origin(result.plan.split, origin);
+  origin.levels = result.plan.levels;
   turn_origin(result.plan.surfaces, origin);
   const Stopwatch write_clock;
   GltfEditResult edited =
@@ -141,13 +150,15 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
   PlannedFile result;
   result.way = bake_way(input, options);
   Scene scene;
+  GltfOrigin origin;
   if (result.way.in_place) {
-    scene = read_for_edit(input, options.read, progress, nullptr);
-    if (assigns_uses_apart(scene, rules)) result.way = {false, k_uses_apart};
+    scene = read_for_edit(input, options.read, progress, origin);
+    if (assigns_groups_apart(scene, rules, origin.nodes)) result.way = {false, k_instances_apart};
   }
   if (!result.way.in_place) scene = read_scene(input, options.read, progress);
   BakePlanOptions plan = options.bake.plan;
   plan.in_place = result.way.in_place;
+  if (plan.in_place) plan.levels = std::move(origin.levels);
   static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
   return result;
 }
@@ -158,7 +169,7 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
   result.way = bake_way(input, options);
   if (result.way.in_place) {
     if (edit_file(input, output, rules, options, progress, result)) return result;
-    result.way = {false, k_uses_apart};
+    result.way = {false, k_instances_apart};
   }
   const Stopwatch total;
   Scene scene = read_scene(input, options.read, progress);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "papilla/core/error.hpp"
 #include "papilla/io/node_places.hpp"
@@ -126,33 +127,66 @@ bool is_double_sided(const Scene& scene, const PartSurface& surface) {
   return surface.slot < materials.size() && scene.materials[materials[surface.slot]].double_sided;
 }
 
+bool has_relief(const PartSurface& surface) { return decision(surface.plan, Stage::height).run; }
+
+/// Coarser levels face as the finest does: those of parts that were turned as a whole are turned as a whole, unless
+/// they are levels of others, too. Those with the relief of a finest one that becomes double sided become so.
+/// @param turned Parts that were turned as a whole.
+void adjust_levels(const std::set<std::uint32_t>& turned, Scene& scene, BakePlan& plan) {
+  std::map<std::uint32_t, std::set<std::uint32_t>> finest_of;
+  for (const GltfOrigin::Level& level : plan.levels)
+    finest_of[level.part].insert(scene.nodes[level.finest].part.value());
+  std::set<std::pair<std::uint32_t, std::string>> double_sided;  // Part and material.
+  for (const PartSurface& surface : plan.surfaces)
+    if (surface.becomes_double_sided) double_sided.emplace(surface.part, surface.material);
+  std::set<std::uint32_t> turned_levels;
+  for (PartSurface& surface : plan.surfaces) {
+    const auto finest = finest_of.find(surface.part);
+    if (finest == finest_of.end()) continue;
+    const auto& parts = finest->second;
+    if (has_relief(surface) && std::any_of(parts.begin(), parts.end(), [&](std::uint32_t part) {
+          return double_sided.contains({part, surface.material});
+        }))
+      surface.becomes_double_sided = !is_double_sided(scene, surface);
+    if (!std::includes(turned.begin(), turned.end(), parts.begin(), parts.end())) continue;
+    surface.turned.assign(surface.triangles.size(), 1);
+    turned_levels.insert(surface.part);
+  }
+  for (const std::uint32_t part : turned_levels) {
+    TriangleMesh& mesh = scene.parts[part].mesh;
+    turn_triangles(mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 1));
+  }
+}
+
 /// Turns the sheets over of which some has relief; they are turned as a whole, whatever shares them.
 void turn_sheets_with_relief(Scene& scene, BakePlan& plan) {
+  std::set<std::uint32_t> turned;
   for (std::size_t i = 0; i < plan.sides.sheets.size(); ++i) {
     const PartSheets& part = plan.sides.sheets[i];
     TriangleMesh& mesh = scene.parts[part.part].mesh;
-    const auto has_relief = [&](const PartSurface& surface) {
-      return surface.part == part.part && decision(surface.plan, Stage::height).run;
-    };
     std::vector<std::uint8_t> relief(mesh.triangles.size(), 0), ambiguous(mesh.triangles.size(), 0);
     for (const PartSurface& surface : plan.surfaces)
-      if (has_relief(surface))
+      if (surface.part == part.part && has_relief(surface))
         for (const std::uint32_t t : surface.triangles) relief[t] = 1;
     leave_sheets(plan.sides, i, relief);
     for (const SheetSide& sheet : part.sheets)
       if (sheet.is_ambiguous())
         for (const Index t : sheet.triangles) ambiguous[t] = 1;
     for (PartSurface& surface : plan.surfaces) {
+      if (surface.part != part.part) continue;
       const auto any = [&](const std::vector<std::uint8_t>& flags) {
         return std::any_of(surface.triangles.begin(), surface.triangles.end(),
                            [&](std::uint32_t t) { return flags[t] != 0; });
       };
       if (has_relief(surface) && any(ambiguous)) surface.becomes_double_sided = !is_double_sided(scene, surface);
-      if (surface.part != part.part || part.turn.empty() || !any(part.turn)) continue;
+      if (part.turn.empty() || !any(part.turn)) continue;
       for (const std::uint32_t t : surface.triangles) surface.turned.push_back(part.turn[t]);
     }
-    if (!part.turn.empty()) turn_triangles(mesh, part.turn);
+    if (part.turn.empty()) continue;
+    turn_triangles(mesh, part.turn);
+    if (std::find(part.turn.begin(), part.turn.end(), 0) == part.turn.end()) turned.insert(part.part);
   }
+  adjust_levels(turned, scene, plan);
 }
 
 std::vector<PartSurface> split_by_slot(const Scene& scene, const Assignment& assignment) {
@@ -224,7 +258,8 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
                    const ProgressCallback& progress) {
   BakePlan plan;
   // Before sheets are turned, which gives some a material that no rule means.
-  Assignment assignment = assign_materials(scene, rules);
+  plan.levels = options.levels;
+  Assignment assignment = assign_materials(scene, rules, plan.levels);
   note_rules(assignment, options.strict, rules.source, scene, plan);
   plan.sides = options.in_place ? find_sides(scene, options.sides, options.perception.view)
                                 : turn_sheets(scene, options.sides, options.perception.view);

@@ -41,6 +41,19 @@ float linear(unsigned char srgb) { return static_cast<float>(linear_from_srgb(sr
 
 }  // namespace
 
+const std::map<std::string, UvNormalization>& uv_normalizations() {
+  static const std::map<std::string, UvNormalization> names{{"scene", UvNormalization::scene},
+                                                            {"part", UvNormalization::part},
+                                                            {"chart", UvNormalization::chart},
+                                                            {"none", UvNormalization::none}};
+  return names;
+}
+
+std::string uv_normalization_name(UvNormalization normalization) {
+  const auto& names = uv_normalizations();
+  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == normalization; })->first;
+}
+
 SceneDistortion measure_scene(const Scene& scene, MeasureOptions options) {
   SceneDistortion result;
   for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {

@@ -107,15 +107,17 @@ bool SurfaceSelector::is_empty() const {
                                         [&](const SelectorKey& key) { return (this->*key.pattern).has_value(); });
 }
 
-std::vector<SurfacePlace> surface_places(const Scene& scene) {
+std::vector<SurfacePlace> surface_places(const Scene& scene, std::span<const GltfOrigin::Level> levels) {
   const std::vector<NodePlace> nodes = node_places(scene);
   std::vector<std::vector<std::uint32_t>> slots;
   for (const Part& part : scene.parts) slots.push_back(used_slots(part.mesh));
   std::vector<SurfacePlace> places;
-  const auto add = [&](SurfacePlace place) {
+  // @param named  the part that gives the names.
+  const auto add = [&](SurfacePlace place, std::uint32_t named) {
     const Part& part = scene.parts[place.part];
-    place.parts = {shown_name(part)};
-    if (!part.name.empty()) place.meshes = {part.name};
+    const std::string& mesh = scene.parts[named].name;
+    place.parts = {shown_name(scene.parts[named])};
+    if (!mesh.empty()) place.meshes = {mesh};
     add_cad_names(part.extras_json, place);
     for (const std::uint32_t slot : slots[place.part]) {
       SurfacePlace& surface = places.emplace_back(place);
@@ -126,24 +128,35 @@ std::vector<SurfacePlace> surface_places(const Scene& scene) {
       surface.materials = {material.name};
     }
   };
-  std::vector<std::uint8_t> is_shown(scene.parts.size(), 0);
-  for (const Instance& use : instances(scene)) {
+  const auto place_at = [&](std::uint32_t node) {
     SurfacePlace place;
-    place.part = use.part;
-    place.node = use.node;
-    place.nodes = {nodes[use.node].path};
-    place.instances = {nodes[use.node].name};
-    for (std::optional<std::uint32_t> n = use.node; n; n = nodes[*n].parent) {
-      if (*n != use.node) place.assemblies.push_back(nodes[*n].name);
+    place.nodes = {nodes[node].path};
+    place.instances = {nodes[node].name};
+    for (std::optional<std::uint32_t> n = node; n; n = nodes[*n].parent) {
+      if (*n != node) place.assemblies.push_back(nodes[*n].name);
       add_cad_names(scene.nodes[*n].extras_json, place);
     }
+    return place;
+  };
+  std::vector<std::uint8_t> is_shown(scene.parts.size(), 0);
+  for (const Instance& use : instances(scene)) {
+    SurfacePlace place = place_at(use.node);
+    place.part = use.part;
+    place.node = use.node;
     is_shown[use.part] = 1;
-    add(std::move(place));
+    add(std::move(place), use.part);
+  }
+  for (std::uint32_t i = 0; i < levels.size(); ++i) {
+    SurfacePlace place = place_at(levels[i].finest);
+    place.part = levels[i].part;
+    place.level = i;
+    is_shown[place.part] = 1;
+    add(std::move(place), scene.nodes[levels[i].finest].part.value());
   }
   for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
     SurfacePlace place;
     place.part = p;
-    if (is_shown[p] == 0) add(std::move(place));
+    if (is_shown[p] == 0) add(std::move(place), p);
   }
   return places;
 }
@@ -185,7 +198,7 @@ std::vector<std::string> problems_of(const std::vector<RuleUse>& uses, const std
 }
 
 LabelledParts split_by_label(Scene& scene, const std::vector<SurfacePlace>& places,
-                             const std::vector<std::uint32_t>& label) {
+                             const std::vector<std::uint32_t>& label, std::span<GltfOrigin::Level> levels) {
   LabelledParts result;
   result.labels.resize(scene.parts.size());
   using Labels = std::vector<std::uint32_t>;
@@ -196,7 +209,10 @@ LabelledParts split_by_label(Scene& scene, const std::vector<SurfacePlace>& plac
   for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
     const SurfacePlace& first = places[begin];
     Labels labels(std::max<std::size_t>(scene.parts[first.part].materials.size(), 1), 0);
-    for (end = begin; end < places.size() && places[end].part == first.part && places[end].node == first.node; ++end) {
+    const auto is_same_use = [&](const SurfacePlace& place) {
+      return place.part == first.part && place.node == first.node && place.level == first.level;
+    };
+    for (end = begin; end < places.size() && is_same_use(places[end]); ++end) {
       if (places[end].slot >= labels.size()) labels.resize(places[end].slot + std::size_t{1}, 0);
       labels[places[end].slot] = label[end];
     }
@@ -212,6 +228,7 @@ LabelledParts split_by_label(Scene& scene, const std::vector<SurfacePlace>& plac
     }
     is_taken[first.part] = 1;
     if (first.node) scene.nodes[*first.node].part = it->second;
+    if (first.level) levels[*first.level].part = it->second;
     result.labels[it->second] = std::move(labels);
   }
   return result;

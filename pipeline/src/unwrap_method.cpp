@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
+#include "papilla/meshing/uv_charts.hpp"
+#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/components.hpp"
 #include "papilla/param/grain_direction.hpp"
 #include "papilla/param/grain_frame.hpp"
@@ -58,7 +61,7 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
   };
   share(o.natural), share(o.maillot), share(o.levy), share(o.lscm), share(o.reference), share(o.best);
   o.natural.fall_back = true;
-  if (fall_back) o.best.energy_limit = 4 + worth_halving(o.segmentation);
+  if (o.charts == ChartSource::automatic) o.best.energy_limit = 4 + worth_halving(o.segmentation);
   set_effort(o);
   if (o.iterations) o.maillot.max_iterations = o.best.max_iterations = *o.iterations;
   if (o.iterations) o.levy.length_rounds = *o.iterations;
@@ -111,18 +114,24 @@ SegmentationOptions segmentation_of(const MethodOptions& o, const PartContext& c
 }
 
 /// Halves charts that have no valid map, or none worth having, a few times; the last map stays whatever it is.
-Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, const MethodOptions& options,
+Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions options,
                         std::vector<ChartChoice>& choices) {
-  constexpr int k_max_halvings = 6;
+  const int most_halvings = options.charts == ChartSource::automatic ? 6 : 0;
+  ChartMemory memory;
+  for (ChartMemory** of_method : {&options.maillot.memory, &options.levy.memory, &options.lscm.memory,
+                                  &options.reference.memory, &options.best.memory, &options.automatic.best.memory})
+    *of_method = most_halvings > 0 ? &memory : nullptr;
+  std::optional<ChartHalver> halver;
   for (int i = 0;; ++i) {
     Flattening flattening = map_charts(cut_open(mesh, charts), charts, options, choices);
-    if (flattening.notes.empty() || i == k_max_halvings || options.deadline.passed()) {
+    if (flattening.notes.empty() || i == most_halvings || options.deadline.passed()) {
       keep_cuts(mesh, charts.cuts, flattening.charts);
       return flattening;
     }
     std::vector<std::uint32_t> failed;
     for (const ChartNote& note : flattening.notes) failed.push_back(note.chart);
-    charts = halve_charts(mesh, charts, failed);
+    if (!halver) halver.emplace(mesh);
+    charts = halver->halve(charts, failed);
   }
 }
 
@@ -186,10 +195,7 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
     }
     default: break;
   }
-  if (o.charts == ChartSource::keep) {
-    require_manifold(mesh);
-    return map_or_halve(mesh, components_as_charts(mesh), o, part.choices);
-  }
+  if (o.charts != ChartSource::automatic) return map_or_halve(mesh, given_charts(mesh, o.charts), o, part.choices);
   if (o.choose_seam_cost && mesh.triangles.size() <= most_charted_twice(o.effort))
     return chart_twice(mesh, o, context, part);
   return chart_and_map(mesh, o, context, part);
@@ -225,6 +231,23 @@ std::string unwrap_method_name(UnwrapMethod method) {
   return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == method; })->first;
 }
 
+const std::map<std::string, ChartSource>& chart_sources() {
+  static const std::map<std::string, ChartSource> names{
+      {"auto", ChartSource::automatic}, {"keep", ChartSource::keep}, {"uv", ChartSource::uv}};
+  return names;
+}
+
+std::string chart_source_name(ChartSource source) {
+  const auto& names = chart_sources();
+  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == source; })->first;
+}
+
+ChartSet given_charts(const TriangleMesh& mesh, ChartSource source) {
+  if (source == ChartSource::uv) return open_closed_charts(mesh, uv_charts(mesh));
+  require_manifold(mesh);
+  return open_closed_charts(mesh, components_as_charts(mesh));
+}
+
 bool takes_charts(UnwrapMethod method) {
   switch (method) {
     case UnwrapMethod::natural:
@@ -256,7 +279,7 @@ FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context,
     part.reason = reason_for_triplanar(bounds_of(mesh).diagonal(), context);
     if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;
   }
-  const bool may_project = takes_charts(o.method) && o.charts == ChartSource::automatic;
+  const bool may_project = takes_charts(o.method) && o.charts != ChartSource::keep;
   if (may_project && o.deadline.passed()) {
     project_for_want_of_time(mesh, o, part);
   } else {

@@ -11,6 +11,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/node_places.hpp"
 #include "papilla/meshing/repair.hpp"
+#include "papilla/meshing/uv_charts.hpp"
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/pack.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
@@ -117,6 +118,14 @@ void count_edges(const TriangleMesh& mesh, UnwrappedPart& part) {
   }
 }
 
+void require_uv_of_parts(const Scene& scene) {
+  for (const Part& part : scene.parts) try {
+      require_uv(part.mesh);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput("part '" + shown_name(part) + "': " + error.what());
+    }
+}
+
 }  // namespace
 
 double grain_size(const UnwrapOptions& options) {
@@ -162,6 +171,7 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
   const Stopwatch clock;
   if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
     throw InvalidInput("no part has triangles to unwrap");
+  if (takes_charts(options.method.method) && options.method.charts == ChartSource::uv) require_uv_of_parts(scene);
   UnwrapResult result;
   result.scene = std::move(scene);
   result.sides = turn_sheets(result.scene, options.sides);

@@ -99,7 +99,7 @@ Quality flatten(const TriangleMesh& mesh, const ChartSet& charts, double worst) 
     const std::optional<Mapped> mapped =
         last ? measured(piece.mesh, flatten_best(piece.mesh, one)) : map_of(piece.mesh, one, most);
     if (!mapped || mapped->mean > most) {
-      const ChartSet halves = halve_charts(piece.mesh, one, std::vector<std::uint32_t>{0});
+      const ChartSet halves = ChartHalver(piece.mesh).halve(one, std::vector<std::uint32_t>{0});
       seam += halves.seam_length_mm;
       ++quality.halvings;
       for (Piece& half : pieces_of(piece.mesh, halves, piece.halvings + 1)) pending.push_back(std::move(half));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/bench_json.hpp"
+#include "papilla/core/cpu_clones.hpp"
 #include "papilla/texture/best_dimension.hpp"
 #include "papilla/texture/feature_matrix.hpp"
 #include "papilla/texture/grain.hpp"
@@ -24,13 +25,6 @@
 #include "gwyddion_dimension.hpp"
 #endif
 
-// The peers are the definitions, coded for the vector units of the machine the benchmark runs on.
-#if defined(__x86_64__)
-#define PAPILLA_FOR_EACH_CPU __attribute__((target_clones("avx2", "default")))
-#else
-#define PAPILLA_FOR_EACH_CPU
-#endif
-
 namespace papilla {
 namespace {
 
@@ -41,7 +35,8 @@ std::vector<std::uint8_t> bytes_of(const GreyImage& image) {
   return bytes;
 }
 
-PAPILLA_FOR_EACH_CPU
+// The peers are the definitions, coded for the vector units of the machine the benchmark runs on.
+PAPILLA_CPU_CLONES("avx2")
 std::int64_t squared_difference(const std::uint8_t* a, const std::uint8_t* b, int count) {
   std::int32_t sum = 0;  // At most 2^15 · 255², below 2^31.
   for (int i = 0; i < count; ++i) {
@@ -67,7 +62,7 @@ std::vector<std::int64_t> direct_feature_matrix(const std::vector<std::uint8_t>&
 }
 
 /// Adds to `points` of a row of centres whether the pixels at one offset lie within the cube.
-PAPILLA_FOR_EACH_CPU
+PAPILLA_CPU_CLONES("avx2")
 void add_points(const std::uint8_t* centres, const std::uint8_t* others, int count, int radius, std::uint16_t* points) {
   for (int x = 0; x < count; ++x) {
     const int d = static_cast<int>(centres[x]) - static_cast<int>(others[x]);

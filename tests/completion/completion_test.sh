@@ -114,7 +114,10 @@ expect_choices() {
   expect "$4" "$1" "$2" "$3" ''
 }
 for program in "$@"; do
-  expect_choices "$program" unwrap --charts 'auto keep'
+  expect_choices "$program" unwrap --charts 'auto keep uv'
+  expect_choices "$program" evaluate --charts 'auto keep uv'
+  expect_choices "$program" evaluate --normalize 'chart none part scene'
+  expect_choices "$program" measure --normalize 'chart none part scene'
   expect_choices "$program" unwrap --layout 'atlas tile'
   expect_choices "$program" unwrap --grain 'up longest'
   expect_choices "$program" unwrap --solver 'hermitian cgal gauss-newton gradient-descent direct gauss-seidel'
@@ -124,6 +127,7 @@ for program in "$@"; do
   if [[ $(basename "$program") == papilla ]]; then
     expect 'lscm' "$program" unwrap --method ls
     expect 'tessellation' "$program" evaluate tes
+    expect 'lscm,best' "$program" evaluate param --method lscm,be
     expect 'grain fractal' "$program" synthesize ''
   fi
   expect '--help' "$program" --hel

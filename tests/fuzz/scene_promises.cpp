@@ -37,6 +37,7 @@ void require_part(const Scene& scene, const Part& part) {
   require_attribute(mesh.normals, mesh);
   require_attribute(mesh.uv, mesh);
   require_attribute(mesh.uv1, mesh);
+  require_attribute(mesh.cad_uv, mesh);
   require_attribute(mesh.colors, mesh);
   require(mesh.material.empty() || mesh.material.size() == mesh.triangles.size(), "a material per triangle");
   require(mesh.face.empty() || mesh.face.size() == mesh.triangles.size(), "a face number per triangle");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <set>
 
 #include "io/glb_fixture.hpp"
 #include "io/gltf_comparison.hpp"
@@ -352,6 +353,77 @@ TEST_F(GltfEditTest, AnimationsOfAMaterialMoveItsCopy) {
   EXPECT_TRUE(changed("/animations/0/channels/3"));
 }
 
+/// A mesh that three nodes show, "a", "b" and "c".
+std::string shared_mesh() {
+  return R"("scene":0,"scenes":[{"nodes":[0,1,2]}],"nodes":[{"mesh":0,"name":"a"},{"mesh":0,"name":"b"},)"
+         R"({"mesh":0,"name":"c"}],"meshes":[{"name":"seat","primitives":[{"attributes":{"POSITION":0},"indices":1,)"
+         R"("material":0}],"extras":{"id":7}}],"materials":[{"name":"m"}],)";
+}
+
+TEST_F(GltfEditTest, PartsOfOneMeshGetMeshesOfTheirOwn) {
+  write(square(), shared_mesh());
+  scene_.parts.push_back(Part(scene_.parts[0]));
+  origin_.parts.push_back(GltfOrigin::Part(origin_.parts[0]));
+  scene_.nodes[1].part = 1;
+  const auto before = test::RawGltf(in()).json, json = edit({tagged(1, 0, "hard", 700)});
+  ASSERT_EQ(json["meshes"].size(), 2U);
+  EXPECT_EQ(json["meshes"][0], before["meshes"][0]);
+  auto copy = json["meshes"][1];
+  EXPECT_EQ(copy["primitives"][0]["material"], 1);
+  copy["primitives"][0]["material"] = 0;
+  EXPECT_EQ(copy, before["meshes"][0]) << "the same name, data and extras";
+  for (const std::size_t node : {0U, 1U, 2U}) EXPECT_EQ(json["nodes"][node]["mesh"], node == 1 ? 1 : 0);
+  std::set<std::string> pointers;
+  for (const GltfChange& change : result_.changes) pointers.insert(change.kind + " " + change.pointer);
+  EXPECT_EQ(pointers, (std::set<std::string>{"added /meshes/1", "added /materials/1", "changed /nodes/1/mesh",
+                                             "added /nodes/1/extras", "added /asset/extras"}));
+  EXPECT_EQ(json["accessors"], before["accessors"]);
+}
+
+/// Of vertices that a copy shares with its original only the copy's are written anew.
+TEST_F(GltfEditTest, NewUvOfACopyLeaveItsOriginalAlone) {
+  write(square(), shared_mesh());
+  scene_.parts.push_back(Part(scene_.parts[0]));
+  origin_.parts.push_back(GltfOrigin::Part(origin_.parts[0]));
+  scene_.nodes[2].part = 1;
+  GltfSurfaceEdit relief = tagged(1, 0, "grain", 700);
+  relief.uv = torn_uv(2);
+  const auto before = test::RawGltf(in()).json, json = edit({relief});
+  EXPECT_EQ(json["meshes"][0], before["meshes"][0]);
+  const Scene after = read_gltf(out());
+  ASSERT_EQ(after.parts.size(), 2U);
+  EXPECT_TRUE(after.parts[0].mesh.uv.values.empty());
+  for (std::size_t t = 0; t < 2; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(after.parts[1].mesh.corner(t, static_cast<int>(k)),
+                scene_.parts[0].mesh.corner(t, static_cast<int>(k)));
+      const CornerAttribute<Vec2>&uv = after.parts[1].mesh.uv, &wanted = relief.uv;
+      EXPECT_EQ(uv.values[uv.indices[t][k]], wanted.values[wanted.indices[t][k]]);
+    }
+}
+
+TEST_F(GltfEditTest, AnimationsOfAMeshMoveItsCopy) {
+  GlbFixture glb = square();
+  glb.accessor(glb.view(std::vector<float>{0, 1}), 5126, 2, "SCALAR");
+  const auto channel = [](const char* pointer) {
+    return R"({"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":")" +
+           std::string(pointer) + R"("}}}})";
+  };
+  write(glb, shared_mesh() +
+                 R"("extensionsUsed":["KHR_animation_pointer"],)"
+                 R"("animations":[{"samplers":[{"input":2,"output":2}],"channels":[)" +
+                 channel("/meshes/0/weights/0") + "," + channel("/nodes/0/weights/0") + "]}],");
+  scene_.parts.push_back(Part(scene_.parts[0]));
+  origin_.parts.push_back(GltfOrigin::Part(origin_.parts[0]));
+  scene_.nodes[1].part = 1;
+  const auto json = edit({tagged(1, 0, "hard", 700)});
+  const auto& channels = json["animations"][0]["channels"];
+  ASSERT_EQ(channels.size(), 3U);
+  const ordered_json::json_pointer pointer("/target/extensions/KHR_animation_pointer/pointer");
+  EXPECT_EQ(channels[2][pointer], "/meshes/1/weights/0");
+  EXPECT_TRUE(changed("/animations/0/channels/2"));
+}
+
 /// Its part has the rule of the finest level's, though its name is another one.
 TEST_F(GltfEditTest, CoarserLevelsAreReadForAnEdit) {
   write(square(), R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"extensions":{"MSFT_lod":{"ids":[1]}}},)"
@@ -363,6 +435,10 @@ TEST_F(GltfEditTest, CoarserLevelsAreReadForAnEdit) {
   ASSERT_EQ(scene_.parts.size(), 2U);
   EXPECT_EQ(scene_.parts[1].name, "seat");
   EXPECT_EQ(scene_.nodes.size(), 1U);
+  ASSERT_EQ(origin_.levels.size(), 1U);
+  EXPECT_EQ(origin_.levels[0].node, 1U);
+  EXPECT_EQ(origin_.levels[0].part, 1U);
+  EXPECT_EQ(origin_.levels[0].finest, 0U);
   const auto json = edit({tagged(0, 0, "hard", 700), tagged(1, 0, "hard", 700)});
   for (const auto& mesh : json["meshes"]) EXPECT_EQ(mesh["primitives"][0]["material"], 0);
 }

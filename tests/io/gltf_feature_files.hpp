@@ -138,6 +138,30 @@ class GltfFeatureFiles {
                          R"({"mesh":1})",
                          mesh(primitive()) + "," + mesh(primitive())) +
                        with_extension("MSFT_lod") + paint},
+        {"shared-levels",
+         scene(R"({"name":"a","mesh":0,"extensions":{"MSFT_lod":{"ids":[2]}}},)"
+               R"({"name":"b","mesh":0,"extensions":{"MSFT_lod":{"ids":[3]}}},{"mesh":1},{"mesh":1})",
+               mesh(primitive()) + R"(,{"name":"sheet_LOD1","primitives":[)" + primitive() + "]}", "0,1") +
+             with_extension("MSFT_lod") + paint},
+        {"shared-mesh",
+         scene(
+             R"({"name":"a","mesh":0,"skin":0,"weights":[0.25]},{"name":"b","mesh":0,"skin":0,"translation":[2,0,0]},)"
+             R"({"name":"c","mesh":0,"skin":0},{"name":"bone"},{"name":"eye","camera":0},)"
+             R"({"name":"lamp","extensions":{"KHR_lights_punctual":{"light":0}}})",
+             mesh(primitive(R"(,"JOINTS_0":6,"WEIGHTS_0":7)",
+                            R"(,"material":0,"targets":[{"POSITION":8}],"extensions":{"KHR_materials_variants":)"
+                            R"({"mappings":[{"material":1,"variants":[0]}]}})"),
+                  R"(,"weights":[0.5],"extras":{"id":7})"),
+             "0,1,2,3,4,5") +
+             R"("skins":[{"joints":[3],"inverseBindMatrices":9}],"materials":[{"name":"day"},{"name":"dark"}],)"
+             R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],"extensions":{)"
+             R"("KHR_lights_punctual":{"lights":[{"type":"point","name":"lamp"}]},)"
+             R"("KHR_materials_variants":{"variants":[{"name":"night"}]}},)"
+             R"("animations":[{"samplers":[{"input":4,"output":5},{"input":4,"output":4}],"channels":[)"
+             R"({"sampler":0,"target":{"node":1,"path":"translation"}},{"sampler":1,"target":{"path":"pointer",)"
+             R"("extensions":{"KHR_animation_pointer":{"pointer":"/meshes/0/weights/0"}}}},)"
+             R"({"sampler":1,"target":{"node":0,"path":"weights"}}]}],)"
+             R"("extensionsUsed":["KHR_lights_punctual","KHR_materials_variants","KHR_animation_pointer"],)"},
         {"material-levels", one + R"("materials":[{"name":"fine","extensions":{"MSFT_lod":{"ids":[1]}}},{}],)" +
                                 with_extension("MSFT_lod")},
         {"vendor",

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "meshing/clean_mesh.hpp"
 #include "meshing/shapes.hpp"
 #include "papilla/meshing/deviation.hpp"
 #include "papilla/meshing/repair.hpp"
@@ -15,20 +16,11 @@ namespace {
 
 using namespace test;
 
-void expect_clean(const TriangleMesh& mesh) {
-  const MeshStatistics s = mesh_statistics(mesh);
-  EXPECT_EQ(s.degenerate_triangles, 0u);
-  EXPECT_EQ(s.duplicate_triangles, 0u);
-  EXPECT_EQ(s.nonmanifold_edges, 0u);
-  EXPECT_EQ(s.flipped_edges, 0u);
-  EXPECT_EQ(s.t_junctions, 0u);
-}
-
 /// Clean, as far from the input as it says, and as it is when it is repaired again.
 void expect_honest(const TriangleMesh& mesh, const RepairResult& result) {
   EXPECT_TRUE(result.settled);
   EXPECT_EQ(result.refused_triangles, 0u);
-  expect_clean(result.mesh);
+  test::expect_clean(result.mesh);
   const DeviationResult measured = surface_deviation(mesh, result.mesh);
   EXPECT_GE(1.01 * result.lost_mm + 1e-6 * result.tolerance_mm, measured.from_to.value);
   EXPECT_GE(1.01 * result.added_mm + 1e-6 * result.tolerance_mm, measured.to_from.value);

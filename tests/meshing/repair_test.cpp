@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "meshing/clean_mesh.hpp"
 #include "meshing/shapes.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/statistics.hpp"
@@ -15,15 +16,6 @@ namespace papilla {
 namespace {
 
 using namespace test;
-
-void expect_clean(const TriangleMesh& mesh) {
-  const MeshStatistics s = mesh_statistics(mesh);
-  EXPECT_EQ(s.degenerate_triangles, 0u);
-  EXPECT_EQ(s.duplicate_triangles, 0u);
-  EXPECT_EQ(s.nonmanifold_edges, 0u);
-  EXPECT_EQ(s.flipped_edges, 0u);
-  EXPECT_EQ(s.t_junctions, 0u);
-}
 
 void expect_idempotent(const RepairResult& once) {
   const RepairResult twice = repair(once.mesh);
@@ -58,7 +50,7 @@ TEST_P(RandomSoup, ComesOutCleanAndStaysSo) {
   for (const int triangles : {5, 20, 60, 150}) {
     const RepairResult result = repair(lattice_soup(triangles, GetParam()));
     EXPECT_TRUE(result.settled) << triangles;
-    expect_clean(result.mesh);
+    test::expect_clean(result.mesh);
     expect_idempotent(result);
   }
 }
@@ -79,7 +71,7 @@ TEST_P(Cracks, CloseAndNeverAddBorderLoops) {
     EXPECT_EQ(after.vertices, before.vertices);
     EXPECT_EQ(after.genus, before.genus);
     EXPECT_LE(result.max_deviation_mm, result.weld_tolerance_mm);
-    expect_clean(result.mesh);
+    test::expect_clean(result.mesh);
     expect_idempotent(result);
   }
 }
@@ -93,12 +85,12 @@ TEST(Repair, CountsWhatBecomesNothingByWelding) {
   EXPECT_EQ(result.counts.welded_near, 1u);
   EXPECT_EQ(result.counts.repeated_corners, 1u);
   EXPECT_EQ(result.mesh.triangles.size(), 4u);
-  expect_clean(result.mesh);
+  test::expect_clean(result.mesh);
 }
 
 TEST(Repair, MoebiusStripBecomesOrientable) {
   const RepairResult result = repair(moebius(30));
-  expect_clean(result.mesh);
+  test::expect_clean(result.mesh);
   EXPECT_EQ(mesh_statistics(result.mesh).boundary_loops, 1u);
   expect_idempotent(result);
 }
@@ -184,7 +176,7 @@ TEST(Repair, CavitiesStayAndSolidsInsideOutAreTurned) {
     const RepairResult result = repair(soup_of(mesh));
     EXPECT_EQ(result.counts.reversed, apart.triangles.size());
     EXPECT_NEAR(*mesh_statistics(result.mesh).volume_mm3, 64 - 1 + 1, 1e-12);
-    expect_clean(result.mesh);
+    test::expect_clean(result.mesh);
     expect_idempotent(result);
   }
 }

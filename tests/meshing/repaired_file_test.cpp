@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/temporary_folder.hpp"
+#include "meshing/clean_mesh.hpp"
 #include "meshing/shapes.hpp"
 #include "papilla/io/scene_file.hpp"
 #include "papilla/meshing/repair.hpp"
@@ -42,14 +43,6 @@ Scene scene_of(const TriangleMesh& mesh) {
   return scene;
 }
 
-void expect_clean(const MeshStatistics& s) {
-  EXPECT_EQ(s.degenerate_triangles, 0u);
-  EXPECT_EQ(s.duplicate_triangles, 0u);
-  EXPECT_EQ(s.nonmanifold_edges, 0u);
-  EXPECT_EQ(s.flipped_edges, 0u);
-  EXPECT_EQ(s.t_junctions, 0u);
-}
-
 /// File ending and distance of the part from the origin of its frame [mm]; the part is 2 mm wide.
 class RepairedFile : public testing::TestWithParam<std::tuple<const char*, double>> {};
 
@@ -61,7 +54,7 @@ TEST_P(RepairedFile, IsAsCleanAsTheMesh) {
     const TriangleMesh mesh = moved(start, {away, 0.4 * away, -0.1 * away});
     const RepairResult repaired = repair(mesh);
     EXPECT_TRUE(repaired.settled);
-    expect_clean(mesh_statistics(repaired.mesh));
+    test::expect_clean(repaired.mesh);
     const RepairResult again = repair(repaired.mesh);
     EXPECT_EQ(again.mesh.positions, repaired.mesh.positions);
     EXPECT_EQ(again.mesh.triangles, repaired.mesh.triangles);
@@ -72,7 +65,7 @@ TEST_P(RepairedFile, IsAsCleanAsTheMesh) {
     ASSERT_EQ(read.parts.size(), 1u);
     const TriangleMesh& stored = read.parts[0].mesh;
     EXPECT_EQ(stored.triangles.size(), repaired.mesh.triangles.size());
-    expect_clean(mesh_statistics(stored));
+    test::expect_clean(stored);
     for (std::size_t t = 0; t < stored.triangles.size(); ++t)
       EXPECT_GT(norm(cross(stored.corner(t, 1) - stored.corner(t, 0), stored.corner(t, 2) - stored.corner(t, 0))), 0);
   }

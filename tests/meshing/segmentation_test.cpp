@@ -356,14 +356,15 @@ TEST(ChartCuts, OpenAndHalveChartsOfAnyOrigin) {
     result.charts = open_charts(mesh, one);
     expect_disks(mesh, result);
     EXPECT_EQ(result.charts.count, 1u);
-    result.charts = halve_charts(mesh, result.charts, std::vector<std::uint32_t>{0});
+    result.charts = ChartHalver(mesh).halve(result.charts, std::vector<std::uint32_t>{0});
     expect_disks(mesh, result);
     EXPECT_EQ(result.charts.count, 2u);
   }
   const TriangleMesh sheet = grid(12, 4);
-  const ChartSet halves = halve_charts(sheet, {std::vector<std::uint32_t>(96, 0), 1, 0}, std::vector<std::uint32_t>{0});
+  const ChartSet halves =
+      ChartHalver(sheet).halve({std::vector<std::uint32_t>(96, 0), 1, 0}, std::vector<std::uint32_t>{0});
   EXPECT_NEAR(halves.seam_length_mm, 4, 1e-9);  // straight across
-  EXPECT_THROW(halve_charts(sheet, halves, std::vector<std::uint32_t>{2}), InvalidInput);
+  EXPECT_THROW(ChartHalver(sheet).halve(halves, std::vector<std::uint32_t>{2}), InvalidInput);
 }
 
 TEST(Segmentation, RandomTerrainsAndRepairedSoups) {

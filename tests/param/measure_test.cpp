@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -333,6 +335,88 @@ TEST(Measure, RefusesWhatIsNoUv) {
   mesh.positions[0].x = std::numeric_limits<double>::infinity();
   EXPECT_THROW(measure_distortion(mesh, uv), InvalidInput);
   EXPECT_THROW(measure_distortion(fan(), uv, {.texture_px = {0, 1}}), InvalidInput);
+}
+
+/// Three unit squares beside one another, each a chart; the uv of square i are factors[i] times its shape.
+TriangleMesh three_squares(std::array<double, 3> factors) {
+  TriangleMesh mesh;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto x = static_cast<double>(2 * i);
+    const auto first = static_cast<Index>(mesh.positions.size());
+    for (const Vec2 p : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) {
+      mesh.positions.push_back({x + p.x, p.y, 0});
+      mesh.uv.values.push_back({100 * x + factors[i] * p.x, factors[i] * p.y});
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  mesh.uv.indices = mesh.triangles;
+  return mesh;
+}
+
+double dirichlet(double s) { return 2 * s * s + 2 / (s * s); }
+
+DistortionReport measured(const TriangleMesh& mesh, UvNormalization normalize) {
+  return measure_distortion(mesh, mesh.uv, {.normalize = normalize, .part = {0, 0, 0, 0, 7, 7}});
+}
+
+TEST(Normalize, ScaledSquaresHaveTheClosedForms) {
+  const TriangleMesh mesh = three_squares({2, 3, 5});
+  struct Case {
+    UvNormalization normalize;
+    std::array<double, 3> sigma;
+  };
+  const double scene = std::sqrt(3 / 38.0), part = std::sqrt(2 / 13.0);  // 38 = 2² + 3² + 5², 13 = 2² + 3²
+  for (const Case& c : {Case{UvNormalization::scene, {2 * scene, 3 * scene, 5 * scene}},
+                        Case{UvNormalization::part, {2 * part, 3 * part, 1}}, Case{UvNormalization::chart, {1, 1, 1}},
+                        Case{UvNormalization::none, {2, 3, 5}}}) {
+    const DistortionReport r = measured(mesh, c.normalize);
+    double energy = 0, shrunk = 0, edges = 0, length = 0, area = 0;
+    for (const double s : c.sigma) {
+      energy += dirichlet(s) / 3;
+      shrunk += 1 / (s * s) / 3;
+      edges += (4 + std::sqrt(2.0)) * std::abs(s - 1);
+      length += 4 + std::sqrt(2.0);
+      area += s * s / 3;
+    }
+    EXPECT_EQ(r.charts, 3u);
+    EXPECT_NEAR(r.symmetric_dirichlet.mean, energy, 1e-12);
+    EXPECT_NEAR(r.stretch_l2, std::sqrt(shrunk), 1e-12);
+    EXPECT_NEAR(r.stretch_linf, 1 / *std::min_element(c.sigma.begin(), c.sigma.end()), 1e-12);
+    EXPECT_NEAR(r.area_ratio.mean, area, 1e-12);
+    EXPECT_NEAR(r.edge_length_error, edges / length, 1e-12);
+    EXPECT_NEAR(r.angle_error_deg.max, 0, 1e-10);
+    EXPECT_NEAR(r.uv_area, 38, 1e-12);  // as it is
+    for (std::size_t t = 0; t < 6; ++t) EXPECT_NEAR(r.per_triangle[t].sigma1, c.sigma[t / 2], 1e-12);
+  }
+  const DistortionReport by_chart = measured(mesh, UvNormalization::chart);
+  EXPECT_NEAR(by_chart.uv_scale.min, 1 / 5.0, 1e-12);
+  EXPECT_NEAR(by_chart.uv_scale.max, 1 / 2.0, 1e-12);
+}
+
+TEST(Normalize, FactorsOfChartsMatterOnlyToTheOthers) {
+  TriangleMesh bent = test::spherical_cap(10, 1, 6, 12), scaled;
+  bent.uv = uv_per_vertex(bent, [](Vec3 p) { return Vec2{p.x, p.y}; });
+  TriangleMesh pair = bent;
+  const auto first = static_cast<Index>(bent.positions.size());
+  for (const Vec3 p : bent.positions) pair.positions.push_back(p + Vec3{100, 0, 0});
+  for (const Vec2 p : bent.uv.values) pair.uv.values.push_back(p + Vec2{100, 0});
+  for (const Triangle& t : bent.triangles) pair.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  for (const Triangle& t : bent.uv.indices) {
+    const auto values = static_cast<Index>(bent.uv.values.size());
+    pair.uv.indices.push_back({values + t[0], values + t[1], values + t[2]});
+  }
+  scaled = pair;
+  for (std::size_t i = bent.uv.values.size(); i < scaled.uv.values.size(); ++i)
+    scaled.uv.values[i] = 4 * scaled.uv.values[i];  // a power of two: no rounding
+  const auto energy = [](const TriangleMesh& mesh, UvNormalization normalize) {
+    return measure_distortion(mesh, mesh.uv, {.normalize = normalize}).symmetric_dirichlet.mean;
+  };
+  EXPECT_DOUBLE_EQ(energy(scaled, UvNormalization::chart), energy(pair, UvNormalization::chart));
+  EXPECT_GT(energy(scaled, UvNormalization::scene), energy(pair, UvNormalization::scene) + 1);
+  EXPECT_GT(energy(scaled, UvNormalization::none), energy(pair, UvNormalization::none) + 1);
+  // One part: as the scene.
+  EXPECT_EQ(energy(scaled, UvNormalization::part), energy(scaled, UvNormalization::scene));
 }
 
 }  // namespace

@@ -53,7 +53,9 @@ DistortionNumbers distortion_numbers(const DistortionReport& r) {
           {"seam_length_mm", r.seam_length_mm},
           {"seam_phase_jump", r.seam_phase_jump},
           {"area_mm2", r.area_mm2},
-          {"uv_area", r.uv_area}};
+          {"uv_area", r.uv_area},
+          {"uv_scale.min", r.uv_scale.min},
+          {"uv_scale.max", r.uv_scale.max}};
 }
 
 Json distortion_json(const DistortionReport& report) {

@@ -6,27 +6,36 @@
 #include "json/scene_json.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/machine.hpp"
+#include "papilla/pipeline/measure_scene.hpp"
 
 namespace papilla::app {
 
 Json evaluation_json(const EvaluateOptions& options, std::time_t started, int threads, std::uint64_t seed) {
   const Machine machine = this_machine();
-  return {{"kind", options.kind},
-          {"version", version()},
-          {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(started))},
-          {"machine",
-           {{"cpu", machine.cpu},
-            {"cores", machine.cores},
-            {"memory_mib", machine.memory_mib},
-            {"kernel", machine.kernel}}},
-          {"options",
-           {{"files", options.files},
-            {"repeats", options.repeats},
-            {"seconds", options.seconds},
-            {"threads", threads},
-            {"seed", seed},
-            {"chord_mm", options.read.chord_mm},
-            {"angle_deg", options.read.angle_deg}}}};
+  Json json = {{"kind", options.kind},
+               {"version", version()},
+               {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(started))},
+               {"machine",
+                {{"cpu", machine.cpu},
+                 {"cores", machine.cores},
+                 {"memory_mib", machine.memory_mib},
+                 {"kernel", machine.kernel}}},
+               {"options",
+                {{"files", options.files},
+                 {"repeats", options.repeats},
+                 {"seconds", options.seconds},
+                 {"threads", threads},
+                 {"seed", seed},
+                 {"chord_mm", options.read.chord_mm},
+                 {"angle_deg", options.read.angle_deg}}}};
+  if (options.kind == "param") {
+    json["options"]["charts"] = chart_source_name(options.param.charts);
+    json["options"]["normalize"] = uv_normalization_name(options.param.normalize);
+    json["options"]["methods"] = Json::array();
+    for (const UnwrapMethod method : options.param.methods)
+      json["options"]["methods"].push_back(unwrap_method_name(method));
+  }
+  return json;
 }
 
 Json runs_json(const std::vector<EvaluationRun>& runs) {

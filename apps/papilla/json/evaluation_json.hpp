@@ -12,7 +12,7 @@ namespace papilla::app {
 // Results of `evaluate` under the key names of docs/files.md.
 
 /// kind, version, started, machine {cpu, cores, memory_mib, kernel}, options {files[], repeats, seconds, threads, seed,
-/// chord_mm, angle_deg}.
+/// chord_mm, angle_deg; of param: charts, normalize, methods[]}.
 Json evaluation_json(const EvaluateOptions& options, std::time_t started, int threads, std::uint64_t seed);
 
 /// runs[] {method, solver, input, error_name, trace[] {seconds, error}, repeats[][] {seconds, error}, stop, notes,

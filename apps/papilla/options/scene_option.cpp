@@ -37,7 +37,8 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->check(not_negative())
       ->capture_default_str()
       ->group("Input");
-  verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY, OFF), or instead of a CAD file's own")
+  verb.add_option("--unit", unit,
+                  "Unit of files that carry none (STL, OBJ, PLY, OFF, AC), or instead of the file's own (not glTF)")
       ->transform(one_of({"file", "mm", "cm", "m", "in", "ft"}))
       ->capture_default_str()
       ->group("Input");

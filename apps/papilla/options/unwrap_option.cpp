@@ -58,8 +58,9 @@ void choose_solver(const std::string& name, MethodOptions& method) {
 
 MethodOptions method_options(const UnwrapOption& options) {
   MethodOptions method = options.unwrap.method;
-  if (!takes_charts(method.method) && method.charts == ChartSource::keep)
-    throw UsageError("--charts keep: " + unwrap_method_name(method.method) + " makes its own charts");
+  if (!takes_charts(method.method) && method.charts != ChartSource::automatic)
+    throw UsageError("--charts " + chart_source_name(method.charts) + ": " + unwrap_method_name(method.method) +
+                     " makes its own charts");
   choose_solver(options.solver, method);
   if (method.method != UnwrapMethod::levy) {
     if (!options.pins.empty()) throw UsageError("--pin needs --method levy");
@@ -209,9 +210,9 @@ void UnwrapOption::add_to(CLI::App& verb) {
       "CAD surface's parameters; "
       "triplanar, planar, intermediate: projections; environment: sphere map, for previews");
   add_effort(verb, unwrap.method.effort);
-  add_choice<ChartSource>(verb, "--charts", unwrap.method.charts,
-                          {{"auto", ChartSource::automatic}, {"keep", ChartSource::keep}},
-                          "auto (default): segment the surface; keep: each component is one chart");
+  add_choice<ChartSource>(verb, "--charts", unwrap.method.charts, chart_sources(),
+                          "auto (default): segment the surface; keep: each component is one chart; uv: the file's own "
+                          "texture coordinates, cut at their seams");
   verb.add_option(
           "--solver", solver,
           "lscm: hermitian (default), cgal; maillot: gauss-newton, gradient-descent; levy: direct, gauss-seidel")

@@ -56,7 +56,9 @@ void add_inspect(CLI::App& program) {
                             {"inspect", "Show what a file holds: parts, materials, and what is wrong with the meshes.",
                              "papilla inspect seat.obj --json -"},
                             [options](VerbContext& context) { return run(*options, context); });
-  reads(verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB or glTF file"))->type_name("FILE")->required();
+  reads(verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB, glTF, FBX, 3MF, DAE, AC, X3D or BLEND file"))
+      ->type_name("FILE")
+      ->required();
   writes(verb->add_option("--picture", options->picture,
                           "Picture of the scene with its triangles; red: edges of one triangle"))
       ->type_name("PNG");

@@ -31,6 +31,7 @@ struct Options {
   std::vector<std::string> gates;
   SceneOptions scene;
   double texture_px = 1024, uv_per_texture = 1;
+  UvNormalization normalize = UvNormalization::scene;
 };
 
 /// NAME=VALUE, the name with dots for nested keys.
@@ -94,11 +95,13 @@ Json run(const Options& options, VerbContext& context) {
     gated_value({}, gates.back().name);  // an unknown name is reported before the work
   }
   MeasureOptions measure;
+  measure.normalize = options.normalize;
   measure.texture_px = {options.texture_px, options.texture_px};
   measure.uv_per_texture = {options.uv_per_texture, options.uv_per_texture};
   Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
   const SceneDistortion distortion = named_by(options.input, [&] { return measure_scene(scene, measure); });
   Json result = distortion_json(distortion.report);
+  result["normalize"] = uv_normalization_name(options.normalize);
   result["worst_chart"] = worst_chart_json(scene, distortion);
   context.console.print(distortion_text(scene, distortion));
   if (!options.picture.empty())
@@ -150,6 +153,9 @@ void add_measure(CLI::App& program) {
       ->check(in_range(1e-9, 1e9))
       ->type_name("UV")
       ->capture_default_str();
+  add_choice<UvNormalization>(*verb, "--normalize", options->normalize, uv_normalizations(),
+                              "What shares the factor that makes areas in uv those in space: scene (default), part, "
+                              "chart; none: uv count as mm");
   options->scene.add_to(*verb);
 }
 

@@ -48,7 +48,9 @@ void add_repair(CLI::App& program) {
                             {"repair", "Make clean, oriented, manifold parts of whatever a file holds.",
                              "papilla repair scan.stl -o clean.glb"},
                             [options](VerbContext& context) { return run(*options, context); });
-  reads(verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB or glTF file"))->type_name("IN")->required();
+  reads(verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB, glTF, FBX, 3MF, DAE, AC, X3D or BLEND file"))
+      ->type_name("IN")
+      ->required();
   writes(verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write"))
       ->type_name("OUT")
       ->required();

@@ -16,14 +16,50 @@
 #include "cad_parallel.hpp"
 #include "cad_tessellate.hpp"
 #include "cad_tree.hpp"
-#include "isolated.hpp"
 #include "occt_session.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/unit_name.hpp"
+#include "papilla/io/isolated.hpp"
+#include "papilla/io/scene_stream.hpp"
 
 namespace papilla {
+
+// What a report sends through the pipe of its process.
+
+template <class Pipe, class Value>
+requires std::is_same_v<std::remove_const_t<Value>, CadPartReport>
+void visit_value(Pipe& pipe, Value& part) {
+  pipe(part.part), pipe(part.max_deviation_mm), pipe(part.max_angle_deg), pipe(part.added_nodes);
+}
+
+template <class Pipe, class Value>
+requires std::is_same_v<std::remove_const_t<Value>, CadFaceNote>
+void visit_value(Pipe& pipe, Value& note) { pipe(note.part), pipe(note.face), pipe(note.reason), pipe(note.tried); }
+
+template <class Pipe, class Value>
+requires std::is_same_v<std::remove_const_t<Value>, CadReport>
+void visit_value(Pipe& pipe, Value& report) {
+  pipe(report.solids), pipe(report.faces), pipe(report.triangles), pipe(report.added_nodes);
+  pipe(report.dropped_triangles), pipe(report.failed_faces), pipe(report.repaired_faces), pipe(report.off_faces);
+  pipe(report.parts), pipe(report.max_deviation_mm), pipe(report.max_angle_deg);
+  pipe(report.seconds_read), pipe(report.seconds_tessellate), pipe(report.seconds_convert);
+}
+
 namespace {
+
+void send(int pipe, const Scene& scene, const CadReport& report) {
+  ValueSender sender(pipe);
+  sender(scene);
+  sender(report);
+  sender.flush();
+}
+
+void receive(int pipe, Scene& scene, CadReport& report) {
+  ValueReceiver receiver(pipe);
+  receiver(scene);
+  receiver(report);
+}
 
 void check_options(const CadReadOptions& options) {
   const auto refuse = [](const std::string& what, double value) {
@@ -130,7 +166,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
            const ProgressCallback& progress) {
   Stopwatch watch;
   report_progress(progress, "read", 0);
-  cad::allow_processor_time(reading_seconds(path));
+  allow_processor_time(reading_seconds(path));
   cad::CadTree tree = cad::build_tree(cad::read_document(path, progress));
   const double unit = options.millimetres_per_unit.value_or(tree.scene.millimetres_per_unit);
   if (tree.scene.format == "BREP" && !options.millimetres_per_unit)
@@ -139,7 +175,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   check_size(path, tree.shapes, unscaled);
   report.seconds_read = watch.restart();
 
-  cad::allow_processor_time(tessellating_seconds(tree.shapes));
+  allow_processor_time(tessellating_seconds(tree.shapes));
   std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, unscaled, progress);
   report.seconds_tessellate = watch.restart();
 
@@ -180,10 +216,15 @@ Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options,
   CadReport& filled = report ? *report : own;
   filled = {};
   if (!options.isolated) return read_in_this_process(path, options, filled, progress);
-  return cad::run_isolated(path, filled, progress,
-                           [&](CadReport& child_report, const ProgressCallback& child_progress) {
-                             return read_in_this_process(path, options, child_report, child_progress);
-                           });
+  Scene scene;
+  run_isolated({path, "the CAD library",
+                [&](const ProgressCallback& child_progress) {
+                  cad::after_fork();
+                  scene = read_in_this_process(path, options, filled, child_progress);
+                },
+                [&](int pipe) { send(pipe, scene, filled); }, [&](int pipe) { receive(pipe, scene, filled); }},
+               progress);
+  return scene;
 }
 
 bool is_cad_extension(const std::filesystem::path& path) {

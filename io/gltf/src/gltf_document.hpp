@@ -94,9 +94,9 @@ void read_materials(const Document& document, AccessorReader& reader, Scene& sce
 
 /// Turns the meshes of a document into the parts of a scene, in the same order.
 /// Adds a default material when a primitive names none. @pre `scene.materials` have been read.
-/// @param tag_channel  GltfReadOptions::tag_channel.
+/// @param tag_channel, cad_uv  of GltfReadOptions.
 /// @returns GltfOrigin::parts.
 std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReader& reader, bool tag_channel,
-                                         Scene& scene);
+                                         bool cad_uv, Scene& scene);
 
 }  // namespace papilla::gltf

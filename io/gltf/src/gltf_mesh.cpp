@@ -16,13 +16,15 @@
 namespace papilla::gltf {
 namespace {
 
+/// CAD (u,v) as write_glb() keeps them.
+constexpr const char* k_cad_attribute = "_CAD_UV";
 constexpr const char* k_draco = "KHR_draco_mesh_compression";
 constexpr Index k_unused = std::numeric_limits<Index>::max();
 
 /// What a primitive's vertices carry; an attribute that is missing is empty.
 struct Vertices {
   std::size_t count = 0;
-  std::vector<double> positions, normals, uv, uv1, colors;
+  std::vector<double> positions, normals, uv, uv1, cad_uv, colors;
   int color_components = 4;
 };
 
@@ -32,10 +34,10 @@ struct PartBuilder {
   GltfOrigin::Part origin;
   VertexWelder welder;
   bool has_normals = false;
-  std::vector<std::uint8_t> carries;  ///< Per triangle: k_uv, k_uv1, k_colors of its primitive.
+  std::vector<std::uint8_t> carries;  ///< Per triangle: k_uv, k_uv1, k_colors, k_cad_uv of its primitive.
 };
 
-constexpr std::uint8_t k_uv = 1, k_uv1 = 2, k_colors = 4;
+constexpr std::uint8_t k_uv = 1, k_uv1 = 2, k_colors = 4, k_cad_uv = 8;
 
 /// glTF's v runs down.
 Vec2 uv_at(const std::vector<double>& numbers, std::size_t i) { return {numbers[2 * i], 1 - numbers[2 * i + 1]}; }
@@ -76,8 +78,8 @@ std::optional<int> attribute(const tinygltf::Primitive& primitive, const char* n
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(const Document& document, AccessorReader& reader, bool tag_channel, Scene& scene)
-      : document_(document), reader_(reader), tag_channel_(tag_channel), scene_(scene) {}
+  PrimitiveReader(const Document& document, AccessorReader& reader, bool tag_channel, bool cad_uv, Scene& scene)
+      : document_(document), reader_(reader), tag_channel_(tag_channel), cad_uv_(cad_uv), scene_(scene) {}
 
   void read(const tinygltf::Primitive& primitive, std::uint32_t number, const std::string& where,
             PartBuilder& builder) {
@@ -122,6 +124,7 @@ class PrimitiveReader {
     vertices.normals = optional_numbers(primitive, "NORMAL", 3, vertices.count, where);
     vertices.uv = optional_numbers(primitive, "TEXCOORD_0", 2, vertices.count, where);
     vertices.uv1 = optional_numbers(primitive, channel_1(primitive.material).c_str(), 2, vertices.count, where);
+    if (cad_uv_) vertices.cad_uv = optional_numbers(primitive, k_cad_attribute, 2, vertices.count, where);
     if (const auto color = attribute(primitive, "COLOR_0")) {
       vertices.color_components = reader_.accessor(*color, where).type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
       vertices.colors = optional_numbers(primitive, "COLOR_0", vertices.color_components, vertices.count, where);
@@ -150,6 +153,7 @@ class PrimitiveReader {
       vertices.color_components = reader_.accessor(*color, where).type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
       attributes.back().components = vertices.color_components;
     }
+    if (cad_uv_) attributes.push_back({k_cad_attribute, 2, &vertices.cad_uv});
     DracoRequest request = compressed_sizes(primitive, where);
     const tinygltf::Value& ids = extension.Get("attributes");
     for (CompressedAttribute& wanted : attributes) {
@@ -255,13 +259,13 @@ class PrimitiveReader {
   }
 
   /// Adds the triangles with all attributes. Values of those that this primitive lacks keep the numbering common.
-  static void append(const Vertices& vertices, const std::vector<Triangle>& triangles, std::uint32_t slot,
-                     PartBuilder& builder) {
+  void append(const Vertices& vertices, const std::vector<Triangle>& triangles, std::uint32_t slot,
+              PartBuilder& builder) const {
     TriangleMesh& mesh = builder.part.mesh;
     builder.has_normals |= !vertices.normals.empty();
     const auto carries =
         static_cast<std::uint8_t>((vertices.uv.empty() ? 0 : k_uv) | (vertices.uv1.empty() ? 0 : k_uv1) |
-                                  (vertices.colors.empty() ? 0 : k_colors));
+                                  (vertices.colors.empty() ? 0 : k_colors) | (vertices.cad_uv.empty() ? 0 : k_cad_uv));
     builder.carries.insert(builder.carries.end(), triangles.size(), carries);
     std::vector<Index> welded(vertices.count, k_unused), compact(vertices.count, k_unused);
     for (const Triangle& triangle : triangles) {
@@ -273,6 +277,10 @@ class PrimitiveReader {
           compact[v] = static_cast<Index>(mesh.uv.values.size());
           mesh.uv.values.push_back(vertices.uv.empty() ? Vec2{} : uv_at(vertices.uv, v));
           mesh.uv1.values.push_back(vertices.uv1.empty() ? Vec2{} : uv_at(vertices.uv1, v));
+          if (cad_uv_)
+            mesh.cad_uv.values.push_back(vertices.cad_uv.empty() ? Vec2{}
+                                                                 : Vec2{vertices.cad_uv[2 * std::size_t{v}],
+                                                                        vertices.cad_uv[2 * std::size_t{v} + 1]});
           mesh.colors.values.push_back(vertices.colors.empty() ? Color{} : color_at(vertices, v));
           mesh.normals.values.push_back(vertices.normals.empty() ? Vec3{} : normalized(vec3_at(vertices.normals, v)));
         }
@@ -287,7 +295,7 @@ class PrimitiveReader {
 
   const Document& document_;
   AccessorReader& reader_;
-  bool tag_channel_;
+  bool tag_channel_, cad_uv_;
   Scene& scene_;
   std::optional<std::uint32_t> default_material_;
 };
@@ -318,6 +326,15 @@ void number_attribute(CornerAttribute<T>& attribute, const std::vector<Triangle>
     if (!carried(carries[t])) attribute.indices[t] = {k_no_value, k_no_value, k_no_value};
 }
 
+/// write_glb() has no other way to say that a triangle has no CAD (u,v).
+void drop_constant(CornerAttribute<Vec2>& attribute) {
+  for (Triangle& t : attribute.indices) {
+    if (t[0] == k_no_value) continue;
+    const Vec2 value = attribute.values[t[0]];
+    if (attribute.values[t[1]] == value && attribute.values[t[2]] == value) t = {k_no_value, k_no_value, k_no_value};
+  }
+}
+
 /// Keeps the attributes that at least one primitive has; all share the corner numbers collected in mesh.uv.
 Part finish(PartBuilder builder) {
   TriangleMesh& mesh = builder.part.mesh;
@@ -326,6 +343,8 @@ Part finish(PartBuilder builder) {
   number_attribute(mesh.uv, numbers, builder.carries, k_uv);
   number_attribute(mesh.uv1, numbers, builder.carries, k_uv1);
   number_attribute(mesh.colors, numbers, builder.carries, k_colors);
+  number_attribute(mesh.cad_uv, numbers, builder.carries, k_cad_uv);
+  drop_constant(mesh.cad_uv);
   if (builder.has_normals)
     mesh.normals.indices = numbers;
   else
@@ -342,15 +361,16 @@ void note_losses(const tinygltf::Primitive& primitive, const std::string& where,
     if (name != k_draco) losses.insert(name + " of " + where);
   for (const auto& [name, accessor] : primitive.attributes) {
     if (name == "JOINTS_0") losses.insert("skin weights of " + where);
-    if (name.starts_with("_") || name == "TEXCOORD_2" || name == "COLOR_1") losses.insert(name + " of " + where);
+    if ((name.starts_with("_") && name != k_cad_attribute) || name == "TEXCOORD_2" || name == "COLOR_1")
+      losses.insert(name + " of " + where);
   }
 }
 
 }  // namespace
 
 std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReader& reader, bool tag_channel,
-                                         Scene& scene) {
-  PrimitiveReader primitives(document, reader, tag_channel, scene);
+                                         bool cad_uv, Scene& scene) {
+  PrimitiveReader primitives(document, reader, tag_channel, cad_uv, scene);
   std::vector<GltfOrigin::Part> origins;
   std::set<std::string> losses;
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {

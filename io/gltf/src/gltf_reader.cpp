@@ -219,26 +219,35 @@ std::vector<bool> parts_of_only(const Scene& scene, const std::vector<bool>& fla
   return only;
 }
 
-std::set<std::uint32_t> parts_below(const Scene& scene, std::vector<std::uint32_t> nodes) {
+/// Nodes below these, and themselves, that show a part; ascending.
+std::vector<std::uint32_t> uses_below(const Scene& scene, std::vector<std::uint32_t> nodes) {
   std::vector<bool> below(scene.nodes.size(), false);
   flag_below(scene, std::move(nodes), below);
-  std::set<std::uint32_t> parts;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    if (below[i] && scene.nodes[i].part) parts.insert(*scene.nodes[i].part);
-  return parts;
+  std::vector<std::uint32_t> uses;
+  for (std::uint32_t i = 0; i < scene.nodes.size(); ++i)
+    if (below[i] && scene.nodes[i].part) uses.push_back(i);
+  return uses;
 }
 
-/// Gives the parts of coarser levels the name of the part whose levels they are, where it is one.
+/// Gives the parts of coarser levels the name of the part whose levels they are, where it is one, and lists their uses.
+/// @param lower  flags of the nodes that are coarser levels.
 /// @param only_lower  flags of the parts that no finest level shows.
-void name_coarser_parts(const Document& document, const std::vector<bool>& only_lower, Scene& scene) {
+void link_coarser_parts(const Document& document, const std::vector<bool>& lower, const std::vector<bool>& only_lower,
+                        Scene& scene, GltfOrigin& origin) {
+  std::set<std::uint32_t> linked;
   for (std::uint32_t i = 0; i < document.model.nodes.size(); ++i) {
     const std::vector<std::uint32_t> ids = lower_levels(document, i);
-    if (ids.empty()) continue;
-    std::set<std::uint32_t> finest = parts_below(scene, {i});
-    std::erase_if(finest, [&](std::uint32_t part) { return only_lower[part]; });
-    if (finest.size() != 1) continue;
-    for (const std::uint32_t part : parts_below(scene, ids))
-      if (only_lower[part]) scene.parts[part].name = scene.parts[*finest.begin()].name;
+    if (ids.empty() || lower[i]) continue;
+    std::vector<std::uint32_t> finest = uses_below(scene, {i});
+    std::erase_if(finest, [&](std::uint32_t node) { return lower[node]; });
+    const auto is_first = [&](std::uint32_t node) { return scene.nodes[node].part == scene.nodes[finest[0]].part; };
+    if (finest.empty() || !std::all_of(finest.begin(), finest.end(), is_first)) continue;
+    for (const std::uint32_t node : uses_below(scene, ids)) {
+      const std::uint32_t part = *scene.nodes[node].part;
+      if (!only_lower[part] || !linked.insert(origin.nodes[node]).second) continue;
+      scene.parts[part].name = scene.parts[*scene.nodes[finest[0]].part].name;
+      origin.levels.push_back({origin.nodes[node], part, finest[0]});
+    }
   }
 }
 
@@ -258,7 +267,9 @@ void keep_finest_levels(const Document& document, bool keep_parts, Scene& scene,
   }
   if (levels == 0) return;
   const std::vector<bool> only_lower = parts_of_only(scene, lower);
-  if (keep_parts) name_coarser_parts(document, only_lower, scene);
+  if (keep_parts) link_coarser_parts(document, lower, only_lower, scene, origin);
+  const std::vector<std::uint32_t> numbers = numbers_of_kept(lower);
+  for (GltfOrigin::Level& level : origin.levels) level.finest = numbers[level.finest];
   drop_nodes(scene, lower);
   drop(origin.nodes, lower);
   if (!keep_parts) {
@@ -460,7 +471,7 @@ Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& option
   AccessorReader reader(document);
   gltf::read_materials(document, reader, scene);
   GltfOrigin origin;
-  origin.parts = gltf::read_parts(document, reader, options.tag_channel, scene);
+  origin.parts = gltf::read_parts(document, reader, options.tag_channel, options.cad_uv, scene);
   if (options.tag_channel)
     for (Material& material : scene.materials) move_tag_channel(material);
   read_nodes(document, scene);

@@ -100,8 +100,8 @@ Evaluation evaluate(const EvaluateOptions& options, const ProgressCallback& prog
   if (options.files.empty())
     evaluation.files = write_built_in_inputs(kind->name, folder.emplace("papilla-evaluate").path());
   for (const std::string& file : evaluation.files) {
-    const EvaluationInput input{file, report_name(file, evaluation.files), options.read, progress,
-                                Budget(options.seconds)};
+    const EvaluationInput input{
+        file, report_name(file, evaluation.files), options.read, progress, Budget(options.seconds), options.param};
     std::vector<EvaluationRun> runs = run_repeatedly(*kind, input, options.repeats);
     std::move(runs.begin(), runs.end(), std::back_inserter(evaluation.runs));
   }

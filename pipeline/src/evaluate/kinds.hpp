@@ -18,6 +18,7 @@ struct EvaluationInput {
   ReadOptions read;
   ProgressCallback progress;
   Budget budget = {};
+  ParamComparison param = {};
 };
 
 /// weld(): boundary edges and deviation for a ladder of tolerances.
@@ -33,7 +34,8 @@ std::vector<EvaluationRun> evaluate_tessellation(const EvaluationInput& input);
 /// segment_charts(): distortion and seams for a ladder of seam costs.
 std::vector<EvaluationRun> evaluate_charts(const EvaluationInput& input);
 
-/// All ways to map one chart: error for a ladder of iterations, and the methods' own traces.
+/// All ways to map the same charts: error for a ladder of iterations, the methods' own traces, and EvaluatedMap.
+/// @throws InvalidInput where there are no such charts.
 std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input);
 
 /// environment_uv() over the resolution: the mesh and simplified ones of it, down to 1/64 of the triangles. The map is

@@ -15,6 +15,7 @@ struct GlbWriteOptions {
   /// and take precedence: tools drop an extension that they do not know.
   bool mirror_mpeg_haptics = false;  ///< MPEG_material_haptic: height maps as vibrotactile textures of whole meshes.
   bool mirror_khr_physics = false;   ///< KHR_physics_rigid_bodies: friction as physics materials of colliders.
+  bool cad_uv = true;  ///< CAD (u,v) as the vertex attribute _CAD_UV: it splits vertices between CAD faces.
 };
 
 /// Writes a scene as one .glb file: millimetres become metres, v becomes 1 − v, and a root node turns Z up to Y up.
@@ -24,7 +25,8 @@ struct GlbWriteOptions {
 /// that no scene names, as the vendor extension MSFT_lod has it: the node that shows the part lists them, and its
 /// extras hold one MSFT_screencoverage a level, the last 0; a node with children gets one more child to that end.
 /// Corners that agree in all attributes (after rounding to 32-bit floats) share a vertex. Materials with a normal
-/// texture get tangents. `asset.extras` states the source's format and unit. CAD (u,v), face numbers, references to
+/// texture get tangents. `asset.extras` states the source's format and unit. CAD (u,v) become 32-bit floats in
+/// _CAD_UV, 0 where a triangle of a primitive with them has none. Face numbers, references to
 /// missing pictures and to texture channels above 1 have no place in glTF and are left out. The file has no errors or
 /// warnings in the Khronos validator, the same scene gives the same bytes, and a failure leaves the old file as it was.
 /// @returns what has no place in glTF, one sentence each.

@@ -48,6 +48,9 @@ struct GltfEditResult {
 /// Writes a glTF file with new haptic tags and, where asked for, relief; all else stays as it is. No member of the
 /// document changes that is not listed, every original bufferView keeps its bytes, new data follow behind.
 ///
+/// Of parts that the origin says to be of one mesh the first keeps it. The others get copies, of the same name and on
+/// the same data, which the nodes that show them name; animations of the mesh (KHR_animation_pointer) move them, too.
+///
 /// A tag goes into the material. Where others show the material, too, or tags differ, a copy is appended and named by
 /// the primitives, and by their variants (KHR_materials_variants); coarser materials (MSFT_lod) are tagged with theirs,
 /// and animations of a material (KHR_animation_pointer) move its copies, too. New uv are one more TEXCOORD of the
@@ -55,7 +58,7 @@ struct GltfEditResult {
 /// written anew with the vertex repeated at the end, in their component types. Primitives that get a normal map get
 /// TANGENT, too. Draco data that would have to change are written decoded. The list of tags (tag_manifest.hpp) is
 /// brought up to date. The same input gives the same bytes.
-/// @param source  what `scene` and `origin` were read from.
+/// @param source  what `scene` and `origin` were read from. @pre An entry of GltfOrigin::nodes shows one part.
 /// @param output  .gltf: with binary data and new pictures in files beside it, named after it, and copies of the files
 ///         that the source names, at the same places below the output's folder. Any other name: one GLB.
 /// @throws IoError, InvalidInput as read_gltf(); InvalidInput naming the material whose extras are no object, or the

@@ -55,14 +55,13 @@ std::vector<std::string> write_off(const Scene& scene, const std::filesystem::pa
 /// Reads a PLY 1.0 file, ASCII or binary of either byte order, with properties of any type in any order, as one part.
 ///
 /// Of vertices: x y z, nx ny nz, red green blue alpha (integers are divided by their largest value; sRGB), and texture
-/// coordinates s t, u v, texture_u texture_v or texture_s texture_t. Of faces: the list vertex_indices or
-/// vertex_index (polygons of any shape are cut into triangles), texcoord (a pair per corner, as MeshLab writes it),
-/// texnumber, red green blue alpha. Of tristrips: vertex_indices, −1 starts a new strip. Every "comment TextureFile"
-/// becomes a material with that picture. Vertices are not merged.
-/// Other properties and elements are listed in `losses`; faces of fewer than three corners, values other than positions
-/// that are not finite, and pictures that are missing in `warnings`.
-/// Cost: linear in the file's size, quadratic in the corners of a concave polygon; the file's size, and about 60 bytes
-/// per triangle. Deterministic.
+/// coordinates s t, u v, texture_u texture_v or texture_s texture_t, and CAD (u,v) cad_u cad_v. Of faces: the list
+/// vertex_indices or vertex_index (polygons of any shape are cut into triangles), texcoord (a pair per corner, as
+/// MeshLab writes it), cad_uv (the same), texnumber, red green blue alpha. Of tristrips: vertex_indices, −1 starts a
+/// new strip. Every "comment TextureFile" becomes a material with that picture. Vertices are not merged. Other
+/// properties and elements are listed in `losses`; faces of fewer than three corners, values other than positions that
+/// are not finite, and pictures that are missing in `warnings`. Cost: linear in the file's size, quadratic in the
+/// corners of a concave polygon; the file's size, and about 60 bytes per triangle. Deterministic.
 /// @throws IoError when the file can't be read; InvalidInput naming file, line (ASCII) or byte, and reason for
 ///         everything else.
 /// Source: Turk, "The PLY Polygon File Format", 1994.
@@ -71,7 +70,8 @@ Scene read_ply(const std::filesystem::path& path, const ReadOptions& options = {
 /// Writes all instances of a scene as one binary little-endian PLY of triangles in millimetres and the scene's axes,
 /// node transforms applied: 32-bit floats, colours as 8-bit sRGB. Positions stay shared: normals and colours are
 /// written when they have one value at every position; texture coordinates then as s, t of the vertices, else as
-/// MeshLab's texcoord of the faces. The same scene gives the same bytes; a failure leaves the old file as it was.
+/// MeshLab's texcoord of the faces; so are CAD (u,v), as cad_u, cad_v, or as a list cad_uv of the faces. The same scene
+/// gives the same bytes; a failure leaves the old file as it was.
 /// @returns what PLY has no place for, one sentence each.
 /// @throws InvalidInput when a number is not finite as a 32-bit float or an index is out of range; IoError when writing
 ///         fails.

@@ -15,7 +15,7 @@ namespace papilla {
 bool is_gltf_file(const std::filesystem::path& path);
 
 /// Reads a file by its extension, in any case: .step .stp .p21 .iges .igs .brep .brp, .stl, .obj,
-/// .ply, .off, .glb, .gltf.
+/// .ply, .off, .glb, .gltf, .fbx, .3mf, .dae, .ac, .x3d, .blend.
 /// CAD surfaces are tessellated; faces that could not be are named in Scene::losses.
 /// @throws IoError when the file can't be read; InvalidInput when the extension is unknown (the message lists
 ///         the known ones) or the content is not what the extension says.

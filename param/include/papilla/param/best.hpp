@@ -6,6 +6,7 @@
 
 #include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
+#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -20,8 +21,9 @@ struct BestOptions {
   int max_iterations = 50;  ///< Newton iterations on the whole chart; at least 0.
   /// Levels with more vertices are relaxed vertex by vertex only: a step takes 2 kB of memory per vertex.
   std::size_t newton_vertices = 200'000;
-  ProgressCallback progress;  ///< Told the fraction of the triangles that are mapped; may be empty.
-  Deadline deadline;          ///< Charts that have no map by then are projected, the others are left as they are.
+  ProgressCallback progress;      ///< Told the fraction of the triangles that are mapped; may be empty.
+  Deadline deadline;              ///< Charts that have no map by then are projected, the others are left as they are.
+  ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
   /// A chart with a larger E / ΣA counts as one without a valid map, for callers that would rather cut it; at least 4.
   double energy_limit = std::numeric_limits<double>::infinity();
   bool fall_back = true;        ///< Project charts that are no disk, with a note; false: throw.

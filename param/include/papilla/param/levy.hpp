@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -60,8 +61,9 @@ struct LevyOptions {
   /// Rounds that ask for lengths anew, along the directions just found, where `length` counts and the border is free,
   /// the coupling conformal, the solver direct; at least 0: evenness of lengths is all.
   int length_rounds = 1;
-  int max_sweeps = 1000;  ///< Of gauss_seidel, per round; at least 1.
-  Deadline deadline;      ///< As BestOptions has it.
+  int max_sweeps = 1000;          ///< Of gauss_seidel, per round; at least 1.
+  Deadline deadline;              ///< As BestOptions has it.
+  ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
   /// With pins the chart keeps the place and scale that they give. Pins on a free border must differ in u and in v.
   std::vector<LevyPin> pins;
   std::vector<LevyIsoLine> iso_lines;

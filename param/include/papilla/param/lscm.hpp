@@ -2,6 +2,7 @@
 #pragma once
 
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -16,7 +17,8 @@ enum class LscmSolver {
 struct LscmOptions {
   UpAxis up = UpAxis::z;
   LscmSolver solver = LscmSolver::hermitian;
-  Deadline deadline;  ///< Charts not begun by then are projected; one that is begun is finished.
+  Deadline deadline;              ///< Charts not begun by then are projected; one that is begun is finished.
+  ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
   /// What a chart gets that has no valid map: one as flatten_best() makes, or planar projections of its pieces when it
   /// is no disk, with a note; or, when false, an exception.
   bool fall_back = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -29,6 +30,7 @@ struct MaillotOptions {
                              ///< area; in (0, 1).
   int max_iterations = 500;  ///< At least 0.
   Deadline deadline;         ///< As BestOptions has it.
+  ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
   /// E has no wall against triangles that collapse. The descent ends where it would raise the mean symmetric Dirichlet
   /// energy (of the map scaled to equal area) above this multiple of the start's; at least 1, or 0: no limit.
   double distortion_limit = 1.004;

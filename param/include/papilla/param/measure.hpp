@@ -9,7 +9,19 @@
 
 namespace papilla {
 
+/// Which triangles share the factor that uv are scaled by before distortion is measured.
+enum class UvNormalization {
+  scene,  ///< All.
+  part,   ///< Those of a part (MeasureOptions::part).
+  chart,  ///< Those of a chart.
+  none,   ///< The factor is 1: uv count as millimetres.
+};
+
 struct MeasureOptions {
+  /// With A the areas in space and a those in uv, the triangles of a group G are scaled by s = √(Σ_G A / Σ_G |a|), so
+  /// that their areas agree. σ1, σ2 are those of the scaled map; so is every field made of them, of edges or of areas
+  /// in uv, but for uv_area, overlap, texel_density and seam_phase_jump, which are those of the uv as they are.
+  UvNormalization normalize = UvNormalization::scene;
   Vec2 texture_px{1024, 1024};  ///< Size of the texture that texel_density is counted for.
   Vec2 uv_per_texture{1, 1};    ///< How many uv units one repeat of the texture covers: 1 for texture
                                 ///< coordinates of files, the tile size in mm for uv in millimetres.
@@ -20,6 +32,10 @@ struct MeasureOptions {
 
 struct MeanMax {
   double mean = 0, max = 0;
+};
+
+struct MinMax {
+  double min = 0, max = 0;
 };
 
 struct MinMeanMax {
@@ -35,7 +51,7 @@ struct Percentiles {
   double p50 = 0, p90 = 0, p99 = 0;
 };
 
-/// What became of one triangle; uv scaled so that total uv area equals total area in space.
+/// What became of one triangle; uv scaled as MeasureOptions::normalize says.
 struct TriangleDistortion {
   double area_mm2 = 0;
   double sigma1 = 0, sigma2 = 0;  ///< Singular values of the map from space to uv, sigma1 >= sigma2 >= 0.
@@ -61,6 +77,7 @@ struct DistortionReport {
       0;  ///< Doubled area at most 1e-12 of the longest edge squared, or all edges at most 1e-12 of the extent.
   std::size_t degenerate_uv = 0;  ///< The same in uv, of triangles that are not degenerate in space.
   double area_mm2 = 0, uv_area = 0;
+  MinMax uv_scale;                   ///< The factors s of the charts that have area.
   double seam_length_mm = 0;         ///< Edges of two or more triangles whose uv differ, each once.
   double seam_phase_jump = 0;        ///< Mean over the seams of |uv jump modulo the texture|, in textures; 0 to √½.
   double overlap_area_fraction = 0;  ///< Area of the plane covered more than once / area covered.
@@ -90,7 +107,7 @@ struct DistortionReport {
 /// Measures any uv from any program.
 ///
 /// Every triangle's map from space to uv is affine; with the singular values σ1 >= σ2 of its Jacobian, after scaling
-/// uv by one factor so that total areas agree, the report's fields say what is summed.
+/// uv as MeasureOptions::normalize says, the report's fields say what is summed.
 /// Corners are the same point when positions and uv are equal bit by bit, however they are indexed.
 /// Overlap is found exactly (triangle against triangle, contact up to 1e-9 of the edge lengths does not count), so that
 /// 0 means none; its area is summed in rows, exact along the row. Shares no code with the solvers. Cost: O(n log n),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
 
@@ -17,12 +18,13 @@ enum class ReferenceMap {
 struct ReferenceOptions {
   UpAxis up = UpAxis::z;
   ReferenceMap map = ReferenceMap::arap;
-  double arap_lambda = 1000;     ///< CGAL's λ: 0 keeps angles, larger values keep lengths; not negative.
-  int arap_iterations = 50;      ///< At most; at least 1.
-  double arap_tolerance = 1e-6;  ///< Relative change of the energy at which ARAP stops; 0 or more.
-  Deadline deadline;             ///< Charts not begun by then are projected; one that is begun is finished.
-  bool fall_back = true;         ///< What a chart without a valid map gets: as in LscmOptions.
-  TriplanarOptions projection;   ///< Of the fallback; its `up` is taken from here.
+  double arap_lambda = 1000;      ///< CGAL's λ: 0 keeps angles, larger values keep lengths; not negative.
+  int arap_iterations = 50;       ///< At most; at least 1.
+  double arap_tolerance = 1e-6;   ///< Relative change of the energy at which ARAP stops; 0 or more.
+  Deadline deadline;              ///< Charts not begun by then are projected; one that is begun is finished.
+  ChartMemory* memory = nullptr;  ///< Charts that it has are not mapped again.
+  bool fall_back = true;          ///< What a chart without a valid map gets: as in LscmOptions.
+  TriplanarOptions projection;    ///< Of the fallback; its `up` is taken from here.
 };
 
 /// Maps every chart with CGAL, scales it so that its uv area is its area in space (mm²), and turns it so that v follows

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "papilla/io/scene.hpp"
@@ -29,11 +30,13 @@ struct Assignment {
 
 /// Assigns every surface the material of the first rule that fits it. Parts whose uses get different ones are split.
 /// Cost: O(uses x slots x rules) comparisons, beside surface_places() and split_by_label().
-/// @param rules Must stay as long as the result. @throws InvalidInput as instances().
-Assignment assign_materials(Scene& scene, const Materials& rules);
+/// @param rules Must stay as long as the result. @param levels Get what the finest level gets; they, too, name the
+/// parts that are split. @throws InvalidInput as instances().
+Assignment assign_materials(Scene& scene, const Materials& rules, std::span<GltfOrigin::Level> levels = {});
 
-/// Whether assign_materials() would split a part, at the same cost without the copies.
-bool assigns_uses_apart(const Scene& scene, const Materials& rules);
+/// Whether nodes of one group would get different materials, at the same cost.
+/// @param groups Number of the group of each node, of which all show the same part.
+bool assigns_groups_apart(const Scene& scene, const Materials& rules, std::span<const std::uint32_t> groups);
 
 /// Makes identical parts that are assigned the same rules one part, so that each class is baked once. The assignment's
 /// parts follow; its list of split ones stays as it was.

@@ -20,7 +20,7 @@ struct BakeFileOptions {
 };
 
 /// How a bake is written: a glTF file is edited where nothing is asked for that changes its meshes or nodes (fewer
-/// triangles, parts left out, uses of one mesh with different materials), everything else is written anew.
+/// triangles, parts left out, instances of one node with different materials), everything else is written anew.
 struct BakeWay {
   bool in_place = false;
   std::string reason;
@@ -44,8 +44,9 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
                       const ProgressCallback& progress = {});
 
 /// Reads, bakes and writes a .glb, or a .gltf with files beside it: bake_scene() with write_scene(), or
-/// write_edited_gltf(). In place sheets that face away are turned where they get relief, and those without a side
-/// become double sided there; all others stay and are counted in the plan's sides.
+/// write_edited_gltf(). In place uses of one mesh that get different materials get meshes of their own. Sheets that
+/// face away are turned where they get relief, and those without a side become double sided there, with their coarser
+/// levels of detail; all others stay and are counted in the plan's sides.
 /// @throws as read_scene(), bake_scene(), write_scene(), write_edited_gltf().
 BakeFileResult bake_file(const std::filesystem::path& input, const std::filesystem::path& output,
                          const Materials& rules, const BakeFileOptions& options, const ProgressCallback& progress = {});

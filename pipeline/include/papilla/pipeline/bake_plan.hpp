@@ -51,7 +51,8 @@ struct BakePlanOptions {
   /// For an edit of the scene's file: nothing is shared, pictures stay, and so do triangles but for sheets with relief
   /// that face away, which would be felt inverted.
   bool in_place = false;
-  bool strict = false;  ///< A rule that takes no surface is an error.
+  std::vector<GltfOrigin::Level> levels;  ///< Coarser levels of detail of that file: get what the finest gets.
+  bool strict = false;                    ///< A rule that takes no surface is an error.
 };
 
 /// A scene made ready to be baked, and what shall be done to each of its surfaces.
@@ -61,6 +62,7 @@ struct BakePlan {
   std::vector<PartSurface> surfaces;
   std::vector<RuleUse> rules;    ///< Of every entry of Materials::assign; problems are warnings of the scene, too.
   std::vector<SplitPart> split;  ///< Before identical parts were shared.
+  std::vector<GltfOrigin::Level> levels;  ///< Those of the options, with the parts that they show now.
   std::vector<SharedPart> shared;
   ScenePerception perception;
   std::optional<BudgetResult> budget;         ///< Without its parts' meshes.

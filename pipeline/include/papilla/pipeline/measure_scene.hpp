@@ -3,13 +3,19 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "papilla/io/scene.hpp"
 #include "papilla/param/measure.hpp"
 
 namespace papilla {
+
+/// The normalizations by the names that the command line has for them.
+const std::map<std::string, UvNormalization>& uv_normalizations();
+std::string uv_normalization_name(UvNormalization normalization);
 
 /// The distortion of all parts of a scene that have uv, as one list of triangles.
 struct SceneDistortion {

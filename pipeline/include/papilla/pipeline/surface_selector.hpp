@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "papilla/io/gltf_origin.hpp"
 #include "papilla/io/scene.hpp"
 
 namespace papilla {
@@ -34,7 +35,8 @@ struct SurfaceSelector {
 /// The triangles of one part that share a material, where one node shows them, with the names they go by.
 struct SurfacePlace {
   std::uint32_t part = 0, slot = 0;
-  std::optional<std::uint32_t> node;  ///< None when nothing shows the part.
+  std::optional<std::uint32_t> node;   ///< None when nothing shows the part.
+  std::optional<std::uint32_t> level;  ///< Its number, when a coarser level of detail shows the part.
   std::vector<std::string> parts, meshes, nodes, instances, assemblies, layers, cad_materials, colours, materials;
 };
 
@@ -50,10 +52,11 @@ struct SelectorKey {
 /// All keys that have a pattern; "not" has none.
 std::span<const SelectorKey> selector_keys() noexcept;
 
-/// All places of a scene: nodes depth first, then the parts that no node shows; slots ascending.
+/// All places of a scene: nodes depth first, then coarser levels of detail, which go by the names of the finest, then
+/// the parts that nothing shows; slots ascending.
 /// Cost: O(uses x slots x depth), each with its names.
 /// @throws InvalidInput as instances().
-std::vector<SurfacePlace> surface_places(const Scene& scene);
+std::vector<SurfacePlace> surface_places(const Scene& scene, std::span<const GltfOrigin::Level> levels = {});
 
 /// Cost: O(keys given x names of the place), exceptions included.
 bool fits(const SurfaceSelector& selector, const SurfacePlace& place);
@@ -90,10 +93,10 @@ struct LabelledParts {
 };
 
 /// Makes parts whose uses get different labels several parts, one for each way they are labelled, and lets the nodes
-/// show those. The first use keeps the part; the ids of the others are the paths of their first nodes.
+/// and levels show those. The first use keeps the part; the ids of the others are the paths of their first nodes.
 /// Cost: O(places log places), and a copy of a mesh for each part that is made.
 /// @param places surface_places() of the scene. @param label Of each place.
 LabelledParts split_by_label(Scene& scene, const std::vector<SurfacePlace>& places,
-                             const std::vector<std::uint32_t>& label);
+                             const std::vector<std::uint32_t>& label, std::span<GltfOrigin::Level> levels = {});
 
 }  // namespace papilla

@@ -79,8 +79,22 @@ enum class UnwrapEffort {
 /// The efforts by the names that the command line has for them.
 const std::map<std::string, UnwrapEffort>& unwrap_efforts();
 
-/// Where the charts come from: made by segmentation, or every connected component is one.
-enum class ChartSource { automatic, keep };
+/// Where the charts come from.
+enum class ChartSource {
+  automatic,  ///< segment_charts().
+  keep,       ///< Every connected component is one.
+  uv,         ///< The mesh's own uv: uv_charts().
+};
+
+/// The sources by the names that the command line has for them.
+const std::map<std::string, ChartSource>& chart_sources();
+std::string chart_source_name(ChartSource source);
+
+/// The charts of a mesh that has them already, the same for every method: closed ones and handles are opened by
+/// open_closed_charts(), nothing else is changed. Equal positions must be one vertex. O(n log n); deterministic.
+/// @param source not automatic.
+/// @throws InvalidInput for triangles without uv; for components that are no surface.
+ChartSet given_charts(const TriangleMesh& mesh, ChartSource source);
 
 /// Along what the grain runs.
 enum class GrainSource {
@@ -138,8 +152,10 @@ struct FlattenedPart {
 /// Charts and maps one part. Equal positions must be one vertex. Charts that the method can't map, or that best
 /// distorts beyond worth_halving(), are halved a few times before another map takes their place. Automatic takes
 /// triplanar for parts that are smaller than one repeat of the grain, and for small ones among many under fine grain;
-/// else a method for every chart.
-/// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts.
+/// else a method for every chart. Charts of uv are neither halved nor joined; those that the method can't map get the
+/// map of best, with a note.
+/// @throws what the method throws; InvalidInput, SolverFailure for components that can't be kept as charts;
+/// InvalidInput for charts of uv where triangles have none.
 FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options);
 
 }  // namespace papilla

@@ -89,7 +89,8 @@ UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const 
 /// turn_sheets(), unwrap_part() of every part, and the atlas (channel 0, millimetres; environment: textures, not
 /// placed). Parts run in parallel; the result does not depend on the number of threads. Parts whose method fails keep
 /// what they had and say why; when all fail, the first failure is thrown.
-/// @throws InvalidInput when there is no triangle.
+/// @throws InvalidInput when there is no triangle; naming the part, when charts are to be those of uv and a triangle
+/// has none.
 UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options = {}, const ProgressCallback& progress = {});
 
 }  // namespace papilla

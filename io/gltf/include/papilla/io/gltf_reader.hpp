@@ -17,6 +17,8 @@ struct GltfReadOptions {
   /// The parts of coarser levels of detail stay, without nodes that show them. One below a node that shows a single
   /// part gets that part's name, so that rules for one hold for the other. For those who edit the file.
   bool coarser_parts = false;
+  /// The vertex attribute _CAD_UV becomes TriangleMesh::cad_uv; triangles whose corners have one value have none.
+  bool cad_uv = false;
 };
 
 /// Reads a .glb or .gltf file: meshes, node tree, materials, textures, images (kept encoded), extras.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +12,8 @@
 #include "papilla/core/progress.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/read_options.hpp"
+#include "papilla/param/measure.hpp"
+#include "papilla/pipeline/unwrap_method.hpp"
 
 namespace papilla {
 
@@ -16,6 +21,18 @@ namespace papilla {
 struct ErrorShares {
   std::string error_name;
   std::vector<double> edges, shares;
+};
+
+/// What a method made of an input at its default options: a row of the table of `param`.
+struct EvaluatedMap {
+  std::string input;  ///< File, and the part of it.
+  std::size_t triangles = 0;
+  std::uint32_t given_charts = 0;  ///< All methods get the same.
+  std::uint32_t charts = 0;        ///< Of the map: projections and `natural` make their own.
+  std::size_t replaced = 0;        ///< Charts that the method has no valid map of; they got another one.
+  DistortionReport distortion;     ///< Without per_triangle.
+  bool valid = false;              ///< No triangle flipped or without area, no chart lying over itself.
+  std::string failure;             ///< Why there is no map; empty when there is one.
 };
 
 /// One curve of error over run time.
@@ -30,6 +47,7 @@ struct EvaluationRun {
   bool valid = true;                ///< False: the result can't be used; the run is drawn, but it is on no front.
   ErrorShares shares = {};          ///< Of the last sample; may be empty.
   std::vector<Trace> repeats = {};  ///< Every repeat as measured, the first one included.
+  std::optional<EvaluatedMap> map = std::nullopt;  ///< Of `param`, once per method, solver and input.
 
   std::string name() const { return solver.empty() ? method : method + " (" + solver + ")"; }
 };
@@ -47,13 +65,26 @@ struct EvaluationKind {
 /// All kinds, in the order of the help.
 std::span<const EvaluationKind> evaluation_kinds();
 
+/// What `param` compares.
+struct ParamComparison {
+  std::vector<UnwrapMethod> methods = {};  ///< Empty: all.
+  /// automatic: one chart, the whole part where it can be one. Else all charts that given_charts() makes of the part.
+  ChartSource charts = ChartSource::automatic;
+  UvNormalization normalize = UvNormalization::scene;
+
+  bool has(UnwrapMethod method) const {
+    return methods.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
+  }
+};
+
 /// Options of evaluate().
 struct EvaluateOptions {
   std::string kind;                ///< EvaluationKind::name.
   std::vector<std::string> files;  ///< Empty: the built-in inputs of the kind.
   ReadOptions read;
-  int repeats = 3;      ///< Measure up to this often while the time allows it.
-  double seconds = 60;  ///< Time for each file. No work is begun that is not expected to end in time.
+  int repeats = 3;             ///< Measure up to this often while the time allows it.
+  double seconds = 60;         ///< Time for each file. No work is begun that is not expected to end in time.
+  ParamComparison param = {};  ///< Of the kind `param`; the others ignore it.
 };
 
 struct Evaluation {

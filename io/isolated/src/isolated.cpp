@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "isolated.hpp"
+#include "papilla/io/isolated.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -12,17 +12,17 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
 #include <string>
 #include <utility>
 
-#include "cad_parallel.hpp"
 #include "papilla/core/error.hpp"
-#include "scene_stream.hpp"
+#include "papilla/io/scene_stream.hpp"
 
-namespace papilla::cad {
+namespace papilla {
 namespace {
 
 bool g_is_child = false;
@@ -33,8 +33,7 @@ class Pipe {
  public:
   Pipe() {
     std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0)
-      throw IoError("read_cad: no pipe can be made (" + std::string(std::strerror(errno)) + ")");
+    if (::pipe(ends.data()) != 0) throw IoError("no pipe can be made (" + std::string(std::strerror(errno)) + ")");
     read_ = ends[0];
     write_ = ends[1];
   }
@@ -70,7 +69,7 @@ std::string receive_text(int pipe, double& number) {
   receive_bytes(pipe, &number, sizeof number);
   receive_bytes(pipe, &size, sizeof size);
   constexpr std::uint64_t k_longest = 1 << 20;
-  if (size > k_longest) throw IoError("read_cad: the reading process sent nonsense");
+  if (size > k_longest) throw IoError("the reading process sent nonsense");
   std::string text(static_cast<std::size_t>(size), '\0');
   receive_bytes(pipe, text.data(), text.size());
   return text;
@@ -101,23 +100,20 @@ void be_silent() {
   ::close(nowhere);
 }
 
-[[noreturn]] void be_child(int pipe, const std::function<Scene(CadReport&, const ProgressCallback&)>& work) {
+[[noreturn]] void be_child(int pipe, const IsolatedWork& work) {
   g_is_child = true;
-  after_fork();
   ::signal(SIGPIPE, SIG_DFL);
   limit_child();
   be_silent();
   int code = 0;
   try {
-    CadReport report;
-    const ProgressCallback progress = [pipe](const Progress& done) {
+    work.run([pipe](const Progress& done) {
       send_text(pipe, Message::progress, std::string(done.stage), done.fraction);
       return true;
-    };
-    const Scene scene = work(report, progress);
+    });
     const Message kind = Message::result;
     send_bytes(pipe, &kind, sizeof kind);
-    send_scene(pipe, scene, report);
+    work.send(pipe);
   } catch (const InvalidInput& error) {
     send_text(pipe, Message::invalid_input, error.what());
   } catch (const IoError& error) {
@@ -157,23 +153,23 @@ class Child {
   pid_t id_;
 };
 
-std::string cause_of_death(int status) {
+std::string cause_of_death(int status, const std::string& library) {
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     if (signal == SIGXCPU) return "takes more time than any sound file of its size";
     if (signal == SIGKILL) return "needs more memory than there is";
-    return std::string("makes the CAD library crash (") + ::strsignal(signal) + ")";
+    return "makes " + library + " crash (" + ::strsignal(signal) + ")";
   }
-  return "makes the CAD library give up";
+  return "makes " + library + " give up";
 }
 
 }  // namespace
 
-Scene run_isolated(const std::filesystem::path& path, CadReport& report, const ProgressCallback& progress,
-                   const std::function<Scene(CadReport&, const ProgressCallback&)>& work) {
+void run_isolated(const IsolatedWork& work, const ProgressCallback& progress) {
   Pipe pipe;
   const pid_t id = ::fork();
-  if (id < 0) throw IoError(path.string() + ": no process can be started to read it (" + std::strerror(errno) + ")");
+  if (id < 0)
+    throw IoError(work.path.string() + ": no process can be started to read it (" + std::strerror(errno) + ")");
   if (id == 0) {
     pipe.close_read();
     be_child(pipe.write_end(), work);
@@ -187,15 +183,14 @@ Scene run_isolated(const std::filesystem::path& path, CadReport& report, const P
     try {
       receive_bytes(pipe.read_end(), &kind, sizeof kind);
       if (kind == Message::result) {
-        Scene scene;
-        receive_scene(pipe.read_end(), scene, report);
+        work.receive(pipe.read_end());
         child.wait();
-        return scene;
+        return;
       }
       double number = 0;
       const std::string text = receive_text(pipe.read_end(), number);
       if (kind == Message::invalid_input) throw InvalidInput(text);
-      if (kind == Message::other_error) throw InvalidInput(path.string() + ": " + text);
+      if (kind == Message::other_error) throw InvalidInput(work.path.string() + ": " + text);
       if (kind == Message::progress) {
         stage = text;
         fraction = number;
@@ -205,8 +200,8 @@ Scene run_isolated(const std::filesystem::path& path, CadReport& report, const P
       }
     } catch (const IoError&) {
       if (stage.empty()) throw;
-      const std::string why = cause_of_death(child.wait());
-      throw InvalidInput(path.string() + ": " + why + " (stage '" + stage + "', " +
+      const std::string why = cause_of_death(child.wait(), work.library);
+      throw InvalidInput(work.path.string() + ": " + why + " (stage '" + stage + "', " +
                          std::to_string(static_cast<int>(100 * fraction)) + " % done)");
     }
     if (kind == Message::progress) report_progress(progress, stage, fraction);
@@ -221,4 +216,21 @@ void allow_processor_time(double seconds) {
   limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(now + 1 + seconds)));
 }
 
-}  // namespace papilla::cad
+void allow_memory([[maybe_unused]] double bytes) {
+#if !defined(__SANITIZE_ADDRESS__)
+  rlimit now{};
+  if (!g_is_child || ::getrlimit(RLIMIT_AS, &now) != 0) return;
+  long pages = 0;
+  {
+    const int statm = ::open("/proc/self/statm", O_RDONLY);
+    char text[32] = {};
+    if (statm < 0) return;
+    if (::read(statm, text, sizeof text - 1) > 0) pages = std::strtol(text, nullptr, 10);
+    ::close(statm);
+  }
+  const double taken = static_cast<double>(pages) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  limit(RLIMIT_AS, std::min(now.rlim_cur, static_cast<rlim_t>(taken + bytes)));
+#endif
+}
+
+}  // namespace papilla
