@@ -13,6 +13,8 @@
 namespace papilla::gltf {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 EncodedImage read_image(const tinygltf::Image& source, std::size_t number, AccessorReader& reader, Scene& scene) {
   EncodedImage image;
   image.name = source.name;
@@ -85,7 +87,7 @@ class MaterialReader {
     return result;
   }
 
-  Vec2 read_pair(const nlohmann::json& object, const char* key, Vec2 fallback, const std::string& where) const {
+  Vec2 read_pair(const Json& object, const char* key, Vec2 fallback, const std::string& where) const {
     const auto found = object.find(key);
     if (found == object.end()) return fallback;
     if (!found->is_array() || found->size() != 2 || !(*found)[0].is_number() || !(*found)[1].is_number())
@@ -94,7 +96,7 @@ class MaterialReader {
   }
 
   void read_transform(const std::string& extensions, const std::string& where, TextureReference& result) const {
-    const auto json = nlohmann::json::parse(extensions, nullptr, false);
+    const auto json = Json::parse(extensions, nullptr, false);
     const auto found = json.is_object() ? json.find("KHR_texture_transform") : json.end();
     if (found == json.end() || !found->is_object()) return;
     UvTransform transform;
@@ -118,7 +120,6 @@ constexpr std::array k_image_extensions = {"EXT_texture_webp", "EXT_texture_avif
 
 /// Takes the pictures of other formats out of the texture's extensions.
 void take_other_images(std::size_t image_count, const std::string& where, Texture& texture) {
-  using Json = nlohmann::ordered_json;
   Json extensions = Json::parse(texture.extensions_json, nullptr, false);
   if (!extensions.is_object()) return;
   for (const char* name : k_image_extensions) {
