@@ -25,7 +25,8 @@ void limit_offset(HeightTag& height, std::vector<HapticWarning>& warnings) {
   const double shift = relief_shift_m(low, low + range);
   if (shift == 0) return;
   const std::string wanted = shown(height.offset_m);
-  height.offset_m += shift;
+  // Not by adding the shift, which a distant offset would round: limiting twice changes nothing.
+  height.offset_m = (shift < 0 ? range : -2 * range) - std::min(0.0, height.scale_m);
   warnings.push_back({"tag_offset_limit", "haptic.height.offset = " + wanted +
                                               ": moves the surface farther from its mesh than its relief of " +
                                               shown(range) + " m is high, " + shown(height.offset_m) + " is used"});

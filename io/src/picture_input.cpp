@@ -97,6 +97,16 @@ std::unique_ptr<ImageInput> open_input(const PictureFormat& format, const std::s
   throw InvalidInput(fmt::format("{}: is no picture: {}", name, first_line(reason)));
 }
 
+/// Pixels of the tiles that cover `rows` rows, whole ones, or of the rows themselves.
+std::size_t stored_pixels(const ImageSpec& spec, int rows) {
+  const auto whole = [](int side, int tile) {
+    return tile > 0 ? (static_cast<std::size_t>(side) + static_cast<std::size_t>(tile) - 1) /
+                          static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)
+                    : static_cast<std::size_t>(side);
+  };
+  return whole(spec.width, spec.tile_width) * whole(rows, spec.tile_height);
+}
+
 /// What OpenImageIO, or the library below it, holds of a picture while it is read.
 std::uint64_t held_bytes(const PictureFormat& format, const ImageSpec& spec) {
   const std::uint64_t pixels = pixel_count(spec.width, spec.height);
@@ -106,7 +116,7 @@ std::uint64_t held_bytes(const PictureFormat& format, const ImageSpec& spec) {
   constexpr int k_cmyk = 5;
   if (format.name == "tiff" && spec.get_int_attribute("tiff:PhotometricInterpretation") > k_cmyk) return 4 * pixels;
   if (!format.in_rows) return pixels * channels * spec.format.size();
-  return pixel_count(spec.width, std::max(1, spec.tile_height)) * channels * spec.format.size();
+  return stored_pixels(spec, 1) * channels * spec.format.size();
 }
 
 }  // namespace
@@ -150,9 +160,10 @@ void PictureInput::check_size(std::uintmax_t bytes, std::size_t most_pixels) con
   if (s.width < 1 || s.height < 1 || s.depth > 1 || s.nchannels < 1 || s.deep)
     throw InvalidInput(name_ + ": is no flat picture");
   const std::size_t most = std::min<std::size_t>(most_pixels, k_free_pixels + k_max_pixels_per_byte * bytes);
-  if (pixel_count(s.width, s.height) > most)
-    throw InvalidInput(fmt::format("{}: claims {} x {} pixels; at most {} are supported for its size", name_, s.width,
-                                   s.height, most));
+  if (stored_pixels(s, s.height) <= most) return;
+  const std::string tiles = s.tile_height > 0 ? fmt::format(" in tiles of {} x {}", s.tile_width, s.tile_height) : "";
+  throw InvalidInput(fmt::format("{}: claims {} x {} pixels{}; at most {} are supported for its size", name_, s.width,
+                                 s.height, tiles, most));
 }
 
 void PictureInput::require_memory(std::uint64_t bytes) const {

@@ -52,7 +52,7 @@ void keep_worst_places(const OneSidedDeviation& input_side, const OneSidedDeviat
 }  // namespace
 
 Simplifier::Simplifier(const TriangleMesh& mesh, const SimplifyOptions& options, std::string_view function)
-    : mesh_(mesh), options_(options), bvh_({}, {}) {
+    : mesh_(mesh), options_(options) {
   check(options, function);
   check_mesh(mesh, function);
   Bounds3 bounds;
@@ -60,7 +60,11 @@ Simplifier::Simplifier(const TriangleMesh& mesh, const SimplifyOptions& options,
   diagonal_ = bounds.diagonal();
   wedges_ = make_wedges(mesh, options.feature_angle_deg, options.keep_faces);
   surface_ = surface(wedges_.indices);
-  bvh_ = TriangleBvh(surface_.positions, surface_.triangles);
+}
+
+const TriangleBvh& Simplifier::bvh() const {
+  if (!bvh_) bvh_.emplace(surface_.positions, surface_.triangles);
+  return *bvh_;
 }
 
 TriangleMesh Simplifier::surface(const std::vector<Index>& indices) const {
@@ -79,12 +83,12 @@ std::vector<Index> Simplifier::collapse(const std::vector<Index>& indices, doubl
 
 bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm, double tolerance_mm,
                                     std::size_t target_triangles) const {
-  const TriangleMesh current = surface(indices);
-  const TriangleBvh current_bvh(current.positions, current.triangles);
   DeviationOptions measure;
   measure.list_above_mm = tolerance_mm;
   measure.mean_samples = 0;
   std::vector<std::uint8_t> kept(wedges_.positions.size(), 0);
+  TriangleMesh current;  // Of `indices`, for what exceeds the tolerance.
+  std::optional<TriangleBvh> current_bvh;
   for (int round = 0; round < k_rounds; ++round) {
     std::vector<Index> candidate = decimate(wedges_, indices, kept, {target_triangles, error_mm, options_.lock_border});
     if (candidate.size() == indices.size()) return true;
@@ -92,7 +96,7 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
     const TriangleMesh mesh = surface(candidate);
     const double floor = k_settled * tolerance_mm;
     measure.settled_below_mm = floor;
-    const OneSidedDeviation candidate_side = one_sided_deviation(mesh, bvh_, floor, measure);
+    const OneSidedDeviation candidate_side = one_sided_deviation(mesh, bvh(), floor, measure);
     OneSidedDeviation input_side;
     if (options_.two_sided)
       input_side = one_sided_deviation(surface_, TriangleBvh(mesh.positions, mesh.triangles), floor, measure);
@@ -103,7 +107,15 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
     const auto exceeding = static_cast<double>(candidate_side.above.size() + input_side.above.size());
     if (exceeding > k_most_exceeding * static_cast<double>(mesh.triangles.size() + surface_.triangles.size()))
       return false;
-    keep_worst_places(input_side, candidate_side, mesh.triangles.size(), current, current_bvh, kept);
+    if (indices.size() == all().size()) {
+      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), surface_, bvh(), kept);
+    } else {
+      if (!current_bvh) {
+        current = surface(indices);
+        current_bvh.emplace(current.positions, current.triangles);
+      }
+      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), current, *current_bvh, kept);
+    }
   }
   return false;
 }
@@ -142,7 +154,7 @@ SimplifyResult Simplifier::result(const std::vector<Index>& indices, double tole
   measure.relative_tolerance = 0.05;
   measure.settled_below_mm = std::isfinite(tolerance_mm) ? 0.1 * tolerance_mm : 0;
   const double floor = std::max(measure.settled_below_mm, 1e-6 * diagonal_);
-  const OneSidedDeviation mesh_side = one_sided_deviation(result.mesh, bvh_, floor, measure);
+  const OneSidedDeviation mesh_side = one_sided_deviation(result.mesh, bvh(), floor, measure);
   if (options_.two_sided)
     result.deviation.from_to =
         one_sided_deviation(surface_, TriangleBvh(result.mesh.positions, result.mesh.triangles), floor, measure);

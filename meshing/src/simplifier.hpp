@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace papilla::detail {
 
-/// Simplifies one mesh, as often as wanted, measuring against the same input.
+/// Simplifies one mesh, as often as wanted, measuring against the same input. For one thread at a time.
 class Simplifier {
  public:
   /// @throws InvalidInput in the name of `function`.
@@ -34,6 +35,8 @@ class Simplifier {
 
  private:
   TriangleMesh surface(const std::vector<Index>& indices) const;
+  /// Of `surface_`, made when it is first asked for: a decimation of the whole input wants the memory before.
+  const TriangleBvh& bvh() const;
   bool collapse_and_check(std::vector<Index>& indices, double error_mm, double tolerance_mm,
                           std::size_t target_triangles) const;
 
@@ -41,7 +44,7 @@ class Simplifier {
   SimplifyOptions options_;
   WedgeMesh wedges_;
   TriangleMesh surface_;  ///< The input's, positions only.
-  TriangleBvh bvh_;       ///< Of `surface_`.
+  mutable std::optional<TriangleBvh> bvh_;
   double diagonal_ = 0;
 };
 

@@ -131,6 +131,7 @@ class BvhBuilder {
     if (count == 0) return nodes;
     nodes.reserve(count / 3 + 1);
     fold(build(0, count, 0), nodes);
+    nodes.shrink_to_fit();
     return nodes;
   }
 

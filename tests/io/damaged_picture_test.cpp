@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Pictures that are damaged, or announce more than they hold: one line, and nothing from the libraries below.
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "io/temporary_folder.hpp"
 #include "papilla/core/error.hpp"
@@ -166,6 +168,25 @@ TEST(DamagedPicture, FloatsBeyondAMillionAreNamed) {
   image.at(7, 80) = -1e6F;
   write_grey_image(folder / "b.exr", image, 32);
   EXPECT_EQ(read_grey_image(folder / "b.exr").at(7, 80), -1e6F);
+}
+
+TEST(DamagedPicture, TilesFarLargerThanThePicture) {
+  const TemporaryFolder folder;
+  OIIO::ImageSpec spec(4, 4, 1, OIIO::TypeDesc::HALF);
+  spec.tile_width = spec.tile_height = 4;
+  const auto out = OIIO::ImageOutput::create("exr");
+  ASSERT_TRUE(out->open((folder / "tiles.exr").string(), spec));
+  const std::vector<float> tile(16);
+  ASSERT_TRUE(out->write_tile(0, 0, 0, OIIO::TypeDesc::FLOAT, tile.data()));
+  ASSERT_TRUE(out->close());
+  std::string bytes = bytes_of(folder / "tiles.exr");
+  const std::string place = "tiledesc\0\x09\0\0\0"s;  // Its width and height follow, the low byte first.
+  const std::size_t at = bytes.find(place);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(read_grey_image(folder / "tiles.exr").width, 4);
+  bytes.replace(at + place.size(), 8, "\0\x20\0\0\0\x20\0\0"s);
+  const std::string message = refusal(folder.write("huge.exr", bytes));
+  EXPECT_NE(message.find("huge.exr: claims 4 x 4 pixels in tiles of 8192 x 8192;"), std::string::npos) << message;
 }
 
 TEST(DamagedPicture, FormatsThatAreDecodedBeforeTheirSizeIsKnownAreNotRead) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 #include "papilla/core/referenced_file.hpp"
 
 namespace papilla::gltf {
@@ -26,7 +27,7 @@ EncodedImage read_image(const tinygltf::Image& source, std::size_t number, Acces
   image.bytes.assign(std::as_bytes(bytes).begin(), std::as_bytes(bytes).end());
   image.mime_type = picture_mime_type({reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
   if (image.mime_type.empty()) image.mime_type = source.mimeType;  // Embedded, and of no known format.
-  if (image.bytes.empty()) scene.warnings.push_back(where + " '" + image.uri + "' is missing");
+  if (image.bytes.empty()) scene.warnings.push_back(where + " '" + shown(image.uri) + "' is missing");
   return image;
 }
 
@@ -72,7 +73,7 @@ class MaterialReader {
         !finite(material.roughness) || !finite(material.alpha_cutoff))
       fail(where, "a factor is not finite");
     if (material.alpha_mode != "OPAQUE" && material.alpha_mode != "MASK" && material.alpha_mode != "BLEND")
-      fail(where, "alphaMode '" + material.alpha_mode + "' is unknown");
+      fail(where, "alphaMode '" + printable(material.alpha_mode) + "' is unknown");
   }
 
   template <class Info>

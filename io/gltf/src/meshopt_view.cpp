@@ -2,6 +2,7 @@
 #include "meshopt_view.hpp"
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/one_line.hpp"
 
 #ifdef PAPILLA_HAVE_MESHOPT
 #include <meshoptimizer.h>
@@ -23,7 +24,7 @@ void check(const MeshoptView& view, std::size_t bytes, const std::string& where)
   const std::size_t stride = view.byte_stride;
   const bool is_attributes = view.mode == "ATTRIBUTES";
   if (!is_attributes && view.mode != "TRIANGLES" && view.mode != "INDICES")
-    fail(where, "mode '" + view.mode.substr(0, 40) + "' is unknown");
+    fail(where, "mode '" + printable(view.mode) + "' is unknown");
   if (is_attributes ? stride == 0 || stride > 256 || stride % 4 != 0 : stride != 2 && stride != 4)
     fail(where, "byteStride " + std::to_string(stride) + " is not allowed in mode " + view.mode);
   if (view.mode == "TRIANGLES" && view.count % 3 != 0)
@@ -35,8 +36,7 @@ void check(const MeshoptView& view, std::size_t bytes, const std::string& where)
       (is_attributes && ((view.filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
                          (view.filter == "QUATERNION" && stride == 8) || view.filter == "EXPONENTIAL"));
   if (!is_filter_good)
-    fail(where,
-         "filter '" + view.filter.substr(0, 40) + "' is not supported with byteStride " + std::to_string(stride));
+    fail(where, "filter '" + printable(view.filter) + "' is not supported with byteStride " + std::to_string(stride));
 }
 
 int decode(std::span<const unsigned char> bytes, const MeshoptView& view, std::vector<unsigned char>& out) {
