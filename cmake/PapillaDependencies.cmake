@@ -34,6 +34,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   find_package(CGAL REQUIRED)
   find_package(Boost 1.74 REQUIRED)  # Headers only: Beast and Asio.
   find_package(TBB REQUIRED)
+  find_package(Ceres REQUIRED)
   find_package(OpenCASCADE REQUIRED)
   pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
   find_package(assimp REQUIRED)

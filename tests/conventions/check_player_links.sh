@@ -7,7 +7,7 @@ program=$1
 export LC_ALL=C
 
 readonly allowed='^(lib(c|m|gcc_s|stdc\+\+|md|hidapi-hidraw|tinygltf|draco|meshoptimizer|fmt|asan|ubsan)\.so|ld-linux)'
-readonly heavy_symbols='(^|[^A-Za-z_])(CGAL|OpenMesh|OpenImageIO_v[0-9_]+|OpenImageIO|Eigen|tbb|opencascade|TopoDS_[A-Za-z]+)::|[ _]fftwf?_'
+readonly heavy_symbols='(^|[^A-Za-z_])(CGAL|ceres|OpenMesh|OpenImageIO_v[0-9_]+|OpenImageIO|Eigen|tbb|opencascade|TopoDS_[A-Za-z]+)::|[ _]fftwf?_'
 
 needed=$(readelf -d "$program" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
 [[ -n $needed ]] || { echo "$program: no dynamic section that readelf can read"; exit 1; }

@@ -48,7 +48,7 @@ readonly libraries=(core meshing param texture procedural haptic io pipeline)
 readonly all_cpp=("${libraries[@]}" apps tests data examples)
 
 readonly gpl_headers=' <(CGAL/|fftw3)'
-readonly heavy_headers=' [<"](CGAL/|OpenMesh/|OpenImageIO/|assimp/|Eigen/|fftw3|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
+readonly heavy_headers=' [<"](CGAL/|OpenMesh/|OpenImageIO/|assimp/|Eigen/|fftw3|ceres/|oneapi/tbb|tbb/|[A-Za-z0-9_]+\.hxx)'
 
 check_licence_lines() {
   local file licence
@@ -156,6 +156,7 @@ readonly library_uses='
 <(oneapi/)?tbb/ TBB libtbb-dev TBB::tbb
 \.hxx> OpenCASCADE libocct-data-exchange-dev libfontconfig-dev papilla_occt
 <fftw3 fftw3 libfftw3-dev PkgConfig::FFTW
+<ceres/ Ceres libceres-dev Ceres::ceres
 <boost/(asio|beast) Boost libboost-dev Boost::headers
 <assimp/ assimp libassimp-dev assimp::assimp
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
