@@ -26,6 +26,8 @@ constexpr Index k_hub_degree = 48;
 constexpr int k_hub_rounds = 8;
 /// Targets of a place that are checked, cheapest first; what all of them forbid the others mostly forbid, too.
 constexpr int k_most_trials = 16;
+/// The clock is looked at once for so many collapses.
+constexpr std::size_t k_collapses_a_look = 1024;
 /// The plane of a triangle with a smaller altitude, relative to the mesh's diagonal, is rounding noise.
 constexpr double k_noise_altitude = 1e-6;
 
@@ -100,7 +102,8 @@ class Decimator {
       if (first_[p] != k_none) start_quadric(p);
     for (Index p = 0; p < first_.size(); ++p)
       if (first_[p] != k_none) enqueue(p);
-    for (int round = 0; round <= k_hub_rounds && alive_ > options_.target_triangles; ++round) {
+    for (int round = 0; round <= k_hub_rounds && alive_ > options_.target_triangles && !options_.deadline.passed();
+         ++round) {
       take_candidates();
       std::vector<Index> hubs;
       hubs.swap(postponed_);
@@ -133,7 +136,8 @@ class Decimator {
   };
 
   void take_candidates() {
-    while (!queue_.empty() && alive_ > options_.target_triangles) {
+    for (std::size_t taken = 1; !queue_.empty() && alive_ > options_.target_triangles; ++taken) {
+      if (taken % k_collapses_a_look == 0 && options_.deadline.passed()) return;
       const Candidate best = queue_.top();
       queue_.pop();
       if (stamp_[best.from] == best.stamp) collapse(best.from, best.to);

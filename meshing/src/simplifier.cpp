@@ -49,7 +49,34 @@ void keep_worst_places(const OneSidedDeviation& input_side, const OneSidedDeviat
       for (const Index v : current.triangles[current_bvh.closest(e->at).triangle]) kept[v] = 1;
 }
 
+struct OutOfTime {};
+
 }  // namespace
+
+/// How far the passes of a simplification have come. How many rounds one takes nobody knows, so that each surface that
+/// is measured takes the pass some way nearer to its end.
+class PassProgress {
+ public:
+  PassProgress(const ProgressCallback& callback, const Deadline& deadline, int passes)
+      : callback_(callback), deadline_(deadline), passes_(passes) {}
+
+  void begin_pass() noexcept { ++pass_, measured_ = 0; }
+
+  /// For the next surface that is measured; throws OutOfTime at the deadline.
+  ProgressCallback next_surface() {
+    return [this, before = measured_++](const Progress& done) {
+      if (deadline_.passed()) throw OutOfTime{};
+      const double share = 1 - std::pow(k_left, before + done.fraction);
+      return !callback_ || callback_({"simplify", (pass_ + share) / passes_});
+    };
+  }
+
+ private:
+  static constexpr double k_left = 0.7;  ///< Of a pass, after each surface.
+  const ProgressCallback& callback_;
+  const Deadline& deadline_;
+  int passes_, pass_ = -1, measured_ = 0;
+};
 
 Simplifier::Simplifier(const TriangleMesh& mesh, const SimplifyOptions& options, std::string_view function)
     : mesh_(mesh), options_(options) {
@@ -78,11 +105,14 @@ TriangleMesh Simplifier::surface(const std::vector<Index>& indices) const {
 
 std::vector<Index> Simplifier::collapse(const std::vector<Index>& indices, double error_mm,
                                         std::size_t target_triangles) const {
-  return decimate(wedges_, indices, {}, {target_triangles, error_mm, options_.lock_border});
+  std::vector<Index> left =
+      decimate(wedges_, indices, {}, {target_triangles, error_mm, options_.lock_border, options_.deadline});
+  out_of_time_ |= options_.deadline.passed();
+  return left;
 }
 
 bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm, double tolerance_mm,
-                                    std::size_t target_triangles) const {
+                                    std::size_t target_triangles, PassProgress& progress) const {
   DeviationOptions measure;
   measure.list_above_mm = tolerance_mm;
   measure.mean_samples = 0;
@@ -90,16 +120,21 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
   TriangleMesh current;  // Of `indices`, for what exceeds the tolerance.
   std::optional<TriangleBvh> current_bvh;
   for (int round = 0; round < k_rounds; ++round) {
-    std::vector<Index> candidate = decimate(wedges_, indices, kept, {target_triangles, error_mm, options_.lock_border});
+    std::vector<Index> candidate =
+        decimate(wedges_, indices, kept, {target_triangles, error_mm, options_.lock_border, options_.deadline});
+    if (options_.deadline.passed()) throw OutOfTime{};
     if (candidate.size() == indices.size()) return true;
     if (candidate.empty()) return false;
     const TriangleMesh mesh = surface(candidate);
     const double floor = k_settled * tolerance_mm;
     measure.settled_below_mm = floor;
+    measure.progress = progress.next_surface();
     const OneSidedDeviation candidate_side = one_sided_deviation(mesh, bvh(), floor, measure);
     OneSidedDeviation input_side;
-    if (options_.two_sided)
+    if (options_.two_sided) {
+      measure.progress = progress.next_surface();
       input_side = one_sided_deviation(surface_, TriangleBvh(mesh.positions, mesh.triangles), floor, measure);
+    }
     if (candidate_side.above.empty() && input_side.above.empty()) {
       indices = std::move(candidate);
       return true;
@@ -121,7 +156,18 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
 }
 
 std::vector<Index> Simplifier::within(std::vector<Index> indices, double tolerance_mm, std::size_t target_triangles,
-                                      const Stopwatch& clock, Trace& trace) const {
+                                      const Stopwatch& clock, Trace& trace, const ProgressCallback& progress) const {
+  PassProgress passes(progress, options_.deadline, options_.passes);
+  try {
+    run_passes(indices, tolerance_mm, target_triangles, clock, trace, passes);
+  } catch (const OutOfTime&) {
+    out_of_time_ = true;
+  }
+  return indices;
+}
+
+void Simplifier::run_passes(std::vector<Index>& indices, double tolerance_mm, std::size_t target_triangles,
+                            const Stopwatch& clock, Trace& trace, PassProgress& progress) const {
   const auto note = [&] {
     trace.push_back({clock.seconds(), static_cast<double>(indices.size()) /
                                           static_cast<double>(std::max<std::size_t>(all().size(), 1))});
@@ -130,18 +176,19 @@ std::vector<Index> Simplifier::within(std::vector<Index> indices, double toleran
   note();
   double error = k_first_error * tolerance_mm;
   bool any = false;
+  progress.begin_pass();
   for (int halvings = 0; !any && !is_done() && halvings <= k_most_halvings; ++halvings) {
-    any = collapse_and_check(indices, error, tolerance_mm, target_triangles);
+    any = collapse_and_check(indices, error, tolerance_mm, target_triangles, progress);
     if (!any) error /= 2;
   }
   if (any) note();
   for (int pass = 1; any && !is_done() && pass < options_.passes; ++pass) {
     error *= 2;
-    any = collapse_and_check(indices, error, tolerance_mm, target_triangles) ||
-          collapse_and_check(indices, k_less * error, tolerance_mm, target_triangles);
+    progress.begin_pass();
+    any = collapse_and_check(indices, error, tolerance_mm, target_triangles, progress) ||
+          collapse_and_check(indices, k_less * error, tolerance_mm, target_triangles, progress);
     if (any) note();
   }
-  return indices;
 }
 
 SimplifyResult Simplifier::result(const std::vector<Index>& indices, double tolerance_mm) const {

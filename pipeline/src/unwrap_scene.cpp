@@ -147,7 +147,9 @@ UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const 
   UnwrappedPart result;
   const Stopwatch repair_clock;
   if (options.repair) {
-    result.repaired = repair(std::move(mesh));
+    RepairOptions in_time;
+    in_time.deadline = options.method.deadline;
+    result.repaired = repair(std::move(mesh), in_time);
     mesh = std::exchange(result.repaired->mesh, {});
   } else {
     mesh = weld_equal(std::move(mesh)).mesh;

@@ -22,4 +22,18 @@ grep -q '^following the player at' out.txt || fail "view --follow: $(cat out.txt
 "$papilla" weather one.obj -c config.json -o none.glb --live --timeout 0 2>err.txt >out.txt
 [[ $? == 4 ]] || fail "not cancelled: $(cat err.txt)"
 [[ ! -e none.glb ]] || fail "a cancelled build wrote its output"
+# Before all is read there is no result.
+for verb in unwrap repair "simplify --ratio 0.5"; do
+  # shellcheck disable=SC2086
+  "$papilla" $verb one.obj -o none.glb --time-limit 0 2>err.txt >out.txt
+  [[ $? == 4 ]] || fail "$verb: not cancelled: $(cat err.txt)"
+  grep -q "the time limit of 0 s is reached, at 'read': no result" err.txt || fail "$verb: $(cat err.txt)"
+  [[ ! -e none.glb ]] || fail "$verb wrote its output"
+done
+for verb in repair "simplify --ratio 0.5"; do
+  # shellcheck disable=SC2086
+  "$papilla" $verb one.obj -o done.glb --time-limit 100 --json out.json >out.txt 2>err.txt || fail "$verb: $(cat err.txt)"
+  grep -q '"stop": "converged"' out.json || fail "$verb: $(cat out.json)"
+  grep -q "ended by the time limit" out.txt && fail "$verb: $(cat out.txt)"
+done
 finish "time limits"

@@ -69,7 +69,7 @@ Json run(const Options& options, VerbContext& context) {
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options(options.output);
   wanted.read = options.scene.read_options();
-  wanted.bake.unwrap.method.deadline = context.deadline;
+  wanted.bake.unwrap.method.deadline = wanted.bake.plan.deadline = wanted.bake.plan.sides.deadline = context.deadline;
   wanted.write = options.write_options();
   wanted.for_pictures = options.pictures;
   if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.

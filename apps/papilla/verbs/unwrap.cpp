@@ -11,6 +11,7 @@
 #include "options/side_option.hpp"
 #include "options/unwrap_option.hpp"
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/progress_until.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "scene_output.hpp"
@@ -40,8 +41,9 @@ Json run(const Options& options, VerbContext& context) {
     throw UsageError("-o " + options.output + ": " + extension.string() + " has no place for texture coordinates");
   UnwrapOptions unwrap = options.unwrap.options();
   unwrap.sides = options.sides.options(options.output);
-  unwrap.method.deadline = context.deadline;
-  Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
+  unwrap.method.deadline = unwrap.sides.deadline = context.deadline;
+  Scene scene =
+      read_scene(options.input, options.scene.read_options(), progress_until(context.progress, context.deadline));
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
       named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
