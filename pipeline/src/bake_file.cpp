@@ -110,8 +110,7 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
                const BakeFileOptions& options, const ProgressCallback& progress, BakeFileResult& result) {
   const Stopwatch total;
   GltfOrigin origin;
-  Scene scene =
-      read_for_edit(input, options.read, progress_until(progress, options.bake.unwrap.method.deadline), origin);
+  Scene scene = read_for_edit(input, options.read, progress_until(progress, options.read_deadline), origin);
   if (assigns_groups_apart(scene, rules, origin.nodes)) return false;
   const double read_seconds = total.seconds();
   BakeOptions bake = options.bake;
@@ -174,7 +173,7 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
     result.way = {false, k_instances_apart};
   }
   const Stopwatch total;
-  Scene scene = read_scene(input, options.read, progress_until(progress, options.bake.unwrap.method.deadline));
+  Scene scene = read_scene(input, options.read, progress_until(progress, options.read_deadline));
   const double read_seconds = total.seconds();
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
   result.seconds["read"] = read_seconds;

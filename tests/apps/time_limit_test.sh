@@ -22,13 +22,16 @@ grep -q '^following the player at' out.txt || fail "view --follow: $(cat out.txt
 "$papilla" weather one.obj -c config.json -o none.glb --live --timeout 0 2>err.txt >out.txt
 [[ $? == 4 ]] || fail "not cancelled: $(cat err.txt)"
 [[ ! -e none.glb ]] || fail "a cancelled build wrote its output"
-# Before all is read there is no result.
-for verb in unwrap repair "simplify --ratio 0.5"; do
+# Reading that takes longer than the limit still leads to a result.
+printf '{"materials": {"g": {"texture": "leather", "size_mm": [40, 40]}}, "assign": [{"part": "*", "material": "g"}]}' \
+  >materials.json
+for verb in unwrap "bake -m materials.json" repair "simplify --ratio 0.5" "simplify --budget 1"; do
+  rm -f at-once.glb
   # shellcheck disable=SC2086
-  "$papilla" $verb one.obj -o none.glb --time-limit 0 2>err.txt >out.txt
-  [[ $? == 4 ]] || fail "$verb: not cancelled: $(cat err.txt)"
-  grep -q "the time limit of 0 s is reached, at 'read': no result" err.txt || fail "$verb: $(cat err.txt)"
-  [[ ! -e none.glb ]] || fail "$verb wrote its output"
+  "$papilla" $verb one.obj -o at-once.glb --time-limit 0 --json out.json >out.txt 2>err.txt || fail "$verb: $(cat err.txt)"
+  [[ -s at-once.glb ]] || fail "$verb wrote nothing"
+  grep -q '"stop": "time_limit"' out.json || fail "$verb: $(cat out.json)"
+  grep -q "ended by the time limit" out.txt || fail "$verb: $(cat out.txt)"
 done
 for verb in repair "simplify --ratio 0.5"; do
   # shellcheck disable=SC2086

@@ -32,7 +32,8 @@ Json run(const Options& options, VerbContext& context) {
   RepairSceneOptions repair = options.repair;
   if (options.verify) repair.repair.sample_above = std::numeric_limits<std::size_t>::max();
   repair.sides = options.sides.options(options.out);
-  Scene scene = read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.deadline));
+  Scene scene =
+      read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.read_deadline));
   repair.repair.deadline = repair.sides.deadline =
       context.deadline.earlier_by(k_finishing_s * static_cast<double>(drawn_triangles(scene)));
   RepairSceneResult result =

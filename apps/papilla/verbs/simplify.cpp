@@ -52,7 +52,8 @@ Json run(const Options& options, VerbContext& context) {
   wanted.perception = options.perception.options();
   wanted.simplify.two_sided = !options.one_sided;
   wanted.simplify.keep_faces = !options.merge_faces;
-  Scene scene = read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.deadline));
+  Scene scene =
+      read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.read_deadline));
   wanted.simplify.deadline = context.deadline.earlier_by(k_writing_s * static_cast<double>(drawn_triangles(scene)));
   SimplifySceneResult result =
       named_by(options.in, [&] { return simplify_scene(std::move(scene), wanted, context.progress); });
