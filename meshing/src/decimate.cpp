@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <queue>
 #include <utility>
 
 #include "check_mesh.hpp"
@@ -92,6 +91,7 @@ class Decimator {
       append(place_of(c), c, c);
       ++degree_[place_of(c)];
     }
+    queue_.reserve(2 * wedges.positions.size() + 1);  // At most half of them hold, so that dropping the others pays.
     Bounds3 bounds;
     for (const Vec3& p : wedges.positions) bounds.add(p);
     noise_altitude_ = k_noise_altitude * bounds.diagonal();
@@ -138,8 +138,9 @@ class Decimator {
   void take_candidates() {
     for (std::size_t taken = 1; !queue_.empty() && alive_ > options_.target_triangles; ++taken) {
       if (taken % k_collapses_a_look == 0 && options_.deadline.passed()) return;
-      const Candidate best = queue_.top();
-      queue_.pop();
+      std::pop_heap(queue_.begin(), queue_.end());
+      const Candidate best = queue_.back();
+      queue_.pop_back();
       if (stamp_[best.from] == best.stamp) collapse(best.from, best.to);
     }
   }
@@ -276,9 +277,17 @@ class Decimator {
       const auto [order, link] = trials_.back();
       trials_.pop_back();
       if (!is_allowed(place, links_here_[link])) continue;
-      queue_.push({order, place, links_here_[link].place, stamp_[place]});
+      if (queue_.size() == queue_.capacity()) drop_stale_candidates();
+      queue_.push_back({order, place, links_here_[link].place, stamp_[place]});
+      std::push_heap(queue_.begin(), queue_.end());
       return;
     }
+  }
+
+  /// A place has one candidate that holds, and leaves many behind that don't.
+  void drop_stale_candidates() {
+    std::erase_if(queue_, [&](const Candidate& c) { return stamp_[c.from] != c.stamp; });
+    std::make_heap(queue_.begin(), queue_.end());
   }
 
   bool are_neighbours(Index place, Index other) {
@@ -389,7 +398,7 @@ class Decimator {
   std::vector<Mark> mark_;
   std::uint32_t mark_now_ = 0;
   std::vector<Quadric> quadrics_;  ///< Relative to their places.
-  std::priority_queue<Candidate> queue_;
+  std::vector<Candidate> queue_;   ///< A heap: the cheapest collapse first.
   std::size_t alive_;
   double noise_altitude_ = 0;
   std::vector<Index> corners_here_, corners_there_, ring_;

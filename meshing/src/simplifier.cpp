@@ -33,10 +33,13 @@ void check(const SimplifyOptions& o, std::string_view function) {
   if (o.passes < 1 || o.passes > 6) fail("options.passes is not in [1, 6]");
 }
 
+/// Not kept: a tree takes more memory than all else, and a twentieth of the time that measuring takes.
+TriangleBvh bvh_of(const TriangleMesh& mesh) { return {mesh.positions, mesh.triangles}; }
+
 /// Marks the corners of the triangles closest to the worst place of each triangle of `candidate`.
 void keep_worst_places(const OneSidedDeviation& input_side, const OneSidedDeviation& candidate_side,
-                       std::size_t candidate_triangles, const TriangleMesh& current, const TriangleBvh& current_bvh,
-                       std::vector<std::uint8_t>& kept) {
+                       std::size_t candidate_triangles, const TriangleMesh& current, std::vector<std::uint8_t>& kept) {
+  const TriangleBvh current_bvh = bvh_of(current);
   std::vector<const ExceedingTriangle*> worst(candidate_triangles, nullptr);
   for (const ExceedingTriangle& e : input_side.above) {
     const ExceedingTriangle*& w = worst[e.nearest_triangle];
@@ -89,11 +92,6 @@ Simplifier::Simplifier(const TriangleMesh& mesh, const SimplifyOptions& options,
   surface_ = surface(wedges_.indices);
 }
 
-const TriangleBvh& Simplifier::bvh() const {
-  if (!bvh_) bvh_.emplace(surface_.positions, surface_.triangles);
-  return *bvh_;
-}
-
 TriangleMesh Simplifier::surface(const std::vector<Index>& indices) const {
   TriangleMesh surface;
   surface.positions = wedges_.positions;
@@ -117,8 +115,6 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
   measure.list_above_mm = tolerance_mm;
   measure.mean_samples = 0;
   std::vector<std::uint8_t> kept(wedges_.positions.size(), 0);
-  TriangleMesh current;  // Of `indices`, for what exceeds the tolerance.
-  std::optional<TriangleBvh> current_bvh;
   for (int round = 0; round < k_rounds; ++round) {
     std::vector<Index> candidate =
         decimate(wedges_, indices, kept, {target_triangles, error_mm, options_.lock_border, options_.deadline});
@@ -129,11 +125,11 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
     const double floor = k_settled * tolerance_mm;
     measure.settled_below_mm = floor;
     measure.progress = progress.next_surface();
-    const OneSidedDeviation candidate_side = one_sided_deviation(mesh, bvh(), floor, measure);
+    const OneSidedDeviation candidate_side = one_sided_deviation(mesh, bvh_of(surface_), floor, measure);
     OneSidedDeviation input_side;
     if (options_.two_sided) {
       measure.progress = progress.next_surface();
-      input_side = one_sided_deviation(surface_, TriangleBvh(mesh.positions, mesh.triangles), floor, measure);
+      input_side = one_sided_deviation(surface_, bvh_of(mesh), floor, measure);
     }
     if (candidate_side.above.empty() && input_side.above.empty()) {
       indices = std::move(candidate);
@@ -142,15 +138,10 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
     const auto exceeding = static_cast<double>(candidate_side.above.size() + input_side.above.size());
     if (exceeding > k_most_exceeding * static_cast<double>(mesh.triangles.size() + surface_.triangles.size()))
       return false;
-    if (indices.size() == all().size()) {
-      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), surface_, bvh(), kept);
-    } else {
-      if (!current_bvh) {
-        current = surface(indices);
-        current_bvh.emplace(current.positions, current.triangles);
-      }
-      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), current, *current_bvh, kept);
-    }
+    if (indices.size() == all().size())
+      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), surface_, kept);
+    else
+      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), surface(indices), kept);
   }
   return false;
 }
@@ -201,10 +192,8 @@ SimplifyResult Simplifier::result(const std::vector<Index>& indices, double tole
   measure.relative_tolerance = 0.05;
   measure.settled_below_mm = std::isfinite(tolerance_mm) ? 0.1 * tolerance_mm : 0;
   const double floor = std::max(measure.settled_below_mm, 1e-6 * diagonal_);
-  const OneSidedDeviation mesh_side = one_sided_deviation(result.mesh, bvh(), floor, measure);
-  if (options_.two_sided)
-    result.deviation.from_to =
-        one_sided_deviation(surface_, TriangleBvh(result.mesh.positions, result.mesh.triangles), floor, measure);
+  const OneSidedDeviation mesh_side = one_sided_deviation(result.mesh, bvh_of(surface_), floor, measure);
+  if (options_.two_sided) result.deviation.from_to = one_sided_deviation(surface_, bvh_of(result.mesh), floor, measure);
   result.deviation.to_from = mesh_side;
   // within() has shown this already; the measurement above only says how much of it is used.
   for (OneSidedDeviation* side : {&result.deviation.from_to, &result.deviation.to_from})

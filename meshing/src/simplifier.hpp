@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -44,8 +43,6 @@ class Simplifier {
 
  private:
   TriangleMesh surface(const std::vector<Index>& indices) const;
-  /// Of `surface_`, made when it is first asked for: a decimation of the whole input wants the memory before.
-  const TriangleBvh& bvh() const;
   /// @throws OutOfTime leaving `indices` as they are.
   bool collapse_and_check(std::vector<Index>& indices, double error_mm, double tolerance_mm,
                           std::size_t target_triangles, PassProgress& progress) const;
@@ -56,7 +53,6 @@ class Simplifier {
   SimplifyOptions options_;
   WedgeMesh wedges_;
   TriangleMesh surface_;  ///< The input's, positions only.
-  mutable std::optional<TriangleBvh> bvh_;
   mutable bool out_of_time_ = false;
   double diagonal_ = 0;
 };
