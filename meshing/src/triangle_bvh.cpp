@@ -315,6 +315,7 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triang
       }
     }
   });
+  first = {};
   nodes_ = BvhBuilder(references).run();
   nodes_.shrink_to_fit();  // With the builder's memory gone.
 
