@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "papilla/io/node_places.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
 
