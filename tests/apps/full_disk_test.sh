@@ -70,19 +70,18 @@ if mount -t tmpfs -o size=16k none disk 2>/dev/null; then
   done
   # There is space for a block, but not for the result, whose size is known.
   rm disk/rest
-  awk 'BEGIN { for (y = 0; y < 15; ++y) for (x = 0; x < 15; ++x) print "v", x, y, (x * y) % 3
-    for (y = 0; y < 14; ++y) for (x = 1; x < 15; ++x) { a = 15 * y + x; print "f", a, a + 1, a + 16; print "f", a, a + 16, a + 15 } }' >grid.obj
-  for extension in stl glb obj ply off; do
-    for command in repair "simplify --ratio 0.99" unwrap "bake -m rules.json"; do
-      [[ $extension == glb || $command == repair || $extension == stl && $command == simplify* ]] || continue
-      # shellcheck disable=SC2086
-      full disk/a $papilla $command grid.obj -o disk/a.$extension -q
-      grep -q 'takes [1-9][0-9]* bytes, ' err.txt || fail "$command, $extension: $(cat err.txt)"
-      [[ -z $(ls disk/a.* disk/.papilla-* 2>/dev/null) ]] || fail "$command left $(ls -a disk)"
-    done
+  awk 'BEGIN { for (y = 0; y < 31; ++y) for (x = 0; x < 31; ++x) print "v", x, y, (x * y) % 3
+    for (y = 0; y < 30; ++y) for (x = 1; x < 31; ++x) { a = 31 * y + x; print "f", a, a + 1, a + 32; print "f", a, a + 32, a + 31 } }' >grid.obj
+  for command in "repair grid.obj -o disk/a.stl" "repair grid.obj -o disk/a.glb" "repair grid.obj -o disk/a.off" \
+    "simplify grid.obj --ratio 0.99 -o disk/a.glb" "unwrap grid.obj -o disk/a.glb" "unwrap grid.obj -o disk/a.obj" \
+    "bake grid.obj -m rules.json -o disk/a.glb"; do
+    # shellcheck disable=SC2086
+    full disk/a $papilla $command -q
+    grep -q 'takes [1-9][0-9]* bytes, ' err.txt || fail "$command: $(cat err.txt)"
+    [[ -z $(find disk -name '.papilla-*' -o -name 'a.*') ]] || fail "$command left $(find disk -type f)"
   done
   full disk/a "$papilla" repair grid.obj -o disk/a.stl -q
-  grep -q 'takes 19684 bytes, ' err.txt || fail "392 triangles of STL: $(cat err.txt)"
+  grep -q 'takes 90084 bytes, ' err.txt || fail "1800 triangles of STL: $(cat err.txt)"
 else
   echo "no right to mount a small disk: only /dev/full was tried"
 fi

@@ -13,8 +13,8 @@ namespace papilla::app {
 namespace {
 
 std::string overlap_line(const DistortionReport& r) {
-  if (!r.has_overlap) return "overlap not looked for: the time limit left no time for it\n";
-  return shown_format("overlap {:.4g} of the uv area, {:.4g} within charts\n", r.overlap_area_fraction,
+  if (!r.has_overlap) return "overlap not looked for: the time limit left no time for it";
+  return shown_format("overlap {:.4g} of the uv area, {:.4g} within charts", r.overlap_area_fraction,
                       r.overlap_within_charts);
 }
 
@@ -25,7 +25,7 @@ std::string distortion_text(const Scene& scene, const SceneDistortion& distortio
   std::string text = shown_format(
       "{} triangles in {} charts, seams {:.1f} mm\n"
       "flipped {}, mirrored charts {}, degenerate {} in space and {} in uv\n"
-      "{}"
+      "{}\n"
       "symmetric Dirichlet {:.4f} by area, half below {:.4f}, 99 % below {:.4f}, max {:.4g}\n"
       "stretch L2 {:.4f}, L∞ {:.4g}\n"
       "angle error {:.3f}° (max {:.3g}°), area ratio {:.4g} to {:.4g}, edge length error {:.3g}\n",
