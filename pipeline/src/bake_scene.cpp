@@ -158,7 +158,9 @@ void process(Work& work, const PartContext& context, const UnwrapOptions& option
     work.report.seam_mm = work.report.seams.seam_mm;
   }
   Stopwatch clock;
-  work.report.distortion = measure_distortion(work.report.mesh, work.report.mesh.uv, {});
+  MeasureOptions measure;
+  measure.overlap = !options.method.deadline.passed();
+  work.report.distortion = measure_distortion(work.report.mesh, work.report.mesh.uv, measure);
   work.measure = clock.seconds();
 }
 
@@ -427,6 +429,12 @@ void finish(std::vector<Work>& works, BakeResult& result) {
   }
 }
 
+double triangles_of_parts(const Scene& scene) {
+  double triangles = 0;
+  for (const Part& part : scene.parts) triangles += static_cast<double>(part.mesh.triangles.size());
+  return triangles;
+}
+
 }  // namespace
 
 StopReason ending_of(const BakeResult& result) {
@@ -448,7 +456,9 @@ RepairResult repair_of(const std::vector<BakedSurface>& surfaces) {
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
                       const ProgressCallback& progress) {
   BakeResult result;
-  result.plan = plan_bake(std::move(scene), rules, options.plan, progress);
+  BakePlanOptions plan = options.plan;
+  plan.sides.deadline = options.plan.sides.deadline.earlier_by(k_seconds_to_finish * triangles_of_parts(scene));
+  result.plan = plan_bake(std::move(scene), rules, plan, progress);
   const std::vector<PartSurface>& surfaces = result.plan.surfaces;
   result.scene = std::move(result.plan.scene);
   result.seconds = {{"sides", result.plan.sides.seconds},

@@ -128,6 +128,7 @@ DistortionTotals total_distortion(const std::vector<const DistortionReport*>& re
     total.triangles += report->triangles;
     total.charts += report->charts;
     total.overlapping_within_charts += report->overlapping_within_charts;
+    total.has_overlap = total.has_overlap && report->has_overlap;
   }
   if (!(total.area_mm2 > 0)) return total;
   total.symmetric_dirichlet_mean /= total.area_mm2;

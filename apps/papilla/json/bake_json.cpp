@@ -67,6 +67,7 @@ Json total_json(const std::vector<BakedSurface>& surfaces) {
                {"flipped", total.flipped},
                {"overlapping_within_charts", total.overlapping_within_charts},
                {"area_mm2", total.area_mm2}};
+  if (!total.has_overlap) json.erase("overlapping_within_charts");
   if (!(total.area_mm2 > 0)) return json;
   json["symmetric_dirichlet"] = {{"mean", total.symmetric_dirichlet_mean}};
   json["angle_error_deg"] = {{"mean", total.angle_error_deg_mean}};

@@ -54,6 +54,7 @@ DistortionHistogram angle_histogram(const DistortionReport& report);
 /// Summed distortion of several surfaces: means weighted by area, counts added.
 struct DistortionTotals {
   std::size_t triangles = 0, charts = 0, flipped = 0, overlapping_within_charts = 0;
+  bool has_overlap = true;  ///< Of all surfaces.
   double area_mm2 = 0;
   /// 0 without area.
   double symmetric_dirichlet_mean = 0, angle_error_deg_mean = 0, stretch_l2 = 0, stretch_linf = 0;
