@@ -18,7 +18,7 @@ namespace papilla::app {
 namespace {
 
 /// Writing, reading and counting, a triangle: kept of the time that there is.
-constexpr double k_finishing_s = 4e-6;
+constexpr double k_finishing_s = 2e-6;
 
 struct Options {
   std::string in, out;
