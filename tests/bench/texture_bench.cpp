@@ -194,6 +194,7 @@ void body(bench::BenchReport& report) {
   report_speed(report, size, small);
   bench::report_symmetry(report);
   bench::report_height(report);
+  bench::report_stereo(report);
   bench::report_sizes(report);
   bench::report_photographs(report);
 }
