@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json_value.hpp"
+#include "papilla/core/referenced_file.hpp"
 #include "papilla/pipeline/stereo_file.hpp"
 
 namespace papilla {
@@ -29,7 +30,7 @@ void read_line(const JsonValue& value, HeightReference& reference) {
   reference.to_px = read_place(value.require("to_px"));
 }
 
-void read_object(const JsonValue& value, const std::filesystem::path& folder,
+void read_object(const JsonValue& value, const std::filesystem::path& source,
                  std::vector<HeightReference>& references) {
   using Kind = HeightReference::Kind;
   constexpr double k_least_mm = 1e-6;
@@ -49,7 +50,9 @@ void read_object(const JsonValue& value, const std::filesystem::path& folder,
     step->to_px = read_place(value.require("high_px"));
   }
   if (const auto file = value.get("profile_csv")) {
-    references.push_back({Kind::profile, 0, {}, {}, folder / file->text()});
+    const auto found = resolve_reference({source.parent_path(), source.string() + ": at profile_csv", file->text()});
+    if (!found) file->fail("there is no file '" + file->text() + "'");
+    references.push_back({Kind::profile, 0, {}, {}, *found});
     read_line(value, references.back());
   }
   if (const auto shadow = value.get("shadow")) {
@@ -65,8 +68,12 @@ void read_object(const JsonValue& value, const std::filesystem::path& folder,
 LightsFile read_lights(const std::filesystem::path& path, std::size_t photographs) {
   const JsonValue::Json json = read_json(path);
   const JsonValue root(json, path.string(), "");
-  root.expect_keys({"lights", "sphere", "$comment"});
   LightsFile file;
+  if (json.is_string()) {
+    root.one_of({"unknown"});
+    return file;
+  }
+  root.expect_keys({"lights", "sphere", "$comment"});
   if (const auto sphere = root.get("sphere")) {
     if (root.get("lights")) root.fail("either lights or a sphere");
     sphere->expect_keys({"centre_px", "radius_px", "kind"});
@@ -91,9 +98,9 @@ std::vector<HeightReference> read_references(const std::filesystem::path& path) 
   const JsonValue root(json, path.string(), "");
   std::vector<HeightReference> references;
   if (json.is_array())
-    for (const JsonValue& value : root.list()) read_object(value, path.parent_path(), references);
+    for (const JsonValue& value : root.list()) read_object(value, path, references);
   else
-    read_object(root, path.parent_path(), references);
+    read_object(root, path, references);
   if (references.empty()) root.fail("at least one reference is needed");
   return references;
 }

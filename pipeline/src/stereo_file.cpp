@@ -18,6 +18,7 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/height_reference.hpp"
 #include "papilla/texture/registration.hpp"
+#include "papilla/texture/roughness.hpp"
 #include "relief_files.hpp"
 
 namespace papilla {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
+#include <string>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/srgb.hpp"
@@ -83,7 +85,8 @@ TEST(PhotometricStereo, FindsShadedReliefInSize) {
   EXPECT_NEAR(error.mean, error.scaled_mean, 0.02) << "the size of the heights is known, not their shape alone";
   EXPECT_EQ(found.stop, StopReason::direct);
   EXPECT_FALSE(found.two_sided);
-  EXPECT_GT(std::accumulate(found.confidence.begin(), found.confidence.end(), 0.0) / found.confidence.size(), 0.9);
+  EXPECT_GT(std::accumulate(found.confidence.begin(), found.confidence.end(), 0.0),
+            0.9 * static_cast<double>(found.confidence.size()));
 }
 
 TEST(PhotometricStereo, AlbedoDoesNotMatter) {
