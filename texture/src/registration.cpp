@@ -25,7 +25,7 @@ Spectrum spectrum_of(const GreyImage& image) {
   constexpr double k_darkest = 0.01, k_slow_px = 16;
   std::vector<double> field(image.pixels.size());
   std::transform(image.pixels.begin(), image.pixels.end(), field.begin(),
-                 [](float value) { return std::log(std::max(static_cast<double>(value), k_darkest)); });
+                 [&](float value) { return std::log(std::max(static_cast<double>(value), k_darkest)); });
   filter(field, image.width, image.height, false, [](double x, double y) {
     return 1 - std::exp(-2 * std::numbers::pi * std::numbers::pi * k_slow_px * k_slow_px * (x * x + y * y));
   });
