@@ -155,7 +155,7 @@ TEST(Photograph, NoiseVignetteAndUnevenLightHaveTheirSize) {
   EXPECT_NEAR(vignette.at(0, 0) / static_cast<double>(vignette.at(150, 100)), 0.9, 1e-3);
   EXPECT_NEAR(vignette.at(0, 100) / static_cast<double>(vignette.at(150, 100)), 0.95, 1e-3);
   options.vignette = 0;
-  options.uneven_light = 0.15;
+  options.unphotograph_gains = 0.15;
   std::set<double> ratios;
   for (options.seed = 1; options.seed <= 5; ++options.seed) {
     const GreyImage uneven = photograph(level(200, 150), options).picture;

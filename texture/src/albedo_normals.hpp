@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "even_light.hpp"
+#include "photograph_gains.hpp"
 #include "papilla/core/vec.hpp"
 
 namespace papilla::texture_detail {

@@ -12,7 +12,7 @@
 #include "albedo_normals.hpp"
 #include "best_plane.hpp"
 #include "checks.hpp"
-#include "even_light.hpp"
+#include "photograph_gains.hpp"
 #include "papilla/core/error.hpp"
 #include "unknown_lights.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "even_light.hpp"
+#include "photograph_gains.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/vec.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "even_light.hpp"
+#include "photograph_gains.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
