@@ -105,8 +105,7 @@ TEST(Photograph, HighlightsAreWhereTheFacetMirrorsTheLight) {
   PhotographOptions glossy = matt;
   glossy.specular = {0.7, 50};
   const GreyImage without = photograph(relief, matt).picture, with = photograph(relief, glossy).picture;
-  // Where the light faces away from the facet both are 0; both exposures are undone at a facet far from the highlight.
-  const int far = 20;
+  const int far = 60;  // A facet far from the highlight undoes the exposures.
   const double ratio = static_cast<double>(without.at(far, 30)) / static_cast<double>(with.at(far, 30));
   int brightest = 0;
   double most = 0;

@@ -211,7 +211,9 @@ PhotographOptions photograph_options(PhotographCondition condition, std::uint64_
   options.noise = 0.01;
   options.surface_seed = options.seed = seed;
   if (condition == PhotographCondition::spotted) {
+    constexpr double k_largest_spot_px = 8;
     options.albedo_noise = 0.08;
+    options.albedo_spot_px = std::pow(k_largest_spot_px, random.uniform());
     options.uneven_light = 0.15;
   }
   if (condition == PhotographCondition::glossy) {

@@ -63,7 +63,7 @@ Photograph photograph(const HeightMap& relief, const PhotographOptions& options 
 enum class PhotographCondition { clean, spotted, glossy };
 
 /// The options of a condition, under a light of random azimuth, 25 to 55 degrees above the surface. Every seed gives
-/// other light, spots and noise.
+/// other light, noise and spots, whose radius lies within 1 to 8 pixels.
 PhotographOptions photograph_options(PhotographCondition condition, std::uint64_t seed);
 
 }  // namespace papilla
