@@ -43,7 +43,7 @@ void require_options(const HeightMap& relief, const PhotographOptions& options) 
   require_within(options.albedo_spot_px, 0, k_most_px, "radius of the spots");
   require_within(options.valley_darkening, 0, k_most, "valley darkening");
   require_within(options.vignette, 0, k_most, "vignette");
-  require_within(options.unphotograph_gains, 0, k_most, "uneven light");
+  require_within(options.uneven_light, 0, k_most, "uneven light");
   require_within(options.blur_px, 0, k_most_px, "blur");
   require_within(options.noise, 0, 1, "noise");
   require_within(options.mean_grey, 1e-3, 1, "mean grey");
@@ -151,7 +151,7 @@ void make_uneven(Field& radiance, const HeightMap& relief, const PhotographOptio
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x) {
       const Vec2 place{2 * (x + 0.5) / relief.width - 1, 2 * (y + 0.5) / relief.height - 1};
-      radiance[relief.index(x, y)] *= (1 + options.unphotograph_gains * std::clamp(dot(place, along), -1.0, 1.0)) *
+      radiance[relief.index(x, y)] *= (1 + options.uneven_light * std::clamp(dot(place, along), -1.0, 1.0)) *
                                       (1 - options.vignette * dot(place, place) / 2);
     }
 }
@@ -211,8 +211,10 @@ PhotographOptions photograph_options(PhotographCondition condition, std::uint64_
   options.noise = 0.01;
   options.surface_seed = options.seed = seed;
   if (condition == PhotographCondition::spotted) {
+    constexpr double k_largest_spot_px = 8;
     options.albedo_noise = 0.08;
-    options.unphotograph_gains = 0.15;
+    options.albedo_spot_px = std::pow(k_largest_spot_px, random.uniform());
+    options.uneven_light = 0.15;
   }
   if (condition == PhotographCondition::glossy) {
     options.valley_darkening = 0.15;

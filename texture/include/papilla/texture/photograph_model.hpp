@@ -25,7 +25,7 @@ struct PhotographOptions {
   double albedo_spot_px = 2;       ///< Radius (standard deviation) of those spots.
   double valley_darkening = 0;     ///< The lowest point's albedo is lower by this share than the highest point's.
   double vignette = 0;             ///< Loss at the corners; falls with the square of the distance from the centre.
-  double unphotograph_gains = 0;         ///< Light changes linearly by ± this share from one border to the opposite one.
+  double uneven_light = 0;         ///< Light changes linearly by ± this share from one border to the opposite one.
   double blur_px = 0;              ///< Standard deviation of the Gaussian point spread.
   double noise = 0;                ///< Standard deviation of the sensor's noise, of white.
   double mean_grey = 0.35;         ///< Linear exposure: the mean, or less where that would clip.
@@ -63,7 +63,7 @@ Photograph photograph(const HeightMap& relief, const PhotographOptions& options 
 enum class PhotographCondition { clean, spotted, glossy };
 
 /// The options of a condition, under a light of random azimuth, 25 to 55 degrees above the surface. Every seed gives
-/// other light, spots and noise.
+/// other light, noise and spots, whose radius lies within 1 to 8 pixels.
 PhotographOptions photograph_options(PhotographCondition condition, std::uint64_t seed);
 
 }  // namespace papilla

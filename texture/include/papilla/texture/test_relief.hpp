@@ -13,8 +13,8 @@ namespace papilla {
 struct TestReliefOptions {
   int width = 288, height = 224;  ///< Samples, 64 to 4096 a side.
   double pitch_mm = 0.1;
-  double rms_slope = 0.3;  ///< Root mean square of the gradient, millimetres per millimetre.
-  std::uint64_t seed = 1;  ///< Of the irregular ones, and of how far the regular ones are moved.
+  double rms_slope = 0.25;  ///< Root mean square of the gradient, millimetres per millimetre.
+  std::uint64_t seed = 1;   ///< Of the irregular ones, and of how far the regular ones are moved.
 };
 
 /// Reliefs that photographs are simulated of, oblong and not periodic over the picture:
