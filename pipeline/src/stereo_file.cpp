@@ -147,7 +147,7 @@ void list_measured_and_assumed(const StereoFiles& stereo, HeightResult& result) 
   if (unknown) result.measured.emplace_back("azimuths of the lights, by integrability");
   if (unknown) result.assumed.emplace_back("mean surface: faces the camera");
   if (unknown && stereo.depth_source == "measured")
-    result.assumed.emplace_back("depth: by the usual elevation of lamps, to about 30 %");
+    result.assumed.emplace_back("depth: by the usual elevation of lamps");
   if (stereo.stereo.two_sided) result.assumed.emplace_back("side: convex and concave explain the photographs alike");
   result.assumed.emplace_back("bends over the whole picture: as probable by the spectrum of the relief");
   if (!(result.map.pitch_mm_x > 0)) result.assumed.emplace_back("pitch: unknown");

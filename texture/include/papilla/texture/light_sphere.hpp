@@ -17,7 +17,7 @@ struct LightSphere {
 /// Mirror: the centre of the brightest pixels, at least half as bright as the brightest, is where the light is
 /// reflected to the camera: with n the normal there, s = 2 (n·z) n − z. Matt: least squares of I = a n·s + c over the
 /// pixels of the lit side, those brighter than a quarter of the brightest.
-/// The camera is far away. Accuracy: about 2 degrees for a matt ball of 30 pixels, half a pixel for the highlight.
+/// The camera is far away.
 /// @param photograph  linear brightness. @throws InvalidInput when the ball is not inside the picture, its radius is
 ///        below 4 pixels, or it shows no light.
 Vec3 light_of_sphere(const GreyImage& photograph, const LightSphere& sphere);

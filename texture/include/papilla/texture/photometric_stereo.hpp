@@ -28,7 +28,8 @@ struct PhotometricStereoResult {
   bool lights_estimated = false;
   double light_uncertainty_deg = 0;  ///< Mean angle between the lights of two halves of the picture; 0 when given.
   double ambient = 0;                ///< Light from everywhere found, relative to a lamp that faces the surface.
-  /// Expected correlation of the heights with the truth, from the part of the slopes that belongs to no relief.
+  /// Expected correlation of the heights with the truth, from the part of the slopes that belongs to no relief: noise
+  /// of pixels alone. Light that was made even wrongly is not in it, so that it is an upper bound.
   double expected_correlation = 0;
   /// The relief and its inverse under the opposite azimuths explain the photographs alike.
   bool two_sided = false;
@@ -53,13 +54,14 @@ struct PhotometricStereoResult {
 /// the slopes up to a linear transformation, which follows from integrability, ∂p/∂y = ∂q/∂x [Yuille and Snow 1997],
 /// and is refined together with the lights by least squares. What remains is the bas-relief ambiguity with two
 /// parameters fixed by the mean surface: depth, by the lights' usual elevation and by the brightness of steep places,
-/// to about 30 %, and sign, by cast shadows where there are some; else `two_sided`, and bright stays above dark.
+/// and sign, by cast shadows where there are some; else `two_sided`, and
+/// the side whose shadows fit better is returned.
 ///
 /// Not modelled: light from one facet to another, perspective, lamps so near that their direction changes over the
 /// picture by more than a dome would. Three photographs can't tell shadows from slopes.
 /// A good input: four or more photographs from a tripod, lamp 25 to 55 degrees above the surface, azimuths spread all
-/// around. Cost: about 1 s a megapixel, unknown lights 1 s more. Memory: 8 bytes a pixel and photograph twice, and
-/// 150 bytes a pixel. Deterministic.
+/// around. Cost: about 1.3 s of processor time at 288 × 224 with four lights given. Memory: 8 bytes a pixel and
+/// photograph twice, and 150 bytes a pixel. Deterministic.
 /// @param photographs  the same size, at least 16 pixels a side, linear brightness (see linear_from_srgb()).
 /// @throws InvalidInput when there are fewer than three, their sizes differ, one is black or not finite, or the lights
 ///         are as many as the photographs not, lie in one plane or come from behind.

@@ -22,9 +22,8 @@ struct Registration {
 /// phases of C² are those of a shift by 2d, whose correlation peak is found to a part of a pixel by a parabola. The
 /// shifts of all pairs are reconciled by reweighted least squares. Pixels are interpolated by bicubic splines [Catmull
 /// and Rom 1974]. Not modelled: rotation, scale and perspective; a turn by 0.1 degree moves the corners of 2000 pixels
-/// by 2. Guarantees: shifts are bounded by `largest_shift_px`. Accuracy: about 0.1 pixel on reliefs without a period
-/// below the shift; a periodic relief is known up to its period. Cost: one FFT a photograph and one a pair.
-/// Deterministic.
+/// by 2. Guarantees: shifts are bounded by `largest_shift_px`. A periodic relief is known up to its period. Cost: one
+/// FFT a photograph and one a pair. Deterministic.
 /// @param largest_shift_px  1 to a quarter of the shorter side; cut to that.
 /// @throws InvalidInput when there is no photograph, their sizes differ, they are below 16 pixels a side or not finite,
 ///         or the largest shift is below 1.
