@@ -161,7 +161,7 @@ std::string rounded(double value) {
 void choose_by_expectation(const SampleRows& brightness, const HeightOptions& options, HeightResult& result) {
   choose_light(brightness, options, result);
   // Share of pictures with such a coherence that are lit, of the model's and of real ones.
-  constexpr double k_not_lit = 0.1, k_lit = 0.35;
+  constexpr double k_not_lit = 0.15, k_lit = 0.35;
   const double lit =
       options.light ? 1 : std::clamp((result.light_coherence - k_not_lit) / (k_lit - k_not_lit), 0.0, 1.0);
   const double turned = std::cos(result.light_uncertainty_deg * k_radians_per_degree);
