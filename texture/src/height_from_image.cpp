@@ -20,7 +20,6 @@
 #include "papilla/texture/shape_from_shading.hpp"
 #include "papilla/texture/symmetry.hpp"
 #include "papilla/texture/tiling.hpp"
-#include "pyramid.hpp"
 #include "row_window.hpp"
 #include "shading_spectrum.hpp"
 #include "shaped_noise.hpp"
@@ -120,25 +119,6 @@ EvenedSamples brightness_of(const SampleRows& picture, int bits, const HeightOpt
   return EvenedSamples(picture, result.decoded_srgb, field);
 }
 
-/// Of two opposite sides of the light the one on which bright parts are high. Shading itself is the relief's derivative
-/// and says nothing; but highlights, and valleys that are darker, do.
-void choose_side(const SampleRows& brightness, HeightResult& result) {
-  constexpr int k_reduced_px = 512;
-  constexpr double k_clear = 0.1;  // Clean pictures of the model of photographs have ±0.05.
-  const GreyImage small = texture_detail::shrunk(brightness, k_reduced_px).image;
-  const Statistics grey = statistics(SamplesInMemory(small.pixels, small.width, small.height));
-  if (!(grey.low < grey.high) || !(grey.mean > 0)) return;
-  const std::vector<double> heights =
-      shape_from_shading_wiener(small, {.light = result.light, .albedo = grey.mean / result.light.z}).height_px;
-  double product = 0, square = 0;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    product += heights[i] * (static_cast<double>(small.pixels[i]) - grey.mean);
-    square += heights[i] * heights[i];
-  }
-  const double scale = std::sqrt(square * static_cast<double>(heights.size())) * grey.deviation;
-  if (product < -k_clear * scale) result.light = {-result.light.x, -result.light.y, result.light.z};
-}
-
 void choose_light(const SampleRows& brightness, const HeightOptions& options, HeightResult& result) {
   if (options.light) {
     result.light = texture_detail::require_light(*options.light, "height_from_image");
@@ -149,7 +129,6 @@ void choose_light(const SampleRows& brightness, const HeightOptions& options, He
   result.light_estimated = result.ambiguous = true;
   result.light_coherence = estimate.coherence;
   result.light_uncertainty_deg = estimate.uncertainty_deg;
-  if (estimate.coherence > 0) choose_side(brightness, result);
 }
 
 std::string rounded(double value) {
@@ -369,9 +348,7 @@ void list_measured_and_assumed(const HeightOptions& options, HeightResult& resul
     result.assumed.emplace_back("albedo: such that the mean grey is that of level ground");
   if (lit && result.light_estimated) {
     result.assumed.emplace_back("elevation of the light: 45 degrees");
-    result.assumed.emplace_back(
-        "side of the light: that on which bright parts are high, else from above; the opposite one turns the relief "
-        "inside out");
+    result.assumed.emplace_back("side of the light: from above; the opposite one turns the relief inside out");
     result.measured.emplace_back("azimuth of the light, as far as the relief has no direction of its own");
   }
   if (lit) result.measured.emplace_back("slopes along the light");

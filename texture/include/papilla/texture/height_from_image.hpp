@@ -101,8 +101,7 @@ struct HeightResult {
 };
 
 /// Height map in millimetres from one picture of a surface. White or lit is outward. Shape from shading works on linear
-/// brightness, over the light_field() unless the picture tiles. An estimated light comes from the side on which bright
-/// parts are high, where the relief shows that, else from above.
+/// brightness, over the light_field() unless the picture tiles.
 /// The depth is what is asked for: one picture of unknown albedo and light determines shape, not scale. Shape from one
 /// picture is a guess under the assumptions of the method and of estimate_light().
 /// Periodic pictures give exactly periodic heights. A flat or black picture gives a flat map. Every height is finite.
