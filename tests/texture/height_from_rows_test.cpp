@@ -112,8 +112,8 @@ TEST(HeightFromRows, RefusesWhatNeedsThePictureInMemory) {
   const SamplesInMemory picture(image.pixels, 64, 64);
   const TemporaryFolder folder("papilla-test");
   SampleFile samples(64, 64, folder.path());
-  EXPECT_THROW(height_from_rows(picture, image, {.tile = true}, samples), InvalidInput);
-  EXPECT_THROW(height_from_rows(picture, image, {.roughness = HeightRoughness::none}, samples), InvalidInput);
+  EXPECT_THROW(height_from_rows(picture, image.bits, {.tile = true}, samples), InvalidInput);
+  EXPECT_THROW(height_from_rows(picture, image.bits, {.roughness = HeightRoughness::none}, samples), InvalidInput);
 }
 
 TEST(SampleFile, GivesBackPartsOfRowsAndLeavesNoName) {

@@ -54,27 +54,26 @@ TEST_P(HeightOfPhotographs, CorrelatesWithTheReliefUnderAGivenLight) {
   EXPECT_GE(mean, least);
 }
 
+TEST_P(HeightOfPhotographs, WithoutALightCorrelatesUpToTheSideThatIsSaidToBeOpen) {
+  double axis = 0;
+  const double mean =
+      mean_over_reliefs(GetParam().first, [&](const GreyImage& picture, const HeightMap& truth, Vec3 light) {
+        const HeightResult result = height_from_image(picture, {.method = HeightMethod::wiener});
+        EXPECT_TRUE(result.ambiguous);
+        axis += std::abs(std::remainder(std::atan2(result.light.y, result.light.x) - std::atan2(light.y, light.x),
+                                        std::numbers::pi)) *
+                k_degrees_per_radian / 16;
+        return std::abs(correlation(result.map, truth));
+      });
+  EXPECT_GE(mean, 0.6);
+  EXPECT_LE(axis, 13);
+}
+
+// The mean of 16 pictures has a standard error of 0.03; wiener.md has those of more.
 INSTANTIATE_TEST_SUITE_P(Conditions, HeightOfPhotographs,
                          testing::Values(std::pair{PhotographCondition::clean, 0.8},
                                          std::pair{PhotographCondition::spotted, 0.5},
-                                         std::pair{PhotographCondition::glossy, 0.75}));
-
-TEST(HeightOfAPhotograph, WithoutALightCorrelatesUpToTheSideThatIsSaidToBeOpen) {
-  double sum = 0, axis = 0;
-  for (const PhotographCondition condition :
-       {PhotographCondition::clean, PhotographCondition::spotted, PhotographCondition::glossy})
-    sum += mean_over_reliefs(condition, [&](const GreyImage& picture, const HeightMap& truth, Vec3 light) {
-      const HeightResult result = height_from_image(picture);
-      EXPECT_TRUE(result.ambiguous);
-      if (result.method == HeightMethod::wiener)
-        axis += std::abs(std::remainder(std::atan2(result.light.y, result.light.x) - std::atan2(light.y, light.x),
-                                        std::numbers::pi)) *
-                k_degrees_per_radian / 48;
-      return std::abs(correlation(result.map, truth));
-    });
-  EXPECT_GE(sum / 3, 0.65);
-  EXPECT_LE(axis, 10);
-}
+                                         std::pair{PhotographCondition::glossy, 0.7}));
 
 TEST(HeightOfAPhotograph, AHeightPictureIsReadAsHeights) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
