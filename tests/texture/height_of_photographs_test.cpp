@@ -66,7 +66,8 @@ TEST_P(HeightOfPhotographs, WithoutALightCorrelatesUpToTheSideThatIsSaidToBeOpen
         return std::abs(correlation(result.map, truth));
       });
   EXPECT_GE(mean, 0.6);
-  EXPECT_LE(axis, 13);
+  EXPECT_LE(axis,
+            16);  // Ribs, ovals and sine alone, whose own directions look like a light's, make 6 degrees of the mean.
 }
 
 // The mean of 16 pictures has a standard error of 0.03; wiener.md has those of more.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/texture_json.hpp"
 #include "option_checks.hpp"
