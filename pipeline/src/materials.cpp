@@ -14,7 +14,7 @@ HeightRule read_height(const JsonValue& value) {
   value.expect_keys({"method", "depth_mm", "scale", "max_slope"});
   HeightRule rule;
   if (const auto v = value.get("method"))
-    rule.method = v->one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"});
+    rule.method = v->one_of({"auto", "wiener", "variational", "pentland", "tsai-shah", "intensity"});
   if (const auto v = value.get("depth_mm")) rule.depth_mm = v->number(1e-6, 100);
   if (const auto v = value.get("scale")) rule.scale = v->number(0, 100);
   if (const auto v = value.get("max_slope")) rule.max_slope = v->number(0.01, 1000);

@@ -14,7 +14,7 @@ namespace papilla {
 
 /// How a material's picture becomes relief.
 struct HeightRule {
-  std::string method = "auto";      ///< auto, variational, pentland, tsai-shah, intensity.
+  std::string method = "auto";      ///< auto, wiener, variational, pentland, tsai-shah, intensity.
   std::optional<double> depth_mm;   ///< Peak to valley; without it 1 % of the grain's shorter side.
   double scale = 1;                 ///< Multiplies the heights; 1, 2 and 4 are the tested variants.
   std::optional<double> max_slope;  ///< Of the relief; without it default_max_slope() of the material's friction.
