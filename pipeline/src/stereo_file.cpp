@@ -13,12 +13,13 @@
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
-#include "papilla/core/srgb.hpp"
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/texture/even_light.hpp"
 #include "papilla/texture/height_reference.hpp"
 #include "papilla/texture/registration.hpp"
 #include "papilla/texture/roughness.hpp"
+#include "papilla/texture/stored_samples.hpp"
 #include "relief_files.hpp"
 
 namespace papilla {
@@ -45,7 +46,7 @@ void require_sizes(const std::vector<fs::path>& files) {
   }
 }
 
-std::vector<GreyImage> read_linear(const std::vector<fs::path>& files) {
+std::vector<GreyImage> read_linear(const std::vector<fs::path>& files, Transfer transfer) {
   std::vector<GreyImage> photographs;
   for (const fs::path& file : files) {
     photographs.push_back(
@@ -53,8 +54,10 @@ std::vector<GreyImage> read_linear(const std::vector<fs::path>& files) {
     GreyImage& image = photographs.back();
     if (std::none_of(image.pixels.begin(), image.pixels.end(), [](float v) { return v > 0; }))
       throw InvalidInput(file.string() + ": the photograph is black");
-    if (image.bits == 32) continue;
-    for (float& value : image.pixels) value = static_cast<float>(linear_from_srgb(static_cast<double>(value)));
+    const std::vector<float> stored = image.pixels;
+    const SamplesInMemory samples(stored, image.width, image.height);
+    const EvenedSamples linear(samples, decodes_srgb(transfer, image.bits), {});
+    for (int y = 0; y < image.height; ++y) linear.read(0, y, image.width, &image.at(0, y));
   }
   return photographs;
 }
@@ -161,8 +164,9 @@ StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs
   const HeightOptions& height = options.files.height;
   const std::vector<HeightReference> references =
       options.references.empty() ? std::vector<HeightReference>{} : read_references(options.references);
-  std::vector<GreyImage> photographs = read_linear(files);
+  std::vector<GreyImage> photographs = read_linear(files, height.transfer);
   StereoFiles result;
+  result.files.result.decoded_srgb = decodes_srgb(height.transfer, photographs.front().bits);
   PhotometricStereoOptions stereo{lights_of(options, files, photographs), height.progress};
   double pitch = height.pitch_mm > 0 ? height.pitch_mm : std::max(0.0, photographs.front().pitch_mm);
   measure_pitch(references, photographs.front(), pitch, result);
@@ -172,9 +176,14 @@ StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs
   result.stereo = photometric_stereo(photographs, stereo);
 
   HeightResult& relief = result.files.result;
-  relief.method = HeightMethod::variational;  // Slopes from shading; the report says photometric stereo.
+  relief.method = HeightMethod::photometric_stereo;
   relief.light = result.stereo.lights.front();
   relief.light_estimated = result.stereo.lights_estimated;
+  relief.light_uncertainty_deg = result.stereo.light_uncertainty_deg;
+  relief.ambiguous = result.stereo.two_sided;
+  relief.expected_correlation = result.stereo.expected_correlation;
+  relief.shadows_fraction = result.stereo.shadows_fraction;
+  relief.highlights_fraction = result.stereo.highlights_fraction;
   relief.reason = fmt::format("{} photographs under different light", files.size());
   relief.trace = result.stereo.trace;
   relief.stop = result.stereo.stop;

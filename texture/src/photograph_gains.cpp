@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -12,6 +13,10 @@
 #include "albedo_normals.hpp"
 #include "checks.hpp"
 #include "cosine_filter.hpp"
+#include "light_matrix.hpp"
+#include "papilla/texture/even_light.hpp"
+#include "papilla/texture/stored_samples.hpp"
+#include "pyramid.hpp"
 
 namespace papilla::texture_detail {
 namespace {
@@ -43,25 +48,19 @@ double value_of(const VectorXd& coefficients, const Terms& terms) {
   return sum;
 }
 
-/// The best quadric of the logarithm of the means over blocks, in which shading is linear in the slopes.
+GreyImage picture_of(const Field& field, int width, int height) {
+  GreyImage image{width, height, {}};
+  image.pixels.assign(field.begin(), field.end());
+  return image;
+}
+
+/// The light_field() of the means over blocks, in which shading is linear in the slopes.
 VectorXd log_quadric(const Field& field, int width, int height) {
-  const int block = std::max(1, std::min({8, width / 8, height / 8}));
-  const Frame frame(width, height);
-  constexpr double k_darkest = 1e-3;  // Of the mean: black has no logarithm.
-  const double mean = std::accumulate(field.begin(), field.end(), 0.0) / static_cast<double>(field.size());
-  MatrixXd products = MatrixXd::Zero(k_terms, k_terms);
-  VectorXd right = VectorXd::Zero(k_terms);
-  for (int top = 0; top + block <= height; top += block)
-    for (int left = 0; left + block <= width; left += block) {
-      double sum = 0;
-      for (int y = top; y < top + block; ++y)
-        for (int x = left; x < left + block; ++x) sum += field[pixel_index(x, y, width)];
-      const Terms terms = frame.terms(left + (block - 1) / 2.0, top + (block - 1) / 2.0);
-      const Eigen::Map<const VectorXd> row(terms.data(), k_terms);
-      products += row * row.transpose();
-      right += row * std::log(std::max(sum / (block * block), k_darkest * mean));
-    }
-  return products.ldlt().solve(right);
+  constexpr int k_most_blocks = 64;  // Along a side.
+  const GreyImage blocks = shrunk(picture_of(field, width, height), k_most_blocks).image;
+  const auto q = light_field(SamplesInMemory(blocks.pixels, blocks.width, blocks.height), false).quadric;
+  const double side = std::max(width, height), x = side / width, y = side / height;  // From borders to the longer side.
+  return (VectorXd(k_terms) << q[0], x * q[1], y * q[2], x * x * q[3], x * y * q[4], y * y * q[5]).finished();
 }
 
 void divide(Field& field, int width, int height, const VectorXd& log_gain, double mean) {
@@ -122,7 +121,14 @@ struct Split {
   double usual = 0;    ///< Usual deviation of the light's coefficients.
 };
 
-VectorXd relief_part(const VectorXd& coefficients, const Split& split) {
+/// Mean and covariance.
+struct Posterior {
+  VectorXd mean;
+  MatrixXd covariance;
+};
+
+/// Of the relief's part of the coefficients.
+Posterior relief_part(const VectorXd& coefficients, const Split& split) {
   constexpr double k_free = 1e4, k_usual_count = 2;
   const Eigen::Index count = coefficients.size();
   const MatrixXd basis =
@@ -137,19 +143,20 @@ VectorXd relief_part(const VectorXd& coefficients, const Split& split) {
   const MatrixXd information = split.relief.transpose() * inverse * split.relief;
   double variance = usual;
   VectorXd parameters;
+  MatrixXd posterior;
   for (int step = 0; step < 10; ++step) {
-    const MatrixXd posterior = (information / variance + prior).inverse();
+    posterior = (information / variance + prior).inverse();
     parameters = posterior * (split.relief.transpose() * (inverse * coefficients)) / variance;
     const double freedom =
         static_cast<double>(count - split.nuisance.cols() - split.relief.cols()) + (prior * posterior).trace();
     variance = (reduced(coefficients - split.relief * parameters).squaredNorm() + k_usual_count * usual) /
                (std::max(0.0, freedom) + k_usual_count);
   }
-  return split.relief * parameters;
+  return {split.relief * parameters, split.relief * posterior * split.relief.transpose()};
 }
 
-/// The part of the quadrics that a relief a x²/2 + b x y + c y²/2 and one of third degree make.
-MatrixXd relief_of_quadrics(const MatrixXd& quadrics, const std::vector<Vec3>& lights, const SlopeSpectrum& spectrum,
+/// The part of the quadrics that a relief a x²/2 + b x y + c y²/2 and one of third degree make, photograph by photograph.
+Posterior relief_of_quadrics(const MatrixXd& quadrics, const std::vector<Vec3>& lights, const SlopeSpectrum& spectrum,
                             double width, double height) {
   const auto count = static_cast<Eigen::Index>(lights.size());
   const double side = std::max(width, height);
@@ -170,26 +177,22 @@ MatrixXd relief_of_quadrics(const MatrixXd& quadrics, const std::vector<Vec3>& l
   linear.variances << spectrum(1.5) / xx, spectrum(1.5) / (xx + yy), spectrum(1.5) / yy;
   cubic.variances << spectrum(2.5) / (9 * vxx), spectrum(2.5) / (4 * vxy + vxx), spectrum(2.5) / (vyy + 4 * vxy),
       spectrum(2.5) / (9 * vyy);
-  MatrixXd kept = MatrixXd::Zero(count, k_terms);
   VectorXd first(2 * count), second(3 * count);
   for (Eigen::Index k = 0; k < count; ++k) {
     first.segment(2 * k, 2) = quadrics.row(k).segment(1, 2).transpose();
     second.segment(3 * k, 3) = quadrics.row(k).segment(3, 3).transpose();
   }
-  first = relief_part(first, linear);
-  second = relief_part(second, cubic);
+  const Posterior bent = relief_part(first, linear), twisted = relief_part(second, cubic);
+  Posterior kept{VectorXd::Zero(k_terms * count), MatrixXd::Zero(k_terms * count, k_terms * count)};
   for (Eigen::Index k = 0; k < count; ++k) {
-    kept.row(k).segment(1, 2) = first.segment(2 * k, 2).transpose();
-    kept.row(k).segment(3, 3) = second.segment(3 * k, 3).transpose();
+    kept.mean.segment(k_terms * k + 1, 2) = bent.mean.segment(2 * k, 2);
+    kept.mean.segment(k_terms * k + 3, 3) = twisted.mean.segment(3 * k, 3);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      kept.covariance.block(k_terms * k + 1, k_terms * j + 1, 2, 2) = bent.covariance.block(2 * k, 2 * j, 2, 2);
+      kept.covariance.block(k_terms * k + 3, k_terms * j + 3, 3, 3) = twisted.covariance.block(3 * k, 3 * j, 3, 3);
+    }
   }
   return kept;
-}
-
-MatrixXd matrix_of(const std::vector<Vec3>& lights) {
-  MatrixXd matrix(static_cast<Eigen::Index>(lights.size()), 3);
-  for (std::size_t k = 0; k < lights.size(); ++k)
-    matrix.row(static_cast<Eigen::Index>(k)) << lights[k].x, lights[k].y, lights[k].z;
-  return matrix;
 }
 
 /// Brightness of every n-th pixel of all photographs over its albedo, and the terms of the quadrics there.
@@ -235,9 +238,11 @@ struct Gains {
 };
 
 /// See balance().
-Gains fit_gains(const Sample& sample, const MatrixXd& lights) {
+Gains fit_gains(const Sample& sample, const MatrixXd& lights, const MatrixXd& prior) {
   constexpr double k_least_deviation = 0.003;  // Rounding of a byte.
   constexpr double k_usual_brightness = 0.03, k_usual_slope = 0.05, k_common = 1e3;
+  static const char* mode = std::getenv("MODE");
+  static const int m = mode ? std::atoi(mode) : 0;
   constexpr double k_independent =
       100;  // What differs from the model does so over wide areas: few pixels say their own.
   const Eigen::Index count = lights.rows(), unknowns = count * k_terms, pixels = sample.values.cols();
@@ -271,12 +276,14 @@ Gains fit_gains(const Sample& sample, const MatrixXd& lights) {
       right.noalias() -= row * (across.transpose() * sample.values.col(i)) * weight;
     }
     normal = normal.selfadjointView<Eigen::Lower>();
+    if (m == 2) { normal += prior; } else {
     const double common = k_common * std::max(1.0, normal.trace() / static_cast<double>(unknowns));
     for (Eigen::Index a = 0; a < unknowns; ++a) {
       const double usual = a % k_terms == 0 ? k_usual_brightness : k_usual_slope;
       normal(a, a) += 1 / (usual * usual);
       for (Eigen::Index b = a % k_terms; b < unknowns; b += k_terms) normal(a, b) += common;
-    }
+    }}
+    if (m == 1) normal += 1e12 * MatrixXd::Identity(unknowns, unknowns);
     const VectorXd solution = normal.ldlt().solve(right);
     if (!solution.allFinite()) break;
     for (Eigen::Index k = 0; k < count; ++k) corrections.row(k) = solution.segment(k * k_terms, k_terms).transpose();
@@ -312,33 +319,40 @@ Field integrate(const Slopes& slopes, int width, int height) {
 }
 
 void flatten(Photographs& photographs) {
+  const int width = photographs.width, height = photographs.height;
   for (Field& field : photographs.fields)
-    divide(field, photographs.width, photographs.height, log_quadric(field, photographs.width, photographs.height), 1);
+    divide(field, width, height, log_quadric(field, width, height), 1);
 }
 
-void even_out(Photographs& photographs, const std::vector<Vec3>& lights) {
+Eigen::MatrixXd even_out(Photographs& photographs, const std::vector<Vec3>& lights) {
   const int width = photographs.width, height = photographs.height;
   const auto count = static_cast<Eigen::Index>(lights.size());
-  MatrixXd quadrics(count, k_terms), kept = MatrixXd::Zero(count, k_terms);
+  MatrixXd quadrics(count, k_terms);
+  Posterior kept{VectorXd::Zero(k_terms * count), {}};
   for (Eigen::Index k = 0; k < count; ++k)
     quadrics.row(k) = log_quadric(photographs.fields[static_cast<std::size_t>(k)], width, height).transpose();
   for (int step = 0; step < 3; ++step) {  // The spectrum of the flattened relief, then of what was found with it.
     Photographs even = photographs;
     for (Eigen::Index k = 0; k < count; ++k)
-      divide(even.fields[static_cast<std::size_t>(k)], width, height, (quadrics - kept).row(k).transpose(),
+      divide(even.fields[static_cast<std::size_t>(k)], width, height, quadrics.row(k).transpose() - kept.mean.segment(k_terms * k, k_terms),
              lights[static_cast<std::size_t>(k)].z);
     if (step == 2) {
       photographs = std::move(even);
-      return;
+      return std::move(kept.covariance);
     }
     const SlopeSpectrum spectrum(slopes_of(normals_of(even, lights)), width, height);
     kept = relief_of_quadrics(quadrics, lights, spectrum, width, height);
   }
+  return {};
 }
 
-Balance balance(Photographs& photographs, std::vector<Vec3>& lights) {
+Balance balance(Photographs& photographs, std::vector<Vec3>& lights, const Eigen::MatrixXd& uncertainty) {
   if (lights.size() < 4) return {};
   constexpr std::array<double, 7> k_ambient = {0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3};
+  MatrixXd prior = uncertainty;
+  static const double nug = std::getenv("NUG") ? std::atof(std::getenv("NUG")) : 0.003, bri = std::getenv("BRI") ? std::atof(std::getenv("BRI")) : 0.03;
+  for (Eigen::Index i = 0; i < prior.rows(); ++i) prior(i, i) += i % k_terms == 0 ? bri * bri : nug * nug;
+  prior = prior.inverse().eval();
   std::vector<Vec3> best_lights = lights;
   Gains best;
   Balance result;
@@ -355,7 +369,7 @@ Balance balance(Photographs& photographs, std::vector<Vec3>& lights) {
   for (const double ambient : k_ambient) {
     const std::vector<Vec3> moved = with_ambient(ambient);
     const MatrixXd matrix = matrix_of(moved);
-    const Gains gains = fit_gains(sample_of(photographs, matrix), matrix);
+    const Gains gains = fit_gains(sample_of(photographs, matrix), matrix, prior);
     if (ambient > 0 && gains.deviation > 0.98 * best.deviation) continue;
     best = gains, best_lights = moved, result = {ambient, gains.deviation};
   }

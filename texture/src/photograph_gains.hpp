@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
@@ -24,7 +25,7 @@ struct Slopes {
 /// Frankot and Chellappa 1988.
 Field integrate(const Slopes& slopes, int width, int height);
 
-/// Divides every photograph by the best quadric of its logarithm, and scales it to the mean 1. What is left has a level
+/// Divides every photograph by its light_field(), and scales it to the mean 1. What is left has a level
 /// mean surface.
 void flatten(Photographs& photographs);
 
@@ -33,7 +34,7 @@ void flatten(Photographs& photographs);
 /// c_k = v + R_k θ + g_k, v the vignette, which is the same in all, and g_k the light of each, which is not. θ is the
 /// mean of its posterior with a variance continued from the spectrum of the finer relief, g_k normal with a variance
 /// found with it; a near lamp, which looks like a dome, is part of g_k.
-void even_out(Photographs& photographs, const std::vector<Vec3>& lights);
+Eigen::MatrixXd even_out(Photographs& photographs, const std::vector<Vec3>& lights);
 
 /// What balance() finds.
 struct Balance {
@@ -45,6 +46,6 @@ struct Balance {
 /// every pixel, so that quadrics G_k follow from min Σ (Σ_k w_k G_k I_k)² over pixels of many slopes, by reweighted
 /// least squares, near 1 where the slopes do not tell. `lights` get the ambient light, (0, 0, ambient), added.
 /// Three photographs stay as they are.
-Balance balance(Photographs& photographs, std::vector<Vec3>& lights);
+Balance balance(Photographs& photographs, std::vector<Vec3>& lights, const Eigen::MatrixXd& uncertainty);
 
 }  // namespace papilla::texture_detail

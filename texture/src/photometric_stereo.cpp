@@ -159,10 +159,10 @@ PhotometricStereoResult photometric_stereo(const std::vector<GreyImage>& images,
   }
   report_progress(options.progress, "photometric stereo", 0.3);
   Photographs photographs = given;
-  even_out(photographs, result.lights);
+  const Eigen::MatrixXd uncertainty = even_out(photographs, result.lights);
   report_progress(options.progress, "photometric stereo", 0.6);
   std::vector<Vec3> lights = result.lights;
-  const Balance balanced = balance(photographs, lights);
+  const Balance balanced = balance(photographs, lights, uncertainty);
   result.ambient = balanced.ambient;
   result.residual = balanced.residual;
   RobustNormals surface = robust_normals(photographs, lights, balanced.residual);

@@ -6,16 +6,10 @@ namespace papilla::app {
 Json stereo_json(const StereoFiles& files) {
   const PhotometricStereoResult& stereo = files.stereo;
   Json json = height_json(files.files);
-  json["method"] = "photometric-stereo";
   json["lights"] = Json::array();
   for (const Vec3 light : stereo.lights) json["lights"].push_back({light.x, light.y, light.z});
-  json["light_uncertainty_deg"] = stereo.light_uncertainty_deg;
   json["ambient"] = stereo.ambient;
-  json["expected_correlation"] = stereo.expected_correlation;
   json["confidence"] = {{"mean", files.mean_confidence}, {"low_fraction", files.low_confidence_fraction}};
-  json["ambiguity"] = stereo.two_sided ? "convex-concave" : "none";
-  json["shadows_fraction"] = stereo.shadows_fraction;
-  json["highlights_fraction"] = stereo.highlights_fraction;
   json["residual"] = stereo.residual;
   json["shifts_px"] = Json::array();
   for (const Vec2 shift : files.shifts_px) json["shifts_px"].push_back({shift.x, shift.y});

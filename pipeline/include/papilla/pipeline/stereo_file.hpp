@@ -71,7 +71,8 @@ struct StereoFiles {
 };
 
 /// Reads photographs of one place from one point under different light, moves them onto each other, and writes the
-/// relief of photometric_stereo(). Integers are decoded from sRGB, floats are linear. The depth is measured where the
+/// relief of photometric_stereo(). They are decoded as `files.height.transfer`
+/// says. The depth is measured where the
 /// lights are known; of several references of height their mean is taken.
 /// @throws InvalidInput naming the file when there are fewer than three photographs, their sizes differ, they take more
 ///         than picture_memory() (before they are decoded), or lights and references do not fit; IoError.
