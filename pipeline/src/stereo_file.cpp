@@ -181,7 +181,6 @@ StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs
   relief.light_estimated = result.stereo.lights_estimated;
   relief.light_uncertainty_deg = result.stereo.light_uncertainty_deg;
   relief.ambiguous = result.stereo.two_sided;
-  relief.expected_correlation = result.stereo.expected_correlation;
   relief.shadows_fraction = result.stereo.shadows_fraction;
   relief.highlights_fraction = result.stereo.highlights_fraction;
   relief.reason = fmt::format("{} photographs under different light", files.size());

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -121,14 +120,7 @@ struct Split {
   double usual = 0;    ///< Usual deviation of the light's coefficients.
 };
 
-/// Mean and covariance.
-struct Posterior {
-  VectorXd mean;
-  MatrixXd covariance;
-};
-
-/// Of the relief's part of the coefficients.
-Posterior relief_part(const VectorXd& coefficients, const Split& split) {
+VectorXd relief_part(const VectorXd& coefficients, const Split& split) {
   constexpr double k_free = 1e4, k_usual_count = 2;
   const Eigen::Index count = coefficients.size();
   const MatrixXd basis =
@@ -143,20 +135,19 @@ Posterior relief_part(const VectorXd& coefficients, const Split& split) {
   const MatrixXd information = split.relief.transpose() * inverse * split.relief;
   double variance = usual;
   VectorXd parameters;
-  MatrixXd posterior;
   for (int step = 0; step < 10; ++step) {
-    posterior = (information / variance + prior).inverse();
+    const MatrixXd posterior = (information / variance + prior).inverse();
     parameters = posterior * (split.relief.transpose() * (inverse * coefficients)) / variance;
     const double freedom =
         static_cast<double>(count - split.nuisance.cols() - split.relief.cols()) + (prior * posterior).trace();
     variance = (reduced(coefficients - split.relief * parameters).squaredNorm() + k_usual_count * usual) /
                (std::max(0.0, freedom) + k_usual_count);
   }
-  return {split.relief * parameters, split.relief * posterior * split.relief.transpose()};
+  return split.relief * parameters;
 }
 
-/// The part of the quadrics that a relief a x²/2 + b x y + c y²/2 and one of third degree make, photograph by photograph.
-Posterior relief_of_quadrics(const MatrixXd& quadrics, const std::vector<Vec3>& lights, const SlopeSpectrum& spectrum,
+/// The part of the quadrics that a relief a x²/2 + b x y + c y²/2 and one of third degree make.
+MatrixXd relief_of_quadrics(const MatrixXd& quadrics, const std::vector<Vec3>& lights, const SlopeSpectrum& spectrum,
                             double width, double height) {
   const auto count = static_cast<Eigen::Index>(lights.size());
   const double side = std::max(width, height);
@@ -177,53 +168,19 @@ Posterior relief_of_quadrics(const MatrixXd& quadrics, const std::vector<Vec3>& 
   linear.variances << spectrum(1.5) / xx, spectrum(1.5) / (xx + yy), spectrum(1.5) / yy;
   cubic.variances << spectrum(2.5) / (9 * vxx), spectrum(2.5) / (4 * vxy + vxx), spectrum(2.5) / (vyy + 4 * vxy),
       spectrum(2.5) / (9 * vyy);
+  MatrixXd kept = MatrixXd::Zero(count, k_terms);
   VectorXd first(2 * count), second(3 * count);
   for (Eigen::Index k = 0; k < count; ++k) {
     first.segment(2 * k, 2) = quadrics.row(k).segment(1, 2).transpose();
     second.segment(3 * k, 3) = quadrics.row(k).segment(3, 3).transpose();
   }
-  const Posterior bent = relief_part(first, linear), twisted = relief_part(second, cubic);
-  Posterior kept{VectorXd::Zero(k_terms * count), MatrixXd::Zero(k_terms * count, k_terms * count)};
+  first = relief_part(first, linear);
+  second = relief_part(second, cubic);
   for (Eigen::Index k = 0; k < count; ++k) {
-    kept.mean.segment(k_terms * k + 1, 2) = bent.mean.segment(2 * k, 2);
-    kept.mean.segment(k_terms * k + 3, 3) = twisted.mean.segment(3 * k, 3);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      kept.covariance.block(k_terms * k + 1, k_terms * j + 1, 2, 2) = bent.covariance.block(2 * k, 2 * j, 2, 2);
-      kept.covariance.block(k_terms * k + 3, k_terms * j + 3, 3, 3) = twisted.covariance.block(3 * k, 3 * j, 3, 3);
-    }
+    kept.row(k).segment(1, 2) = first.segment(2 * k, 2).transpose();
+    kept.row(k).segment(3, 3) = second.segment(3 * k, 3).transpose();
   }
   return kept;
-}
-
-/// Brightness of every n-th pixel of all photographs over its albedo, and the terms of the quadrics there.
-struct Sample {
-  MatrixXd values;  ///< Columns are pixels.
-  MatrixXd terms;
-};
-
-Sample sample_of(const Photographs& photographs, const MatrixXd& lights) {
-  constexpr double k_most_pixels = 30000;
-  const int width = photographs.width, height = photographs.height;
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(width) * height / k_most_pixels)));
-  const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
-  const auto count = static_cast<Eigen::Index>(photographs.fields.size());
-  const Frame frame(width, height);
-  Sample sample{MatrixXd(count, columns * rows), MatrixXd(k_terms, columns * rows)};
-  Eigen::Index at = 0;
-  for (int y = 0; y < height; y += step)
-    for (int x = 0; x < width; x += step, ++at) {
-      for (Eigen::Index k = 0; k < count; ++k)
-        sample.values(k, at) = photographs.fields[static_cast<std::size_t>(k)][pixel_index(x, y, width)];
-      const Terms terms = frame.terms(x, y);
-      sample.terms.col(at) = Eigen::Map<const VectorXd>(terms.data(), k_terms);
-    }
-  const MatrixXd inverse = lights.completeOrthogonalDecomposition().pseudoInverse();
-  VectorXd albedo = (inverse * sample.values).colwise().norm().transpose();
-  std::vector<double> sorted(albedo.data(), albedo.data() + albedo.size());
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double least = 0.2 * sorted[sorted.size() / 2];
-  for (Eigen::Index i = 0; i < at; ++i) sample.values.col(i) /= std::max({albedo[i], least, 1e-12});
-  return sample;
 }
 
 double median(std::vector<double> values) {
@@ -232,72 +189,40 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-struct Gains {
-  MatrixXd corrections;  ///< Rows: photographs, columns: terms; to be added to 1.
-  double deviation = 0;
-};
+/// Means of blocks of all photographs over their albedo; columns are blocks. Single pixels are noise.
+MatrixXd blocks_of(const Photographs& photographs, const MatrixXd& lights, int side) {
+  const int columns = photographs.width / side, rows = photographs.height / side;
+  const auto count = static_cast<Eigen::Index>(photographs.fields.size());
+  MatrixXd values = MatrixXd::Zero(count, static_cast<Eigen::Index>(columns) * rows);
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (int y = 0; y < rows * side; ++y)
+      for (int x = 0; x < columns * side; ++x)
+        values(k, (y / side) * static_cast<Eigen::Index>(columns) + x / side) +=
+            photographs.fields[static_cast<std::size_t>(k)][pixel_index(x, y, photographs.width)];
+  const MatrixXd inverse = lights.completeOrthogonalDecomposition().pseudoInverse();
+  const VectorXd albedo = (inverse * values).colwise().norm().transpose();
+  const double least = std::max(0.2 * median({albedo.data(), albedo.data() + albedo.size()}), 1e-12);
+  for (Eigen::Index i = 0; i < values.cols(); ++i) values.col(i) /= std::max(albedo[i], least);
+  return values;
+}
 
-/// See balance().
-Gains fit_gains(const Sample& sample, const MatrixXd& lights, const MatrixXd& prior) {
-  constexpr double k_least_deviation = 0.003;  // Rounding of a byte.
-  constexpr double k_usual_brightness = 0.03, k_usual_slope = 0.05, k_common = 1e3;
-  static const char* mode = std::getenv("MODE");
-  static const int m = mode ? std::atoi(mode) : 0;
-  constexpr double k_independent =
-      100;  // What differs from the model does so over wide areas: few pixels say their own.
-  const Eigen::Index count = lights.rows(), unknowns = count * k_terms, pixels = sample.values.cols();
-  const MatrixXd across = Eigen::JacobiSVD<MatrixXd>(lights, Eigen::ComputeFullU).matrixU().rightCols(count - 3);
-  Gains best{MatrixXd::Zero(count, k_terms), 0};
-  MatrixXd corrections = best.corrections;
-  const auto residuals = [&](const MatrixXd& change) {
-    const MatrixXd corrected = sample.values.cwiseProduct(MatrixXd::Ones(count, pixels) + change * sample.terms);
-    return (across.transpose() * corrected).eval();
-  };
-  const auto lengths = [&](const MatrixXd& errors) {
-    const VectorXd norms = errors.colwise().norm().transpose();
-    return std::vector<double>(norms.data(), norms.data() + norms.size());
-  };
-  const double freedom = std::sqrt(static_cast<double>(count - 3));
-  std::vector<double> errors = lengths(residuals(corrections));
-  best.deviation = std::max(median(errors) / (0.6745 * freedom), k_least_deviation);
-  double deviation = best.deviation;
-  MatrixXd row(unknowns, count - 3);
-  for (int step = 0; step < 6; ++step) {
-    MatrixXd normal = MatrixXd::Zero(unknowns, unknowns);
-    VectorXd right = VectorXd::Zero(unknowns);
-    for (Eigen::Index i = 0; i < pixels; ++i) {
-      const double relative = errors[static_cast<std::size_t>(i)] / (4.685 * freedom * deviation);  // Tukey's biweight.
-      if (relative >= 1) continue;
-      const double tukey = 1 - relative * relative;
-      const double weight = tukey * tukey * k_independent / (static_cast<double>(pixels) * deviation * deviation);
-      for (Eigen::Index k = 0; k < count; ++k)
-        row.middleRows(k * k_terms, k_terms).noalias() = sample.terms.col(i) * (sample.values(k, i) * across.row(k));
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-      right.noalias() -= row * (across.transpose() * sample.values.col(i)) * weight;
-    }
-    normal = normal.selfadjointView<Eigen::Lower>();
-    if (m == 2) { normal += prior; } else {
-    const double common = k_common * std::max(1.0, normal.trace() / static_cast<double>(unknowns));
-    for (Eigen::Index a = 0; a < unknowns; ++a) {
-      const double usual = a % k_terms == 0 ? k_usual_brightness : k_usual_slope;
-      normal(a, a) += 1 / (usual * usual);
-      for (Eigen::Index b = a % k_terms; b < unknowns; b += k_terms) normal(a, b) += common;
-    }}
-    if (m == 1) normal += 1e12 * MatrixXd::Identity(unknowns, unknowns);
-    const VectorXd solution = normal.ldlt().solve(right);
-    if (!solution.allFinite()) break;
-    for (Eigen::Index k = 0; k < count; ++k) corrections.row(k) = solution.segment(k * k_terms, k_terms).transpose();
-    errors = lengths(residuals(corrections));
-    deviation = std::max(median(errors) / (0.6745 * freedom), k_least_deviation);
-    if (deviation <= best.deviation) best = {corrections, deviation};
-  }
-  return best;
+/// Robust deviation of a photograph from what the others say.
+double deviation_of(const Photographs& photographs, const std::vector<Vec3>& lights, int side) {
+  constexpr double k_least = 0.003;  // Rounding of a byte.
+  const MatrixXd matrix = matrix_of(lights);
+  const Eigen::Index freedom = matrix.rows() - 3;
+  const MatrixXd across = Eigen::JacobiSVD<MatrixXd>(matrix, Eigen::ComputeFullU).matrixU().rightCols(freedom);
+  const VectorXd errors = (across.transpose() * blocks_of(photographs, matrix, side)).colwise().norm().transpose();
+  return std::max(
+      median({errors.data(), errors.data() + errors.size()}) / (0.6745 * std::sqrt(static_cast<double>(freedom))),
+      k_least);
 }
 
 }  // namespace
 
 Field integrate(const Slopes& slopes, int width, int height) {
   const std::size_t count = slopes.across.size();
+  constexpr double k_weakest = 0.6;  // What is weaker is noise.
   Field divergence(count), gains(count), relief(count);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -310,8 +235,10 @@ Field integrate(const Slopes& slopes, int width, int height) {
         const double rise = (slopes.down[i] + slopes.down[down]) / 2;
         divergence[i] += rise, divergence[down] -= rise;
       }
-      const double laplacian =
-          4 - 2 * std::cos(std::numbers::pi * x / width) - 2 * std::cos(std::numbers::pi * y / height);
+      // The mean of two neighbouring slopes is weaker than the slope between them by the cosine of half a wave.
+      const double u = std::numbers::pi * x / width, v = std::numbers::pi * y / height;
+      const double laplacian = (2 - 2 * std::cos(u)) * std::max(k_weakest, std::cos(u / 2)) +
+                               (2 - 2 * std::cos(v)) * std::max(k_weakest, std::cos(v / 2));
       gains[i] = i > 0 ? -1 / laplacian : 0;
     }
   CosineFilter2d(width, height).apply(divergence, gains, relief);
@@ -320,42 +247,34 @@ Field integrate(const Slopes& slopes, int width, int height) {
 
 void flatten(Photographs& photographs) {
   const int width = photographs.width, height = photographs.height;
-  for (Field& field : photographs.fields)
-    divide(field, width, height, log_quadric(field, width, height), 1);
+  for (Field& field : photographs.fields) divide(field, width, height, log_quadric(field, width, height), 1);
 }
 
-Eigen::MatrixXd even_out(Photographs& photographs, const std::vector<Vec3>& lights) {
+void even_out(Photographs& photographs, const std::vector<Vec3>& lights) {
   const int width = photographs.width, height = photographs.height;
   const auto count = static_cast<Eigen::Index>(lights.size());
-  MatrixXd quadrics(count, k_terms);
-  Posterior kept{VectorXd::Zero(k_terms * count), {}};
+  MatrixXd quadrics(count, k_terms), kept = MatrixXd::Zero(count, k_terms);
   for (Eigen::Index k = 0; k < count; ++k)
     quadrics.row(k) = log_quadric(photographs.fields[static_cast<std::size_t>(k)], width, height).transpose();
   for (int step = 0; step < 3; ++step) {  // The spectrum of the flattened relief, then of what was found with it.
     Photographs even = photographs;
     for (Eigen::Index k = 0; k < count; ++k)
-      divide(even.fields[static_cast<std::size_t>(k)], width, height, quadrics.row(k).transpose() - kept.mean.segment(k_terms * k, k_terms),
+      divide(even.fields[static_cast<std::size_t>(k)], width, height, (quadrics - kept).row(k).transpose(),
              lights[static_cast<std::size_t>(k)].z);
     if (step == 2) {
       photographs = std::move(even);
-      return std::move(kept.covariance);
+      return;
     }
     const SlopeSpectrum spectrum(slopes_of(normals_of(even, lights)), width, height);
     kept = relief_of_quadrics(quadrics, lights, spectrum, width, height);
   }
-  return {};
 }
 
-Balance balance(Photographs& photographs, std::vector<Vec3>& lights, const Eigen::MatrixXd& uncertainty) {
+Agreement agreement(const Photographs& photographs, std::vector<Vec3>& lights) {
   if (lights.size() < 4) return {};
   constexpr std::array<double, 7> k_ambient = {0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3};
-  MatrixXd prior = uncertainty;
-  static const double nug = std::getenv("NUG") ? std::atof(std::getenv("NUG")) : 0.003, bri = std::getenv("BRI") ? std::atof(std::getenv("BRI")) : 0.03;
-  for (Eigen::Index i = 0; i < prior.rows(); ++i) prior(i, i) += i % k_terms == 0 ? bri * bri : nug * nug;
-  prior = prior.inverse().eval();
-  std::vector<Vec3> best_lights = lights;
-  Gains best;
-  Balance result;
+  constexpr int k_block_px = 4;
+  constexpr double k_lead = 0.98;  // A smaller gain is chance.
   // Level ground looks the same with more light from everywhere: the photographs keep their means.
   const auto with_ambient = [&](double ambient) {
     std::vector<Vec3> moved = lights;
@@ -366,21 +285,16 @@ Balance balance(Photographs& photographs, std::vector<Vec3>& lights, const Eigen
     }
     return moved;
   };
+  Agreement result;
+  double least = 0;
   for (const double ambient : k_ambient) {
-    const std::vector<Vec3> moved = with_ambient(ambient);
-    const MatrixXd matrix = matrix_of(moved);
-    const Gains gains = fit_gains(sample_of(photographs, matrix), matrix, prior);
-    if (ambient > 0 && gains.deviation > 0.98 * best.deviation) continue;
-    best = gains, best_lights = moved, result = {ambient, gains.deviation};
+    const double deviation = deviation_of(photographs, with_ambient(ambient), k_block_px);
+    if (ambient > 0 && deviation > k_lead * least) continue;
+    least = deviation;
+    result.ambient = ambient;
   }
-  lights = best_lights;
-  const Frame frame(photographs.width, photographs.height);
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    const VectorXd correction = best.corrections.row(static_cast<Eigen::Index>(k)).transpose();
-    for (int y = 0; y < photographs.height; ++y)
-      for (int x = 0; x < photographs.width; ++x)
-        photographs.fields[k][pixel_index(x, y, photographs.width)] *= 1 + value_of(correction, frame.terms(x, y));
-  }
+  lights = with_ambient(result.ambient);
+  result.residual = deviation_of(photographs, lights, 1);
   return result;
 }
 

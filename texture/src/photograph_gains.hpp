@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
@@ -34,18 +33,16 @@ void flatten(Photographs& photographs);
 /// c_k = v + R_k θ + g_k, v the vignette, which is the same in all, and g_k the light of each, which is not. θ is the
 /// mean of its posterior with a variance continued from the spectrum of the finer relief, g_k normal with a variance
 /// found with it; a near lamp, which looks like a dome, is part of g_k.
-Eigen::MatrixXd even_out(Photographs& photographs, const std::vector<Vec3>& lights);
+void even_out(Photographs& photographs, const std::vector<Vec3>& lights);
 
-/// What balance() finds.
-struct Balance {
-  double ambient = 0;   ///< Light from everywhere, relative to a lamp that faces the surface.
+/// How well four or more photographs agree.
+struct Agreement {
+  double ambient = 0;   ///< Light from everywhere, relative to a lamp that faces the surface; to 0.3, in steps.
   double residual = 0;  ///< Robust deviation of a photograph from what the others say, relative to the albedo.
 };
 
-/// Corrects brightness and evenness of four or more photographs by each other: with w ⊥ the lights, Σ w_k I_k = 0 at
-/// every pixel, so that quadrics G_k follow from min Σ (Σ_k w_k G_k I_k)² over pixels of many slopes, by reweighted
-/// least squares, near 1 where the slopes do not tell. `lights` get the ambient light, (0, 0, ambient), added.
-/// Three photographs stay as they are.
-Balance balance(Photographs& photographs, std::vector<Vec3>& lights, const Eigen::MatrixXd& uncertainty);
+/// Light from everywhere, (0, 0, ambient), with which photographs agree best, and which is added to `lights`: with
+/// w ⊥ the lights, Σ w_k I_k = 0 at every pixel. 0 for three photographs.
+Agreement agreement(const Photographs& photographs, std::vector<Vec3>& lights);
 
 }  // namespace papilla::texture_detail

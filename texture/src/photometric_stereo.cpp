@@ -4,16 +4,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 #include <string>
 #include <utility>
 
 #include "albedo_normals.hpp"
-#include "best_plane.hpp"
 #include "checks.hpp"
-#include "photograph_gains.hpp"
 #include "papilla/core/error.hpp"
+#include "photograph_gains.hpp"
 #include "unknown_lights.hpp"
 
 namespace papilla {
@@ -69,31 +66,6 @@ Photographs load(const std::vector<GreyImage>& images) {
     photographs.fields.push_back(std::move(field));
   }
   return photographs;
-}
-
-double mean_square(const Field& field) {
-  return std::inner_product(field.begin(), field.end(), field.begin(), 0.0) / static_cast<double>(field.size());
-}
-
-/// Expected correlation: a random field of slopes has as much integrable as other power, so that the other part tells
-/// the noise of the first. Noise that is white in the slopes has power 1/k² in the heights.
-double expected_correlation(const Slopes& slopes, const Field& relief, int width, int height) {
-  const std::size_t pixels = relief.size();
-  double other = 0;
-  for (int y = 0; y + 1 < height; ++y)
-    for (int x = 0; x + 1 < width; ++x) {
-      const std::size_t i = pixel_index(x, y, width), down = i + static_cast<std::size_t>(width);
-      const double p = (slopes.across[i] + slopes.across[i + 1]) / 2 - (relief[i + 1] - relief[i]);
-      const double q = (slopes.down[i] + slopes.down[down]) / 2 - (relief[down] - relief[i]);
-      other += p * p + q * q;
-    }
-  const double noise = other / static_cast<double>(pixels) / 2;  // Of one component: half is integrable and unseen.
-  const double waves = std::log(std::max(width, height) / 2.0) / (2 * std::numbers::pi);  // Σ 1/k² over all waves.
-  const Field plane = best_plane(relief, width, height);
-  Field bent = relief;
-  for (std::size_t i = 0; i < pixels; ++i) bent[i] -= plane[i];
-  const double power = mean_square(bent);
-  return power > 0 ? std::sqrt(std::max(0.0, power - noise * waves) / power) : 0;
 }
 
 /// Pixels in the shadow that a relief throws under a light.
@@ -159,17 +131,15 @@ PhotometricStereoResult photometric_stereo(const std::vector<GreyImage>& images,
   }
   report_progress(options.progress, "photometric stereo", 0.3);
   Photographs photographs = given;
-  const Eigen::MatrixXd uncertainty = even_out(photographs, result.lights);
+  even_out(photographs, result.lights);
   report_progress(options.progress, "photometric stereo", 0.6);
   std::vector<Vec3> lights = result.lights;
-  const Balance balanced = balance(photographs, lights, uncertainty);
-  result.ambient = balanced.ambient;
-  result.residual = balanced.residual;
-  RobustNormals surface = robust_normals(photographs, lights, balanced.residual);
-  const Slopes slopes = slopes_of(surface.normals);
-  result.height_px = integrate(slopes, result.width, result.height);
+  const Agreement agreed = agreement(photographs, lights);
+  result.ambient = agreed.ambient;
+  result.residual = agreed.residual;
+  RobustNormals surface = robust_normals(photographs, lights, agreed.residual);
+  result.height_px = integrate(slopes_of(surface.normals), result.width, result.height);
   report_progress(options.progress, "photometric stereo", 0.9);
-  result.expected_correlation = expected_correlation(slopes, result.height_px, result.width, result.height);
   result.shadows_fraction = surface.shadows_fraction;
   result.highlights_fraction = surface.highlights_fraction;
   if (result.lights_estimated) {

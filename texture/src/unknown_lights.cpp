@@ -292,6 +292,16 @@ void choose_side(Obliqueness& lights) {
   if (lights(0, 1) > 0) lights = -lights;
 }
 
+constexpr double k_usual_obliqueness = 1.2;  // cot(40 degrees).
+
+/// Whether the lights lie around, not on a line.
+bool is_spread(const Obliqueness& lights) {
+  constexpr double k_least_ratio = 0.1;
+  const Matrix2d squares = lights.transpose() * lights;
+  const Vector2d values = Eigen::SelfAdjointEigenSolver<Matrix2d>(squares).eigenvalues();
+  return lights.allFinite() && values[0] > k_least_ratio * k_least_ratio * values[1];
+}
+
 Obliqueness solve(const Crosses& crosses, Eigen::Index count, UnknownLights* result) {
   Obliqueness lights = linear_lights(crosses, count);
   const double length = std::sqrt(lights.squaredNorm() / static_cast<double>(count));
@@ -302,8 +312,11 @@ Obliqueness solve(const Crosses& crosses, Eigen::Index count, UnknownLights* res
     }
     return lights;
   }
-  lights *= 1.2 / length;
-  lights = refine(crosses, lights, result);
+  lights *= k_usual_obliqueness / length;
+  const Obliqueness refined = refine(crosses, lights, result);
+  if (is_spread(refined)) lights = refined;
+  // Slopes and lights are known up to a common factor: start at the usual elevation.
+  lights *= k_usual_obliqueness / std::sqrt(lights.squaredNorm() / static_cast<double>(count));
   lights /= depth_factor(crosses, lights);
   choose_side(lights);
   return lights;

@@ -6,6 +6,7 @@ namespace papilla::app {
 Json stereo_json(const StereoFiles& files) {
   const PhotometricStereoResult& stereo = files.stereo;
   Json json = height_json(files.files);
+  json["light_coherence"] = nullptr;
   json["lights"] = Json::array();
   for (const Vec3 light : stereo.lights) json["lights"].push_back({light.x, light.y, light.z});
   json["ambient"] = stereo.ambient;

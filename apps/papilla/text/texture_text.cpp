@@ -166,8 +166,8 @@ std::string stereo_text(const std::string& output, const StereoFiles& files) {
     lines.add("pitch      {:.4f} mm a pixel\n", result.map.pitch_mm_x);
   else
     lines.add("pitch      unknown: give --pitch, or a ruler in --reference\n");
-  lines.add("expected   correlation {:.2f} with the true relief; confidence {:.2f}, low in {:.1f} % of the pixels\n",
-            stereo.expected_correlation, files.mean_confidence, 100 * files.low_confidence_fraction);
+  lines.add("confidence {:.2f}, low in {:.1f} % of the pixels\n", files.mean_confidence,
+            100 * files.low_confidence_fraction);
   lines.add("seen       {:.1f} % shadows, {:.1f} % highlights, {:.0f} % light from everywhere\n",
             100 * stereo.shadows_fraction, 100 * stereo.highlights_fraction, 100 * stereo.ambient);
   for (const ReferenceReading& reading : files.references) {

@@ -21,8 +21,8 @@ struct LightsFile {
 };
 
 /// Reads LIGHTS.json: {"lights": [[x, y, z], …]}, one a photograph in order, to the light, x right, y down, z to the
-/// camera, any length; {"lights": "unknown"} or "unknown"; or {"sphere": {"centre_px": [x, y], "radius_px": r, "kind": "mirror" or
-/// "matte"}}, where the ball lies in all photographs.
+/// camera, any length; {"lights": "unknown"} or "unknown"; or {"sphere": {"centre_px": [x, y], "radius_px": r, "kind":
+/// "mirror" or "matte"}}, where the ball lies in all photographs.
 /// @throws IoError; InvalidInput naming file and JSON pointer, also when there are not `photographs` lights.
 LightsFile read_lights(const std::filesystem::path& path, std::size_t photographs);
 

@@ -28,9 +28,6 @@ struct PhotometricStereoResult {
   bool lights_estimated = false;
   double light_uncertainty_deg = 0;  ///< Mean angle between the lights of two halves of the picture; 0 when given.
   double ambient = 0;                ///< Light from everywhere found, relative to a lamp that faces the surface.
-  /// Expected correlation of the heights with the truth, from the part of the slopes that belongs to no relief: noise
-  /// of pixels alone. Light that was made even wrongly is not in it, so that it is an upper bound.
-  double expected_correlation = 0;
   /// The relief and its inverse under the opposite azimuths explain the photographs alike.
   bool two_sided = false;
   double shadows_fraction = 0, highlights_fraction = 0;  ///< Of all pixels of all photographs.
@@ -46,8 +43,8 @@ struct PhotometricStereoResult {
 ///
 /// Before that every photograph is made even. Its light and the vignette are taken as quadrics of the logarithm, but
 /// for the part that a bent surface explains in all photographs, as far as the spectrum of the relief makes that
-/// probable. Four photographs or more correct each other, because any three predict the fourth: gains and ambient light
-/// are those with which they agree best. Shadows and highlights are left out where four or more photographs show them
+/// probable. With four photographs or more any three predict the fourth: light from everywhere is that with which they
+/// agree best. Shadows and highlights are left out where four or more photographs show them
 /// in one.
 ///
 /// Unknown lights: the mean surface faces the camera; the two strongest directions of the photographs' differences are
