@@ -173,7 +173,11 @@ StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs
   Registration registration = register_photographs(photographs);
   photographs = std::move(registration.photographs);
   result.shifts_px = std::move(registration.shifts_px);
-  result.stereo = photometric_stereo(photographs, stereo);
+  try {
+    result.stereo = photometric_stereo(photographs, stereo);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput((stereo.lights.empty() ? files.front() : options.lights).string() + ": " + error.what());
+  }
 
   HeightResult& relief = result.files.result;
   relief.method = HeightMethod::photometric_stereo;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -45,8 +46,9 @@ double vertex(double before, double at, double after) {
   return bend > 0 ? std::clamp((after - before) / (2 * bend), -0.5, 0.5) : 0;
 }
 
-/// Shift of the content of `second` against that of `first`.
-Vec2 shift_between(const Spectrum& first, const Spectrum& second, int width, int height, int largest) {
+/// Shift of the content of `second` against that of `first`; nothing where no peak stands out of chance. Grains that
+/// repeat have peaks a cell apart: the nearer one is likelier.
+std::optional<Vec2> shift_between(const Spectrum& first, const Spectrum& second, int width, int height, int largest) {
   constexpr double k_peak_px = 1, k_weakest = 1e-4;
   RealFft2d transform(width, height);
   const std::size_t columns = transform.spectrum_width();
@@ -65,15 +67,24 @@ Vec2 shift_between(const Spectrum& first, const Spectrum& second, int width, int
   transform.backward();
   const int reach = 2 * largest;
   int best_x = 0, best_y = 0;
+  const auto likely = [&](int x, int y) {
+    return transform.real(wrapped(x, width), wrapped(y, height)) /
+           (1 + static_cast<double>(x * x + y * y) / (reach * reach));
+  };
   const auto at = [&](int x, int y) { return transform.real(wrapped(x, width), wrapped(y, height)); };
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x)
-      if (at(x, y) > at(best_x, best_y)) best_x = x, best_y = y;
+      if (likely(x, y) > likely(best_x, best_y)) best_x = x, best_y = y;
   const double peak = at(best_x, best_y);
+  double squares = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) squares += transform.real(x, y) * transform.real(x, y);
+  constexpr double k_chance = 5;  // Deviations: four are the highest of ten thousand of noise.
+  if (!(peak > k_chance * std::sqrt(squares / (static_cast<double>(width) * height)))) return {};
   const Vec2 twice{best_x + vertex(at(best_x - 1, best_y), peak, at(best_x + 1, best_y)),
                    best_y + vertex(at(best_x, best_y - 1), peak, at(best_x, best_y + 1))};
   const double most = largest;
-  return {std::clamp(twice.x / 2, -most, most), std::clamp(twice.y / 2, -most, most)};
+  return Vec2{std::clamp(twice.x / 2, -most, most), std::clamp(twice.y / 2, -most, most)};
 }
 
 struct Pair {
@@ -101,7 +112,7 @@ std::vector<Vec2> reconcile(const std::vector<Pair>& pairs, std::size_t count, d
         const Vec2 says = pair.second == k ? shifts[pair.first] + pair.shift : shifts[pair.second] - pair.shift;
         sum = sum + weight * says, weights += weight;
       }
-      shifts[k] = (1 / weights) * sum;
+      if (weights > 0) shifts[k] = (1 / weights) * sum;
     }
   std::vector<double> errors;
   for (const Pair& pair : pairs) errors.push_back(norm(shifts[pair.second] - shifts[pair.first] - pair.shift));
@@ -138,9 +149,12 @@ Registration register_photographs(const std::vector<GreyImage>& photographs, int
   std::vector<Pair> pairs;
   for (std::size_t a = 0; a < spectra.size(); ++a)
     for (std::size_t b = a + 1; b < spectra.size(); ++b)
-      pairs.push_back({a, b, shift_between(spectra[a], spectra[b], reference.width, reference.height, largest)});
+      if (const auto shift = shift_between(spectra[a], spectra[b], reference.width, reference.height, largest))
+        pairs.push_back({a, b, *shift});
   Registration result;
   result.shifts_px = reconcile(pairs, photographs.size(), result.disagreement_px);
+  constexpr double k_most_disagreement_px = 1;  // Shifts that contradict each other are chance.
+  if (result.disagreement_px > k_most_disagreement_px) result.shifts_px.assign(photographs.size(), Vec2{});
   for (std::size_t k = 0; k < photographs.size(); ++k)
     result.photographs.push_back(norm(result.shifts_px[k]) > 0 ? moved(photographs[k], result.shifts_px[k])
                                                                : photographs[k]);

@@ -294,6 +294,16 @@ void choose_side(Obliqueness& lights) {
 
 constexpr double k_usual_obliqueness = 1.2;  // cot(40 degrees).
 
+/// Whether the lights determine a normal at all.
+bool is_solvable(const Obliqueness& lights) {
+  if (!lights.allFinite()) return false;
+  constexpr double k_least_ratio = 1e-3;
+  const MatrixXd matrix = with_ones(lights);
+  const Eigen::Vector3d values =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Eigen::Matrix3d(matrix.transpose() * matrix)).eigenvalues();
+  return values[0] > k_least_ratio * k_least_ratio * values[2];
+}
+
 /// Whether the lights lie around, not on a line.
 bool is_spread(const Obliqueness& lights) {
   constexpr double k_least_ratio = 0.1;
@@ -305,7 +315,8 @@ bool is_spread(const Obliqueness& lights) {
 Obliqueness solve(const Crosses& crosses, Eigen::Index count, UnknownLights* result) {
   Obliqueness lights = linear_lights(crosses, count);
   const double length = std::sqrt(lights.squaredNorm() / static_cast<double>(count));
-  if (!(length > 0) || !lights.allFinite()) {  // Photographs without differences: any lights explain them.
+  if (!(length > 0) || !is_solvable(lights * (k_usual_obliqueness /
+                                              length))) {  // Photographs without differences: any lights explain them.
     for (Eigen::Index k = 0; k < count; ++k) {
       const double turn = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
       lights.row(k) << std::cos(turn), std::sin(turn);
