@@ -81,10 +81,11 @@ std::vector<double> sum_of_waves(const std::vector<Wave>& waves, int columns, in
   return height;
 }
 
-/// By how many samples one has to be replaced, so that `shortest_m` has k_samples_per_wave.
-int refinement(double pitch_m, int side, double shortest_m) {
-  const int wanted = static_cast<int>(std::clamp(std::ceil(k_samples_per_wave * pitch_m / shortest_m), 1.0, 64.0));
-  return std::max(1, std::min(wanted, k_largest_size / side));
+/// By how many samples one of either direction has to be replaced, so that `shortest_m` has k_samples_per_wave.
+int refinement(const HeightField& relief, Vec2 pitch_m, double shortest_m) {
+  const double wanted = k_samples_per_wave * std::max(pitch_m.x, pitch_m.y) / shortest_m;
+  const int most = std::max(1, k_largest_size / std::max(relief.width(), relief.height()));
+  return static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(most)));
 }
 
 }  // namespace
@@ -106,8 +107,7 @@ HeightField with_roughness(const HeightField& relief, const RoughnessTag& roughn
   const std::optional<Vec2> pitch = relief.pitch_m(metres_per_uv);
   if (!pitch) return relief;
   const Vec2 tile{relief.width() * pitch->x, relief.height() * pitch->y};
-  const int factor = std::min(refinement(pitch->x, relief.width(), roughness.wavelength_range_m.x),
-                              refinement(pitch->y, relief.height(), roughness.wavelength_range_m.x));
+  const int factor = refinement(relief, *pitch, roughness.wavelength_range_m.x);
   const double longest = std::min({roughness.wavelength_range_m.y, tile.x, tile.y});
   const double shortest =
       std::max(roughness.wavelength_range_m.x, k_samples_per_wave / factor * std::max(pitch->x, pitch->y));

@@ -180,7 +180,7 @@ TEST(MaterialTag, HeightWithoutScaleIsDropped) {
 TEST(MaterialTag, RefusesWhatIsNoTag) {
   std::vector<HapticWarning> warnings;
   for (const char* json :
-       {"", "nonsense", "[]", "1", "{}", R"({"version":1})", R"({"version":2,"stiffness":1})",
+       {"", "nonsense", "[]", "1", "{}", R"({"version":1})", R"({"version":3,"stiffness":1})",
         R"({"version":"1","stiffness":1})", R"({"stiffness":1})", R"({"version":1,"stiffness":NaN})"})
     EXPECT_THROW(parse_material_tag(json, warnings), InvalidInput) << json;
 }

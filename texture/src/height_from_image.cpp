@@ -218,7 +218,8 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
 Field relief_with_roughness(const GreyImage& image, const Lattice& lattice, const HeightOptions& options,
                             HeightResult& result) {
   const SymmetricPart part = symmetric_part(image, lattice.vectors_px);
-  Field field = relief_of(result.tile ? fill_tile(part.primitive, *result.tile) : part.synthesis, options, result);
+  const GreyImage& cell = options.primitive ? *options.primitive : part.primitive;
+  Field field = relief_of(result.tile ? fill_tile(cell, *result.tile) : part.synthesis, options, result);
   const double range = range_of(field);
   if (range > 0)
     for (double& value : field) value /= range;

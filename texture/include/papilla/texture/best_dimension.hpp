@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "papilla/texture/fractal.hpp"
 #include "papilla/texture/image.hpp"
@@ -13,6 +14,8 @@ struct BestDimension {
   FractalEstimate estimate;  ///< The curve holds lag and root mean square second difference, quantization removed.
   /// Hurst exponents along 0°, 90°, 45° and −45° (rows, columns, the diagonal down right, the one up right).
   std::array<double, 4> directional_hurst{};
+  bool power_law = true;
+  std::string reason;
   double quantization_step = 0;  ///< Grey step whose rounding noise was removed, 0 for none.
 };
 

@@ -63,6 +63,8 @@ struct HeightOptions {
   bool tile = false;
   int largest_piece_px = 2048;          ///< ShadingOptions::largest_piece_px.
   std::optional<Lattice> lattice = {};  ///< Of the picture, when it is known; else analyze_symmetry() finds it.
+  /// The cell to take with that lattice instead of the mean one: the mean over its group, WallpaperSymmetry::primitive.
+  std::optional<GreyImage> primitive = {};
   ProgressCallback progress = {};
 };
 
