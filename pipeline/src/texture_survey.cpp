@@ -15,6 +15,7 @@
 #include "papilla/texture/analysis_pictures.hpp"
 #include "papilla/texture/resample.hpp"
 #include "papilla/texture/texture_order.hpp"
+#include "papilla/texture/texture_reading.hpp"
 #include "pictures/pixel_text.hpp"
 #include "pictures/texture_plots.hpp"
 
@@ -68,17 +69,24 @@ SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& option
   return analysis;
 }
 
+/// Whether the class of the picture asks for the readings; else says why not.
+bool wants_fractal(const SurveyOptions& options, TextureSurvey& survey) {
+  if (!options.fractal || !options.by_class || !survey.order) return options.fractal;
+  const PlanStep& step = step_of(survey.order->plan, "fractal_dimension");
+  if (!step.run) survey.no_fractal = step.reason;
+  return step.run;
+}
+
 void survey_whole(const ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
                   TextureSurvey& survey) {
-  if (needs_lattice(options)) survey.symmetry = symmetry_of(survey.middle, options, progress);
-  if (options.fractal) survey.fractal = read_fractal_dimensions(survey.middle, progress);
-  if (!options.order) return;
-  const SymmetryAnalysis& symmetry = *survey.symmetry;
-  survey.order = OrderSurvey{classify(survey.middle, symmetry.explained_variance(), symmetry.lattice.stripes),
-                             orientation_field(survey.middle),
-                             measure_suitability(survey.middle, symmetry.lattice),
-                             is_monochrome(bands.sample()),
-                             {}};
+  if (needs_lattice(options)) {
+    TextureReading reading = read_texture(survey.middle, {options.lattice, options.feature, false, progress});
+    survey.symmetry = std::move(reading.symmetry);
+    if (options.order)
+      survey.order = OrderSurvey{reading.kind, orientation_field(survey.middle), reading.suitability,
+                                 is_monochrome(bands.sample()), std::move(reading.plan)};
+  }
+  if (wants_fractal(options, survey)) survey.fractal = read_fractal_dimensions(survey.middle, progress);
 }
 
 /// Drops the lattice of the middle unless enough pieces have it too.
@@ -125,7 +133,6 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
   }
   report_progress(progress, "pieces of the picture", 1);
   survey.middle = middle.take();
-  if (options.fractal) survey.fractal = mean_readings(readings);
   if (needs_lattice(options)) {
     survey.symmetry = symmetry_of(survey.middle, options, progress);
     confirm_lattice(*survey.symmetry, lattices, pieces.lattice);
@@ -136,6 +143,8 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
                                order.suitability(survey.symmetry->lattice),
                                is_monochrome(bands.sample()),
                                {}};
+  if (survey.order) survey.order->plan = plan_analysis(survey.order->kind, survey.order->suitability);
+  if (!readings.empty() && wants_fractal(options, survey)) survey.fractal = mean_readings(readings);
   survey.pieces = pieces;
 }
 
@@ -193,7 +202,6 @@ TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOpti
     survey_whole(bands, options, progress, survey);
   }
   if (options.symmetry) survey.groups = groups_of(survey, options.pattern);
-  if (survey.order) survey.order->plan = plan_analysis(survey.order->kind, survey.order->suitability);
   if (!options.pictures.empty()) survey.pictures = draw_survey(survey, options.pictures);
   return survey;
 }

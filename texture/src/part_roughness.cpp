@@ -24,9 +24,9 @@ constexpr double k_least_octaves = 2;
 /// A smaller anisotropy is that of chance.
 constexpr double k_least_anisotropy = 1.1;
 
-/// Anisotropy of the waves from that of their slopes: a field stretched by r along one direction has slopes r times as
-/// steep across it.
-void measure_anisotropy(const HeightMap& rough, RoughnessModel& model) {
+/// The slopes, and the anisotropy of the waves from theirs: a field stretched by r along one direction has slopes r
+/// times as steep across it.
+void measure_slopes(const HeightMap& rough, RoughnessModel& model) {
   double xx = 0, xy = 0, yy = 0;
   for (int y = 0; y < rough.height; ++y)
     for (int x = 0; x < rough.width; ++x) {
@@ -36,6 +36,7 @@ void measure_anisotropy(const HeightMap& rough, RoughnessModel& model) {
       yy += slope.y * slope.y;
     }
   const double spread = std::hypot(xx - yy, 2 * xy), sum = xx + yy;
+  model.rms_slope = std::sqrt(sum / static_cast<double>(rough.mm.size()));
   if (!(sum > spread)) return;
   const double ratio = std::sqrt((sum + spread) / (sum - spread));
   if (ratio < k_least_anisotropy) return;
@@ -79,7 +80,7 @@ PartedRelief part_roughness(const HeightMap& relief, double longest_mm) {
   }
   model.hurst = best.estimate.hurst;
   model.rms_mm = std::sqrt(squares / static_cast<double>(smooth.size()));
-  measure_anisotropy(rough, model);
+  measure_slopes(rough, model);
   std::transform(smooth.begin(), smooth.end(), parted.relief.mm.begin(),
                  [](double h) { return static_cast<float>(h); });
   parted.roughness = model;

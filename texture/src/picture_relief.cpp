@@ -60,10 +60,8 @@ std::pair<bool, std::string> chooses_synthesis(const GreyImage& image, const Tex
                             reading.roughness->estimate.hurst)};
 }
 
-PictureRelief synthesized(const GreyImage& image, const TextureReading& reading, const PictureReliefOptions& options,
-                          std::string reason) {
-  PictureRelief result;
-  result.plan = reading.plan;
+/// A surface like the picture as its relief.
+void synthesize_relief(const GreyImage& image, const PictureReliefOptions& options, PictureRelief& result) {
   const int size = std::min({image.width, image.height, k_most_surface});
   result.like = surface_like(image, {.size = size, .seed = options.height.seed, .progress = options.height.progress});
   HeightGrid surface = std::exchange(result.like->surface, {});
@@ -77,16 +75,11 @@ PictureRelief synthesized(const GreyImage& image, const TextureReading& reading,
   height.depth_mm = static_cast<double>(*high) - static_cast<double>(lowest);
   for (float& h : height.map.mm) h -= lowest;
   height.rms_mm = rms_height_mm(height.map);
-  height.reason = "a surface like the picture: " + reason;
+  height.reason = "a surface like the picture: " + step_of(result.plan, "fractal_synthesis").reason;
   if (pitch > 0) height.shortest_wavelength_mm = 2 * pitch;
   height.measured.emplace_back("H, anisotropy and rms of the grey values");
   height.assumed.emplace_back("grey value is height: nothing in the picture says so");
   height.trace = result.like->trace;
-  settle(result.plan, "shape_from_shading", false, "the relief is synthesized");
-  settle(result.plan, "intensity_as_height", false, "the relief is synthesized");
-  settle(result.plan, "roughness", false, "the surface is its roughness");
-  settle(result.plan, "fractal_synthesis", true, std::move(reason));
-  return result;
 }
 
 /// Takes the roughness out of the relief of a picture without lattice.
@@ -115,7 +108,7 @@ void describe_residual(const GreyImage& image, const TextureReading& reading, do
     return;
   }
   const PartedRelief parted =
-      part_roughness(as_relief(reading.symmetry->part->residual, depth_mm / range, pitch, false));
+      part_roughness(as_relief(reading.symmetry.part->residual, depth_mm / range, pitch, false));
   settle(result.plan, "roughness", parted.roughness.has_value(), "of what the lattice leaves: " + parted.reason);
   result.roughness = parted.roughness;
 }
@@ -128,36 +121,55 @@ ReliefSource relief_source(std::string_view name) {
   return static_cast<ReliefSource>(texture_detail::index_of_name(name, k_source_names, "relief_source"));
 }
 
+AnalysisPlan plan_relief(const GreyImage& image, const TextureReading& reading, const PictureReliefOptions& options) {
+  AnalysisPlan plan = reading.plan;
+  auto [synthesizes, why] = chooses_synthesis(image, reading, options);
+  settle(plan, "fractal_synthesis", synthesizes, std::move(why));
+  const bool ordered = step_of(plan, "primitive").run;
+  if (synthesizes) {
+    settle(plan, "shape_from_shading", false, "the relief is synthesized");
+    settle(plan, "intensity_as_height", false, "the relief is synthesized");
+  } else if (options.height.method != HeightMethod::automatic) {
+    const bool lit = options.height.method != HeightMethod::intensity;
+    settle(plan, "shape_from_shading", lit, lit ? "asked for" : "grey is asked for as height");
+    settle(plan, "intensity_as_height", !lit, lit ? "shape from shading is asked for" : "asked for");
+  }
+  const bool tile = options.tile.value_or(ordered && !options.seen);
+  if (ordered || tile)
+    settle(plan, "exact_tile", tile,
+           options.tile ? (tile ? "asked for" : "not asked for")
+           : tile       ? "the relief repeats with the lattice to the last bit"
+                        : "the picture is seen: what is felt keeps its place");
+  if (step_of(plan, "roughness").run && (!options.part || options.roughness))
+    settle(plan, "roughness", false, "relief and roughness are one map");
+  return plan;
+}
+
 PictureRelief relief_of_picture(const GreyImage& image, const TextureReading& reading,
                                 const PictureReliefOptions& options) {
-  auto [synthesizes, why] = chooses_synthesis(image, reading, options);
-  if (synthesizes) return synthesized(image, reading, options, std::move(why));
-
   PictureRelief result;
-  result.plan = reading.plan;
-  const bool ordered = step_of(reading.plan, "primitive").run;
-  const bool rough = step_of(reading.plan, "roughness").run;
+  result.plan = plan_relief(image, reading, options);
+  const auto runs = [&](std::string_view step) { return step_of(result.plan, step).run; };
+  if (runs("fractal_synthesis")) {
+    synthesize_relief(image, options, result);
+    return result;
+  }
+  const bool ordered = runs("primitive"), apart = runs("roughness");
   HeightOptions height = options.height;
-  height.lattice = reading.lattice();
-  height.tile = options.tile.value_or(ordered && !options.seen);
+  height.lattice = reading.symmetry.lattice;
+  height.tile = runs("exact_tile");
   if (ordered && reading.group) height.primitive = reading.group->primitive;
   if (options.roughness)
     height.roughness = *options.roughness;
   else if (ordered)
-    height.roughness = rough && !options.part ? HeightRoughness::residual : HeightRoughness::none;
+    height.roughness =
+        apart || !step_of(reading.plan, "roughness").run ? HeightRoughness::none : HeightRoughness::residual;
   result.height = height_from_image(image, height);
   const bool lit = result.height.method != HeightMethod::intensity;
   settle(result.plan, "shape_from_shading", lit, lit ? result.height.reason : "grey is read as height");
   settle(result.plan, "intensity_as_height", !lit, lit ? "shape from shading gives the relief" : result.height.reason);
-  settle(result.plan, "exact_tile", height.tile,
-         height.tile    ? "the relief repeats with the lattice to the last bit"
-         : !ordered     ? "the picture has no lattice to tile by"
-         : options.seen ? "the picture is seen: what is felt keeps its place"
-                        : "not asked for");
-  settle(result.plan, "fractal_synthesis", false, std::move(why));
-  if (!options.part || options.roughness) return result;
-  if (ordered && rough) describe_residual(image, reading, options.height.depth_mm, result);
-  if (!ordered && reading.kind.kind == TextureKind::weakly_ordered) part_relief(result);
+  if (apart && ordered) describe_residual(image, reading, options.height.depth_mm, result);
+  if (apart && !ordered) part_relief(result);
   return result;
 }
 

@@ -16,32 +16,20 @@ const PlanStep& step_of(const AnalysisPlan& plan, std::string_view step) {
   return *found;
 }
 
-const Lattice& TextureReading::lattice() const {
-  static const Lattice none = [] {
-    Lattice lattice;
-    lattice.reason = "the picture is flat";
-    return lattice;
-  }();
-  return symmetry ? symmetry->lattice : none;
-}
-
 TextureReading read_texture(const GreyImage& image, const ReadingOptions& options) {
   texture_detail::require_image(image, "read_texture");
   TextureReading reading;
-  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
-  if (*low < *high) {
-    report_progress(options.progress, "symmetry", 0);
-    reading.symmetry = analyze_symmetry(image, options.lattice, options.feature, options.progress);
-    report_progress(options.progress, "symmetry", 1);
-  }
-  const Lattice& lattice = reading.lattice();
-  reading.kind = classify(image, reading.symmetry ? reading.symmetry->explained_variance() : 0, lattice.stripes);
+  report_progress(options.progress, "symmetry", 0);
+  reading.symmetry = analyze_symmetry(image, options.lattice, options.feature, options.progress);
+  report_progress(options.progress, "symmetry", 1);
+  const Lattice& lattice = reading.symmetry.lattice;
+  reading.kind = classify(image, reading.symmetry.explained_variance(), lattice.stripes);
   reading.suitability = measure_suitability(image, lattice);
   reading.plan = plan_analysis(reading.kind, reading.suitability);
   if (step_of(reading.plan, "generating_region").run)
-    reading.group = find_wallpaper_group(*reading.symmetry->part, lattice.vectors_px);
-  if (step_of(reading.plan, "fractal_dimension").run) {
-    const GreyImage& rough = step_of(reading.plan, "primitive").run ? reading.symmetry->part->residual : image;
+    reading.group = find_wallpaper_group(*reading.symmetry.part, lattice.vectors_px);
+  if (options.roughness && step_of(reading.plan, "fractal_dimension").run) {
+    const GreyImage& rough = step_of(reading.plan, "primitive").run ? reading.symmetry.part->residual : image;
     if (std::min(rough.width, rough.height) >= k_least_fractal_side) reading.roughness = best_dimension(rough);
   }
   return reading;

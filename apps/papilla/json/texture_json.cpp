@@ -2,6 +2,7 @@
 #include "json/texture_json.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "json/scene_json.hpp"
 
@@ -51,6 +52,15 @@ Json fractal_json(const FractalReadings& readings) {
   if (readings.fshot) json["fshot"] = fshot_json(*readings.fshot);
   if (readings.best) json["best"] = best_json(*readings.best);
   json["details"] = std::move(details);
+  return json;
+}
+
+/// Of a picture whose class needs no dimension.
+Json no_fractal_json(const std::string& reason) {
+  Json json = Json::object();
+  for (const FractalReading& reading : named_readings({})) json[std::string(reading.name)] = nullptr;
+  json["best"] = {{"power_law", false}, {"dimension", nullptr}, {"hurst", nullptr},
+                  {"low", nullptr},     {"high", nullptr},      {"reason", reason}};
   return json;
 }
 
@@ -107,12 +117,6 @@ Json rosette_json(const RosetteSymmetry& rosette) {
           {"centre_px", {rosette.centre_px.x, rosette.centre_px.y}},
           {"mirror_deg", rosette.mirrors ? Json(rosette.mirror_deg) : Json(nullptr)},
           {"sector_deg", rosette.sector_deg}};
-}
-
-Json steps_json(const AnalysisPlan& steps) {
-  Json json = Json::array();
-  for (const PlanStep& step : steps) json.push_back({{"step", step.step}, {"run", step.run}, {"reason", step.reason}});
-  return json;
 }
 
 void add_order(Json& json, const OrderSurvey& order) {
@@ -174,11 +178,29 @@ Json numbers_json(const PictureNumbers& n) {
 
 }  // namespace
 
+Json steps_json(const AnalysisPlan& steps) {
+  Json json = Json::array();
+  for (const PlanStep& step : steps) json.push_back({{"step", step.step}, {"run", step.run}, {"reason", step.reason}});
+  return json;
+}
+
+Json roughness_model_json(const std::optional<RoughnessModel>& roughness) {
+  if (!roughness) return nullptr;
+  constexpr double k_degrees = 180 / std::numbers::pi;
+  return {{"hurst", roughness->hurst},
+          {"rms_mm", roughness->rms_mm},
+          {"rms_slope", roughness->rms_slope},
+          {"wavelength_range_mm", {roughness->shortest_mm, roughness->longest_mm}},
+          {"anisotropy",
+           {{"ratio", roughness->anisotropy}, {"direction_deg", k_degrees * roughness->direction_rad}}}};
+}
+
 Json survey_json(const std::string& image, const TextureSurvey& survey) {
   Json json{{"image", image}, {"size", {survey.width, survey.height}}, {"bits", survey.bits}};
   json["pieces"] = pieces_json(survey);
   json["pitch_mm"] = positive_or_null(survey.pitch_mm);
   if (survey.fractal) json["fractal"] = fractal_json(*survey.fractal);
+  if (!survey.no_fractal.empty()) json["fractal"] = no_fractal_json(survey.no_fractal);
   if (survey.groups) {
     json["symmetry"] = symmetry_json(survey);
     if (survey.groups->strip) json["strip"] = strip_json(*survey.groups->strip);

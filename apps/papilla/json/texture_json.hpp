@@ -15,6 +15,11 @@ namespace papilla::app {
 
 // Results on textures under the key names of docs/files.md.
 
+/// {step, run, reason} a line.
+Json steps_json(const AnalysisPlan& steps);
+/// {hurst, rms_mm, wavelength_range_mm[], anisotropy{ratio, direction_deg}}; null without one.
+Json roughness_model_json(const std::optional<RoughnessModel>& roughness);
+
 /// Of `analyze`, `height`, `prepare`, `synthesize`, `texture` and `texture --sheet`.
 Json survey_json(const std::string& image, const TextureSurvey& survey);
 Json height_json(const HeightFiles& files);

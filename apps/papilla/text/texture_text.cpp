@@ -88,6 +88,7 @@ std::string survey_text(const std::string& image, const TextureSurvey& survey) {
                 lattice.none);
   }
   if (survey.fractal) add_readings(lines, *survey.fractal);
+  if (!survey.no_fractal.empty()) lines.add("fractal    not measured: {}; --only fractal does\n", survey.no_fractal);
   if (survey.groups) add_groups(lines, survey);
   if (survey.order) add_order(lines, *survey.order);
   for (const SurveyPicture& picture : survey.pictures) {

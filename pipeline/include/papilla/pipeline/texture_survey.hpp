@@ -25,6 +25,7 @@ enum class SymmetryPattern { plane, strip, rosette };
 /// Options of survey_picture().
 struct SurveyOptions {
   bool fractal = true, symmetry = true, order = true;  ///< The analyses to run.
+  bool by_class = true;  ///< Leave out what the picture's class makes needless; with all three analyses only.
   SymmetryPattern pattern = SymmetryPattern::plane;
   LatticeOptions lattice;
   FeatureKind feature = FeatureKind::squared;
@@ -67,6 +68,7 @@ struct TextureSurvey {
   GreyImage middle;     ///< What the symmetry is read from: the picture, or its middle.
   std::optional<PieceSurvey> pieces;
   std::optional<FractalReadings> fractal;
+  std::string no_fractal;  ///< Why there are no fractal readings although they were asked for.
   std::optional<SymmetryAnalysis> symmetry;  ///< For the groups, the class or the pictures.
   std::optional<SymmetryGroups> groups;      ///< With SurveyOptions::symmetry.
   std::optional<OrderSurvey> order;

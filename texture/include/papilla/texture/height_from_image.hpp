@@ -39,6 +39,9 @@ std::string_view to_string(HeightRoughness roughness) noexcept;
 /// The roughness of that name. @throws InvalidInput for any other name.
 HeightRoughness height_roughness(std::string_view name);
 
+/// The rate of a device and the speed of a hand where nothing is said of them.
+inline constexpr double k_device_rate_hz = 1000, k_hand_speed_mm_per_s = 100;
+
 /// The shortest wavelength that a device can render at a stroking speed v: two ticks of the haptic loop, 2 v / rate.
 /// @throws InvalidInput when a value is not positive.
 double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz);

@@ -14,6 +14,7 @@ inline constexpr double k_longest_roughness_mm = 1;
 /// Roughness by its parameters, as the haptic tag carries it.
 struct RoughnessModel {
   double hurst = 0.5;                      ///< H of the power law, in (0, 1).
+  double rms_slope = 0;                    ///< Root mean square slope of these waves.
   double rms_mm = 0;                       ///< Root mean square height of the waves within the range.
   double shortest_mm = 0, longest_mm = 0;  ///< Range of the wavelengths.
   double anisotropy = 1;                   ///< Along `direction_rad` waves are that many times as long.

@@ -38,6 +38,12 @@ struct PictureRelief {
   AnalysisPlan plan;  ///< Of the reading, with what the relief took instead of what it might have.
 };
 
+/// The plan of a picture's relief: that of its reading, with what the options and the picture decide. Nothing of the
+/// relief is computed, so that the method is the class's wherever `auto` looks at the relief.
+/// Cost: O(pixels). @throws InvalidInput when the picture is empty or not finite.
+AnalysisPlan plan_relief(const GreyImage& image, const TextureReading& reading,
+                         const PictureReliefOptions& options = {});
+
 /// Carries out the part of the plan of a picture's class [plan_analysis()] that makes its relief:
 ///   strongly ordered symmetric   the mean cell, averaged over its group, so the relief of the generating region, on
 ///   the

@@ -17,19 +17,18 @@ namespace papilla {
 struct ReadingOptions {
   LatticeOptions lattice;
   FeatureKind feature = FeatureKind::squared;
+  bool roughness = true;  ///< Measure the dimension where the class asks for it.
   ProgressCallback progress = {};
 };
 
 /// What a picture is, as far as its class asks for it; see read_texture().
 struct TextureReading {
-  std::optional<SymmetryAnalysis> symmetry;  ///< Nothing for a flat picture.
+  SymmetryAnalysis symmetry;
   std::optional<WallpaperSymmetry> group;    ///< Of a picture with a lattice.
   TextureClass kind;
   Suitability suitability;
   std::optional<BestDimension> roughness;  ///< Of what is disordered: the picture, or what its lattice leaves.
   AnalysisPlan plan;                       ///< Of plan_analysis(); its steps are those that were or shall be run.
-
-  const Lattice& lattice() const;  ///< Found or not.
 };
 
 /// Carries out the part of the plan of a picture's class [plan_analysis()] that measures: the search for a lattice, the
