@@ -183,7 +183,8 @@ std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& 
   constexpr const char* k_code = "tag_roughness";
   const Members in(json, place, warnings);
   RoughnessTag roughness;
-  in.number("fractalDimension", k_code, 2, 3, roughness.fractal_dimension);
+  if (double dimension = 0; in.number("fractalDimension", k_code, 2, 3, dimension))
+    roughness.fractal_dimension = dimension;
   if (!in.number("rmsHeight", k_code, 0, 0.1, roughness.rms_height_m)) return std::nullopt;
   const Vec2 before = roughness.wavelength_range_m;
   if (in.pair("wavelengthRange", k_code, 1e-9, 100, roughness.wavelength_range_m) &&
@@ -342,10 +343,11 @@ Json tag_json(const MaterialTag& tag) {
     json["frictionModel"] = {{"name", tag.friction_model->name}, {"stiffness", tag.friction_model->stiffness}};
   if (tag.force_shading) json["forceShading"] = true;
   if (tag.height) json["height"] = height_json(*tag.height);
-  if (tag.roughness)
-    json["roughness"] = {{"fractalDimension", tag.roughness->fractal_dimension},
-                         {"rmsHeight", tag.roughness->rms_height_m},
+  if (tag.roughness) {
+    json["roughness"] = {{"rmsHeight", tag.roughness->rms_height_m},
                          {"wavelengthRange", pair_json(tag.roughness->wavelength_range_m)}};
+    if (tag.roughness->fractal_dimension) json["roughness"]["fractalDimension"] = *tag.roughness->fractal_dimension;
+  }
   if (tag.force_model)
     json["forceModel"] = {{"name", tag.force_model->name},
                           {"amplitude", tag.force_model->amplitude},

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int k_size = 256;
 constexpr int k_waves = 96;
+constexpr double k_middle_dimension = 2.5;  // For a relief whose roughness follows no power law.
 constexpr double k_samples_per_wave = 4;
 
 struct Wave {
@@ -27,7 +28,7 @@ std::vector<Wave> draw_waves(const RoughnessTag& roughness, std::uint64_t seed) 
   std::mt19937_64 random(seed);
   const double longest = roughness.wavelength_range_m.y;
   const double most = std::clamp(longest / roughness.wavelength_range_m.x, 1.0, k_size / k_samples_per_wave);
-  const double hurst = 3 - roughness.fractal_dimension;
+  const double hurst = 3 - roughness.fractal_dimension.value_or(k_middle_dimension);
   std::vector<Wave> waves;
   for (int i = 0; i < k_waves; ++i) {
     const double wave_number = std::pow(most, (i + uniform(random)) / k_waves);
@@ -47,7 +48,8 @@ std::vector<Wave> draw_waves(const RoughnessTag& roughness, std::uint64_t seed) 
 HeightField roughness_field(const RoughnessTag& roughness, Vec2 metres_per_uv, std::uint64_t seed) {
   const double longest = roughness.wavelength_range_m.y;
   if (!(roughness.wavelength_range_m.x > 0) || !(longest > 0) || !std::isfinite(longest) || !(metres_per_uv.x > 0) ||
-      !(metres_per_uv.y > 0) || !std::isfinite(roughness.rms_height_m) || !std::isfinite(roughness.fractal_dimension))
+      !(metres_per_uv.y > 0) || !std::isfinite(roughness.rms_height_m) ||
+      !std::isfinite(roughness.fractal_dimension.value_or(k_middle_dimension)))
     throw InvalidInput("roughness_field: lengths must be finite and > 0");
 
   std::vector<double> height(static_cast<std::size_t>(k_size) * k_size, 0.0);

@@ -44,7 +44,7 @@ struct HeightTag {
 
 /// Statistics of the relief, from which the player synthesises one when the map is lost.
 struct RoughnessTag {
-  double fractal_dimension = 2.5;  ///< In [2, 3].
+  std::optional<double> fractal_dimension;  ///< In [2, 3]; absent where no power law holds.
   double rms_height_m = 0;
   Vec2 wavelength_range_m{2e-4, 2e-2};  ///< Shortest, longest.
   friend bool operator==(const RoughnessTag&, const RoughnessTag&) = default;
