@@ -252,7 +252,7 @@ void describe_relief(Grain& grain) {
   tag.rms_height_m = grain.roughness.rms_mm * k_metres_per_mm;
   tag.wavelength_range_m = {grain.roughness.shortest_wavelength_mm * k_metres_per_mm,
                             grain.roughness.longest_wavelength_mm * k_metres_per_mm};
-  if (grain.roughness.fractal) tag.fractal_dimension = std::clamp(grain.roughness.fractal->dimension, 2.0, 3.0);
+  if (grain.roughness.fractal) tag.fractal_dimension = grain.roughness.fractal->dimension;
   grain.tag.roughness = tag;
 }
 

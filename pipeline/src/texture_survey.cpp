@@ -178,13 +178,22 @@ std::vector<SurveyPicture> draw_survey(const TextureSurvey& survey, const std::f
 }  // namespace
 
 std::array<FractalReading, 6> named_readings(const FractalReadings& readings) {
-  const auto estimate = [](const auto& reading) { return reading ? &*reading : nullptr; };
-  return {{{"box", k_least_fractal_side, estimate(readings.box)},
-           {"information", k_least_fractal_side, estimate(readings.information)},
-           {"correlation", k_least_fractal_side, estimate(readings.correlation)},
-           {"probability", k_least_probability_side, estimate(readings.probability)},
-           {"fshot", k_least_fractal_side, readings.fshot ? &readings.fshot->estimate : nullptr},
-           {"best", k_least_fractal_side, readings.best ? &readings.best->estimate : nullptr}}};
+  const auto reading = [](std::string_view name, int side, const FractalEstimate* estimate) {
+    return FractalReading{name, side, estimate, estimate != nullptr ? &estimate->curve : nullptr};
+  };
+  const auto of = [](const auto& value) { return value ? &*value : nullptr; };
+  FractalReading best = reading("best", k_least_fractal_side, nullptr);
+  if (readings.best) {
+    best.estimate = of(readings.best->estimate);
+    best.curve = &readings.best->curve;
+    if (!readings.best->power_law()) best.none = readings.best->reason;
+  }
+  return {reading("box", k_least_fractal_side, of(readings.box)),
+          reading("information", k_least_fractal_side, of(readings.information)),
+          reading("correlation", k_least_fractal_side, of(readings.correlation)),
+          reading("probability", k_least_probability_side, of(readings.probability)),
+          reading("fshot", k_least_fractal_side, readings.fshot ? &readings.fshot->estimate : nullptr),
+          best};
 }
 
 TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,

@@ -201,7 +201,8 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
                        const HeightResult& result) {
   constexpr int k_least_side = 32;
   const bool measurable = std::min(residual.width, residual.height) >= k_least_side;
-  const double hurst = measurable ? std::clamp(best_dimension(residual).estimate.hurst, 0.05, 0.95) : 0.5;
+  const auto fractal = measurable ? best_dimension(residual).estimate : std::nullopt;
+  const double hurst = fractal ? std::clamp(fractal->hurst, 0.05, 0.95) : 0.5;  // Without a law the middle.
   const double pitch = result.map.pitch_mm_x;
   const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
   Field noise =

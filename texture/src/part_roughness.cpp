@@ -74,11 +74,11 @@ PartedRelief part_roughness(const HeightMap& relief, double longest_mm) {
     rough.mm[i] = static_cast<float>(rest);
   }
   const BestDimension best = best_dimension({rough.width, rough.height, rough.mm, rough.pitch_mm_x, 32});
-  if (!best.power_law) {
+  if (!best.power_law()) {
     parted.reason = "no power law holds: " + best.reason;
     return parted;
   }
-  model.hurst = best.estimate.hurst;
+  model.hurst = best.estimate->hurst;
   model.rms_mm = std::sqrt(squares / static_cast<double>(smooth.size()));
   measure_slopes(rough, model);
   std::transform(smooth.begin(), smooth.end(), parted.relief.mm.begin(),

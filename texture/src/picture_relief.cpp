@@ -52,12 +52,12 @@ std::pair<bool, std::string> chooses_synthesis(const GreyImage& image, const Tex
   if (options.source == ReliefSource::picture) return {false, "the picture's own relief is asked for"};
   if (options.source == ReliefSource::synthesis) return {true, "asked for"};
   if (options.seen) return {false, "the picture is seen: what is felt keeps its place"};
-  if (!reading.roughness || !reading.roughness->power_law)
+  if (!reading.roughness || !reading.roughness->power_law())
     return {false, "no power law holds" + (reading.roughness ? ": " + reading.roughness->reason : std::string())};
   if (!reading.suitability.homogeneous) return {false, "the picture is not the same everywhere"};
   if (measure_tiling(image).tiles) return {false, "the picture tiles as it is"};
   return {true, fmt::format("a power law of H {:.2f} holds and the picture does not tile",
-                            reading.roughness->estimate.hurst)};
+                            reading.roughness->estimate->hurst)};
 }
 
 /// A surface like the picture as its relief.

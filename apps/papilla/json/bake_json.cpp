@@ -94,7 +94,8 @@ Json plan_json(const std::vector<PartSurface>& surfaces) {
 
 Json grain_plans_json(const std::vector<GrainPlan>& plans) {
   Json json = Json::array();
-  for (const GrainPlan& plan : plans) json.push_back({{"material", plan.material},
+  for (const GrainPlan& plan : plans)
+    json.push_back({{"material", plan.material},
                     {"steps", steps_json(plan.steps)},
                     {"problem", plan.problem.empty() ? Json(nullptr) : Json(plan.problem)}});
   return json;
