@@ -113,14 +113,17 @@ struct Misfit {
 
 Misfit misfit_of(const std::vector<RingRatio>& rings) {
   constexpr int k_fitted = 4;
-  double chi2 = 0, squares = 0;
+  constexpr double k_few = 30;  // Rings of fewer frequencies say little.
+  double chi2 = 0, squares = 0, weights = 0;
   for (const RingRatio& ring : rings) {
     chi2 += ring.count * (ring.ratio - 1) * (ring.ratio - 1);
     const double log = std::log(std::max(1e-6, ring.ratio));
-    squares += log * log - 1 / ring.count;
+    const double weight = ring.count / (ring.count + k_few);
+    squares += weight * (log * log - 1 / ring.count);
+    weights += weight;
   }
-  const auto count = static_cast<double>(rings.size());
-  return {chi2 / std::max(1.0, count - k_fitted), std::sqrt(std::max(0.0, squares / count))};
+  return {chi2 / std::max(1.0, static_cast<double>(rings.size()) - k_fitted),
+          std::sqrt(std::max(0.0, squares / weights))};
 }
 
 /// Fits of one band with their weights.
@@ -132,17 +135,18 @@ struct Mixture {
   double hurst = 0, low = 0, high = 0;
 
   /// The sharp model without noise is the likeliest. It is far more precise than the others.
-  bool is_sharp() const { return weights.front() > 0.5; }
+  bool is_sharp() const { return band.most >= 0.5 && weights.front() > 0.5; }
   const SpectrumFit& best() const {
     return fits[static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin())];
   }
 };
 
 /// What a fit's further parameters cost. A sharp picture without noise is the only model with two parameters, and keeps
-/// its precision by Schwarz's criterion; with noise, sharp and blurred can't be told apart and both count.
-double penalty(const SpectrumFit& fit, double log_count) {
+/// its precision by Schwarz's criterion; with noise, sharp and blurred can't be told apart and both count; so
+/// they do where the band lacks the highest frequencies.
+double penalty(const SpectrumFit& fit, double log_count, bool has_top) {
   constexpr double k_sharp_in_noise = 3, k_no_surface = 10;
-  if (!fit.model.noisy) return fit.model.blurred ? log_count : 0;
+  if (!fit.model.noisy) return fit.model.blurred && has_top ? log_count : 0;
   const bool at_bound = fit.hurst > 0.99 && !fit.model.blurred;
   return log_count + (fit.model.blurred ? k_sharp_in_noise : 0) + (at_bound ? k_no_surface : 0);
 }
@@ -169,6 +173,20 @@ double mixture_quantile(const Mixture& mixture, double probability, double widen
 /// Deviations by Fisher's information are those of an ideal window and of independent cells; measured on exact
 /// surfaces.
 constexpr double k_fisher_widening = 1.25;
+
+/// Frequency at which the noise is as strong as the sharp surface.
+double noise_crossing(const SpectrumFit& fit, double rounding) {
+  const double noise = fit.noise + rounding;
+  return noise > 0 ? std::pow(fit.amplitude / noise, 0.5 / (fit.hurst + 1)) : 1;
+}
+
+/// Highest frequency at which the point spread halves the power at most, and the noise is no more than the surface.
+double highest_frequency(const SpectrumFit& fit, double rounding) {
+  double f = 0.5;
+  if (fit.model.blurred && fit.spread_squared > 0)
+    f = std::min(f, std::sqrt(std::numbers::ln2 / fit.spread_squared) / (2 * std::numbers::pi));
+  return std::min(f, noise_crossing(fit, rounding));
+}
 
 Mixture fit_band(std::span<const SpectrumCell> cells, const SurfaceSpectrumModel& surface, const SpectrumBand& band,
                  double rounding) {
@@ -205,7 +223,9 @@ Mixture fit_band(std::span<const SpectrumCell> cells, const SurfaceSpectrumModel
   fit_pair(PointSpread::kernel, quiet_filtered, filtered);
 
   const double log_count = std::log(std::max(2.0, count));
-  const auto criterion = [&](const SpectrumFit& f, double scale) { return f.misfit / scale + penalty(f, log_count); };
+  const auto criterion = [&](const SpectrumFit& f, double scale) {
+    return f.misfit / scale + penalty(f, log_count, band.most >= 0.5);
+  };
   const SpectrumFit& likeliest =
       *std::min_element(mixture.fits.begin(), mixture.fits.end(),
                         [&](const SpectrumFit& a, const SpectrumFit& b) { return criterion(a, 1) < criterion(b, 1); });
@@ -218,7 +238,11 @@ Mixture fit_band(std::span<const SpectrumCell> cells, const SurfaceSpectrumModel
     sum += mixture.weights.emplace_back(std::exp(std::min(50.0, -0.5 * (criterion(f, scale) - least))));
   for (std::size_t i = 0; i < mixture.fits.size(); ++i)
     mixture.hurst += (mixture.weights[i] /= sum) * mixture.fits[i].hurst;
-  const double widening = k_fisher_widening * std::sqrt(scale);
+  constexpr double k_less_exact = 2;  // A band that was chosen for its fit fits too well.
+  const bool chosen = band.most < 0.5 || band.least > 0;
+  // Nor is rounding white noise where nothing else moves the grey values by its step.
+  const bool rounded = !likeliest.model.noisy && rounding > 0 && noise_crossing(likeliest, rounding) < 0.5;
+  const double widening = k_fisher_widening * std::sqrt(scale) * (chosen || rounded ? k_less_exact : 1);
   mixture.low = std::min(mixture.hurst, mixture_quantile(mixture, 0.025, widening));
   mixture.high = std::max(mixture.hurst, mixture_quantile(mixture, 0.975, widening));
   return mixture;
@@ -237,17 +261,7 @@ double peak_share(std::span<const SpectrumCell> cells, const SpectrumFit& fit) {
   return all > 0 ? peaks / all : 0;
 }
 
-/// Highest frequency at which the point spread halves the power at most, and the noise is no more than the surface.
-double highest_frequency(const SpectrumFit& fit, double rounding) {
-  double f = 0.5;
-  if (fit.model.blurred && fit.spread_squared > 0)
-    f = std::min(f, std::sqrt(std::numbers::ln2 / fit.spread_squared) / (2 * std::numbers::pi));
-  const double noise = fit.noise + rounding;
-  if (noise > 0) f = std::min(f, std::pow(fit.amplitude / noise, 0.5 / (fit.hurst + 1)));
-  return f;
-}
-
-constexpr double k_exact_chi2 = 4;
+constexpr double k_exact_chi2 = 4, k_exact_part_chi2 = 1.6;
 constexpr double k_tolerable_misfit = 0.2;  // A fifth of the power, rms over the rings.
 
 /// The widest band that a single law fits, at least three octaves and most of those that the picture holds.
@@ -259,14 +273,16 @@ Mixture fit_widest_band(std::span<const SpectrumCell> cells, const SurfaceSpectr
   if (whole.misfit.rms <= k_tolerable_misfit && whole.misfit.chi2_per_dof < k_exact_chi2) return whole;
   const double octaves = std::log2(0.5 / least);
   Mixture best = whole;
-  for (const SpectrumBand band : {SpectrumBand{0, 0.35}, SpectrumBand{2 * least, 1}, SpectrumBand{2 * least, 0.35},
-                                  SpectrumBand{0, 0.25}, SpectrumBand{4 * least, 1}}) {
+  std::vector<SpectrumBand> bands = {{0, 0.35}, {2 * least, 1}, {2 * least, 0.35}, {0, 0.25}, {4 * least, 1}};
+  // Rounding is no white noise where the grey values change by less than its step from pixel to pixel.
+  if (rounding > 0) bands.insert(bands.end(), {{0, 0.18}, {0, 0.125}, {0, 0.09}, {0, 0.06}});
+  for (const SpectrumBand& band : bands) {
     const double kept = std::log2(std::min(0.5, band.most) / std::max(least, band.least));
     if (kept < 3 || kept < 0.6 * octaves) continue;
     Mixture part = fit_band(cells, surface, band, rounding);
     if (part.misfit.rms < 0.6 * best.misfit.rms || part.high - part.low < 0.6 * (best.high - best.low))
       best = std::move(part);
-    if (best.misfit.rms <= k_tolerable_misfit && best.misfit.chi2_per_dof < k_exact_chi2) break;
+    if (best.misfit.rms <= k_tolerable_misfit && best.misfit.chi2_per_dof < k_exact_part_chi2) break;
   }
   return best;
 }
