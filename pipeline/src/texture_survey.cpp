@@ -13,6 +13,7 @@
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/analysis_pictures.hpp"
+#include "papilla/texture/picture_relief.hpp"
 #include "papilla/texture/resample.hpp"
 #include "papilla/texture/texture_order.hpp"
 #include "papilla/texture/texture_reading.hpp"
@@ -79,14 +80,19 @@ bool wants_fractal(const SurveyOptions& options, TextureSurvey& survey) {
 
 void survey_whole(const ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
                   TextureSurvey& survey) {
+  std::optional<TextureReading> reading;
   if (needs_lattice(options)) {
-    TextureReading reading = read_texture(survey.middle, {options.lattice, options.feature, false, progress});
-    survey.symmetry = std::move(reading.symmetry);
+    reading = read_texture(survey.middle, {options.lattice, options.feature, false, progress});
     if (options.order)
-      survey.order = OrderSurvey{reading.kind, orientation_field(survey.middle), reading.suitability,
-                                 is_monochrome(bands.sample()), std::move(reading.plan)};
+      survey.order = OrderSurvey{reading->kind, orientation_field(survey.middle), reading->suitability,
+                                 is_monochrome(bands.sample()), reading->plan};
   }
   if (wants_fractal(options, survey)) survey.fractal = read_fractal_dimensions(survey.middle, progress);
+  if (survey.order) {
+    if (survey.fractal) reading->roughness = survey.fractal->best;
+    survey.order->plan = plan_relief(survey.middle, *reading);
+  }
+  if (reading) survey.symmetry = std::move(reading->symmetry);
 }
 
 /// Drops the lattice of the middle unless enough pieces have it too.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "json/json.hpp"
@@ -9,6 +10,7 @@
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
+#include "papilla/texture/part_roughness.hpp"
 #include "papilla/texture/prepare.hpp"
 
 namespace papilla::app {
