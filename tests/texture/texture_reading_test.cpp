@@ -37,7 +37,7 @@ TEST(ReadTexture, OfACompositeTheDimensionIsThatOfTheRest) {
   GreyImage image = synthesize_grain(GrainKind::quads8, {256}).picture;
   const GreyImage rough = to_grey_image(brownian_surface_exact({257, 0.3, 5}));
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) image.at(x, y) = 0.5F * image.at(x, y) + 0.7F * rough.at(x, y);
+    for (int x = 0; x < image.width; ++x) image.at(x, y) = 0.5F * image.at(x, y) + 0.6F * rough.at(x, y);
   const TextureReading reading = read_texture(image);
   ASSERT_EQ(reading.kind.kind, TextureKind::composite) << reading.kind.strongly_ordered;
   EXPECT_TRUE(reading.group);

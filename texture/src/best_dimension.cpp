@@ -264,7 +264,7 @@ double peak_share(std::span<const SpectrumCell> cells, const SpectrumFit& fit) {
 constexpr double k_exact_chi2 = 4, k_exact_part_chi2 = 1.6;
 constexpr double k_tolerable_misfit = 0.2;  // A fifth of the power, rms over the rings.
 
-/// The widest band that a single law fits, at least three octaves and most of those that the picture holds.
+/// The widest band that a single law fits, at least three octaves, or most of those that the picture holds.
 Mixture fit_widest_band(std::span<const SpectrumCell> cells, const SurfaceSpectrumModel& surface, double rounding) {
   double least = 1;
   for (const SpectrumCell& cell : cells) least = std::min(least, cell.frequency_squared());
@@ -278,7 +278,7 @@ Mixture fit_widest_band(std::span<const SpectrumCell> cells, const SurfaceSpectr
   if (rounding > 0) bands.insert(bands.end(), {{0, 0.18}, {0, 0.125}, {0, 0.09}, {0, 0.06}});
   for (const SpectrumBand& band : bands) {
     const double kept = std::log2(std::min(0.5, band.most) / std::max(least, band.least));
-    if (kept < 3 || kept < 0.6 * octaves) continue;
+    if (kept < std::min(3.0, 0.8 * octaves) || kept < 0.6 * octaves) continue;
     Mixture part = fit_band(cells, surface, band, rounding);
     if (part.misfit.rms < 0.6 * best.misfit.rms || part.high - part.low < 0.6 * (best.high - best.low))
       best = std::move(part);
@@ -333,7 +333,7 @@ std::string objection(std::span<const SpectrumCell> cells, const Mixture& mixtur
 
 }  // namespace
 
-BestDimension best_dimension(const GreyImage& image) {
+BestDimension best_dimension(const GreyImage& image, double longest_wave_px) {
   texture_detail::require_image(image, "best_dimension", k_least_side);
   BestDimension result;
   result.quantization_step = grey_step(image);
@@ -343,7 +343,10 @@ BestDimension best_dimension(const GreyImage& image) {
     result.reason = "flat: a single grey value";
     return result;
   }
-  const std::vector<SpectrumCell> cells = texture_detail::spectrum_cells(image);
+  std::vector<SpectrumCell> cells = texture_detail::spectrum_cells(image);
+  std::erase_if(cells, [&](const SpectrumCell& cell) {
+    return cell.frequency_squared() * longest_wave_px * longest_wave_px < 1;
+  });
   if (std::none_of(cells.begin(), cells.end(), [](const SpectrumCell& c) { return c.power[0] + c.power[1] > 0; })) {
     result.reason = "flat: a plane";
     return result;

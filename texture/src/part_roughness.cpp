@@ -73,7 +73,9 @@ PartedRelief part_roughness(const HeightMap& relief, double longest_mm) {
     squares += rest * rest;
     rough.mm[i] = static_cast<float>(rest);
   }
-  const BestDimension best = best_dimension({rough.width, rough.height, rough.mm, rough.pitch_mm_x, 32});
+  // Of the whole relief: a surface without its long waves follows no power law at its end.
+  const BestDimension best = best_dimension({relief.width, relief.height, relief.mm, relief.pitch_mm_x, 32},
+                                            model.longest_mm / std::min(relief.pitch_mm_x, relief.pitch_mm_y));
   if (!best.power_law()) {
     parted.reason = "no power law holds: " + best.reason;
     return parted;

@@ -46,8 +46,9 @@ struct BestDimension {
 /// Accuracy (rms error of D on exact surfaces, D = 2.1…2.9): docs/methods/best-dimension.md. Tilt and bend do not
 /// matter. Cost: one transform and about 30 ms for the fits. Deterministic.
 /// @param image at least 32 pixels a side, `bits` the rounding of its values.
+/// @param longest_wave_px longer waves are left out, as where a relief of another kind is below the roughness.
 /// @throws InvalidInput when the picture is smaller, empty or not finite.
 /// Whittle, On stationary processes in the plane, 1954; Schwarz, Estimating the dimension of a model, 1978.
-BestDimension best_dimension(const GreyImage& image);
+BestDimension best_dimension(const GreyImage& image, double longest_wave_px = 1e300);
 
 }  // namespace papilla
