@@ -78,30 +78,33 @@ std::vector<ScalePoint> second_difference_curve(const GreyImage& image) {
   return curve;
 }
 
+/// Rings of equal width in ln f.
+std::size_t ring_of(const SpectrumCell& cell) {
+  constexpr double k_rings_per_log = 7, k_lowest_log = -12;
+  return static_cast<std::size_t>(
+      std::max(0.0, (0.5 * std::log(cell.frequency_squared()) - k_lowest_log) * k_rings_per_log));
+}
+
 /// The spectrum over the model by distance from the origin.
 struct RingRatio {
-  double frequency = 0, ratio = 0, count = 0;
+  double ratio = 0, count = 0;
 };
 
 std::vector<RingRatio> ring_ratios(std::span<const SpectrumCell> cells, const SpectrumFit& fit,
                                    const SpectrumBand& band) {
-  constexpr double k_rings_per_log = 7, k_lowest_log = -12;
-  std::vector<RingRatio> rings(static_cast<std::size_t>(-k_lowest_log * k_rings_per_log) + 1);
+  std::vector<RingRatio> rings;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (!band.holds(cells[c])) continue;
-    const double log_f = 0.5 * std::log(cells[c].frequency_squared());
-    RingRatio& ring = rings[static_cast<std::size_t>(std::max(0.0, (log_f - k_lowest_log) * k_rings_per_log))];
+    const std::size_t index = ring_of(cells[c]);
+    if (rings.size() <= index) rings.resize(index + 1);
+    RingRatio& ring = rings[index];
     for (std::size_t m = 0; m < 2; ++m) {
-      ring.frequency += cells[c].count[m] * std::exp(log_f);
       ring.ratio += cells[c].count[m] * cells[c].power[m] / fit.power[2 * c + m];
       ring.count += cells[c].count[m];
     }
   }
   std::erase_if(rings, [](const RingRatio& ring) { return !(ring.count > 0); });
-  for (RingRatio& ring : rings) {
-    ring.frequency /= ring.count;
-    ring.ratio /= ring.count;
-  }
+  for (RingRatio& ring : rings) ring.ratio /= ring.count;
   return rings;
 }
 
@@ -248,15 +251,35 @@ Mixture fit_band(std::span<const SpectrumCell> cells, const SurfaceSpectrumModel
   return mixture;
 }
 
-/// Share of the sharpened picture's power in single frequencies far above the model.
+/// Median of spectrum over model by ring: what lies between the peaks, also where the model is off.
+std::vector<double> ring_medians(std::span<const SpectrumCell> cells, const SpectrumFit& fit) {
+  std::vector<std::vector<double>> ratios;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::size_t ring = ring_of(cells[c]);
+    if (ratios.size() <= ring) ratios.resize(ring + 1);
+    for (std::size_t m = 0; m < 2; ++m)
+      if (cells[c].count[m] > 0) ratios[ring].push_back(cells[c].power[m] / fit.power[2 * c + m]);
+  }
+  std::vector<double> medians;
+  for (std::vector<double>& ring : ratios) {
+    const auto middle = ring.begin() + static_cast<std::ptrdiff_t>(ring.size() / 2);
+    std::nth_element(ring.begin(), middle, ring.end());
+    medians.push_back(ring.empty() ? 1 : *middle);
+  }
+  return medians;
+}
+
+/// Share of the picture's power, every octave alike for H = 0, in single frequencies far above those around.
 double peak_share(std::span<const SpectrumCell> cells, const SpectrumFit& fit) {
   constexpr double k_chance = 20;  // e^−20 of the frequencies of noise are as far above their mean.
+  const std::vector<double> medians = ring_medians(cells, fit);
   double peaks = 0, all = 0;
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (std::size_t m = 0; m < 2; ++m) {
-      const double level = std::pow(cells[c].frequency_squared(), 1.0);  // Each octave counts alike for H = 0.
+      if (!(cells[c].count[m] > 0)) continue;
+      const double level = cells[c].frequency_squared(), around = fit.power[2 * c + m] * medians[ring_of(cells[c])];
       all += cells[c].count[m] * cells[c].power[m] * level;
-      if (cells[c].largest[m] > k_chance * fit.power[2 * c + m]) peaks += cells[c].largest[m] * level;
+      if (cells[c].largest[m] > k_chance * around) peaks += cells[c].largest[m] * level;
     }
   return all > 0 ? peaks / all : 0;
 }
