@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/texture/symmetry.hpp"
 
+#include <cstdio>
+#include <cstdlib>
+
 #include "checks.hpp"
+#include "even_light.hpp"
+#include "papilla/texture/lattice_agreement.hpp"
 #include "papilla/texture/resample.hpp"
 
 namespace papilla {
@@ -18,8 +23,52 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
   analysis.picture = middle_part(image, k_most_side);
   analysis.matrix = feature == FeatureKind::squared ? feature_matrix(analysis.picture)
                                                     : absolute_feature_matrix(analysis.picture, progress);
-  analysis.lattice = find_lattice(analysis.matrix, options);
-  if (analysis.lattice.found) analysis.part = symmetric_part(analysis.picture, analysis.lattice.vectors_px);
+  const GreyImage even = texture_detail::with_even_light(analysis.picture);
+  const FeatureMatrix even_matrix = feature_matrix(even);
+  LatticeOptions near = options;
+  near.least_significance = 0.01;
+  near.reach_cells = 3;
+  LatticeOptions all = options;
+  all.least_significance = 0.01;
+  const Lattice whole = find_lattice(even_matrix, all);
+  const Lattice part = find_lattice(even_matrix, near);
+  const bool talk = std::getenv("TALK") != nullptr;
+  const auto show = [&](const char* name, const Lattice& l) {
+    if (talk) std::printf("   %s found %d sig %.3f (%.2f %.2f)(%.2f %.2f)\n", name, l.found, l.significance, l.vectors_px[0].x, l.vectors_px[0].y, l.vectors_px[1].x, l.vectors_px[1].y);
+  };
+  show("whole", whole);
+  show("near", part);
+  analysis.lattice = whole;
+  GreyImage straight = even;
+  std::vector<Lattice> starts;
+  if (part.found) starts.push_back(part);
+  if (whole.found && !is_same_lattice(part, whole)) starts.push_back(whole);
+  if (std::getenv("NODEF")) starts.clear();
+  double best = -1;
+  for (Lattice start : starts) {
+    for (int round = 0; round < 2; ++round) {
+      LatticeDeformation d = find_lattice_deformation(even, start.vectors_px);
+      if (talk)
+        std::printf("   before %.3f after %.3f signif %d rms %.2f max %.2f vectors (%.2f %.2f)(%.2f %.2f) %.3f s\n", d.explained_before, d.explained_after, d.significant, d.rms_percent_of_cell, d.max_percent_of_cell, d.vectors_px[0].x, d.vectors_px[0].y, d.vectors_px[1].x, d.vectors_px[1].y, d.trace.back().seconds);
+      if (!d.significant) break;
+      const GreyImage flat = straightened(even, d.displacement);
+      const Lattice found = find_lattice(feature_matrix(flat), all);
+      show("straight", found);
+      if (!found.found) break;
+      const double quality = d.explained_after;
+      const bool same = is_same_lattice(start, found);
+      if (quality > best && same) {
+        best = quality;
+        straight = flat;
+        analysis.lattice = found;
+        analysis.deformation = d;
+      }
+      if (same) break;
+      start = found;
+    }
+  }
+  if (analysis.deformation) analysis.straight = straight;
+  if (analysis.lattice.found) analysis.part = symmetric_part(straight, analysis.lattice.vectors_px);
   return analysis;
 }
 

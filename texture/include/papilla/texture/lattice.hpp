@@ -21,6 +21,7 @@ struct LatticeOptions {
   double node_tolerance = 0.82;   ///< Correlation, relative to the best, from which a shift counts as a repetition.
   double index_tolerance = 0.95;  ///< Of two lattices, one within the other, the finer one is taken from this share on.
   int most_candidates = 24;       ///< Shortest good minima that are paired to candidate bases.
+  double reach_cells = 0;  ///< Only nodes within so many cells count, for lattices that bend; 0: all of the matrix.
 };
 
 /// The translations under which a picture repeats; see find_lattice().

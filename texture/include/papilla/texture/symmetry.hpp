@@ -7,6 +7,7 @@
 #include "papilla/texture/feature_matrix.hpp"
 #include "papilla/texture/image.hpp"
 #include "papilla/texture/lattice.hpp"
+#include "papilla/texture/lattice_deformation.hpp"
 #include "papilla/texture/primitive.hpp"
 
 namespace papilla {
@@ -16,6 +17,8 @@ struct SymmetryAnalysis {
   GreyImage picture;     ///< The part of the picture that was analysed.
   FeatureMatrix matrix;  ///< Of `picture`.
   Lattice lattice;
+  std::optional<LatticeDeformation> deformation;  ///< Where the lattice bends: then `part` is that of `straight`.
+  std::optional<GreyImage> straight;
   std::optional<SymmetricPart> part;  ///< With a lattice: primitive, synthesis and residual of `picture`.
 
   double explained_variance() const { return part ? part->explained_variance : 0; }
