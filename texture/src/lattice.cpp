@@ -333,12 +333,21 @@ std::vector<Peak> deepest_first(const CorrelationMap& map) {
   return peaks;
 }
 
+/// Whether the correlation dips on the way to a node.
+bool dips_before(const CorrelationMap& map, Vec2 node) {
+  constexpr double k_least_dip = 0.1;  // Of the correlation at the node.
+  double lowest = map.sample(node);
+  for (int k = 1; k < 16; ++k) lowest = std::min(lowest, map.sample((k / 16.0) * node));
+  return lowest <= (1 - k_least_dip) * map.sample(node);
+}
+
 /// The smallest cell among the pairs of short good peaks whose nodes repeat nearly as well as those of the best pair.
 std::optional<Basis> best_pair(const CorrelationMap& map, const std::vector<Peak>& peaks,
                                const LatticeOptions& options) {
   std::vector<Peak> good;
   for (const Peak& peak : peaks)
-    if (peak.correlation >= options.node_tolerance * peaks.front().correlation) good.push_back(peak);
+    if (peak.correlation >= options.node_tolerance * peaks.front().correlation && dips_before(map, peak.t))
+      good.push_back(peak);
   std::stable_sort(good.begin(), good.end(), [](const Peak& p, const Peak& q) { return norm(p.t) < norm(q.t); });
   if (good.size() > static_cast<std::size_t>(options.most_candidates))
     good.resize(static_cast<std::size_t>(options.most_candidates));
@@ -510,13 +519,8 @@ double significance(const CorrelationMap& map, const Basis& basis, const std::ve
 
 /// True when the correlation does not dip on the way to some neighbouring node.
 bool is_striped(const CorrelationMap& map, const Basis& basis) {
-  constexpr double k_least_dip = 0.1;  // Of the correlation at the node.
-  for (const Vec2 node : {basis.a, basis.b, basis.a + basis.b, basis.a - basis.b}) {
-    if (!map.contains(node)) continue;
-    double lowest = map.sample(node);
-    for (int k = 1; k < 16; ++k) lowest = std::min(lowest, map.sample((k / 16.0) * node));
-    if (lowest > (1 - k_least_dip) * map.sample(node)) return true;
-  }
+  for (const Vec2 node : {basis.a, basis.b, basis.a + basis.b, basis.a - basis.b})
+    if (map.contains(node) && !dips_before(map, node)) return true;
   return false;
 }
 

@@ -239,8 +239,8 @@ class DeformationFit {
     average();
     result.explained_before = explained(measure());
     const double whole = std::hypot(width_, height_);
-    constexpr double k_growth = 1.25, k_first_cells = 2.2;
-    constexpr int k_last_rounds = 5;
+    constexpr double k_growth = 1.3, k_first_cells = 2.2;
+    constexpr int k_last_rounds = 4;
     int last = 0;
     for (radius_ = k_first_cells * std::max(norm(vectors_[0]), norm(vectors_[1])); last < k_last_rounds;
          radius_ *= k_growth) {

@@ -7,6 +7,8 @@
 #include "checks.hpp"
 #include "even_light.hpp"
 #include "papilla/texture/lattice_agreement.hpp"
+#include "lattice_surrogates.hpp"
+#include "papilla/core/trace.hpp"
 #include "papilla/texture/resample.hpp"
 
 namespace papilla {
@@ -39,11 +41,16 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
   show("whole", whole);
   show("near", part);
   analysis.lattice = whole;
+  {
+    const Stopwatch clock;
+    analysis.false_alarm_probability = std::min(texture_detail::false_alarm_probability(even, part, near, 0.01), texture_detail::false_alarm_probability(even, whole, all, 0.01));
+    if (talk) std::printf("   P %.5f %.3f s\n", analysis.false_alarm_probability, clock.seconds());
+  }
   GreyImage straight = even;
   std::vector<Lattice> starts;
   if (part.found) starts.push_back(part);
   if (whole.found && !is_same_lattice(part, whole)) starts.push_back(whole);
-  if (std::getenv("NODEF")) starts.clear();
+  if (std::getenv("NODEF") || analysis.false_alarm_probability > 0.01) { starts.clear(); if(analysis.false_alarm_probability > 0.01) analysis.lattice={}; }
   double best = -1;
   for (Lattice start : starts) {
     for (int round = 0; round < 2; ++round) {

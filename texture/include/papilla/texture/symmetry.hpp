@@ -19,6 +19,7 @@ struct SymmetryAnalysis {
   Lattice lattice;
   std::optional<LatticeDeformation> deformation;  ///< Where the lattice bends: then `part` is that of `straight`.
   std::optional<GreyImage> straight;
+  double false_alarm_probability = 1;
   std::optional<SymmetricPart> part;  ///< With a lattice: primitive, synthesis and residual of `picture`.
 
   double explained_variance() const { return part ? part->explained_variance : 0; }
