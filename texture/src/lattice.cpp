@@ -344,10 +344,11 @@ bool dips_before(const CorrelationMap& map, Vec2 node) {
 /// The smallest cell among the pairs of short good peaks whose nodes repeat nearly as well as those of the best pair.
 std::optional<Basis> best_pair(const CorrelationMap& map, const std::vector<Peak>& peaks,
                                const LatticeOptions& options) {
+  // In a lattice that bends, the two directions may repeat unequally well.
+  const double tolerance = options.reach_cells > 0 ? options.node_tolerance * options.node_tolerance * options.node_tolerance : options.node_tolerance;
   std::vector<Peak> good;
   for (const Peak& peak : peaks)
-    if (peak.correlation >= options.node_tolerance * peaks.front().correlation && dips_before(map, peak.t))
-      good.push_back(peak);
+    if (peak.correlation >= tolerance * peaks.front().correlation && dips_before(map, peak.t)) good.push_back(peak);
   std::stable_sort(good.begin(), good.end(), [](const Peak& p, const Peak& q) { return norm(p.t) < norm(q.t); });
   if (good.size() > static_cast<std::size_t>(options.most_candidates))
     good.resize(static_cast<std::size_t>(options.most_candidates));

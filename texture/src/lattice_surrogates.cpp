@@ -4,6 +4,7 @@
 #include "lattice_surrogates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -20,58 +21,58 @@ namespace {
 constexpr int k_angles = 36, k_radii = 72;
 constexpr double k_least_frequency = 1.0 / 4096;  // Cycles per pixel.
 
-/// Mean power per wave over a polar grid: angles over half a turn, radii in equal steps of the logarithm.
+/// Where a wave lies in the reciprocal lattice.
+class ReciprocalNodes {
+ public:
+  ReciprocalNodes(const std::array<Vec2, 2>& vectors, int width, int height) : vectors_(vectors) {
+    const double area = cross(vectors[0], vectors[1]);
+    a_ = {vectors[1].y / area, -vectors[1].x / area};
+    b_ = {-vectors[0].y / area, vectors[0].x / area};
+    // A window of Hann spreads a wave over two of its neighbours to each side.
+    const double spacing = std::min(norm(a_), norm(b_)), wave = 1.0 / std::min(width, height);
+    reach_ = std::min(std::max(0.3 * spacing, 2 * wave), 0.45 * spacing);
+  }
+  bool holds(Vec2 k) const {
+    const double m = std::round(dot(k, vectors_[0])), n = std::round(dot(k, vectors_[1]));
+    return (m != 0 || n != 0) && norm(k - (m * a_ + n * b_)) < reach_;
+  }
+
+ private:
+  std::array<Vec2, 2> vectors_;
+  Vec2 a_, b_;
+  double reach_;
+};
+
+/// Mean power per wave over a polar grid, angles over half a turn, radii in equal steps of the logarithm; without the
+/// waves at the nodes of the reciprocal lattice, whose place the waves around them take.
 class PolarSpectrum {
  public:
-  explicit PolarSpectrum(const GreyImage& image) : values_(k_angles * k_radii, 0.0) {
+  PolarSpectrum(const GreyImage& image, const ReciprocalNodes& nodes)
+      : values_(k_angles * k_radii, 0.0), counts_(values_.size(), 0.0) {
     const int w = image.width, h = image.height;
     RealFft2d fft(w, h);
     double mean = 0;
     for (const float grey : image.pixels) mean += static_cast<double>(grey) / static_cast<double>(image.pixels.size());
-    for (int y = 0; y < h; ++y) {
+    for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
         // Hann's window: without it the borders' steps would put a cross into the spectrum.
         const double window = std::sin(std::numbers::pi * (x + 0.5) / w) * std::sin(std::numbers::pi * (y + 0.5) / h);
         fft.real(x, y) = window * window * (static_cast<double>(image.at(x, y)) - mean);
       }
-    }
     fft.forward();
-    std::vector<double> counts(values_.size(), 0.0);
     for (int y = 0; y < h; ++y)
       for (int x = 0; x <= w / 2; ++x) {
-        const double fx = static_cast<double>(x) / w, fy = static_cast<double>(y <= h / 2 ? y : y - h) / h;
-        if (x == 0 && y == 0) continue;
-        const auto [angle, radius] = place(fx, fy);
-        const std::size_t index = pixel_index(static_cast<int>(std::lround(angle)) % k_angles,
-                                              std::clamp(static_cast<int>(std::lround(radius)), 0, k_radii - 1), k_angles);
-        values_[index] += std::norm(fft.spectrum()[static_cast<std::size_t>(y) * fft.spectrum_width() +
-                                                   static_cast<std::size_t>(x)]);
-        counts[index] += 1;
+        const Vec2 k{static_cast<double>(x) / w, static_cast<double>(y <= h / 2 ? y : y - h) / h};
+        if ((x == 0 && y == 0) || nodes.holds(k)) continue;
+        const auto [angle, radius] = place(k.x, k.y);
+        const std::size_t index =
+            pixel_index(static_cast<int>(std::lround(angle)) % k_angles,
+                        std::clamp(static_cast<int>(std::lround(radius)), 0, k_radii - 1), k_angles);
+        values_[index] += std::norm(
+            fft.spectrum()[static_cast<std::size_t>(y) * fft.spectrum_width() + static_cast<std::size_t>(x)]);
+        counts_[index] += 1;
       }
-    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = counts[i] > 0 ? values_[i] / counts[i] : -1;
-    fill_gaps();
-  }
-
-  /// The larger one of the medians along circles and along rays.
-  void remove_peaks() {
-    constexpr int k_arc = 8, k_ray = 5;  // ±40° and a factor of about 1.7 both ways.
-    std::vector<double> smooth(values_.size()), around;
-    const auto median = [&] {
-      const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-      std::nth_element(around.begin(), middle, around.end());
-      return *middle;
-    };
-    for (int r = 0; r < k_radii; ++r)
-      for (int a = 0; a < k_angles; ++a) {
-        around.clear();
-        for (int k = -k_arc; k <= k_arc; ++k) around.push_back(values_[pixel_index(wrapped(a + k, k_angles), r, k_angles)]);
-        const double along_circle = median();
-        around.clear();
-        for (int k = std::max(0, r - k_ray); k <= std::min(k_radii - 1, r + k_ray); ++k)
-          around.push_back(values_[pixel_index(a, k, k_angles)]);
-        smooth[pixel_index(a, r, k_angles)] = std::max(along_circle, median());
-      }
-    values_ = std::move(smooth);
+    average();
   }
 
   /// Bilinear.
@@ -96,24 +97,29 @@ class PolarSpectrum {
     const double top = std::log(std::numbers::sqrt2 / 2 / k_least_frequency);
     return {angle * k_angles, std::log(std::hypot(fx, fy) / k_least_frequency) / top * (k_radii - 1)};
   }
-  /// Bins that no wave falls into take the nearest radius' value of their angle, at any angle when there is none.
-  void fill_gaps() {
-    for (int a = 0; a < k_angles; ++a) {
-      double last = -1;
-      for (int r = k_radii - 1; r >= 0; --r) {
-        double& value = values_[pixel_index(a, r, k_angles)];
-        if (value < 0) value = last;
-        last = value;
-      }
-      for (int r = 0; r < k_radii; ++r) {
-        double& value = values_[pixel_index(a, r, k_angles)];
-        if (value < 0) value = last < 0 ? 0 : last;
-        last = value;
-      }
-    }
+  /// Sums into means over as many neighbours along the circle, and later across it, as hold enough waves.
+  void average() {
+    constexpr double k_enough = 8;
+    std::vector<double> means(values_.size(), 0.0);
+    for (int r = 0; r < k_radii; ++r)
+      for (int a = 0; a < k_angles; ++a)
+        for (int reach = 1; reach <= k_angles / 2; ++reach) {
+          const int across = std::max(0, reach / 3 - 1);
+          double sum = 0, count = 0;
+          for (int j = std::max(0, r - across); j <= std::min(k_radii - 1, r + across); ++j)
+            for (int i = -reach; i <= reach; ++i) {
+              const std::size_t index = pixel_index(wrapped(a + i, k_angles), j, k_angles);
+              sum += values_[index];
+              count += counts_[index];
+            }
+          if (count < k_enough && reach < k_angles / 2) continue;
+          means[pixel_index(a, r, k_angles)] = count > 0 ? sum / count : 0;
+          break;
+        }
+    values_ = std::move(means);
   }
 
-  std::vector<double> values_;
+  std::vector<double> values_, counts_;
 };
 
 }  // namespace
@@ -130,8 +136,7 @@ double false_alarm_probability(const GreyImage& image, const Lattice& lattice, c
   const double step = std::max(1.0, longest * k_cells_across / k_most_side);
   const int width = std::clamp(static_cast<int>(image.width / step), 16, k_most_side),
             height = std::clamp(static_cast<int>(image.height / step), 16, k_most_side);
-  PolarSpectrum spectrum(image);
-  spectrum.remove_peaks();
+  const PolarSpectrum spectrum(image, ReciprocalNodes(lattice.vectors_px, image.width, image.height));
   LatticeOptions any = options;
   any.least_significance = 1e-9;
   double sum = 0, p = 1;

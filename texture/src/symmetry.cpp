@@ -43,7 +43,7 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
   analysis.lattice = whole;
   {
     const Stopwatch clock;
-    analysis.false_alarm_probability = std::min(texture_detail::false_alarm_probability(even, part, near, 0.01), texture_detail::false_alarm_probability(even, whole, all, 0.01));
+    analysis.false_alarm_probability = part.found ? texture_detail::false_alarm_probability(even, part, near, 0.01) : texture_detail::false_alarm_probability(even, whole, all, 0.01);
     if (talk) std::printf("   P %.5f %.3f s\n", analysis.false_alarm_probability, clock.seconds());
   }
   GreyImage straight = even;
@@ -51,15 +51,18 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
   if (part.found) starts.push_back(part);
   if (whole.found && !is_same_lattice(part, whole)) starts.push_back(whole);
   if (std::getenv("NODEF") || analysis.false_alarm_probability > 0.01) { starts.clear(); if(analysis.false_alarm_probability > 0.01) analysis.lattice={}; }
+  LatticeOptions flatopt = all;
+  flatopt.reach_cells = 4;
   double best = -1;
   for (Lattice start : starts) {
+    if (best >= 0 && is_same_lattice(start, analysis.lattice)) break;
     for (int round = 0; round < 2; ++round) {
       LatticeDeformation d = find_lattice_deformation(even, start.vectors_px);
       if (talk)
         std::printf("   before %.3f after %.3f signif %d rms %.2f max %.2f vectors (%.2f %.2f)(%.2f %.2f) %.3f s\n", d.explained_before, d.explained_after, d.significant, d.rms_percent_of_cell, d.max_percent_of_cell, d.vectors_px[0].x, d.vectors_px[0].y, d.vectors_px[1].x, d.vectors_px[1].y, d.trace.back().seconds);
       if (!d.significant) break;
       const GreyImage flat = straightened(even, d.displacement);
-      const Lattice found = find_lattice(feature_matrix(flat), all);
+      const Lattice found = find_lattice(feature_matrix(flat), flatopt);
       show("straight", found);
       if (!found.found) break;
       const double quality = d.explained_after;
