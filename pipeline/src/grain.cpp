@@ -227,7 +227,7 @@ Lattice analyze(const MaterialRule& rule, const Source& source, Grain& grain) {
     lattice.period_mm[k] = {px.x * mm_per_px.x, px.y * mm_per_px.y};
     tag.period_m[k] = k_metres_per_mm * lattice.period_mm[k];
   }
-  tag.group = lattice.group = to_string(find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px).group);
+  tag.group = lattice.group = to_string(find_wallpaper_group(symmetry).group);
   grain.lattice = lattice;
   grain.tag.symmetry = tag;
   return symmetry.lattice;

@@ -231,9 +231,9 @@ std::vector<double> smooth_field(int side, double length, Random& random) {
 /// annex K scaled to `quality`.
 void quantize_blocks(std::vector<double>& grey, int side, int quality) {
   static constexpr std::array<int, 64> k_table = {
-      16, 11, 10, 16, 24,  40,  51,  61,  12, 12, 14, 19, 26,  58,  60,  55,  14, 13, 16, 24, 40,
-      57, 69, 56, 14, 17,  22,  29,  51,  87, 80, 62, 18, 22,  37,  56,  68,  109, 103, 77, 24, 35,
-      55, 64, 81, 104, 113, 92, 49,  64,  78, 87, 103, 121, 120, 101, 72, 92, 95, 98, 112, 100, 103, 99};
+      16, 11,  10,  16, 24, 40, 51, 61, 12,  12,  14,  19,  26, 58, 60, 55,  14,  13,  16,  24, 40, 57,
+      69, 56,  14,  17, 22, 29, 51, 87, 80,  62,  18,  22,  37, 56, 68, 109, 103, 77,  24,  35, 55, 64,
+      81, 104, 113, 92, 49, 64, 78, 87, 103, 121, 120, 101, 72, 92, 95, 98,  112, 100, 103, 99};
   const int scale = quality < 50 ? 5000 / quality : 200 - 2 * quality;
   const auto wave = [](int k, int i) {
     return std::cos((2 * i + 1) * k * std::numbers::pi / 16) * (k == 0 ? std::sqrt(0.125) : 0.5);
@@ -301,8 +301,8 @@ GreyImage drawn(const Waves& waves, const std::array<Vec2, 2>& cell, int side, d
   return image;
 }
 
-/// The vectors of the mean cell of the picture whose point x shows the pattern's point x + scale · (across, down)(x): the
-/// linear part of the displacement is theirs.
+/// The vectors of the mean cell of the picture whose point x shows the pattern's point x + scale · (across, down)(x):
+/// the linear part of the displacement is theirs.
 std::array<Vec2, 2> mean_cell(const std::array<Vec2, 2>& cell, int side, const std::vector<double>& across,
                               const std::vector<double>& down, double scale) {
   const double middle = (side - 1) / 2.0;

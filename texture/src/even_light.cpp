@@ -87,8 +87,7 @@ GreyImage with_even_light(const GreyImage& image) {
   even.bits = 32;
   const std::vector<double> spread = best_quadric(squares, image.width, image.height);
   for (std::size_t i = 0; i < field.size(); ++i)
-    even.pixels[i] =
-        static_cast<float>(mean + field[i] / std::sqrt(std::max(k_least_gain, spread[i] / square)));
+    even.pixels[i] = static_cast<float>(mean + field[i] / std::sqrt(std::max(k_least_gain, spread[i] / square)));
   return even;
 }
 

@@ -305,8 +305,7 @@ constexpr std::size_t k_scored_nodes = 40;
 
 /// Mean correlation over the nearest nodes; −1 when fewer than three lie within the map.
 double score(const CorrelationMap& map, const Basis& basis, const LatticeOptions& options) {
-  const double radius =
-      std::min(node_radius(map, basis, options), 6 * std::sqrt(basis.area()) + norm(basis.b));
+  const double radius = std::min(node_radius(map, basis, options), 6 * std::sqrt(basis.area()) + norm(basis.b));
   const std::vector<Node> nodes = lattice_nodes(map, basis, radius, k_scored_nodes);
   if (nodes.size() < 3) return -1;
   double sum = 0;
@@ -345,7 +344,7 @@ bool dips_before(const CorrelationMap& map, Vec2 node) {
 std::optional<Basis> best_pair(const CorrelationMap& map, const std::vector<Peak>& peaks,
                                const LatticeOptions& options) {
   // In a lattice that bends, the two directions may repeat unequally well.
-  const double tolerance = options.reach_cells > 0 ? options.node_tolerance * options.node_tolerance * options.node_tolerance : options.node_tolerance;
+  const double tolerance = std::pow(options.node_tolerance, options.reach_cells > 0 ? 3 : 1);
   std::vector<Peak> good;
   for (const Peak& peak : peaks)
     if (peak.correlation >= tolerance * peaks.front().correlation && dips_before(map, peak.t)) good.push_back(peak);
@@ -427,7 +426,8 @@ struct Sample {
 
 /// True when the nodes of `fine` that are no nodes of `coarse` repeat the picture as well as those that are: all but
 /// `index_tolerance`, or what their scatter explains.
-bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis& coarse, const LatticeOptions& options) {
+bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis& coarse,
+                      const LatticeOptions& options) {
   const double area = cross(coarse.a, coarse.b);
   const auto whole = [](double x) { return std::abs(x - std::round(x)) < 0.01; };
   Sample own, other;
@@ -448,8 +448,7 @@ Basis with_corrected_index(const CorrelationMap& map, Basis basis, const Lattice
   const auto finer = [&]() -> std::optional<Basis> {
     for (const int p : {2, 3, 5})
       for (const Basis& candidate : finer_lattices(basis, p))
-        if (is_plausible(reduced(candidate)) &&
-            repeats_on_finer(map, reduced(candidate), basis, options))
+        if (is_plausible(reduced(candidate)) && repeats_on_finer(map, reduced(candidate), basis, options))
           return refined(map, reduced(candidate), options);
     return std::nullopt;
   };

@@ -65,8 +65,10 @@ Displacement no_displacement(const GreyImage& image, double cell_px, const Defor
 class MeanCell {
  public:
   MeanCell(const Vectors& vectors)
-      : columns_(bins(norm(vectors[0]))), rows_(bins(norm(vectors[1]))),
-        sums_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0), weights_(sums_.size(), 0.0) {
+      : columns_(bins(norm(vectors[0]))),
+        rows_(bins(norm(vectors[1]))),
+        sums_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0),
+        weights_(sums_.size(), 0.0) {
     const double area = cross(vectors[0], vectors[1]);
     du_ = {vectors[1].y / area, -vectors[1].x / area};
     dv_ = {-vectors[0].y / area, vectors[0].x / area};
@@ -79,8 +81,7 @@ class MeanCell {
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i) {
         const double weight = (i != 0 ? at.u : 1 - at.u) * (j != 0 ? at.v : 1 - at.v);
-        const std::size_t index =
-            pixel_index((at.column + i) % columns_, (at.row + j) % rows_, columns_);
+        const std::size_t index = pixel_index((at.column + i) % columns_, (at.row + j) % rows_, columns_);
         sums_[index] += weight * value;
         weights_[index] += weight;
       }
@@ -90,7 +91,9 @@ class MeanCell {
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = weights_[i] > 0 ? sums_[i] / weights_[i] : 0;
     fine_columns_ = 2 * columns_;
     fine_rows_ = 2 * rows_;
-    const auto coarse = [&](int x, int y) { return sums_[pixel_index(wrapped(x, columns_), wrapped(y, rows_), columns_)]; };
+    const auto coarse = [&](int x, int y) {
+      return sums_[pixel_index(wrapped(x, columns_), wrapped(y, rows_), columns_)];
+    };
     std::vector<double> fine;
     for (int y = 0; y < fine_rows_; ++y)
       for (int x = 0; x < fine_columns_; ++x) fine.push_back(bicubic(x / 2.0, y / 2.0, coarse));
@@ -170,7 +173,8 @@ class MatchCost : public ceres::CostFunction {
   MatchCost(const Support& support, const Match& match, double scale) : place_(match.place.x, match.place.y) {
     set_num_residuals(2);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> parts(match.information);
-    root_ = std::sqrt(scale) * parts.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * parts.eigenvectors().transpose();
+    root_ =
+        std::sqrt(scale) * parts.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * parts.eigenvectors().transpose();
     for (std::size_t j = 0; j < 4; ++j)
       for (std::size_t i = 0; i < 4; ++i) {
         weights_[4 * j + i] = support.across[i] * support.down[j];
@@ -221,8 +225,11 @@ class BendCost : public ceres::CostFunction {
 class DeformationFit {
  public:
   DeformationFit(const GreyImage& image, const Vectors& vectors, const DeformationOptions& options)
-      : width_(image.width), height_(image.height), vectors_(vectors),
-        cell_px_(std::sqrt(std::abs(cross(vectors[0], vectors[1])))), bend_(options.bend),
+      : width_(image.width),
+        height_(image.height),
+        vectors_(vectors),
+        cell_px_(std::sqrt(std::abs(cross(vectors[0], vectors[1])))),
+        bend_(options.bend),
         displacement_(no_displacement(image, cell_px_, options)),
         field_(locally_normalized(image, k_light_cells * std::max(norm(vectors[0]), norm(vectors[1])))) {
     block_px_ = std::max(2, static_cast<int>(std::lround(displacement_.spacing_px / 2)));
@@ -234,10 +241,15 @@ class DeformationFit {
   LatticeDeformation run() {
     const Stopwatch clock;
     LatticeDeformation result;
-    const Displacement none = displacement_;
     radius_ = 1e9;
     average();
-    result.explained_before = explained(measure());
+    result.explained_before = result.explained_after = explained(measure());
+    if (result.explained_before > k_exact) {
+      result.vectors_px = vectors_;
+      result.displacement = displacement_;
+      result.trace.push_back({clock.seconds(), 1 - result.explained_before});
+      return result;
+    }
     const double whole = std::hypot(width_, height_);
     constexpr double k_growth = 1.3, k_first_cells = 2.2;
     constexpr int k_last_rounds = 4;
@@ -265,6 +277,7 @@ class DeformationFit {
   }
 
  private:
+  static constexpr double k_exact = 0.985;      // Interpolation leaves more of a cell than is left to follow.
   static constexpr double k_light_cells = 0.7;  // Longer waves than about two cells are light.
 
   double correlated_pixels() const { return std::max(2.0, cell_px_ * cell_px_ / 60); }
@@ -292,7 +305,8 @@ class DeformationFit {
           }
         }
     }
-    const int reach = std::max(1, static_cast<int>(std::lround(1.5 * std::max(norm(vectors_[0]), norm(vectors_[1])) / block_px_)));
+    const int reach =
+        std::max(1, static_cast<int>(std::lround(1.5 * std::max(norm(vectors_[0]), norm(vectors_[1])) / block_px_)));
     double best = -1e300;
     for (int j = 0; j < rows_; ++j)
       for (int i = 0; i < columns_; ++i) {
@@ -318,9 +332,7 @@ class DeformationFit {
   void over_block(int i, int j, const Visit& visit) const {
     const int left = i * block_px_, top = j * block_px_;
     const int right = std::min(width_, left + block_px_), bottom = std::min(height_, top + block_px_);
-    const auto at = [&](int x, int y) {
-      return displacement_.at({static_cast<double>(x), static_cast<double>(y)});
-    };
+    const auto at = [&](int x, int y) { return displacement_.at({static_cast<double>(x), static_cast<double>(y)}); };
     const Vec2 a = at(left, top), b = at(left + block_px_, top), c = at(left, top + block_px_),
                d = at(left + block_px_, top + block_px_);
     for (int y = top; y < bottom; ++y) {
@@ -452,7 +464,8 @@ class DeformationFit {
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
-    const bool usable = std::all_of(next.control_px.begin(), next.control_px.end(), [](Vec2 c) { return is_finite(c); });
+    const bool usable =
+        std::all_of(next.control_px.begin(), next.control_px.end(), [](Vec2 c) { return is_finite(c); });
     if (usable) displacement_ = std::move(next);
   }
 
@@ -566,9 +579,9 @@ GreyImage straightened(const GreyImage& image, const Displacement& displacement)
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const Vec2 from = bent_place(displacement, {static_cast<double>(x), static_cast<double>(y)});
-      straight.pixels.push_back(static_cast<float>(bicubic(std::clamp(from.x, -1.0, static_cast<double>(image.width)),
-                                                           std::clamp(from.y, -1.0, static_cast<double>(image.height)),
-                                                           clamped)));
+      straight.pixels.push_back(
+          static_cast<float>(bicubic(std::clamp(from.x, -1.0, static_cast<double>(image.width)),
+                                     std::clamp(from.y, -1.0, static_cast<double>(image.height)), clamped)));
     }
   return straight;
 }

@@ -68,8 +68,8 @@ class PolarSpectrum {
         const std::size_t index =
             pixel_index(static_cast<int>(std::lround(angle)) % k_angles,
                         std::clamp(static_cast<int>(std::lround(radius)), 0, k_radii - 1), k_angles);
-        values_[index] += std::norm(
-            fft.spectrum()[static_cast<std::size_t>(y) * fft.spectrum_width() + static_cast<std::size_t>(x)]);
+        values_[index] +=
+            std::norm(fft.spectrum()[static_cast<std::size_t>(y) * fft.spectrum_width() + static_cast<std::size_t>(x)]);
         counts_[index] += 1;
       }
     average();

@@ -22,11 +22,11 @@ struct Displacement {
 
 /// A lattice that bends; see find_lattice_deformation().
 struct LatticeDeformation {
-  Displacement displacement;        ///< Without an affine part.
+  Displacement displacement;         ///< Without an affine part.
   std::array<Vec2, 2> vectors_px{};  ///< The mean cell: that of the picture after u.
-  double rms_percent_of_cell = 0;   ///< Root mean square of |u| over the picture, in % of the root of the cell's area.
-  double max_percent_of_cell = 0;   ///< Greatest |u|, likewise.
-  double explained_before = 0;      ///< Share of the variance that the mean cell explains without u, and with it.
+  double rms_percent_of_cell = 0;    ///< Root mean square of |u| over the picture, in % of the root of the cell's area.
+  double max_percent_of_cell = 0;    ///< Greatest |u|, likewise.
+  double explained_before = 0;       ///< Share of the variance that the mean cell explains without u, and with it.
   double explained_after = 0;
   bool significant = false;  ///< u explains more than its free parameters would by chance.
   Trace trace;               ///< Share of the variance that is not explained, in the part reached so far.
