@@ -102,6 +102,8 @@ void confirm_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& lat
   symmetry.lattice.found = false;
   symmetry.lattice.vectors_px = {};
   symmetry.part.reset();
+  symmetry.straight.reset();
+  symmetry.deformation.reset();
   symmetry.lattice.reason =
       fmt::format("the middle repeats, but only {} of {} pieces do so likewise", agreement.same, agreement.pieces());
 }
@@ -157,7 +159,7 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
 SymmetryGroups groups_of(const TextureSurvey& survey, SymmetryPattern pattern) {
   SymmetryGroups groups;
   const SymmetryAnalysis& symmetry = *survey.symmetry;
-  if (symmetry.lattice.found) groups.plane = find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px);
+  if (symmetry.lattice.found) groups.plane = find_wallpaper_group(symmetry);
   const GreyImage& image = survey.middle;
   if (pattern == SymmetryPattern::strip) groups.strip = find_frieze_group(image);
   if (pattern == SymmetryPattern::rosette)

@@ -334,16 +334,23 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
   const bool composes = options.tile || options.roughness != HeightRoughness::whole;
   const bool asks_lattice = options.method == HeightMethod::automatic || composes;
-  const Lattice lattice = options.lattice ? *options.lattice
-                          : asks_lattice  ? analyze_symmetry(image, {}, FeatureKind::squared, options.progress).lattice
-                                          : Lattice{};
+  Lattice lattice;
+  std::optional<GreyImage> straight;  // Only a straight picture has the mean cell that tiles.
+  if (options.lattice) {
+    lattice = *options.lattice;
+  } else if (asks_lattice) {
+    SymmetryAnalysis symmetry = analyze_symmetry(image, {}, FeatureKind::squared, options.progress);
+    lattice = std::move(symmetry.lattice);
+    if (options.tile && symmetry.deformation && symmetry.straight->pixels.size() == image.pixels.size())
+      straight = std::move(symmetry.straight);
+  }
   choose_method(options, lattice, result);
   if (options.tile) choose_tile(image, lattice, result);
   Field field;
   if (composes && lattice.found) {
     const bool tiles = options.tile && options.roughness != HeightRoughness::none;
     result.roughness = tiles ? HeightRoughness::synthesized : options.roughness;
-    field = relief_with_roughness(image, lattice, options, result);
+    field = relief_with_roughness(straight ? *straight : image, lattice, options, result);
   } else {
     field = relief_of(image, options, result);
   }

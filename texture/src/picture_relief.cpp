@@ -155,16 +155,19 @@ PictureRelief relief_of_picture(const GreyImage& image, const TextureReading& re
     return result;
   }
   const bool ordered = runs("primitive"), apart = runs("roughness");
+  // A lattice that bends has its mean cell in the straight picture; the relief of a picture that keeps its frame bends.
+  const SymmetryAnalysis& symmetry = reading.symmetry;
+  const bool bends = symmetry.deformation.has_value(), straightens = bends && runs("exact_tile");
   HeightOptions height = options.height;
-  height.lattice = reading.symmetry.lattice;
+  height.lattice = symmetry.lattice;
   height.tile = runs("exact_tile");
   if (ordered && reading.group) height.primitive = reading.group->primitive;
   if (options.roughness)
     height.roughness = *options.roughness;
-  else if (ordered)
+  else if (ordered && bends == straightens)
     height.roughness =
         apart || !step_of(reading.plan, "roughness").run ? HeightRoughness::none : HeightRoughness::residual;
-  result.height = height_from_image(image, height);
+  result.height = height_from_image(straightens ? symmetry.regular() : image, height);
   const bool lit = result.height.method != HeightMethod::intensity;
   settle(result.plan, "shape_from_shading", lit, lit ? result.height.reason : "grey is read as height");
   settle(result.plan, "intensity_as_height", !lit, lit ? "shape from shading gives the relief" : result.height.reason);

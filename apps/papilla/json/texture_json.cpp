@@ -95,11 +95,21 @@ Json points_json(const Points& points) {
   return json;
 }
 
+/// Zero for an exact lattice, null without one.
+Json deformation_json(const SymmetryAnalysis& analysis) {
+  if (!analysis.lattice.found) return nullptr;
+  const auto& bent = analysis.deformation;
+  return {{"rms_percent_of_cell", bent ? bent->rms_percent_of_cell : 0.0},
+          {"max_percent_of_cell", bent ? bent->max_percent_of_cell : 0.0}};
+}
+
 Json symmetry_json(const TextureSurvey& survey) {
   const SymmetryAnalysis& analysis = *survey.symmetry;
   Json json{{"lattice", analysis.lattice.found}, {"vectors_px", nullptr}, {"vectors_mm", nullptr}, {"group", nullptr}};
   json["explained_variance"] = analysis.explained_variance();
   json["significance"] = analysis.lattice.significance;
+  json["false_alarm_probability"] = analysis.false_alarm_probability;
+  json["deformation"] = deformation_json(analysis);
   json["reason"] = analysis.lattice.reason;
   if (!survey.groups->plane) return json;
   const WallpaperSymmetry& group = *survey.groups->plane;

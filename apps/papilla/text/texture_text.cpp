@@ -50,6 +50,9 @@ void add_groups(Lines& lines, const TextureSurvey& survey) {
               to_string(group->group), group->order, 100 * group->kept);
     lines.add("symmetry   lattice ({:.2f}, {:.2f}), ({:.2f}, {:.2f}) pixels, significance {:.2f}, explains {:.0f} %\n",
               a.x, a.y, b.x, b.y, lattice.significance, 100 * analysis.explained_variance());
+    if (const auto& bent = analysis.deformation)
+      lines.add("symmetry   the lattice bends: displaced by {:.1f} % of the cell (rms), {:.1f} % at most\n",
+                bent->rms_percent_of_cell, bent->max_percent_of_cell);
   } else {
     lines.add("symmetry   no lattice: {} (significance {:.2f})\n", lattice.reason, lattice.significance);
   }

@@ -31,7 +31,10 @@ Json run(const Options& options, VerbContext& context) {
   if (options.pattern == "strip") survey.pattern = SymmetryPattern::strip;
   if (options.pattern == "rosette") survey.pattern = SymmetryPattern::rosette;
   if (options.lattice == "projection") survey.lattice.method = LatticeMethod::projection;
-  if (options.force_lattice) survey.lattice.least_significance = 1e-9;  // The best lattice, whatever it explains.
+  if (options.force_lattice) {  // The best lattice, whatever it explains.
+    survey.lattice.least_significance = 1e-9;
+    survey.lattice.false_alarm_rate = 1;
+  }
   if (options.feature == "absolute") survey.feature = FeatureKind::absolute;
   survey.pictures = options.pictures;
   const TextureSurvey result = survey_picture(options.image, survey, context.progress);
