@@ -132,7 +132,7 @@ void add_lattice(bench::BenchReport& report, const GreyImage& image) {
 void add_dimension(bench::BenchReport& report, const GreyImage& image) {
   const std::string input = "brownian surface " + std::to_string(image.width);
   report.add({.method = "best", .input = input},
-             [&](bench::Recorder&) { bench::keep(best_dimension(image).estimate.dimension); });
+             [&](bench::Recorder&) { bench::keep(best_dimension(image).chi2_per_dof); });
 #if defined(PAPILLA_HAVE_GWYDDION)
   report.add({.method = "best", .solver = "gwyddion", .input = input},
              [&](bench::Recorder&) { bench::keep(bench::gwyddion_partitioning_dimension(image)); });
