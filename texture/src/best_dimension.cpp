@@ -331,7 +331,8 @@ std::string objection(std::span<const SpectrumCell> cells, const Mixture& mixtur
     return "periodic: single frequencies hold more than a tenth of the power";
   const bool smooth = (mixture.hurst > 0.97 && mixture.low > 0.9) || std::sqrt(best.spread_squared) > k_widest_spread;
   if (smooth) return "smooth at the scale of a pixel: the spectrum falls faster than that of any self-affine surface";
-  if (mixture.hurst < 0.02 && mixture.high < 0.1) return "level: the spectrum does not rise towards long waves, as that of noise";
+  if (mixture.hurst < 0.02 && mixture.high < 0.1)
+    return "level: the spectrum does not rise towards long waves, as that of noise";
   if (mixture.misfit.rms > k_tolerable_misfit)
     return "no single power law: the log-log curve bends, as of two regimes or one scale of its own";
   const double highest = highest_frequency(best, rounding);
