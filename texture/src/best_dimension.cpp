@@ -164,7 +164,7 @@ double mixture_quantile(const Mixture& mixture, double probability, double widen
 
 /// Deviations by Fisher's information are those of an ideal window and of independent cells; measured on exact
 /// surfaces.
-constexpr double k_fisher_widening = 1.25;
+constexpr double k_fisher_widening = 1.6;
 
 /// Frequency at which the noise is as strong as the sharp surface.
 double noise_crossing(const SpectrumFit& fit, double rounding) {
