@@ -89,6 +89,15 @@ TEST(MaterialTag, RoughnessOverTheMapIsVersion2) {
   EXPECT_THROW(parse_material_tag(R"({"version":3,"stiffness":1})", warnings), InvalidInput);
 }
 
+TEST(MaterialTag, RoughnessWithoutPowerLawHasNoDimension) {
+  MaterialTag tag = full_tag();
+  tag.roughness->fractal_dimension.reset();
+  EXPECT_EQ(to_json(tag).find("fractalDimension"), std::string::npos);
+  std::vector<HapticWarning> warnings;
+  EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST(MaterialTag, NamesAreThoseOfTheFormat) {
   const auto json = nlohmann::json::parse(to_json(full_tag()));
   EXPECT_EQ(json["version"], 1);

@@ -153,7 +153,7 @@ TEST(BestDimension, PeriodicPicturesHaveNone) {
               "periodic");
 }
 
-TEST(BestDimension, NoiseHasNone) { expect_none(test::noise_image(300, 200, 5, 8), "noise"); }
+TEST(BestDimension, NoiseHasNone) { expect_none(test::noise_image(300, 200, 5, 8), "level"); }
 
 TEST(BestDimension, TwoRegimesHaveNone) {
   // Rough within grains of 40 pixels, nearly level beyond: z minus its own wide mean.

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "checks.hpp"
+#include "sharp_hurst.hpp"
 #include "spectrum_fit.hpp"
 
 namespace papilla {
@@ -50,22 +51,6 @@ double second_difference(const GreyImage& image, int dx, int dy) {
     sum += squares;
   }
   return sum / (static_cast<double>(image.width - 2 * dx) * (image.height - 2 * std::abs(dy)));
-}
-
-/// H of a sharp surface from second differences at lags 1 and 2 along rows, columns and diagonals, which are nearly
-/// independent from place to place; empty where rounding makes a tenth of them.
-/// Istas and Lang, Quadratic variations and estimation of the local Hölder index, 1997.
-std::optional<double> sharp_hurst(const GreyImage& image, double rounding) {
-  constexpr double k_tolerable_noise = 0.1;
-  constexpr int k_steps[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-  const double noise = 6 * rounding;  // 1 + 4 + 1.
-  double hurst = 0;
-  for (const auto& [dx, dy] : k_steps) {
-    const double one = second_difference(image, dx, dy), two = second_difference(image, 2 * dx, 2 * dy);
-    if (!(one * k_tolerable_noise > noise)) return std::nullopt;
-    hurst += 0.5 * std::log2((two - noise) / (one - noise)) / 4;
-  }
-  return hurst;
 }
 
 std::vector<ScalePoint> second_difference_curve(const GreyImage& image) {
@@ -137,8 +122,12 @@ struct Mixture {
   Misfit misfit;  ///< Of the likeliest.
   double hurst = 0, low = 0, high = 0;
 
-  /// The sharp model without noise is the likeliest. It is far more precise than the others.
-  bool is_sharp() const { return band.most >= 0.5 && weights.front() > 0.5; }
+  /// The sharp model with no noise but that of rounding is the likeliest: second differences are more precise than the
+  /// spectrum.
+  bool is_sharp(double rounding) const {
+    constexpr double k_much_noise = 2;  // Rounding that is not white passes for as much.
+    return !best().model.blurred && (!best().model.noisy || best().noise < k_much_noise * rounding);
+  }
   const SpectrumFit& best() const {
     return fits[static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin())];
   }
@@ -175,7 +164,7 @@ double mixture_quantile(const Mixture& mixture, double probability, double widen
 
 /// Deviations by Fisher's information are those of an ideal window and of independent cells; measured on exact
 /// surfaces.
-constexpr double k_fisher_widening = 1.25;
+constexpr double k_fisher_widening = 1.6;
 
 /// Frequency at which the noise is as strong as the sharp surface.
 double noise_crossing(const SpectrumFit& fit, double rounding) {
@@ -342,7 +331,8 @@ std::string objection(std::span<const SpectrumCell> cells, const Mixture& mixtur
     return "periodic: single frequencies hold more than a tenth of the power";
   const bool smooth = (mixture.hurst > 0.97 && mixture.low > 0.9) || std::sqrt(best.spread_squared) > k_widest_spread;
   if (smooth) return "smooth at the scale of a pixel: the spectrum falls faster than that of any self-affine surface";
-  if (mixture.hurst < 0.02 && mixture.high < 0.1) return "noise: the spectrum does not rise towards long waves";
+  if (mixture.hurst < 0.02 && mixture.high < 0.1)
+    return "level: the spectrum does not rise towards long waves, as that of noise";
   if (mixture.misfit.rms > k_tolerable_misfit)
     return "no single power law: the log-log curve bends, as of two regimes or one scale of its own";
   const double highest = highest_frequency(best, rounding);
@@ -391,8 +381,10 @@ BestDimension best_dimension(const GreyImage& image, double longest_wave_px) {
   result.least_scale_px = std::max(2.0, 1 / std::min({0.5, mixture.band.most, highest_frequency(best, rounding)}));
   FractalEstimate& estimate = result.estimate.emplace();
   double hurst = mixture.hurst;
-  if (mixture.is_sharp() && mixture.misfit.chi2_per_dof < k_exact_chi2)
-    hurst = sharp_hurst(image, rounding).value_or(mixture.fits.front().hurst);
+  if (mixture.is_sharp(rounding)) {
+    const double sharp = texture_detail::sharp_hurst(image, result.quantization_step);
+    if (sharp > mixture.low && sharp < mixture.high) hurst = sharp;
+  }
   estimate.hurst = std::clamp(hurst, 0.0, 1.0);
   estimate.dimension = 3 - estimate.hurst;
   estimate.low = std::clamp(3 - mixture.high, 2.0, estimate.dimension);

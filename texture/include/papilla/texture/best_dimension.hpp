@@ -41,10 +41,10 @@ struct BestDimension {
 /// limited band). The dimension is the mean over these fits, each weighted by its likelihood and an information
 /// criterion; the 95 % interval is that of their mixture, widened where the misfit is more than chance.
 /// There is no dimension, and `reason` says why, where the picture is flat, smooth at the scale of a pixel (H at 1, or
-/// a point spread beyond 2.5 pixels), periodic (a tenth of its power in single frequencies), noise, too uncertain, or
-/// no power law over the wavelengths that it holds.
-/// Accuracy (rms error of D on exact surfaces, D = 2.1…2.9): docs/methods/best-dimension.md. Tilt and bend do not
-/// matter. Cost: one transform and about 30 ms for the fits. Deterministic.
+/// a point spread beyond 2.5 pixels), periodic (a tenth of its power in single frequencies), level towards long waves,
+/// too uncertain, or no power law over the wavelengths that it holds. Accuracy (rms error of D on exact surfaces, D
+/// = 2.1…2.9): docs/methods/best-dimension.md. Tilt and bend do not matter. Cost: one transform and about 30 ms for the
+/// fits. Deterministic.
 /// @param image at least 32 pixels a side, `bits` the rounding of its values.
 /// @param longest_wave_px longer waves are left out, as where a relief of another kind is below the roughness.
 /// @throws InvalidInput when the picture is smaller, empty or not finite.
