@@ -25,7 +25,7 @@ double pattern(Vec2 p) {
 
 /// A displacement with no linear part to speak of: waves over the oblong picture of 210 × 150 pixels.
 Vec2 bend(double x, double y) {
-  const double p = 2 * std::numbers::pi * x / 105, q = 2 * std::numbers::pi * y / 75;
+  const double p = 2 * std::numbers::pi * x / 210, q = 2 * std::numbers::pi * y / 150;
   return {1.8 * std::cos(p) * std::cos(q), -1.5 * std::cos(p + q)};
 }
 
