@@ -468,6 +468,38 @@ void report_symmetry(BenchReport& report) {
                  unless_quick(report, share(found, pictures) <= 1)});
 }
 
+void report_bent_lattices(BenchReport& report) {
+  struct Level {
+    const char* name;
+    test::PhotoConditions photo;
+    double least_lattices, least_groups;
+  };
+  constexpr std::uint64_t k_first_seed = 9000;
+  const std::uint64_t seeds = report.options().quick ? 1 : 4;
+  for (const Level& level : {Level{"5 % of the cell", test::k_bent_photo, 97, 94},
+                             Level{"10 % of the cell", test::k_badly_bent_photo, 80, 65}}) {
+    int pictures = 0, lattices = 0, groups = 0;
+    for (int g = 0; g < k_groups; ++g)
+      for (std::uint64_t seed = k_first_seed; seed < k_first_seed + seeds; ++seed) {
+        const auto group = static_cast<WallpaperGroup>(g);
+        const test::WallpaperPattern pattern = test::photographed_pattern(group, seed, level.photo, 256);
+        const SymmetryAnalysis analysis = analyze_symmetry(pattern.image);
+        const double cell = std::sqrt(std::abs(cross(pattern.a, pattern.b)));
+        const bool right = analysis.lattice.found &&
+                           test::lattice_error(analysis.lattice.vectors_px, pattern.a, pattern.b) < 0.05 * cell;
+        ++pictures;
+        lattices += right;
+        groups += right && find_wallpaper_group(analysis).group == group;
+      }
+    report.target({fmt::format("cells displaced by {}: at least {} % of lattices", level.name, level.least_lattices),
+                   fmt::format("{:.1f} % of {}", share(lattices, pictures), pictures),
+                   unless_quick(report, share(lattices, pictures) >= level.least_lattices)});
+    report.target({fmt::format("cells displaced by {}: at least {} % of groups", level.name, level.least_groups),
+                   fmt::format("{:.1f} %", share(groups, pictures)),
+                   unless_quick(report, share(groups, pictures) >= level.least_groups)});
+  }
+}
+
 void report_height(BenchReport& report) {
   EvidenceTable table{
       "Depth error of shape from shading",
@@ -531,7 +563,7 @@ void report_photographs(BenchReport& report) {
         {name, fmt::format("{} x {}", image.width, image.height),
          lattice.found ? fmt::format("({:.2f}, {:.2f}), ({:.2f}, {:.2f})", a.x, a.y, b.x, b.y) : "none",
          fmt::format("{:.2f}", lattice.significance), fmt::format("{:.0f} %", 100 * analysis.explained_variance()),
-         lattice.found ? std::string(to_string(find_wallpaper_group(*analysis.part, lattice.vectors_px).group)) : "-",
+         lattice.found ? std::string(to_string(find_wallpaper_group(analysis).group)) : "-",
          measurable ? dimension_or_reason(best_dimension(image)) : "-"});
   }
   if (!table.rows.empty()) report.table(std::move(table));

@@ -190,6 +190,7 @@ void body(bench::BenchReport& report) {
   bench::report_dimension_error(report);
   report_speed(report, size, small);
   bench::report_symmetry(report);
+  bench::report_bent_lattices(report);
   bench::report_height(report);
   bench::report_sizes(report);
   bench::report_photographs(report);

@@ -425,9 +425,10 @@ struct Sample {
 };
 
 /// True when the nodes of `fine` that are no nodes of `coarse` repeat the picture as well as those that are: all but
-/// `index_tolerance`, or what their scatter explains.
-bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis& coarse,
-                      const LatticeOptions& options) {
+/// `index_tolerance`, or what their scatter explains. Few near nodes of a bent lattice scatter enough to explain
+/// anything.
+bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis& coarse, const LatticeOptions& options,
+                      bool allow_scatter) {
   const double area = cross(coarse.a, coarse.b);
   const auto whole = [](double x) { return std::abs(x - std::round(x)) < 0.01; };
   Sample own, other;
@@ -435,9 +436,11 @@ bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis&
     const bool shared = whole(cross(node.t, coarse.b) / area) && whole(cross(coarse.a, node.t) / area);
     (shared ? own : other).add(map.sample(node.t));
   }
-  if (own.count < 2 || other.count == 0 || own.sum <= 0) return true;
+  // A few nodes of a lattice that bends say nothing about a coarser one.
+  const int least = options.reach_cells > 0 && allow_scatter ? 6 : 2;
+  if (own.count < least || other.count == 0 || own.sum <= 0) return true;
   constexpr double k_sure = 4;  // Standard errors.
-  const double scatter = k_sure * std::sqrt(own.variance() + other.variance());
+  const double scatter = allow_scatter ? k_sure * std::sqrt(own.variance() + other.variance()) : 0;
   return other.mean() >= own.mean() - std::max((1 - options.index_tolerance) * own.mean(), scatter);
 }
 
@@ -448,14 +451,15 @@ Basis with_corrected_index(const CorrelationMap& map, Basis basis, const Lattice
   const auto finer = [&]() -> std::optional<Basis> {
     for (const int p : {2, 3, 5})
       for (const Basis& candidate : finer_lattices(basis, p))
-        if (is_plausible(reduced(candidate)) && repeats_on_finer(map, reduced(candidate), basis, options))
+        if (is_plausible(reduced(candidate)) &&
+            repeats_on_finer(map, reduced(candidate), basis, options, options.reach_cells <= 0))
           return refined(map, reduced(candidate), options);
     return std::nullopt;
   };
   const auto coarser = [&]() -> std::optional<Basis> {
     for (const int p : {2, 3, 5})
       for (const Basis& candidate : coarser_lattices(basis, p))
-        if (!repeats_on_finer(map, basis, candidate, options)) return refined(map, reduced(candidate), options);
+        if (!repeats_on_finer(map, basis, candidate, options, true)) return refined(map, reduced(candidate), options);
     return std::nullopt;
   };
   for (int round = 0; round < k_most_rounds; ++round) {

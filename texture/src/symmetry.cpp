@@ -18,6 +18,7 @@ namespace papilla {
 namespace {
 
 constexpr int k_most_side = 2048;
+constexpr double k_near_cells = 3;
 constexpr double k_any_significance = 1e-9;  // The false alarms decide.
 
 /// `options` for lattices that bend: only nodes within `cells` cells count.
@@ -70,6 +71,18 @@ std::string chance_text(double probability) {
   return percent < 0.01 ? "under 0.01" : std::to_string(std::round(100 * percent) / 100).substr(0, 5);
 }
 
+/// Of the lattice of near nodes, and where chance explains that, of the one of all nodes: two tries then.
+double false_alarm_probability(const GreyImage& even, const Lattice& near, const Lattice& whole,
+                               const LatticeOptions& options) {
+  constexpr int k_tries = 2;
+  const double rate = options.false_alarm_rate;
+  double p = 1;
+  if (near.found) p = texture_detail::false_alarm_probability(even, near, nearby(options, k_near_cells), rate);
+  if (p <= rate || !whole.found) return p;
+  const double all = texture_detail::false_alarm_probability(even, whole, nearby(options, 0), rate / k_tries);
+  return near.found ? std::min(1.0, k_tries * std::min(p, all)) : all;
+}
+
 /// Drops the lattice when chance explains it.
 void reject(SymmetryAnalysis& analysis) {
   Lattice& lattice = analysis.lattice;
@@ -119,7 +132,6 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
   if (!(options.false_alarm_rate > 0 && options.false_alarm_rate <= 1))
     throw InvalidInput("analyze_symmetry: false_alarm_rate " + std::to_string(options.false_alarm_rate) +
                        " is not within (0, 1]");
-  constexpr double k_near_cells = 3;
   SymmetryAnalysis analysis;
   analysis.picture = middle_part(image, k_most_side);
   analysis.matrix = feature == FeatureKind::squared ? feature_matrix(analysis.picture)
@@ -133,8 +145,7 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
     near = find_lattice(matrix, nearby(options, k_near_cells));
     whole = find_lattice(matrix, nearby(options, 0));
   }
-  analysis.false_alarm_probability = texture_detail::false_alarm_probability(
-      even, near.found ? near : whole, nearby(options, near.found ? k_near_cells : 0), options.false_alarm_rate);
+  analysis.false_alarm_probability = false_alarm_probability(even, near, whole, options);
   if ((!near.found && !whole.found) || analysis.false_alarm_probability > options.false_alarm_rate) {
     reject(analysis);
   } else if (bends) {

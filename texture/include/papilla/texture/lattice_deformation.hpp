@@ -35,7 +35,7 @@ struct LatticeDeformation {
 /// Options of find_lattice_deformation(). Lengths are shares of the root of the cell's area.
 struct DeformationOptions {
   double bend = 0.05;       ///< Expected second difference of u over one cell.
-  int most_intervals = 16;  ///< Control points along a side, at most about.
+  int most_intervals = 20;  ///< Control points along a side, at most about.
 };
 
 /// Finds the smooth displacement under which a picture is most regular. With I the picture, normalised to local mean 0
