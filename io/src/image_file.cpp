@@ -232,13 +232,15 @@ EncodedHeight encode_height_png16(const HeightMap& map) {
   return result;
 }
 
-void write_grey_image(const fs::path& path, const GreyImage& image, int bits) {
+void write_grey_image(const fs::path& path, const GreyImage& image, int bits, int jpeg_quality) {
   check_pixels(image.width, image.height, image.pixels.size(), 1, "write_grey_image");
   if (bits != 8 && bits != 16 && bits != 32)
     throw InvalidInput(fmt::format("write_grey_image: bits = {} is not 8, 16 or 32", bits));
   const TypeDesc type = bits == 8 ? TypeDesc::UINT8 : bits == 16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
   ImageSpec spec(image.width, image.height, 1, type);
   set_pitch(spec, image.pitch_mm, image.pitch_mm);
+  if (path.extension() == ".jpg" || path.extension() == ".jpeg")
+    spec.attribute("Compression", fmt::format("jpeg:{}", jpeg_quality));
   write_bytes(path, encode(path, spec, TypeDesc::FLOAT, image.pixels.data()));
 }
 

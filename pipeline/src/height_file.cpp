@@ -62,16 +62,6 @@ bool needs_memory(const HeightFileOptions& options) {
          options.height.shortest_wavelength_mm > 0 || !options.normal_map.empty() || !options.pictures.empty();
 }
 
-/// The middle of a picture, at most `most` pixels a side.
-GreyImage middle_of(const SampleRows& picture, int most, int bits) {
-  const int width = std::min(picture.width(), most), height = std::min(picture.height(), most);
-  GreyImage middle{width, height,
-                   std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), 0, bits};
-  for (int y = 0; y < height; ++y)
-    picture.read((picture.width() - width) / 2, (picture.height() - height) / 2 + y, width, &middle.at(0, y));
-  return middle;
-}
-
 HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const HeightFileOptions& options) {
   constexpr int k_rows = 64;
   // A device has no room beside it.
@@ -86,8 +76,7 @@ HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const Hei
   HeightOptions height = options.height;
   if (!(height.pitch_mm > 0)) height.pitch_mm = bands.pitch_mm();
   SampleFile samples(bands.width(), bands.height(), folder);
-  const HeightRows rows =
-      height_from_rows(grey, middle_of(grey, options.largest_px / 2, bands.bits()), height, samples);
+  const HeightRows rows = height_from_rows(grey, bands.bits(), height, samples);
   HeightFiles files{rows.result, {}, {}, {}};
   const auto write = [&](const fs::path& file, double factor, double offset_mm) {
     const ScaledSamples heights(samples, factor * rows.scale, rows.lowest, offset_mm);

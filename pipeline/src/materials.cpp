@@ -32,11 +32,11 @@ double read_cut(const JsonValue& height, const JsonValue& value) {
 
 HeightRule read_height(const JsonValue& value) {
   value.expect_keys({"method", "depth_mm", "depth", "scale", "max_slope", "pitch", "light", "periodic", "roughness",
-                     "cut", "rate", "speed", "tile", "alternative", "source", "seed"});
+                     "transfer", "cut", "rate", "speed", "tile", "alternative", "source", "seed"});
   HeightRule rule;
   HeightOptions& height = rule.relief.height;
   if (const auto v = value.get("method"))
-    height.method = height_method(v->one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"}));
+    height.method = height_method(v->one_of({"auto", "wiener", "variational", "pentland", "tsai-shah", "intensity"}));
   const auto depth_mm = value.get("depth_mm"), depth = value.get("depth");
   if (depth_mm && depth) depth->fail("is the same as depth_mm: only one of them");
   if (depth_mm || depth) rule.depth_mm = (depth_mm ? depth_mm : depth)->number(1e-6, 100);
@@ -47,6 +47,7 @@ HeightRule read_height(const JsonValue& value) {
   if (const auto v = value.get("roughness"))
     if (const std::string name = v->one_of({"auto", "whole", "none", "residual", "synthesized"}); name != "auto")
       rule.relief.roughness = height_roughness(name);
+  if (const auto v = value.get("transfer")) height.transfer = transfer(v->one_of({"auto", "srgb", "linear"}));
   if (const auto v = value.get("cut")) height.shortest_wavelength_mm = read_cut(value, *v);
   if (const auto v = value.get("tile"))
     if (!is_word(*v, "auto")) rule.relief.tile = v->yes_or_no();

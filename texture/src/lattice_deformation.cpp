@@ -15,7 +15,7 @@
 
 #include "bicubic.hpp"
 #include "checks.hpp"
-#include "even_light.hpp"
+#include "even_contrast.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "checks.hpp"
-#include "even_light.hpp"
+#include "even_contrast.hpp"
 #include "fft.hpp"
 #include "papilla/texture/feature_matrix.hpp"
 #include "shaped_noise.hpp"

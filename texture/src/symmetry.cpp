@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "checks.hpp"
-#include "even_light.hpp"
+#include "even_contrast.hpp"
 #include "lattice_surrogates.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/texture/lattice_agreement.hpp"

@@ -188,6 +188,15 @@ Json light_json(const HeightResult& result, Vec3 light) {
   return result.method != HeightMethod::intensity ? Json{light.x, light.y, light.z} : Json(nullptr);
 }
 
+/// Of a pixel: the expected correlation, 0 in shadows and highlights; low below a half.
+Json confidence_json(const HeightResult& result) {
+  if (!result.expected_correlation) return nullptr;
+  constexpr double k_low = 0.5;
+  const double masked = result.shadows_fraction + result.highlights_fraction;
+  return {{"mean", *result.expected_correlation * (1 - masked)},
+          {"low_fraction", *result.expected_correlation < k_low ? 1.0 : masked}};
+}
+
 Json alternative_json(const HeightFiles& files) {
   if (files.opposite.empty()) return nullptr;
   const Vec3 light = files.result.light;
@@ -251,6 +260,17 @@ Json height_json(const HeightFiles& files) {
   json["light"] = light_json(result, result.light);
   json["light_estimated"] = result.light_estimated;
   json["light_coherence"] = result.light_estimated ? Json(result.light_coherence) : Json(nullptr);
+  json["lights"] = Json::array();
+  if (result.method != HeightMethod::intensity) json["lights"].push_back(light_json(result, result.light));
+  json["light_uncertainty_deg"] =
+      result.method != HeightMethod::intensity ? Json(result.light_uncertainty_deg) : Json(nullptr);
+  json["expected_correlation"] = result.expected_correlation ? Json(*result.expected_correlation) : Json(nullptr);
+  json["confidence"] = confidence_json(result);
+  json["ambiguity"] = result.ambiguous ? "convex-concave" : "none";
+  json["shadows_fraction"] = result.shadows_fraction;
+  json["highlights_fraction"] = result.highlights_fraction;
+  json["decoded_srgb"] = result.decoded_srgb;
+  json["unevenness"] = result.unevenness;
   json["size"] = {result.map.width, result.map.height};
   json["pitch_mm"] = positive_or_null(result.map.pitch_mm_x);
   json["depth_mm"] = result.depth_mm;
@@ -308,6 +328,22 @@ Json synthesis_json(const std::string& what, const Synthesis& synthesis, const S
                     {"hurst", synthesis.like->hurst},
                     {"hurst_across", synthesis.like->hurst_across}};
   return json;
+}
+
+Json photograph_json(const std::string& relief, const PhotographFile& made, const PhotographFileOptions& options) {
+  const PhotographOptions& photo = options.photograph;
+  return {{"what", "photo"},
+          {"light", {photo.light.x, photo.light.y, photo.light.z}},
+          {"pitch_mm", made.pitch_mm},
+          {"range_mm", made.range_mm},
+          {"blur_px", photo.blur_px},
+          {"noise", photo.noise},
+          {"truth", relief},
+          {"size", {made.photograph.picture.width, made.photograph.picture.height}},
+          {"ambient", photo.ambient},
+          {"shadows_fraction", made.photograph.shadows_fraction},
+          {"clipped_fraction", made.photograph.clipped_fraction},
+          {"seed", photo.seed}};
 }
 
 Json texture_json(const TextureFiles& files) {

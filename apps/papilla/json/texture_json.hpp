@@ -7,6 +7,7 @@
 #include "json/json.hpp"
 #include "papilla/pipeline/contact_sheet.hpp"
 #include "papilla/pipeline/height_file.hpp"
+#include "papilla/pipeline/photograph_file.hpp"
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
@@ -29,5 +30,6 @@ Json prepared_json(const std::string& image, const PreparedPicture& prepared);
 Json synthesis_json(const std::string& what, const Synthesis& synthesis, const SynthesisOptions& options);
 Json texture_json(const TextureFiles& files);
 Json sheet_json(const ContactSheet& sheet);
+Json photograph_json(const std::string& relief, const PhotographFile& made, const PhotographFileOptions& options);
 
 }  // namespace papilla::app

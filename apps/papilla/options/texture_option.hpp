@@ -23,7 +23,8 @@ class HeightOption {
 
   HeightFileOptions options_;
   std::string normal_, pictures_;
-  std::string method_ = "auto", light_ = "auto", periodic_ = "auto", roughness_ = "whole", cut_ = "none";
+  std::string method_ = "auto", light_ = "auto", periodic_ = "auto", roughness_ = "whole", cut_ = "none",
+              transfer_ = "auto";
   double rate_hz_ = k_device_rate_hz, speed_mm_per_s_ = k_hand_speed_mm_per_s;
 };
 

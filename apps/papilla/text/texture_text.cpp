@@ -118,8 +118,17 @@ std::string height_text(const std::string& image, const std::string& output, con
   Lines lines;
   lines.add("{}: {} ({})\n", image, to_string(result.method), result.reason);
   if (result.light_estimated)
-    lines.add("light      {:.2f}, {:.2f}, {:.2f}: azimuth estimated (coherence {:.2f}), elevation assumed\n",
-              result.light.x, result.light.y, result.light.z, result.light_coherence);
+    lines.add(
+        "light      {:.2f}, {:.2f}, {:.2f}: azimuth estimated to +-{:.0f} degrees (coherence {:.2f}), elevation "
+        "assumed\n",
+        result.light.x, result.light.y, result.light.z, result.light_uncertainty_deg, result.light_coherence);
+  if (result.ambiguous)
+    lines.add("ambiguous  convex or concave: the picture does not tell, --alternative writes both\n");
+  if (result.expected_correlation)
+    lines.add("expected   correlation {:.2f} with the true relief\n", *result.expected_correlation);
+  if (result.shadows_fraction + result.highlights_fraction > 0)
+    lines.add("masked     {:.1f} % in shadow, {:.1f} % in highlights\n", 100 * result.shadows_fraction,
+              100 * result.highlights_fraction);
   lines.add("relief     {} x {} samples, depth {:.3f} mm, rms {:.4f} mm, {}\n", result.map.width, result.map.height,
             result.depth_mm, result.rms_mm, result.map.periodic ? "tiles" : "does not tile");
   if (result.map.pitch_mm_x > 0)
@@ -177,6 +186,14 @@ std::string synthesis_text(const std::string& what, const std::string& output, c
   lines.add("{} {}: {} x {} pixels of {:.4f} mm, heights {:.3f} to {:.3f} mm, {}\nwritten {}{}{}\n", what,
             synthesis.method, map.width, map.height, map.pitch_mm_x, *low, *high,
             map.periodic ? "tiles" : "does not tile", output, relief.empty() ? "" : " and ", relief);
+  return lines.take();
+}
+
+std::string photograph_text(const std::string& relief, const std::string& output, const PhotographFile& made) {
+  Lines lines;
+  lines.add("photo of {}: {} x {} pixels of {:.4f} mm, {:.1f} % in shadow, {:.1f} % at white\nwritten {}\n", relief,
+            made.photograph.picture.width, made.photograph.picture.height, made.pitch_mm,
+            100 * made.photograph.shadows_fraction, 100 * made.photograph.clipped_fraction, output);
   return lines.take();
 }
 

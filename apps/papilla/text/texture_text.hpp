@@ -4,6 +4,7 @@
 #include <string>
 
 #include "papilla/pipeline/height_file.hpp"
+#include "papilla/pipeline/photograph_file.hpp"
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
@@ -20,5 +21,6 @@ std::string prepared_text(const std::string& output, const PreparedPicture& prep
 std::string synthesis_text(const std::string& what, const std::string& output, const std::string& relief,
                            const Synthesis& synthesis, const SynthesisOptions& options);
 std::string texture_text(const TextureFiles& files);
+std::string photograph_text(const std::string& relief, const std::string& output, const PhotographFile& made);
 
 }  // namespace papilla::app

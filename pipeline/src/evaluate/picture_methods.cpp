@@ -24,9 +24,15 @@ constexpr std::array<FractalMethod, 6> k_fractal = {
      {"fshot", 32, [](const GreyImage& image) { return of_surface(fshot_dimension(image).estimate); }},
      {"best", 32, [](const GreyImage& image) { return best_dimension(image).estimate; }}}};
 
-constexpr std::array<ShadingMethod, 3> k_shading = {{{"variational", shape_from_shading_variational, true},
-                                                     {"pentland", shape_from_shading_pentland, false},
-                                                     {"tsai-shah", shape_from_shading_tsai_shah, true}}};
+constexpr std::array<ShadingMethod, 4> k_shading = {
+    {{"wiener",
+      [](const GreyImage& image, const ShadingOptions& options) -> ShadingResult {
+        return shape_from_shading_wiener(image, options);
+      },
+      false},
+     {"variational", shape_from_shading_variational, true},
+     {"pentland", shape_from_shading_pentland, false},
+     {"tsai-shah", shape_from_shading_tsai_shah, true}}};
 
 }  // namespace
 

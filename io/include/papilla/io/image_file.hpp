@@ -76,9 +76,10 @@ EncodedHeight encode_height_png16(const HeightMap& map);
 
 /// Writes a grey picture in the format of the extension; values are clamped to [0, 1] for integer formats.
 /// @param bits  8, 16, or 32 (float; EXR, TIFF).
+/// @param jpeg_quality  1 to 100, of .jpg.
 /// @throws InvalidInput when the extension names no writable format or it has not that depth; IoError when writing
 /// fails.
-void write_grey_image(const std::filesystem::path& path, const GreyImage& image, int bits);
+void write_grey_image(const std::filesystem::path& path, const GreyImage& image, int bits, int jpeg_quality = 98);
 
 /// Writes the heights in millimetres as 32-bit floats to .exr, .tif or .tiff, with the pitch as resolution.
 /// @throws InvalidInput, IoError as write_grey_image().
