@@ -291,7 +291,9 @@ Field relief_with_roughness(const GreyImage& image, const Lattice& lattice, cons
                             HeightResult& result) {
   const SymmetricPart part = symmetric_part(image, lattice.vectors_px);
   const GreyImage& cell = options.primitive ? *options.primitive : part.primitive;
-  Field field = relief_of(result.tile ? fill_tile(cell, *result.tile) : part.synthesis, options, result);
+  GreyImage regular = result.tile ? fill_tile(cell, *result.tile) : part.synthesis;
+  regular.bits = image.bits;  // Of the camera: the mean is as it stored the grey values.
+  Field field = relief_of(regular, options, result);
   const double range = range_of(field);
   if (range > 0)
     for (double& value : field) value /= range;
@@ -392,6 +394,15 @@ HeightMap opposite_relief(const HeightMap& relief) {
   const float sum = *low + *high;
   for (float& height : result.mm) height = sum - height;
   return result;
+}
+
+HeightChoice choose_height_method(const GreyImage& image, const HeightOptions& options) {
+  texture_detail::require_image(image, "choose_height_method");
+  require_options(options);
+  HeightResult result;
+  result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
+  choose_method(SamplesInMemory(image.pixels, image.width, image.height), image.bits, options, result);
+  return {result.method, result.reason};
 }
 
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options) {

@@ -129,10 +129,11 @@ AnalysisPlan plan_relief(const GreyImage& image, const TextureReading& reading, 
   if (synthesizes) {
     settle(plan, "shape_from_shading", false, "the relief is synthesized");
     settle(plan, "intensity_as_height", false, "the relief is synthesized");
-  } else if (options.height.method != HeightMethod::automatic) {
-    const bool lit = options.height.method != HeightMethod::intensity;
-    settle(plan, "shape_from_shading", lit, lit ? "asked for" : "grey is asked for as height");
-    settle(plan, "intensity_as_height", !lit, lit ? "shape from shading is asked for" : "asked for");
+  } else if (!reading.suitability.flat) {
+    const HeightChoice choice = choose_height_method(image, options.height);
+    const bool lit = choice.method != HeightMethod::intensity;
+    settle(plan, "shape_from_shading", lit, choice.reason);
+    settle(plan, "intensity_as_height", !lit, lit ? "shape from shading gives the relief" : choice.reason);
   }
   const bool tile = options.tile.value_or(ordered && !options.seen);
   if (ordered || tile)
@@ -168,9 +169,6 @@ PictureRelief relief_of_picture(const GreyImage& image, const TextureReading& re
     height.roughness =
         apart || !step_of(reading.plan, "roughness").run ? HeightRoughness::none : HeightRoughness::residual;
   result.height = height_from_image(straightens ? symmetry.regular() : image, height);
-  const bool lit = result.height.method != HeightMethod::intensity;
-  settle(result.plan, "shape_from_shading", lit, lit ? result.height.reason : "grey is read as height");
-  settle(result.plan, "intensity_as_height", !lit, lit ? "shape from shading gives the relief" : result.height.reason);
   if (apart && ordered) describe_residual(image, reading, options.height.depth_mm, result);
   if (apart && !ordered) part_relief(result);
   return result;

@@ -74,6 +74,16 @@ struct HeightOptions {
   ProgressCallback progress = {};
 };
 
+/// A method and why it is taken.
+struct HeightChoice {
+  HeightMethod method = HeightMethod::intensity;
+  std::string reason;
+};
+
+/// The method that height_from_image() takes for a picture: that of the options, or the one whose relief is expected to
+/// correlate more with the true one. Cost: O(pixels). @throws InvalidInput as height_from_image().
+HeightChoice choose_height_method(const GreyImage& image, const HeightOptions& options = {});
+
 /// What height_from_image() returns.
 struct HeightResult {
   HeightMap map;                                  ///< 0 to depth_mm; the pitch is 0 when it is unknown.

@@ -38,8 +38,8 @@ struct PictureRelief {
   AnalysisPlan plan;  ///< Of the reading, with what the relief took instead of what it might have.
 };
 
-/// The plan of a picture's relief: that of its reading, with what the options and the picture decide. Nothing of the
-/// relief is computed, so that the method is the class's wherever `auto` looks at the relief.
+/// The plan of a picture's relief: that of its reading, with what the options and the picture decide, and the method of
+/// choose_height_method(). Nothing of the relief is computed.
 /// Cost: O(pixels). @throws InvalidInput when the picture is empty or not finite.
 AnalysisPlan plan_relief(const GreyImage& image, const TextureReading& reading,
                          const PictureReliefOptions& options = {});
