@@ -162,7 +162,10 @@ SurfaceSpectrumModel::SurfaceSpectrumModel(std::span<const SpectrumCell> cells) 
   const std::array<double, k_nodes> nodes = chebyshev_nodes<k_nodes>();
   for (std::size_t i = 0; i < k_nodes; ++i) {
     add_aliases(false, nodes[i], 0, sharp);
-    for (std::size_t c = 0; c < size(); ++c) sharp_[c][i] = std::log(nodes[i] * sharp.power[c]);
+    for (std::size_t c = 0; c < size(); ++c) {
+      const double own = std::exp(-(nodes[i] + 1) * aliases_[c][0].log_squared);
+      sharp_[c][i] = std::log(nodes[i] * (sharp.power[c] - own));
+    }
   }
 }
 
@@ -215,8 +218,10 @@ void SurfaceSpectrumModel::interpolate(double hurst, SurfaceSpectrum& result) co
       value += basis[i] * sharp_[c][i];
       slope += slopes[i] * sharp_[c][i];
     }
-    result.power[c] = std::exp(value) / hurst;
-    result.by_hurst[c] = slope - 1 / hurst;
+    const double log_squared = aliases_[c][0].log_squared;
+    const double own = std::exp(-(hurst + 1) * log_squared), others = std::exp(value) / hurst;
+    result.power[c] = own + others;
+    result.by_hurst[c] = (others * (slope - 1 / hurst) - own * log_squared) / result.power[c];
   }
 }
 

@@ -46,7 +46,7 @@ class SurfaceSpectrumModel {
   static constexpr std::size_t k_nodes = 10;
   std::vector<double> fx_, fy_;
   std::vector<std::array<Alias, k_aliases>> aliases_;  ///< The frequency itself comes first.
-  std::vector<std::array<double, k_nodes>> sharp_;     ///< ln(H S) without point spread at Chebyshev's nodes of H.
+  std::vector<std::array<double, k_nodes>> sharp_;  ///< ln(H · all other aliases), sharp, at Chebyshev's nodes of H.
 };
 
 }  // namespace papilla::texture_detail
