@@ -182,8 +182,8 @@ Picture read_picture(const fs::path& path, std::size_t bytes_per_pixel) {
 Picture read_reduced_picture(const fs::path& path, int most_side, std::size_t bytes_per_pixel) {
   ImageBands bands(path, k_max_streamed_pixels, most_side);
   const int n = (std::max(bands.width(), bands.height()) - 1) / most_side + 1;
-  GreyImage grey{(bands.width() + n - 1) / n, (bands.height() + n - 1) / n, {}, n * bands.pitch_mm(),
-                 n > 1 ? 32 : bands.bits()};
+  GreyImage grey{
+      (bands.width() + n - 1) / n, (bands.height() + n - 1) / n, {}, n * bands.pitch_mm(), n > 1 ? 32 : bands.bits()};
   bands.require_memory(bytes_per_pixel, pixel_count(grey.width, grey.height));
   for (int row = 0; row < grey.height; ++row) {
     const GreyImage band = bands.next(n);

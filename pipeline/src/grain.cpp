@@ -103,8 +103,9 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const Te
   for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
   grain.height = {.method = made.like ? "synthesis" : std::string(to_string(made.height.method)),
                   .reason = made.height.reason,
-                  .light = made.like || made.height.method == HeightMethod::intensity ? std::nullopt
-                                                                                     : std::optional(made.height.light),
+                  .light = made.like || made.height.method == HeightMethod::intensity
+                               ? std::nullopt
+                               : std::optional(made.height.light),
                   .light_estimated = made.height.light_estimated,
                   .stop = made.height.stop,
                   .overlay = made.roughness};

@@ -52,7 +52,8 @@ HeightRule read_height(const JsonValue& value) {
   if (const auto v = value.get("tile"))
     if (!is_word(*v, "auto")) rule.relief.tile = v->yes_or_no();
   if (const auto v = value.get("alternative")) rule.opposite = v->yes_or_no();
-  if (const auto v = value.get("source")) rule.relief.source = relief_source(v->one_of({"auto", "picture", "synthesis"}));
+  if (const auto v = value.get("source"))
+    rule.relief.source = relief_source(v->one_of({"auto", "picture", "synthesis"}));
   if (const auto v = value.get("seed")) height.seed = static_cast<std::uint64_t>(v->number(0, 1e9));
   if (const auto v = value.get("scale")) rule.scale = v->number(0, 100);
   if (const auto v = value.get("max_slope")) rule.max_slope = v->number(0.01, 1000);

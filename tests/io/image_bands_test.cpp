@@ -79,7 +79,8 @@ TEST(ImageBands, SampleHoldsTheMeansOfItsBlocks) {
   ASSERT_EQ(bands.sample().height, 2);
   const auto at = [&](int x, int y, int c) { return 5.0 * (15 * y + 3 * x + c); };
   for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(bands.sample().pixels[static_cast<std::size_t>(c)], (at(0, 0, c) + at(1, 0, c) + at(0, 1, c) + at(1, 1, c)) / 4, 0.51);
+    EXPECT_NEAR(bands.sample().pixels[static_cast<std::size_t>(c)],
+                (at(0, 0, c) + at(1, 0, c) + at(0, 1, c) + at(1, 1, c)) / 4, 0.51);
     EXPECT_NEAR(bands.sample().pixels[static_cast<std::size_t>(6 + c)], (at(4, 0, c) + at(4, 1, c)) / 2, 0.51);
     EXPECT_NEAR(bands.sample().pixels[static_cast<std::size_t>(9 + c)], (at(0, 2, c) + at(1, 2, c)) / 2, 0.51);
   }

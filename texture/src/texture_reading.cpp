@@ -26,8 +26,7 @@ TextureReading read_texture(const GreyImage& image, const ReadingOptions& option
   reading.kind = classify(image, reading.symmetry.explained_variance(), lattice.stripes);
   reading.suitability = measure_suitability(image, lattice);
   reading.plan = plan_analysis(reading.kind, reading.suitability);
-  if (step_of(reading.plan, "generating_region").run)
-    reading.group = find_wallpaper_group(reading.symmetry);
+  if (step_of(reading.plan, "generating_region").run) reading.group = find_wallpaper_group(reading.symmetry);
   if (options.roughness && step_of(reading.plan, "fractal_dimension").run) {
     const GreyImage& rough = step_of(reading.plan, "primitive").run ? reading.symmetry.part->residual : image;
     if (std::min(rough.width, rough.height) >= k_least_fractal_side) reading.roughness = best_dimension(rough);

@@ -29,9 +29,9 @@ struct GrainHeight {
   bool light_estimated = false;
   double depth_mm = 0, rms_mm = 0;  ///< Peak to valley; root mean square about the mean; of the relief as it is baked.
   StopReason stop = StopReason::direct;
-  double unlimited_depth_mm = 0;  ///< Peak to valley before its slopes were limited.
-  double max_slope = 0;           ///< The limit of the slopes, mm per mm.
-  SlopeLimitResult slopes = {};   ///< What limiting them changed; its relief is the grain's.
+  double unlimited_depth_mm = 0;               ///< Peak to valley before its slopes were limited.
+  double max_slope = 0;                        ///< The limit of the slopes, mm per mm.
+  SlopeLimitResult slopes = {};                ///< What limiting them changed; its relief is the grain's.
   std::optional<RoughnessModel> overlay = {};  ///< Roughness that the player lays over the relief.
 };
 

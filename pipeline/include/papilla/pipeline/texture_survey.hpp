@@ -68,7 +68,7 @@ struct TextureSurvey {
   GreyImage middle;     ///< What the symmetry is read from: the picture, or its middle.
   std::optional<PieceSurvey> pieces;
   std::optional<FractalReadings> fractal;
-  std::string no_fractal;  ///< Why there are no fractal readings although they were asked for.
+  std::string no_fractal;                    ///< Why there are no fractal readings although they were asked for.
   std::optional<SymmetryAnalysis> symmetry;  ///< For the groups, the class or the pictures.
   std::optional<SymmetryGroups> groups;      ///< With SurveyOptions::symmetry.
   std::optional<OrderSurvey> order;

@@ -24,7 +24,7 @@ struct ReadingOptions {
 /// What a picture is, as far as its class asks for it; see read_texture().
 struct TextureReading {
   SymmetryAnalysis symmetry;
-  std::optional<WallpaperSymmetry> group;    ///< Of a picture with a lattice.
+  std::optional<WallpaperSymmetry> group;  ///< Of a picture with a lattice.
   TextureClass kind;
   Suitability suitability;
   std::optional<BestDimension> roughness;  ///< Of what is disordered: the picture, or what its lattice leaves.
