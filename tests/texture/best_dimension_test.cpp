@@ -65,7 +65,7 @@ TEST(BestDimension, SeesThroughPointSpreadAndNoise) {
 }
 
 TEST(BestDimension, SeesThroughALensBeforeThePixels) {
-  const Score lens = score({.side = 200, .spread_px = 0.5, .finer = 2}, 2);
+  const Score lens = score({.side = 257, .spread_px = 0.5, .finer = 2}, 2);
   EXPECT_LE(lens.rmse, 0.06);
   EXPECT_GE(lens.coverage, 0.9);
 }
