@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "papilla/core/progress_until.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
@@ -109,7 +110,7 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
                const BakeFileOptions& options, const ProgressCallback& progress, BakeFileResult& result) {
   const Stopwatch total;
   GltfOrigin origin;
-  Scene scene = read_for_edit(input, options.read, progress, origin);
+  Scene scene = read_for_edit(input, options.read, progress_until(progress, options.read_deadline), origin);
   if (assigns_groups_apart(scene, rules, origin.nodes)) return false;
   const double read_seconds = total.seconds();
   BakeOptions bake = options.bake;
@@ -174,7 +175,7 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
     result.way = {false, k_instances_apart};
   }
   const Stopwatch total;
-  Scene scene = read_scene(input, options.read, progress);
+  Scene scene = read_scene(input, options.read, progress_until(progress, options.read_deadline));
   const double read_seconds = total.seconds();
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
   result.seconds["read"] = read_seconds;

@@ -278,7 +278,10 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
   if (options.budget) {
     Scene drawn = scene;
     leave_out(drawn, plan.perception);
-    plan.budget = fit_scene_to_budget(drawn, *options.budget);
+    SimplifyOptions simplify;
+    simplify.deadline = options.deadline;
+    simplify.progress = progress;
+    plan.budget = fit_scene_to_budget(drawn, *options.budget, simplify);
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
       if (plan.perception.parts[i].left_out.empty()) scene.parts[i].mesh = plan.budget->parts[i].mesh;
     for (SimplifyResult& part : plan.budget->parts) {

@@ -427,6 +427,15 @@ void finish(std::vector<Work>& works, BakeResult& result) {
 
 }  // namespace
 
+StopReason ending_of(const BakeResult& result) {
+  StopReason ending = result.plan.budget ? result.plan.budget->stop : StopReason::direct;
+  for (const BakedSurface& surface : result.surfaces) {
+    ending = worse(ending, surface.stop);
+    if (surface.repaired && surface.repaired->unfinished_triangles > 0) ending = StopReason::time_limit;
+  }
+  return ending;
+}
+
 RepairResult repair_of(const std::vector<BakedSurface>& surfaces) {
   std::vector<RepairResult> repaired;
   for (const BakedSurface& surface : surfaces)

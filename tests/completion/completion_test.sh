@@ -128,7 +128,7 @@ for program in "$@"; do
     expect 'lscm' "$program" unwrap --method ls
     expect 'tessellation' "$program" evaluate tes
     expect 'lscm,best' "$program" evaluate param --method lscm,be
-    expect 'grain fractal' "$program" synthesize ''
+    expect 'grain fractal photo' "$program" synthesize ''
   fi
   expect '--help' "$program" --hel
   for verb in $(completed "$program" ''); do

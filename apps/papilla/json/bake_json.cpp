@@ -157,6 +157,7 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
   json["uv"] = own_uv_json(result.plan.surfaces);
   json["distortion"] = total_json(result.surfaces);
   json["repair"] = repair_numbers_json(repair_of(result.surfaces));
+  json["stop"] = to_string(ending_of(result));
   json["sides"] = sides_json(result.plan.sides, options.plan.sides);
   json["losses"] = result.scene.losses;
   json["warnings"] = result.scene.warnings;

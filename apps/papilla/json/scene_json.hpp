@@ -61,14 +61,16 @@ Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statist
 /// {part, node, layers[], cad_materials[], colour, material} a surface and use.
 Json nodes_json(const std::vector<SurfacePlace>& places);
 Json tessellation_json(const Scene& scene, const CadReport& report);
-/// {operations{}, deviations_mm{}, tolerance_mm, lost_mm, added_mm, sampled, refused{triangles, deviation_mm}}: what
+/// {operations{}, deviations_mm{}, tolerance_mm, lost_mm, added_mm, sampled, refused{triangles, deviation_mm},
+/// unfinished_triangles}: what
 /// every verb says that repairs.
 Json repair_numbers_json(const RepairResult& result);
 Json repair_json(const RepairSceneResult& result, const WrittenRepair& written, const RepairSceneOptions& options);
 Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options);
 Json unwrap_json(const UnwrapResult& result, const UnwrapOptions& options, const SceneDistortion& distortion);
 
-/// The report's numbers by their key names in JSON; the keys of nested objects are joined by dots.
+/// The report's numbers by their key names in JSON; the keys of nested objects are joined by dots. Without those of
+/// overlap when it was not looked for.
 using DistortionNumbers = std::vector<std::pair<std::string, std::variant<std::uint64_t, double>>>;
 DistortionNumbers distortion_numbers(const DistortionReport& report);
 

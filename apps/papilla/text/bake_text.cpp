@@ -139,7 +139,7 @@ std::string bake_table(const BakeResult& result) {
   for (const auto& [name, grain] : result.grains) out += slope_line(name, grain.height);
   out += repair_numbers_text(repair_of(result.surfaces));
   if (result.surfaces.empty()) out = surfaces_without_grain(result.plan.surfaces);
-  return out;
+  return out + ending_line(ending_of(result));
 }
 
 }  // namespace papilla::app

@@ -25,6 +25,8 @@ std::string inspect_text(const Scene& scene, const std::vector<MeshStatistics>& 
 /// A row a surface and use, with the names that rules select by.
 std::string nodes_text(const std::vector<SurfacePlace>& places);
 std::string tessellation_text(const Scene& scene, const CadReport& report);
+/// Says that the time limit ended the work; empty for all other endings.
+std::string ending_line(StopReason stop);
 /// What a repair did, how far the surface moved, and what was not done; empty when there was nothing to do.
 std::string repair_numbers_text(const RepairResult& result);
 std::string repair_text(const RepairSceneResult& result, const WrittenRepair& written);

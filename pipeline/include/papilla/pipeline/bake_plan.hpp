@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/meshing/triangle_budget.hpp"
@@ -47,6 +48,7 @@ struct PartSurface {
 struct BakePlanOptions {
   PerceptionOptions perception;       ///< Parts to be left out.
   std::optional<std::size_t> budget;  ///< Triangles that the scene may draw.
+  Deadline deadline;                  ///< Of the search for what meets it: SimplifyOptions::deadline.
   SceneSideOptions sides;             ///< `perception.view` tells where eyes are when `inside` is not given.
   bool keep_copies = false;           ///< Identical parts are not made instances of one.
   /// For an edit of the scene's file: nothing is shared, pictures stay, and so do triangles but for sheets with relief
