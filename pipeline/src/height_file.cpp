@@ -15,6 +15,7 @@
 #include "papilla/texture/normal_map.hpp"
 #include "pictures/relief.hpp"
 #include "pictures/texture_plots.hpp"
+#include "relief_files.hpp"
 
 namespace papilla {
 namespace {
@@ -108,6 +109,11 @@ HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& outp
     return height_by_bands(bands, output, options);
   bands.require_memory(k_height_bytes_per_pixel);
   HeightFiles files{height_from_image(bands.next(bands.height()), options.height), {}, {}, {}};
+  write_relief_files(files, output, options);
+  return files;
+}
+
+void write_relief_files(HeightFiles& files, const fs::path& output, const HeightFileOptions& options) {
   const HeightMap& map = files.result.map;
   write_height_file(output, map);
   if (!options.normal_map.empty()) write_color_image(options.normal_map, normal_map(map));
@@ -117,7 +123,6 @@ HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& outp
   }
   if (options.deeper) files.deeper = write_deeper(output, map);
   if (!options.pictures.empty()) files.pictures = draw_pictures(options.pictures, map);
-  return files;
 }
 
 }  // namespace papilla

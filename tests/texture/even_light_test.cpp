@@ -63,6 +63,14 @@ TEST(EvenLight, BlackFlatAndTinyPicturesStayFinite) {
     }
 }
 
+TEST(EvenLight, EightBitsAreDecodedUnlessToldOtherwise) {
+  EXPECT_TRUE(decodes_srgb(Transfer::automatic, 8));
+  EXPECT_FALSE(decodes_srgb(Transfer::automatic, 16));
+  EXPECT_FALSE(decodes_srgb(Transfer::automatic, 32));
+  EXPECT_TRUE(decodes_srgb(Transfer::srgb, 16));
+  EXPECT_FALSE(decodes_srgb(Transfer::linear, 8));
+}
+
 TEST(EvenLight, TransfersHaveTheirNames) {
   for (const Transfer t : {Transfer::automatic, Transfer::srgb, Transfer::linear}) EXPECT_EQ(transfer(to_string(t)), t);
   EXPECT_THROW(transfer("gamma"), InvalidInput);

@@ -195,12 +195,14 @@ TEST(HeightFromImage, RefusesBadArguments) {
   EXPECT_THROW(height_from_image(image, {.depth_mm = 0}), InvalidInput);
   EXPECT_THROW(height_from_image(image, {.pitch_mm = -1}), InvalidInput);
   EXPECT_THROW(height_from_image(image, {.method = HeightMethod::variational, .light = Vec3{0, 0, -1}}), InvalidInput);
+  EXPECT_THROW(height_from_image(image, {.method = HeightMethod::photometric_stereo}), InvalidInput);
   GreyImage bad = image;
   bad.at(5, 5) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(height_from_image(bad), InvalidInput);
   EXPECT_THROW(height_method("magic"), InvalidInput);
   EXPECT_EQ(height_method("tsai-shah"), HeightMethod::tsai_shah);
   EXPECT_EQ(to_string(HeightMethod::automatic), "auto");
+  EXPECT_EQ(to_string(HeightMethod::photometric_stereo), "photometric-stereo");
 }
 
 }  // namespace

@@ -51,6 +51,11 @@ Transfer transfer(std::string_view name) {
   return static_cast<Transfer>(texture_detail::index_of_name(name, k_transfers, "transfer"));
 }
 
+bool decodes_srgb(Transfer transfer, int bits) noexcept {
+  constexpr int k_camera_bits = 8;
+  return transfer == Transfer::srgb || (transfer == Transfer::automatic && bits == k_camera_bits);
+}
+
 LightField light_field(const SampleRows& picture, bool srgb) {
   if (picture.width() < 1 || picture.height() < 1) throw InvalidInput("light_field: the picture is empty");
   const EvenedSamples brightness(picture, srgb, {});

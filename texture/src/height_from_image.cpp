@@ -28,8 +28,8 @@
 namespace papilla {
 namespace {
 
-constexpr std::array<std::string_view, 6> k_method_names = {"auto",      "variational", "pentland",
-                                                            "tsai-shah", "intensity",   "wiener"};
+constexpr std::array<std::string_view, 7> k_method_names = {
+    "auto", "variational", "pentland", "tsai-shah", "intensity", "wiener", "photometric-stereo"};
 
 constexpr std::array<std::string_view, 4> k_roughness_names = {"whole", "none", "residual", "synthesized"};
 
@@ -37,6 +37,8 @@ constexpr std::array<std::string_view, 4> k_roughness_names = {"whole", "none", 
 constexpr double k_roughness_mm = 1;
 
 void require_options(const HeightOptions& options) {
+  if (options.method == HeightMethod::photometric_stereo)
+    throw InvalidInput("height_from_image: photometric-stereo needs three or more photographs");
   if (!texture_detail::is_positive(options.depth_mm))
     throw InvalidInput("height_from_image: depth " + std::to_string(options.depth_mm) + " mm is not positive");
   if (options.pitch_mm != 0 && !texture_detail::is_positive(options.pitch_mm))
@@ -111,9 +113,7 @@ Statistics statistics(const SampleRows& samples, const Bounds& bounds = {}) {
 /// Linear, evened brightness of a picture, whose samples it checks.
 EvenedSamples brightness_of(const SampleRows& picture, int bits, const HeightOptions& options, HeightResult& result) {
   statistics(picture);
-  constexpr int k_camera_bits = 8;
-  result.decoded_srgb =
-      options.transfer == Transfer::srgb || (options.transfer == Transfer::automatic && bits == k_camera_bits);
+  result.decoded_srgb = decodes_srgb(options.transfer, bits);
   const LightField field = result.map.periodic ? LightField{} : light_field(picture, result.decoded_srgb);
   result.unevenness = field.unevenness;
   return EvenedSamples(picture, result.decoded_srgb, field);

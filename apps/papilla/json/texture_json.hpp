@@ -8,6 +8,7 @@
 #include "papilla/pipeline/contact_sheet.hpp"
 #include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/photograph_file.hpp"
+#include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
@@ -26,6 +27,8 @@ Json roughness_model_json(const std::optional<RoughnessModel>& roughness);
 /// Of `analyze`, `height`, `prepare`, `synthesize`, `texture` and `texture --sheet`.
 Json survey_json(const std::string& image, const TextureSurvey& survey);
 Json height_json(const HeightFiles& files);
+/// Of `height` with several photographs: all of height_json(), and more.
+Json stereo_json(const StereoFiles& files);
 Json prepared_json(const std::string& image, const PreparedPicture& prepared);
 Json synthesis_json(const std::string& what, const Synthesis& synthesis, const SynthesisOptions& options);
 Json texture_json(const TextureFiles& files);

@@ -162,6 +162,39 @@ std::string height_text(const std::string& image, const std::string& output, con
   return lines.take();
 }
 
+std::string stereo_text(const std::string& output, const StereoFiles& files) {
+  const PhotometricStereoResult& stereo = files.stereo;
+  const HeightResult& result = files.files.result;
+  Lines lines;
+  lines.add("photometric stereo of {} photographs, lights {}\n", stereo.lights.size(),
+            stereo.lights_estimated ? "found" : "given");
+  for (std::size_t k = 0; k < stereo.lights.size(); ++k)
+    lines.add("light {:<4} {:.3f}, {:.3f}, {:.3f}; moved by {:.2f}, {:.2f} pixels\n", k + 1, stereo.lights[k].x,
+              stereo.lights[k].y, stereo.lights[k].z, files.shifts_px[k].x, files.shifts_px[k].y);
+  if (stereo.lights_estimated)
+    lines.add("lights     known to about {:.1f} degrees{}\n", stereo.light_uncertainty_deg,
+              stereo.two_sided ? "; convex or concave is not" : "");
+  lines.add("relief     {} x {} samples, depth {:.3f} mm ({}), rms {:.4f} mm\n", result.map.width, result.map.height,
+            result.depth_mm, files.depth_source, result.rms_mm);
+  if (result.map.pitch_mm_x > 0)
+    lines.add("pitch      {:.4f} mm a pixel\n", result.map.pitch_mm_x);
+  else
+    lines.add("pitch      unknown: give --pitch, or a ruler in --reference\n");
+  lines.add("confidence {:.2f}, low in {:.1f} % of the pixels\n", files.mean_confidence,
+            100 * files.low_confidence_fraction);
+  lines.add("seen       {:.1f} % shadows, {:.1f} % highlights, {:.0f} % light from everywhere\n",
+            100 * stereo.shadows_fraction, 100 * stereo.highlights_fraction, 100 * stereo.ambient);
+  for (const ReferenceReading& reading : files.references) {
+    lines.add("reference  {}: {:.5g}", reading.name, reading.value);
+    if (reading.correlation) lines.add(", correlation {:.2f}", *reading.correlation);
+    lines.add("\n");
+  }
+  for (const std::string& what : result.measured) lines.add("measured   {}\n", what);
+  for (const std::string& what : result.assumed) lines.add("assumed    {}\n", what);
+  lines.add("written    {}\n", output);
+  return lines.take();
+}
+
 std::string prepared_text(const std::string& output, const PreparedPicture& prepared) {
   Lines lines;
   add_numbers(lines, "before", prepared.before);

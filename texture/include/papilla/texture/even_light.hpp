@@ -18,6 +18,8 @@ enum class Transfer { automatic, srgb, linear };
 std::string_view to_string(Transfer transfer) noexcept;
 /// The transfer of that name. @throws InvalidInput for any other name.
 Transfer transfer(std::string_view name);
+/// Whether a picture of `bits` per sample is decoded as sRGB.
+bool decodes_srgb(Transfer transfer, int bits) noexcept;
 
 /// The best quadric of the logarithm of a picture's brightness: vignette and uneven light, and what the relief has of
 /// them. Coefficients of 1, x, y, x², xy, y², both from −1 to 1 from border to border.

@@ -23,9 +23,11 @@ namespace papilla {
 /// How grey becomes height. `automatic` takes `wiener` or `intensity` (grey = height, bright = high), whichever it
 /// expects to correlate more with the true relief: the picture's spectrum and the light's coherence and uncertainty say
 /// that of shape from shading; that of grey is 0.5 for a picture without light direction and 0.15 for a lit one.
-enum class HeightMethod { automatic, variational, pentland, tsai_shah, intensity, wiener };
+/// `photometric_stereo` takes several photographs: height_from_image() refuses it, see photometric_stereo().
+enum class HeightMethod { automatic, variational, pentland, tsai_shah, intensity, wiener, photometric_stereo };
 
-/// The method's name on the command line: auto, variational, pentland, tsai-shah, intensity, wiener.
+/// The method's name on the command line: auto, variational, pentland, tsai-shah, intensity, wiener,
+/// photometric-stereo.
 std::string_view to_string(HeightMethod method) noexcept;
 /// The method of that name. @throws InvalidInput for any other name.
 HeightMethod height_method(std::string_view name);
