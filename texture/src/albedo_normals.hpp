@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "photograph_gains.hpp"
 #include "papilla/core/vec.hpp"
+#include "photograph_gains.hpp"
 
 namespace papilla::texture_detail {
 

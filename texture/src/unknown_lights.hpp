@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "photograph_gains.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/vec.hpp"
+#include "photograph_gains.hpp"
 
 namespace papilla::texture_detail {
 

@@ -16,7 +16,7 @@ namespace papilla {
 struct BakeFileOptions {
   ReadOptions read;
   Deadline read_deadline;  ///< Of reading, before which there is no result to end with. bake_file() is cancelled there.
-  BakeOptions bake;  ///< Its `plan.in_place` does not matter.
+  BakeOptions bake;        ///< Its `plan.in_place` does not matter.
   WriteOptions write;
   bool for_pictures = false;  ///< The result's scene is read again, for write_bake_pictures().
 };
