@@ -22,6 +22,8 @@
 namespace papilla::app {
 namespace {
 
+constexpr double k_more_for_reading_s = 60;
+
 int g_exit_code = 0;
 
 struct CommonOptions {
@@ -52,8 +54,11 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDea
   if (common.threads > 0)
     limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
 
-  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, {}, common.seed, 0};
-  if (common.time_limit_s) context.deadline = Deadline(*common.time_limit_s);
+  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, {}, {}, common.seed, 0};
+  if (common.time_limit_s) {
+    context.deadline = Deadline(*common.time_limit_s);
+    context.read_deadline = Deadline(2 * *common.time_limit_s + k_more_for_reading_s);
+  }
   const bool wants_json = common.progress == "json";
   std::shared_ptr<ProgressPrinter> printer;
   if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))

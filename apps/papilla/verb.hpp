@@ -29,8 +29,9 @@ struct VerbContext {
   /// Draws on stderr when that is a terminal and the work takes over a second. Returns false at the deadline, unless
   /// the verb ends by itself.
   ProgressCallback progress;
-  int threads = 0;    ///< 0: all cores.
-  Deadline deadline;  ///< --time-limit.
+  int threads = 0;         ///< 0: all cores.
+  Deadline deadline;       ///< --time-limit.
+  Deadline read_deadline;  ///< Of reading, before which there is no result to end with: twice the limit and a minute.
   std::uint64_t seed = 1;
   int exit_code = 0;  ///< Set by a verb that ends normally but not with 0.
 };

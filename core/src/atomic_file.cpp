@@ -288,9 +288,19 @@ Descriptor open_folder(const Place& place, const fs::path& path) {
   return Descriptor(opened);
 }
 
+/// The old file stays until the new one is there, so that its space does not count.
+void require_space(const Place& place, const fs::path& path, std::uintmax_t bytes) {
+  std::error_code error;
+  const fs::space_info space = fs::space(place.folder, error);
+  const bool is_known = !error && space.capacity > 0;  // Some file systems have none.
+  if (is_known && space.available < bytes)
+    throw IoError(path.string() + ": takes " + std::to_string(bytes) + " bytes, " + std::to_string(space.available) +
+                  " are free on its file system");
+}
+
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write, std::uintmax_t bytes) {
   const Place place = place_of(path);
   note_output(path);
   if (!place.is_replaced()) {
@@ -299,6 +309,7 @@ void write_atomically(const fs::path& path, const std::function<void(std::ostrea
     const Descriptor device(opened);
     return fill(device, path, write);
   }
+  require_space(place, path, bytes);
   const Descriptor directory = open_folder(place, path);
   remove_dead_temporaries(directory, place.folder);
   Temporary temporary(directory, place.target, place.old ? 0600 : 0666);  // A new file gets what umask leaves.
@@ -321,8 +332,9 @@ void require_writable(const fs::path& path) {
 }
 
 void write_atomically(const fs::path& path, std::string_view content) {
-  write_atomically(path,
-                   [&](std::ostream& out) { out.write(content.data(), static_cast<std::streamsize>(content.size())); });
+  write_atomically(
+      path, [&](std::ostream& out) { out.write(content.data(), static_cast<std::streamsize>(content.size())); },
+      content.size());
 }
 
 void remove_temporaries() noexcept {

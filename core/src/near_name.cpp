@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t k_longest = 200;        ///< Bytes of a name that is compared.
 constexpr std::size_t k_shortest_inside = 3;  ///< Letters that a name must contain to be found by them.
+constexpr std::size_t k_letters_a_change_inside = 5;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -56,7 +57,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
   };
   look_for(word);
   if (best.empty() && letters >= k_shortest_inside) {
-    least = 1;
+    least = letters / k_letters_a_change_inside + 1;
     look_for("*" + std::string(word) + "*");
   }
   return best.empty() ? "" : "; did you mean '" + shown(best) + "'?";

@@ -5,6 +5,7 @@
 #include <limits>
 #include <ostream>
 
+#include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla {
@@ -46,7 +47,7 @@ void GlbBuffer::write(std::ostream& out) const {
   }
 }
 
-void write_glb_container(std::ostream& out, const std::string& json, std::size_t binary_size,
+void write_glb_container(const std::filesystem::path& path, const std::string& json, std::size_t binary_size,
                          const std::function<void(std::ostream&)>& write_binary, std::string_view further_chunks) {
   constexpr std::size_t k_json = 0x4e4f534a, k_bin = 0x004e4942;
   const std::size_t json_size = json.size() + padding_of(json.size());
@@ -54,19 +55,22 @@ void write_glb_container(std::ostream& out, const std::string& json, std::size_t
   const std::size_t length = 12 + 8 + json_size + (binary_size == 0 ? 0 : 8 + padded_binary) + further_chunks.size();
   if (length > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput("write_glb: " + std::to_string(length) + " bytes exceed glTF's limit of 4 GiB");
-  out << "glTF";
-  write_word(out, 2);
-  write_word(out, length);
-  write_word(out, json_size);
-  write_word(out, k_json);
-  out << json << std::string(padding_of(json.size()), ' ');
-  if (binary_size > 0) {
-    write_word(out, padded_binary);
-    write_word(out, k_bin);
-    write_binary(out);
-    out << std::string(padding_of(binary_size), '\0');
-  }
-  out << further_chunks;
+  const auto write = [&](std::ostream& out) {
+    out << "glTF";
+    write_word(out, 2);
+    write_word(out, length);
+    write_word(out, json_size);
+    write_word(out, k_json);
+    out << json << std::string(padding_of(json.size()), ' ');
+    if (binary_size > 0) {
+      write_word(out, padded_binary);
+      write_word(out, k_bin);
+      write_binary(out);
+      out << std::string(padding_of(binary_size), '\0');
+    }
+    out << further_chunks;
+  };
+  write_atomically(path, write, length);
 }
 
 }  // namespace papilla

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <memory>
@@ -57,10 +58,10 @@ class GlbBuffer {
   Json views_ = Json::array(), accessors_ = Json::array();
 };
 
-/// Writes the container of glTF 2.0, 4.4.
+/// Writes the container of glTF 2.0, 4.4, by write_atomically().
 /// @param write_binary  writes `binary_size` bytes. @param further_chunks  whole ones, each with its header.
-/// @throws InvalidInput when it exceeds 4 GiB.
-void write_glb_container(std::ostream& out, const std::string& json, std::size_t binary_size,
+/// @throws InvalidInput when it exceeds 4 GiB; as write_atomically().
+void write_glb_container(const std::filesystem::path& path, const std::string& json, std::size_t binary_size,
                          const std::function<void(std::ostream&)>& write_binary, std::string_view further_chunks = {});
 
 /// The largest "texCoord" of any texture in a part of a document, −1 without any texture.

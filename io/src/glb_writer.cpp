@@ -256,10 +256,7 @@ std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::pa
                                    const GlbWriteOptions& options) {
   GltfDocument document(scene, options, nullptr);
   const std::string json = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  write_atomically(path, [&](std::ostream& out) {
-    write_glb_container(out, json, document.buffer.size(),
-                        [&](std::ostream& binary) { document.buffer.write(binary); });
-  });
+  write_glb_container(path, json, document.buffer.size(), [&](std::ostream& binary) { document.buffer.write(binary); });
   return std::move(document.losses);
 }
 

@@ -301,10 +301,8 @@ void GltfFile::write() {
     return;
   }
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  write_atomically(output_, [&](std::ostream& out) {
-    write_glb_container(
-        out, text, binary_.size(), [&](std::ostream& chunk) { chunk << binary_; }, further_chunks_);
-  });
+  write_glb_container(
+      output_, text, binary_.size(), [&](std::ostream& chunk) { chunk << binary_; }, further_chunks_);
 }
 
 }  // namespace papilla

@@ -179,6 +179,25 @@ Picture read_picture(const fs::path& path, std::size_t bytes_per_pixel) {
   return {std::move(grey), bands.sample()};
 }
 
+Picture read_reduced_picture(const fs::path& path, int most_side, std::size_t bytes_per_pixel) {
+  ImageBands bands(path, k_max_streamed_pixels, most_side);
+  const int n = (std::max(bands.width(), bands.height()) - 1) / most_side + 1;
+  GreyImage grey{
+      (bands.width() + n - 1) / n, (bands.height() + n - 1) / n, {}, n * bands.pitch_mm(), n > 1 ? 32 : bands.bits()};
+  bands.require_memory(bytes_per_pixel, pixel_count(grey.width, grey.height));
+  for (int row = 0; row < grey.height; ++row) {
+    const GreyImage band = bands.next(n);
+    for (int column = 0; column < grey.width; ++column) {
+      const int left = column * n, right = std::min(left + n, band.width);
+      double sum = 0;
+      for (int y = 0; y < band.height; ++y)
+        for (int x = left; x < right; ++x) sum += static_cast<double>(band.at(x, y));
+      grey.pixels.push_back(static_cast<float>(sum / ((right - left) * band.height)));
+    }
+  }
+  return {std::move(grey), bands.sample()};
+}
+
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
   PictureInput input(bytes, name, k_max_image_pixels);
   return read_rgb(input, 3);

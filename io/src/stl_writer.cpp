@@ -77,12 +77,16 @@ std::vector<std::string> write_stl(const Scene& scene, const std::filesystem::pa
   for (const Instance& instance : shown) count += scene.parts[instance.part].mesh.triangles.size();
   if (count > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(fmt::format("write_stl: {} triangles are more than STL can hold", count));
-  write_atomically(path, [&](std::ostream& out) {
-    out << header(static_cast<std::uint32_t>(count));
-    RecordWriter records(out);
-    for (const Instance& instance : shown) records.write(place(scene, instance));
-    records.flush();
-  });
+  constexpr std::uintmax_t k_head = 84, k_record = 50;
+  write_atomically(
+      path,
+      [&](std::ostream& out) {
+        out << header(static_cast<std::uint32_t>(count));
+        RecordWriter records(out);
+        for (const Instance& instance : shown) records.write(place(scene, instance));
+        records.flush();
+      },
+      k_head + k_record * count);
   return scene_losses(scene, {});
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <queue>
 #include <utility>
 
 #include "check_mesh.hpp"
@@ -26,6 +25,8 @@ constexpr Index k_hub_degree = 48;
 constexpr int k_hub_rounds = 8;
 /// Targets of a place that are checked, cheapest first; what all of them forbid the others mostly forbid, too.
 constexpr int k_most_trials = 16;
+/// The clock is looked at once for so many collapses.
+constexpr std::size_t k_collapses_a_look = 1024;
 /// The plane of a triangle with a smaller altitude, relative to the mesh's diagonal, is rounding noise.
 constexpr double k_noise_altitude = 1e-6;
 
@@ -90,6 +91,7 @@ class Decimator {
       append(place_of(c), c, c);
       ++degree_[place_of(c)];
     }
+    queue_.reserve(2 * wedges.positions.size() + 1);  // At most half of them hold, so that dropping the others pays.
     Bounds3 bounds;
     for (const Vec3& p : wedges.positions) bounds.add(p);
     noise_altitude_ = k_noise_altitude * bounds.diagonal();
@@ -100,7 +102,8 @@ class Decimator {
       if (first_[p] != k_none) start_quadric(p);
     for (Index p = 0; p < first_.size(); ++p)
       if (first_[p] != k_none) enqueue(p);
-    for (int round = 0; round <= k_hub_rounds && alive_ > options_.target_triangles; ++round) {
+    for (int round = 0; round <= k_hub_rounds && alive_ > options_.target_triangles && !options_.deadline.passed();
+         ++round) {
       take_candidates();
       std::vector<Index> hubs;
       hubs.swap(postponed_);
@@ -133,9 +136,11 @@ class Decimator {
   };
 
   void take_candidates() {
-    while (!queue_.empty() && alive_ > options_.target_triangles) {
-      const Candidate best = queue_.top();
-      queue_.pop();
+    for (std::size_t taken = 1; !queue_.empty() && alive_ > options_.target_triangles; ++taken) {
+      if (taken % k_collapses_a_look == 0 && options_.deadline.passed()) return;
+      std::pop_heap(queue_.begin(), queue_.end());
+      const Candidate best = queue_.back();
+      queue_.pop_back();
       if (stamp_[best.from] == best.stamp) collapse(best.from, best.to);
     }
   }
@@ -272,9 +277,17 @@ class Decimator {
       const auto [order, link] = trials_.back();
       trials_.pop_back();
       if (!is_allowed(place, links_here_[link])) continue;
-      queue_.push({order, place, links_here_[link].place, stamp_[place]});
+      if (queue_.size() == queue_.capacity()) drop_stale_candidates();
+      queue_.push_back({order, place, links_here_[link].place, stamp_[place]});
+      std::push_heap(queue_.begin(), queue_.end());
       return;
     }
+  }
+
+  /// A place has one candidate that holds, and leaves many behind that don't.
+  void drop_stale_candidates() {
+    std::erase_if(queue_, [&](const Candidate& c) { return stamp_[c.from] != c.stamp; });
+    std::make_heap(queue_.begin(), queue_.end());
   }
 
   bool are_neighbours(Index place, Index other) {
@@ -385,7 +398,7 @@ class Decimator {
   std::vector<Mark> mark_;
   std::uint32_t mark_now_ = 0;
   std::vector<Quadric> quadrics_;  ///< Relative to their places.
-  std::priority_queue<Candidate> queue_;
+  std::vector<Candidate> queue_;   ///< A heap: the cheapest collapse first.
   std::size_t alive_;
   double noise_altitude_ = 0;
   std::vector<Index> corners_here_, corners_there_, ring_;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "wedge_mesh.hpp"
 
 namespace papilla::detail {
@@ -11,6 +12,7 @@ struct DecimateOptions {
   std::size_t target_triangles = 0;
   double error_mm = 0;  ///< Largest root of a collapse's quadric: no plane it stood for is passed by more than this.
   bool lock_border = false;
+  Deadline deadline;  ///< Collapses after it are left out.
 };
 
 /// Half-edge collapses in the order of quadric error [Garland and Heckbert, Surface simplification using quadric error

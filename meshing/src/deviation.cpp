@@ -32,14 +32,6 @@ void check(const DeviationOptions& o) {
     throw InvalidInput("surface_deviation: options.settled_below_mm exceeds list_above_mm");
 }
 
-template <class Body>
-void for_each_chunk(std::size_t count, const Body& body) {
-  const std::size_t chunks = (count + k_chunk - 1) / k_chunk;
-  oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-    body(chunk, chunk * k_chunk, std::min(count, (chunk + 1) * k_chunk));
-  });
-}
-
 /// Closest point of p, starting from a triangle that is probably near; k_no_value: no idea.
 ClosestPoint closest_from(const TriangleBvh& bvh, const Vec3& p, Index hint, double enough = 0) noexcept {
   return bvh.closest(
@@ -304,7 +296,14 @@ class TriangleRefiner {
 class OneSide {
  public:
   OneSide(const TriangleMesh& from, const TriangleBvh& to, double floor, const DeviationOptions& options)
-      : from_(from), to_(to), floor_(floor), options_(options) {}
+      : from_(from),
+        to_(to),
+        floor_(floor),
+        options_(options),
+        done_(options.progress, "measure",
+              static_cast<double>((options.settled_below_mm > 0 ? 1 : 0) + (options.mean_samples > 0 ? 1 : 0) + 1) *
+                      static_cast<double>(from.triangles.size()) +
+                  static_cast<double>(from.positions.size())) {}
 
   OneSidedDeviation run() {
     settle_at_once();
@@ -321,6 +320,16 @@ class OneSide {
   }
 
  private:
+  template <class Body>
+  void for_each_chunk(std::size_t count, const Body& body) {
+    const std::size_t chunks = (count + k_chunk - 1) / k_chunk;
+    oneapi::tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+      const std::size_t begin = chunk * k_chunk, end = std::min(count, begin + k_chunk);
+      body(chunk, begin, end);
+      done_.add(static_cast<double>(end - begin));
+    });
+  }
+
   /// Settles what a triangle of `to` near the neighbour is near enough to, without a search.
   void settle_at_once() {
     settled_.assign(from_.triangles.size(), 0);
@@ -464,6 +473,7 @@ class OneSide {
   std::vector<std::uint8_t> settled_;  ///< Per triangle of `from`.
   std::vector<Index> nearest_;         ///< Per position of `from`: the triangle of `to` closest to it.
   Peak peak_;
+  SharedProgress done_;
   OneSidedDeviation result_;
 };
 

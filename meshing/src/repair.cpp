@@ -131,6 +131,7 @@ void add(RepairResult& all, const RepairResult& piece) {
     all.*distance = std::max(all.*distance, piece.*distance);
   all.sampled = all.sampled || piece.sampled;
   all.refused_triangles += piece.refused_triangles;
+  all.unfinished_triangles += piece.unfinished_triangles;
   all.two_sided.insert(piece.two_sided.begin(), piece.two_sided.end());
   all.passes = std::max(all.passes, piece.passes);
   all.settled = all.settled && piece.settled;
@@ -172,9 +173,10 @@ bool edges_cancel(const std::vector<Triangle>& all, std::span<const Index> trian
 /// surfaces with borders, or inside out, that lie apart.
 class SoupRepair {
  public:
-  SoupRepair(TriangleMesh mesh, const RepairScale& scale, const ProgressCallback& progress)
+  SoupRepair(TriangleMesh mesh, const RepairScale& scale, const Deadline& deadline, const ProgressCallback& progress)
       : mesh_(std::move(mesh)),
         scale_(scale),
+        deadline_(deadline),
         margin_(scale.weld.tolerance_mm + scale.stitch_mm),
         progress_(progress, "repair", static_cast<double>(mesh_.triangles.size())),
         components_(connected_triangles(mesh_)) {}
@@ -191,6 +193,8 @@ class SoupRepair {
   }
 
  private:
+  struct OutOfTime {};
+
   /// Triangles of the mesh on their own; `face` says which.
   TriangleMesh piece(std::span<const Index> triangles) const {
     TriangleMesh result = extract_triangles(mesh_, triangles);
@@ -202,7 +206,7 @@ class SoupRepair {
     pieces_.resize(components_.size());
     oneapi::tbb::parallel_for(std::size_t{0}, components_.size(), [&](std::size_t c) {
       const auto triangles = components_.of(c);
-      if (triangles.size() < k_least_solid || !edges_cancel(mesh_.triangles, triangles)) return;
+      if (deadline_.passed() || triangles.size() < k_least_solid || !edges_cancel(mesh_.triangles, triangles)) return;
       pieces_[c] = repair_solid(piece(triangles), scale_);
       if (pieces_[c]) measure(triangles, *pieces_[c]);
       if (pieces_[c]) progress_.add(static_cast<double>(triangles.size()));
@@ -228,8 +232,10 @@ class SoupRepair {
   }
 
   /// For a piece that reports fractions of itself, several times where it takes several passes.
+  /// Throws OutOfTime.
   ProgressCallback progress_of_piece(std::size_t triangles) {
     return [this, size = static_cast<double>(triangles), reported = 0.0](const Progress& piece) mutable {
+      if (deadline_.passed()) throw OutOfTime{};
       progress_.add((piece.fraction - reported) * size);
       reported = std::max(reported, piece.fraction);
       return true;
@@ -241,9 +247,17 @@ class SoupRepair {
     const std::size_t before = pieces_.size();
     pieces_.resize(before + sets.size());
     oneapi::tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t s) {
-      pieces_[before + s] =
-          std::make_unique<RepairResult>(repair_piece(piece(sets[s]), scale_, progress_of_piece(sets[s].size())));
-      measure(sets[s], *pieces_[before + s]);
+      pieces_[before + s] = std::make_unique<RepairResult>();
+      RepairResult& result = *pieces_[before + s];
+      try {
+        if (deadline_.passed()) throw OutOfTime{};
+        result = repair_piece(piece(sets[s]), scale_, progress_of_piece(sets[s].size()));
+        measure(sets[s], result);
+      } catch (const OutOfTime&) {
+        result = {};
+        result.mesh = piece(sets[s]);
+        result.unfinished_triangles = sets[s].size();
+      }
     });
   }
 
@@ -304,6 +318,7 @@ class SoupRepair {
 
   TriangleMesh mesh_;
   const RepairScale& scale_;
+  Deadline deadline_;
   double margin_;  ///< Boxes that lie further apart have nothing to do with each other.
   SharedProgress progress_;
   Components components_;
@@ -348,7 +363,7 @@ RepairResult repair(TriangleMesh mesh, const RepairOptions& options) {
   std::size_t merged = merge_equal(mesh);
   double rounding_mm = 0;
   merged += merge_stored_equal(mesh, rounding_mm);
-  RepairResult result = SoupRepair(std::move(mesh), scale, options.progress).run();
+  RepairResult result = SoupRepair(std::move(mesh), scale, options.deadline, options.progress).run();
   result.counts.welded_equal += merged;
   result.deviations.weld = std::max(result.deviations.weld, rounding_mm);
   for (double RepairResult::*distance :

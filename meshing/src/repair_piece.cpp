@@ -26,6 +26,7 @@ class Repair {
       clean();
       report(0.6);
       turn();
+      report(0.7);
       part();
       report(0.8);
       close_gaps();
@@ -84,8 +85,11 @@ class Repair {
     bool found_t_junctions = true;
     for (std::size_t round = 0; found_t_junctions && round < scale_.max_passes; ++round) {
       weld_cracks();
+      report(0.1);
       drop_doubles();
+      report(0.2);
       drop_degenerate();
+      report(0.4);
       found_t_junctions = close_t_junctions();
     }
     all_.counts.kept_walls += kept_walls_;

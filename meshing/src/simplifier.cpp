@@ -33,10 +33,13 @@ void check(const SimplifyOptions& o, std::string_view function) {
   if (o.passes < 1 || o.passes > 6) fail("options.passes is not in [1, 6]");
 }
 
+/// Not kept: a tree takes more memory than all else, and a twentieth of the time that measuring takes.
+TriangleBvh bvh_of(const TriangleMesh& mesh) { return {mesh.positions, mesh.triangles}; }
+
 /// Marks the corners of the triangles closest to the worst place of each triangle of `candidate`.
 void keep_worst_places(const OneSidedDeviation& input_side, const OneSidedDeviation& candidate_side,
-                       std::size_t candidate_triangles, const TriangleMesh& current, const TriangleBvh& current_bvh,
-                       std::vector<std::uint8_t>& kept) {
+                       std::size_t candidate_triangles, const TriangleMesh& current, std::vector<std::uint8_t>& kept) {
+  const TriangleBvh current_bvh = bvh_of(current);
   std::vector<const ExceedingTriangle*> worst(candidate_triangles, nullptr);
   for (const ExceedingTriangle& e : input_side.above) {
     const ExceedingTriangle*& w = worst[e.nearest_triangle];
@@ -49,7 +52,34 @@ void keep_worst_places(const OneSidedDeviation& input_side, const OneSidedDeviat
       for (const Index v : current.triangles[current_bvh.closest(e->at).triangle]) kept[v] = 1;
 }
 
+struct OutOfTime {};
+
 }  // namespace
+
+/// How far the passes of a simplification have come. How many rounds one takes nobody knows, so that each surface that
+/// is measured takes the pass some way nearer to its end.
+class PassProgress {
+ public:
+  PassProgress(const ProgressCallback& callback, const Deadline& deadline, int passes)
+      : callback_(callback), deadline_(deadline), passes_(passes) {}
+
+  void begin_pass() noexcept { ++pass_, measured_ = 0; }
+
+  /// For the next surface that is measured; throws OutOfTime at the deadline.
+  ProgressCallback next_surface() {
+    return [this, before = measured_++](const Progress& done) {
+      if (deadline_.passed()) throw OutOfTime{};
+      const double share = 1 - std::pow(k_left, before + done.fraction);
+      return !callback_ || callback_({"simplify", (pass_ + share) / passes_});
+    };
+  }
+
+ private:
+  static constexpr double k_left = 0.7;  ///< Of a pass, after each surface.
+  const ProgressCallback& callback_;
+  const Deadline& deadline_;
+  int passes_, pass_ = -1, measured_ = 0;
+};
 
 Simplifier::Simplifier(const TriangleMesh& mesh, const SimplifyOptions& options, std::string_view function)
     : mesh_(mesh), options_(options) {
@@ -60,11 +90,6 @@ Simplifier::Simplifier(const TriangleMesh& mesh, const SimplifyOptions& options,
   diagonal_ = bounds.diagonal();
   wedges_ = make_wedges(mesh, options.feature_angle_deg, options.keep_faces);
   surface_ = surface(wedges_.indices);
-}
-
-const TriangleBvh& Simplifier::bvh() const {
-  if (!bvh_) bvh_.emplace(surface_.positions, surface_.triangles);
-  return *bvh_;
 }
 
 TriangleMesh Simplifier::surface(const std::vector<Index>& indices) const {
@@ -78,28 +103,34 @@ TriangleMesh Simplifier::surface(const std::vector<Index>& indices) const {
 
 std::vector<Index> Simplifier::collapse(const std::vector<Index>& indices, double error_mm,
                                         std::size_t target_triangles) const {
-  return decimate(wedges_, indices, {}, {target_triangles, error_mm, options_.lock_border});
+  std::vector<Index> left =
+      decimate(wedges_, indices, {}, {target_triangles, error_mm, options_.lock_border, options_.deadline});
+  out_of_time_ |= options_.deadline.passed();
+  return left;
 }
 
 bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm, double tolerance_mm,
-                                    std::size_t target_triangles) const {
+                                    std::size_t target_triangles, PassProgress& progress) const {
   DeviationOptions measure;
   measure.list_above_mm = tolerance_mm;
   measure.mean_samples = 0;
   std::vector<std::uint8_t> kept(wedges_.positions.size(), 0);
-  TriangleMesh current;  // Of `indices`, for what exceeds the tolerance.
-  std::optional<TriangleBvh> current_bvh;
   for (int round = 0; round < k_rounds; ++round) {
-    std::vector<Index> candidate = decimate(wedges_, indices, kept, {target_triangles, error_mm, options_.lock_border});
+    std::vector<Index> candidate =
+        decimate(wedges_, indices, kept, {target_triangles, error_mm, options_.lock_border, options_.deadline});
+    if (options_.deadline.passed()) throw OutOfTime{};
     if (candidate.size() == indices.size()) return true;
     if (candidate.empty()) return false;
     const TriangleMesh mesh = surface(candidate);
     const double floor = k_settled * tolerance_mm;
     measure.settled_below_mm = floor;
-    const OneSidedDeviation candidate_side = one_sided_deviation(mesh, bvh(), floor, measure);
+    measure.progress = progress.next_surface();
+    const OneSidedDeviation candidate_side = one_sided_deviation(mesh, bvh_of(surface_), floor, measure);
     OneSidedDeviation input_side;
-    if (options_.two_sided)
-      input_side = one_sided_deviation(surface_, TriangleBvh(mesh.positions, mesh.triangles), floor, measure);
+    if (options_.two_sided) {
+      measure.progress = progress.next_surface();
+      input_side = one_sided_deviation(surface_, bvh_of(mesh), floor, measure);
+    }
     if (candidate_side.above.empty() && input_side.above.empty()) {
       indices = std::move(candidate);
       return true;
@@ -107,21 +138,27 @@ bool Simplifier::collapse_and_check(std::vector<Index>& indices, double error_mm
     const auto exceeding = static_cast<double>(candidate_side.above.size() + input_side.above.size());
     if (exceeding > k_most_exceeding * static_cast<double>(mesh.triangles.size() + surface_.triangles.size()))
       return false;
-    if (indices.size() == all().size()) {
-      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), surface_, bvh(), kept);
-    } else {
-      if (!current_bvh) {
-        current = surface(indices);
-        current_bvh.emplace(current.positions, current.triangles);
-      }
-      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), current, *current_bvh, kept);
-    }
+    if (indices.size() == all().size())
+      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), surface_, kept);
+    else
+      keep_worst_places(input_side, candidate_side, mesh.triangles.size(), surface(indices), kept);
   }
   return false;
 }
 
 std::vector<Index> Simplifier::within(std::vector<Index> indices, double tolerance_mm, std::size_t target_triangles,
-                                      const Stopwatch& clock, Trace& trace) const {
+                                      const Stopwatch& clock, Trace& trace, const ProgressCallback& progress) const {
+  PassProgress passes(progress, options_.deadline, options_.passes);
+  try {
+    run_passes(indices, tolerance_mm, target_triangles, clock, trace, passes);
+  } catch (const OutOfTime&) {
+    out_of_time_ = true;
+  }
+  return indices;
+}
+
+void Simplifier::run_passes(std::vector<Index>& indices, double tolerance_mm, std::size_t target_triangles,
+                            const Stopwatch& clock, Trace& trace, PassProgress& progress) const {
   const auto note = [&] {
     trace.push_back({clock.seconds(), static_cast<double>(indices.size()) /
                                           static_cast<double>(std::max<std::size_t>(all().size(), 1))});
@@ -130,18 +167,19 @@ std::vector<Index> Simplifier::within(std::vector<Index> indices, double toleran
   note();
   double error = k_first_error * tolerance_mm;
   bool any = false;
+  progress.begin_pass();
   for (int halvings = 0; !any && !is_done() && halvings <= k_most_halvings; ++halvings) {
-    any = collapse_and_check(indices, error, tolerance_mm, target_triangles);
+    any = collapse_and_check(indices, error, tolerance_mm, target_triangles, progress);
     if (!any) error /= 2;
   }
   if (any) note();
   for (int pass = 1; any && !is_done() && pass < options_.passes; ++pass) {
     error *= 2;
-    any = collapse_and_check(indices, error, tolerance_mm, target_triangles) ||
-          collapse_and_check(indices, k_less * error, tolerance_mm, target_triangles);
+    progress.begin_pass();
+    any = collapse_and_check(indices, error, tolerance_mm, target_triangles, progress) ||
+          collapse_and_check(indices, k_less * error, tolerance_mm, target_triangles, progress);
     if (any) note();
   }
-  return indices;
 }
 
 SimplifyResult Simplifier::result(const std::vector<Index>& indices, double tolerance_mm) const {
@@ -154,10 +192,8 @@ SimplifyResult Simplifier::result(const std::vector<Index>& indices, double tole
   measure.relative_tolerance = 0.05;
   measure.settled_below_mm = std::isfinite(tolerance_mm) ? 0.1 * tolerance_mm : 0;
   const double floor = std::max(measure.settled_below_mm, 1e-6 * diagonal_);
-  const OneSidedDeviation mesh_side = one_sided_deviation(result.mesh, bvh(), floor, measure);
-  if (options_.two_sided)
-    result.deviation.from_to =
-        one_sided_deviation(surface_, TriangleBvh(result.mesh.positions, result.mesh.triangles), floor, measure);
+  const OneSidedDeviation mesh_side = one_sided_deviation(result.mesh, bvh_of(surface_), floor, measure);
+  if (options_.two_sided) result.deviation.from_to = one_sided_deviation(surface_, bvh_of(result.mesh), floor, measure);
   result.deviation.to_from = mesh_side;
   // within() has shown this already; the measurement above only says how much of it is used.
   for (OneSidedDeviation* side : {&result.deviation.from_to, &result.deviation.to_from})

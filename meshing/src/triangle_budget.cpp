@@ -30,12 +30,16 @@ using IndexLists = std::vector<std::vector<Index>>;
 class BudgetRun {
  public:
   BudgetRun(std::span<const BudgetPart> parts, std::size_t budget, const SimplifyOptions& options)
-      : parts_(parts), budget_(budget), simplifiers_(parts.size()) {
+      : parts_(parts), budget_(budget), progress_(options.progress), simplifiers_(parts.size()) {
+    SimplifyOptions in_time = options;
+    std::size_t triangles = 0;
+    for (const BudgetPart& part : parts) triangles += part.mesh == nullptr ? 0 : part.mesh->triangles.size();
+    in_time.deadline = options.deadline.earlier_by(detail::seconds_to_measure(triangles));
     each([&](std::size_t i) {
       const std::string name = "simplify_to_budget: parts[" + std::to_string(i) + "]";
       if (parts[i].mesh == nullptr) throw InvalidInput(name + " has no mesh");
       if (!(parts[i].importance > 0)) throw InvalidInput(name + ": the importance is not positive");
-      simplifiers_[i] = std::make_unique<Simplifier>(*parts[i].mesh, options, name);
+      simplifiers_[i] = std::make_unique<Simplifier>(*parts[i].mesh, in_time, name);
     });
   }
 
@@ -47,7 +51,7 @@ class BudgetRun {
       const double error = find_error(indices);
       if (drawn(indices) <= budget_) {
         result.tolerance_mm = find_tolerance(error, indices, result.trace);
-      } else {
+      } else if (!is_out_of_time()) {
         result.tolerance_mm = error;
         indices = within(error);
         note(indices, result.trace);
@@ -56,6 +60,10 @@ class BudgetRun {
     result.triangles = drawn(indices);
     result.reached = result.triangles <= budget_;
     measure(indices, result);
+    if (is_out_of_time()) {
+      result.stop = StopReason::time_limit;
+      for (SimplifyResult& part : result.parts) part.stop = result.stop;
+    }
     return result;
   }
 
@@ -70,6 +78,11 @@ class BudgetRun {
     std::size_t sum = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) sum += parts_[i].instances * (indices[i].size() / 3);
     return sum;
+  }
+
+  bool is_out_of_time() const {
+    return std::any_of(simplifiers_.begin(), simplifiers_.end(),
+                       [](const auto& simplifier) { return simplifier->is_out_of_time(); });
   }
 
   void note(const IndexLists& indices, Trace& trace) const {
@@ -88,10 +101,12 @@ class BudgetRun {
     double largest = 0;
     for (const auto& simplifier : simplifiers_) largest = std::max(largest, simplifier->diagonal());
     std::vector<Trial> ladder;
-    for (double error = k_first_error * largest; drawn(indices) > budget_ && error < k_last_error * largest;
-         error *= 2) {
+    for (double error = k_first_error * largest;
+         drawn(indices) > budget_ && error < k_last_error * largest && !is_out_of_time(); error *= 2) {
       each([&](std::size_t i) { indices[i] = simplifiers_[i]->collapse(indices[i], error / parts_[i].importance, 0); });
       ladder.push_back({error, drawn(indices)});
+      report_progress(progress_, "simplify", come_to(1));
+      ++steps_;
     }
     if (ladder.empty() || ladder.back().triangles <= budget_) return ladder.empty() ? 0 : ladder.back().tolerance_mm;
     const double hardly_more = k_pays * static_cast<double>(ladder.back().triangles);
@@ -100,13 +115,31 @@ class BudgetRun {
         ->tolerance_mm;
   }
 
+  /// The share of the search that is done with a fraction of this step: nobody knows how many it takes, so that each
+  /// goes some way towards its end.
+  double come_to(double fraction) const {
+    constexpr double k_left = 0.9;
+    return 1 - std::pow(k_left, steps_ + fraction);
+  }
+
   IndexLists within(double tolerance_mm) const {
     IndexLists result(parts_.size());
+    double triangles = 0;
+    for (const auto& simplifier : simplifiers_) triangles += static_cast<double>(simplifier->all().size() / 3);
+    SharedProgress done(
+        [this](const Progress& p) {
+          return !progress_ || progress_({p.stage, come_to(p.fraction)});
+        },
+        "simplify", triangles);
     each([&](std::size_t i) {
       Trace trace;
+      const Simplifier& simplifier = *simplifiers_[i];
+      WorkProgress work(done, static_cast<double>(simplifier.all().size() / 3));
       result[i] =
-          simplifiers_[i]->within(simplifiers_[i]->all(), tolerance_mm / parts_[i].importance, 0, clock_, trace);
+          simplifier.within(simplifier.all(), tolerance_mm / parts_[i].importance, 0, clock_, trace, work.callback());
+      work.reach(1);
     });
+    ++steps_;
     return result;
   }
 
@@ -127,7 +160,7 @@ class BudgetRun {
   double find_tolerance(double error, IndexLists& indices, Trace& trace) const {
     Trial low, high;
     double tolerance = error;
-    for (int trial = 0; trial < k_most_trials; ++trial) {
+    for (int trial = 0; trial < k_most_trials && !is_out_of_time(); ++trial) {
       IndexLists tried = within(tolerance);
       note(tried, trace);
       const std::size_t count = drawn(tried);
@@ -165,6 +198,8 @@ class BudgetRun {
 
   std::span<const BudgetPart> parts_;
   std::size_t budget_;
+  ProgressCallback progress_;
+  mutable int steps_ = 0;  ///< Of the search.
   std::vector<std::unique_ptr<Simplifier>> simplifiers_;
   Stopwatch clock_;
 };

@@ -131,7 +131,6 @@ class BvhBuilder {
     if (count == 0) return nodes;
     nodes.reserve(count / 3 + 1);
     fold(build(0, count, 0), nodes);
-    nodes.shrink_to_fit();
     return nodes;
   }
 
@@ -316,7 +315,9 @@ TriangleBvh::TriangleBvh(std::span<const Vec3> positions, std::span<const Triang
       }
     }
   });
+  first = {};
   nodes_ = BvhBuilder(references).run();
+  nodes_.shrink_to_fit();  // With the builder's memory gone.
 
   prims_.resize(references.size());
   slot_of_.resize(triangles.size());

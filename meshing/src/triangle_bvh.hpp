@@ -115,8 +115,8 @@ class TriangleBvh {
   const TriangleFrame& frame(Index triangle) const noexcept { return prims_[slot_of_[triangle]].frame; }
 
  private:
-  struct Prim {  ///< A box of a triangle.
-    TriangleFrame frame;
+  struct Prim {                                 ///< A box of a triangle.
+    [[no_unique_address]] TriangleFrame frame;  // The number takes the bytes that its flag leaves.
     Index triangle = 0;
   };
   /// Children >= 0 are nodes, others leaves of ~child: first prim in the upper bits, count in the lower three.

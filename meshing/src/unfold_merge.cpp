@@ -298,11 +298,10 @@ class Unfolder {
 
   void join(const Stretch& s, ChartOutline both) {
     set_seam(s, 0);
-    for (Index i = 0; i < s.size; ++i) {
-      const Index h = half_edge(s, i);
-      chart_of_[h] = chart_of_[surface_.opposite[h]] = k_none;
-    }
     ChartOutline &a = charts_[s.a], &b = charts_[s.b];
+    // Not only the stretch: around a hole, what was an outer border may be none of the union's.
+    for (const ChartOutline* chart : {&a, &b})
+      for (const Index h : chart->border) chart_of_[h] = place_of_[h] = k_none;
     if (a.triangles.size() < b.triangles.size()) std::swap(a.triangles, b.triangles);
     both.triangles = std::move(a.triangles);
     both.triangles.insert(both.triangles.end(), b.triangles.begin(), b.triangles.end());

@@ -176,6 +176,7 @@ class Measurement {
       : mesh_(mesh), uv_(uv), options_(options), raw_(mesh.triangles.size()) {
     report_.triangles = mesh.triangles.size();
     report_.per_triangle.resize(mesh.triangles.size());
+    report_.has_overlap = options.overlap;
   }
 
   DistortionReport run() {
@@ -188,7 +189,7 @@ class Measurement {
     measure_triangles();
     sum_triangles();
     sum_edges();
-    measure_overlap();
+    if (options_.overlap) measure_overlap();
     return std::move(report_);
   }
 
@@ -462,13 +463,14 @@ class Measurement {
       if (!(std::abs(raw_[t].signed_uv_area) > 0) || d.degenerate_uv) continue;
       std::array<Vec2, 3> corners{uv_of(3 * t), uv_of(3 * t + 1), uv_of(3 * t + 2)};
       if (raw_[t].signed_uv_area < 0) std::swap(corners[1], corners[2]);
-      triangles.push_back({corners, d.chart});
+      triangles.push_back({corners, options_.part.empty() ? 0 : options_.part[t]});
       number.push_back(t);
     }
-    const param_detail::UvOverlap within = param_detail::find_uv_overlap(triangles, options_.overlap_rows);
-    for (std::size_t i = 0; i < number.size(); ++i)
-      triangles[i].group = options_.part.empty() ? 0 : options_.part[number[i]];
     const param_detail::UvOverlap any = param_detail::find_uv_overlap(triangles, options_.overlap_rows);
+    // Charts are those of one part: without an overlap there, there is none within them.
+    if (std::find(any.overlaps.begin(), any.overlaps.end(), 1) == any.overlaps.end()) return;
+    for (std::size_t i = 0; i < number.size(); ++i) triangles[i].group = report_.per_triangle[number[i]].chart;
+    const param_detail::UvOverlap within = param_detail::find_uv_overlap(triangles, options_.overlap_rows);
     report_.overlap_area_fraction = any.fraction;
     report_.overlap_within_charts = within.fraction;
     for (std::size_t i = 0; i < number.size(); ++i) {

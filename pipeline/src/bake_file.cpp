@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "papilla/core/progress_until.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
@@ -109,7 +110,7 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
                const BakeFileOptions& options, const ProgressCallback& progress, BakeFileResult& result) {
   const Stopwatch total;
   GltfOrigin origin;
-  Scene scene = read_for_edit(input, options.read, progress, origin);
+  Scene scene = read_for_edit(input, options.read, progress_until(progress, options.read_deadline), origin);
   if (assigns_groups_apart(scene, rules, origin.nodes)) return false;
   const double read_seconds = total.seconds();
   BakeOptions bake = options.bake;
@@ -160,6 +161,8 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
   plan.in_place = result.way.in_place;
   if (plan.in_place) plan.levels = std::move(origin.levels);
   static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
+  for (const std::string& name : grains_of(result.surfaces))
+    result.grains.push_back(plan_grain(rules.materials.at(name), options.bake.library));
   return result;
 }
 
@@ -172,7 +175,7 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
     result.way = {false, k_instances_apart};
   }
   const Stopwatch total;
-  Scene scene = read_scene(input, options.read, progress);
+  Scene scene = read_scene(input, options.read, progress_until(progress, options.read_deadline));
   const double read_seconds = total.seconds();
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
   result.seconds["read"] = read_seconds;

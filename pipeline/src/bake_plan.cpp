@@ -224,6 +224,13 @@ void note_rules(const Assignment& assignment, bool strict, const std::string& so
 
 }  // namespace
 
+std::set<std::string> grains_of(const std::vector<PartSurface>& surfaces) {
+  std::set<std::string> names;
+  for (const PartSurface& surface : surfaces)
+    if (has_relief(surface)) names.insert(surface.material);
+  return names;
+}
+
 std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& assignment,
                                        const std::vector<PartPerception>& perception, bool in_place) {
   std::vector<PartSurface> surfaces = split_by_slot(scene, assignment);
@@ -271,7 +278,10 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
   if (options.budget) {
     Scene drawn = scene;
     leave_out(drawn, plan.perception);
-    plan.budget = fit_scene_to_budget(drawn, *options.budget);
+    SimplifyOptions simplify;
+    simplify.deadline = options.deadline;
+    simplify.progress = progress;
+    plan.budget = fit_scene_to_budget(drawn, *options.budget, simplify);
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
       if (plan.perception.parts[i].left_out.empty()) scene.parts[i].mesh = plan.budget->parts[i].mesh;
     for (SimplifyResult& part : plan.budget->parts) {

@@ -49,6 +49,7 @@ RepairSceneResult repair_scene(Scene scene, const RepairSceneOptions& options, c
   result.parts = repair_parts(scene, options.repair, progress);
   result.total = total_repair(result.parts);
   show_both_sides(scene, slots_without_back(result.parts), options.sides.add_materials);
+  if (result.total.unfinished_triangles > 0) result.stop = StopReason::time_limit;
   result.sides = turn_sheets(scene, options.sides);
   result.scene = std::move(scene);
   result.seconds = clock.seconds();

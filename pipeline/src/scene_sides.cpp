@@ -95,6 +95,10 @@ void show_both_sides(Scene& scene, const std::set<PartSlot>& slots, bool add_mat
 SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
   SceneSides found;
   if (options.keep) return found;
+  if (options.deadline.passed()) {
+    found.skipped = "the time limit left no time for it";
+    return found;
+  }
   const Stopwatch clock;
   const std::vector<PlacedMesh> uses = placed_meshes(scene, instances(scene));
   SheetSides sides;

@@ -15,9 +15,10 @@
 namespace papilla {
 namespace {
 
-SimplifyResult simplify_part(const TriangleMesh& mesh, const SimplifySceneOptions& o) {
+SimplifyResult simplify_part(const TriangleMesh& mesh, const SimplifySceneOptions& o, ProgressCallback progress) {
   if (mesh.triangles.empty() || (!o.tolerance_mm && !o.ratio)) return {mesh, mesh.triangles.size(), {}, {}, {}};
   SimplifyOptions options = o.simplify;
+  options.progress = std::move(progress);
   if (o.tolerance_mm) options.tolerance_mm = *o.tolerance_mm;
   if (o.ratio)
     options.target_triangles = std::max<std::size_t>(
@@ -28,14 +29,17 @@ SimplifyResult simplify_part(const TriangleMesh& mesh, const SimplifySceneOption
 std::vector<SimplifyResult> simplify_parts(const Scene& scene, const SimplifySceneOptions& options,
                                            const ProgressCallback& progress) {
   std::vector<SimplifyResult> results(scene.parts.size());
-  SharedProgress done(progress, "simplify", static_cast<double>(results.size()));
+  double triangles = 0;
+  for (const Part& part : scene.parts) triangles += static_cast<double>(part.mesh.triangles.size());
+  SharedProgress done(progress, "simplify", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
+    WorkProgress work(done, static_cast<double>(scene.parts[i].mesh.triangles.size()));
     try {
-      results[i] = simplify_part(scene.parts[i].mesh, options);
+      results[i] = simplify_part(scene.parts[i].mesh, options, work.callback());
     } catch (const InvalidInput& error) {
       throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }
-    done.add(1);
+    work.reach(1);
   });
   return results;
 }
@@ -68,7 +72,9 @@ SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& opti
   }
   double finest_mm = options.tolerance_mm.value_or(0);
   if (options.budget) {
-    result.budget = fit_scene_to_budget(scene, *options.budget, options.simplify);
+    SimplifyOptions simplify = options.simplify;
+    simplify.progress = progress;
+    result.budget = fit_scene_to_budget(scene, *options.budget, simplify);
     result.parts = std::move(result.budget->parts);
     finest_mm = result.budget->tolerance_mm;
   } else {
@@ -77,6 +83,7 @@ SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& opti
   for (const SimplifyResult& part : result.parts) {
     result.triangles.push_back(part.mesh.triangles.size());
     if (part.triangles_before == 0) continue;
+    if (part.stop == StopReason::time_limit) result.stop = part.stop;
     result.max_deviation_mm = std::max(result.max_deviation_mm, part.deviation.bound());
     result.max_deviation_met_mm = std::max(result.max_deviation_met_mm, part.deviation.value());
   }
@@ -86,6 +93,8 @@ SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& opti
     scene.parts[i].mesh = std::move(result.parts[i].mesh);
   }
   if (options.levels.asked()) result.levels = add_levels(scene, originals, options.levels, options.simplify, finest_mm);
+  for (const LevelReport& level : result.levels)
+    if (level.stop == StopReason::time_limit) result.stop = level.stop;
   result.triangles_after = drawn_triangles(scene);
   result.scene = std::move(scene);
   result.seconds = clock.seconds();
@@ -164,7 +173,8 @@ std::vector<LevelReport> add_levels(Scene& scene, std::span<const TriangleMesh> 
                          level.result.deviation.bound(),
                          0,
                          level.result.triangles_before,
-                         level.result.mesh.triangles.size()};
+                         level.result.mesh.triangles.size(),
+                         level.result.stop};
       if (level.kept) {
         report.screen_coverage = std::min(1.0, size / (k_picture_height_px * level.tolerance_mm));
         part.levels.push_back({std::move(level.result.mesh), report.screen_coverage});

@@ -80,6 +80,28 @@ std::vector<std::uint32_t> used_slots(const TriangleMesh& mesh) {
   return slots;
 }
 
+std::vector<std::string> steps_of(std::string_view path) {
+  std::vector<std::string> steps;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    steps.emplace_back(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return steps;
+}
+
+/// "; did you mean ..." of the first name in a path's pattern that no path has.
+std::string near_step(const std::string& pattern, const std::set<std::string_view>& paths) {
+  std::set<std::string> known;
+  for (const std::string_view path : paths)
+    for (std::string& step : steps_of(path)) known.insert(std::move(step));
+  for (const std::string& step : steps_of(pattern))
+    if (step != "**" &&
+        std::none_of(known.begin(), known.end(), [&](const std::string& name) { return matches_glob(step, name); }))
+      return did_you_mean(step, {known.begin(), known.end()});
+  return "";
+}
+
 /// "; did you mean ..." of the names that a key is compared with.
 std::string near_name(const SelectorKey& key, const std::string& pattern, const std::vector<SurfacePlace>& places) {
   std::set<std::string_view> names;
@@ -91,7 +113,9 @@ std::string near_name(const SelectorKey& key, const std::string& pattern, const 
       return "; did you mean '" + shown(anywhere) + "'?";
   }
   if (names.empty()) return "; the scene has none";
-  return did_you_mean(pattern, {names.begin(), names.end()});
+  std::string near = did_you_mean(pattern, {names.begin(), names.end()});
+  if (near.empty() && key.kind == SelectorKey::Kind::path_glob) near = near_step(pattern, names);
+  return near;
 }
 
 std::string quoted_key(const SelectorKey& key, const std::string& pattern) {

@@ -147,7 +147,9 @@ UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const 
   UnwrappedPart result;
   const Stopwatch repair_clock;
   if (options.repair) {
-    result.repaired = repair(std::move(mesh));
+    RepairOptions in_time;
+    in_time.deadline = options.method.deadline;
+    result.repaired = repair(std::move(mesh), in_time);
     mesh = std::exchange(result.repaired->mesh, {});
   } else {
     mesh = weld_equal(std::move(mesh)).mesh;
@@ -174,17 +176,18 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
   if (takes_charts(options.method.method) && options.method.charts == ChartSource::uv) require_uv_of_parts(scene);
   UnwrapResult result;
   result.scene = std::move(scene);
-  result.sides = turn_sheets(result.scene, options.sides);
+  double triangles = 0;
+  for (const Part& part : result.scene.parts) triangles += static_cast<double>(part.mesh.triangles.size());
+  UnwrapOptions in_time = options;
+  in_time.sides.deadline = in_time.method.deadline =
+      options.method.deadline.earlier_by(k_seconds_to_finish * triangles);
+  result.sides = turn_sheets(result.scene, in_time.sides);
   std::vector<Part>& parts = result.scene.parts;
   result.parts.resize(parts.size());
   result.grain_mm = grain_size(options);
   const PartContext shared_context = unwrap_context(result.scene, options.tile_mm);
   std::vector<std::exception_ptr> failures(parts.size());
   std::vector<double> start(parts.size(), 0);
-  double triangles = 0;
-  for (const Part& part : parts) triangles += static_cast<double>(part.mesh.triangles.size());
-  UnwrapOptions in_time = options;
-  in_time.method.deadline = options.method.deadline.earlier_by(k_seconds_to_finish * triangles);
   SharedProgress done(progress, "unwrap", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
     const std::string place = "part '" + shown_name(parts[p]) + "': ";

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A full disk: exit code 3 and one line with the system's reason, whatever is written.
+# A full disk: exit code 3 and one line with the system's reason, or the bytes that are needed, whatever is written.
 # usage: full_disk_test.sh PAPILLA PLAYER FOLDER
 set -u
 papilla=$1 player=$2
@@ -13,7 +13,8 @@ full() {
   shift
   "$@" 2>err.txt </dev/null
   got=$?
-  if [[ $got != 3 || $(wc -l <err.txt) != 1 ]] || ! grep -q "$output.*: No space left on device" err.txt; then
+  if [[ $got != 3 || $(wc -l <err.txt) != 1 ]] ||
+    ! grep -Eq "$output.*: (No space left on device|takes [0-9]+ bytes, [0-9]+ are free on its file system)" err.txt; then
     fail "exit $got: $*: $(cat err.txt)"
   fi
 }
@@ -67,6 +68,21 @@ if mount -t tmpfs -o size=16k none disk 2>/dev/null; then
     full disk/ $command -q
     [[ -z $(find disk -name '.papilla-*' -o -name 'a.*') ]] || fail "$command left $(find disk -type f)"
   done
+  # There is space for a block, but not for the result, whose size is known.
+  rm disk/rest
+  awk 'BEGIN { for (y = 0; y < 15; ++y) for (x = 0; x < 15; ++x) print "v", x, y, (x * y) % 3
+    for (y = 0; y < 14; ++y) for (x = 1; x < 15; ++x) { a = 15 * y + x; print "f", a, a + 1, a + 16; print "f", a, a + 16, a + 15 } }' >grid.obj
+  for extension in stl glb obj ply off; do
+    for command in repair "simplify --ratio 0.99" unwrap "bake -m rules.json"; do
+      [[ $extension == glb || $command == repair || $extension == stl && $command == simplify* ]] || continue
+      # shellcheck disable=SC2086
+      full disk/a $papilla $command grid.obj -o disk/a.$extension -q
+      grep -q 'takes [1-9][0-9]* bytes, ' err.txt || fail "$command, $extension: $(cat err.txt)"
+      [[ -z $(ls disk/a.* disk/.papilla-* 2>/dev/null) ]] || fail "$command left $(ls -a disk)"
+    done
+  done
+  full disk/a "$papilla" repair grid.obj -o disk/a.stl -q
+  grep -q 'takes 19684 bytes, ' err.txt || fail "392 triangles of STL: $(cat err.txt)"
 else
   echo "no right to mount a small disk: only /dev/full was tried"
 fi

@@ -12,10 +12,14 @@ fail() {
   failures=$((failures + 1))
 }
 
-# said FILE FORMAT VERB: runs the verb; its report is in said.json.
+# said FILE FORMAT VERB: runs the verb; its report is in said.json. A file may be refused.
 said() {
   rm -f "out.$2"
+  local got
   timeout 300 "$papilla" "$3" "$1" -o "out.$2" --json said.json --quiet >/dev/null 2>err.txt </dev/null
+  got=$?
+  ((got <= 4)) || fail "$3 $1 to $2: exit code $got"
+  return "$got"
 }
 
 # same NAME: what was said is what was found.

@@ -265,10 +265,29 @@ TEST_F(AtomicFile, AFullDiskIsNamedWithTheSystemsReason) {
   fs::create_directory(disk);
   if (::mount("none", disk.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "no right to mount a small disk";
   write_atomically(disk / "a.txt", "old");
-  EXPECT_EQ(reason(disk / "a.txt", std::string(200000, 'x')), (disk / "a.txt").string() + ": No space left on device");
+  EXPECT_EQ(reason(disk / "a.txt", std::string(200000, 'x')),
+            (disk / "a.txt").string() + ": takes 200000 bytes, 61440 are free on its file system");
+  const auto unknown_size = [](std::ostream& out) { out << std::string(200000, 'x'); };
+  EXPECT_THROW(write_atomically(disk / "a.txt", unknown_size), IoError);
   EXPECT_EQ(content(disk / "a.txt"), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(disk), fs::directory_iterator()), 1);
   EXPECT_EQ(::umount(disk.c_str()), 0);
+}
+
+TEST_F(AtomicFile, WhatHasNoSpaceIsNotBegun) {
+  const std::uintmax_t bytes = std::uintmax_t{1} << 62;
+  bool is_begun = false;
+  try {
+    write_atomically(
+        folder_ / "a.txt", [&](std::ostream&) { is_begun = true; }, bytes);
+    FAIL() << "no exception";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.txt: takes 4611686018427387904 bytes, "), std::string::npos);
+  }
+  EXPECT_FALSE(is_begun);
+  EXPECT_TRUE(files().empty());
+  EXPECT_NO_THROW(write_atomically(
+      "/dev/null", [](std::ostream&) {}, bytes));
 }
 
 TEST_F(AtomicFile, WritesToPipesAndDevicesAsTheyAre) {

@@ -27,6 +27,9 @@ TEST(NearName, StarsOfAPatternStandForAnyText) {
 TEST(NearName, MayContainTheWord) {
   EXPECT_EQ(did_you_mean("cushion", {"rim", "cockpit/seat/cushion"}), "; did you mean 'cockpit/seat/cushion'?");
   EXPECT_EQ(did_you_mean("cu", {"cockpit/seat/cushion"}), "");
+  EXPECT_EQ(did_you_mean("Leathr", {"Glass", "Leather_Brown_01"}), "; did you mean 'Leather_Brown_01'?");
+  EXPECT_EQ(did_you_mean("cusion*", {"cockpit/seat/cushion_left"}), "; did you mean 'cockpit/seat/cushion_left'?");
+  EXPECT_EQ(did_you_mean("seed", {"cockpit/seat/cushion_left"}), "");
 }
 
 TEST(NearName, AmongFewNamesTheNearestOneIsNamed) {

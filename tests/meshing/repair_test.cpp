@@ -216,5 +216,21 @@ TEST_P(Neighbours, FarAwayChangeNothing) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, Neighbours, testing::Range(1u, 13u));
 
+TEST(Repair, WhatIsNotDoneByTheDeadlineStaysAsItCame) {
+  const TriangleMesh mesh = joined(lattice_soup(60, 2), moved(soup_of(cube(2)), {100, 0, 0}));
+  RepairOptions options;
+  options.deadline = Deadline(-1);
+  const RepairResult result = repair(mesh, options);
+  EXPECT_FALSE(result.settled);
+  EXPECT_EQ(result.unfinished_triangles, mesh.triangles.size());
+  EXPECT_EQ(total_repair(std::vector{result, result}).unfinished_triangles, 2 * mesh.triangles.size());
+  ASSERT_EQ(result.mesh.triangles.size(), mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(result.mesh.corner(t, k), mesh.corner(t, k));
+  options.deadline = Deadline(60);
+  EXPECT_EQ(repair(mesh, options).mesh.triangles, repair(mesh).mesh.triangles);
+  EXPECT_EQ(repair(mesh, options).unfinished_triangles, 0U);
+}
+
 }  // namespace
 }  // namespace papilla

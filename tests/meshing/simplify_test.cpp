@@ -378,5 +378,42 @@ TEST(LevelsOfDetail, EachHoldsItsToleranceAndComesFromTheOneBefore) {
   EXPECT_THROW(levels_of_detail(torus, std::vector<double>{0}), InvalidInput);
 }
 
+TEST(Simplify, EndsAtTheDeadlineWithWhatHoldsTheTolerance) {
+  const TriangleMesh sphere = test::uv_sphere(10, 60, 90);
+  for (const double seconds : {-1.0, 0.06, 0.1, 0.3, 1.0}) {
+    SCOPED_TRACE(seconds);
+    SimplifyOptions options = within(0.2);
+    options.deadline = Deadline(seconds);
+    const SimplifyResult r = simplify(sphere, options);
+    EXPECT_LE(r.deviation.bound(), 0.2);
+    EXPECT_LE(surface_deviation(sphere, r.mesh).value(), 0.2);
+    EXPECT_LE(r.mesh.triangles.size(), sphere.triangles.size());
+    if (seconds > 0) continue;
+    EXPECT_EQ(r.stop, StopReason::time_limit);
+    EXPECT_EQ(r.mesh.triangles.size(), sphere.triangles.size());
+  }
+  SimplifyOptions to_share;
+  to_share.target_triangles = 100;
+  to_share.deadline = Deadline(-1);
+  EXPECT_EQ(simplify(sphere, to_share).stop, StopReason::time_limit);
+  EXPECT_EQ(simplify(sphere, to_share).mesh.triangles.size(), sphere.triangles.size());
+  const std::vector<SimplifyResult> levels = levels_of_detail(sphere, std::vector{0.1, 0.4}, to_share);
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_EQ(levels[1].stop, StopReason::time_limit);
+}
+
+TEST(Simplify, ProgressGoesOnWithinOneMeshAndCancels) {
+  const TriangleMesh sphere = test::uv_sphere(10, 60, 90);
+  std::vector<double> told;
+  SimplifyOptions options = within(0.2);
+  options.progress = [&](const Progress& done) { return told.push_back(done.fraction), true; };
+  simplify(sphere, options);
+  EXPECT_GT(told.size(), 20U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LE(told.back(), 1);
+  options.progress = [](const Progress&) { return false; };
+  EXPECT_THROW(simplify(sphere, options), Cancelled);
+}
+
 }  // namespace
 }  // namespace papilla

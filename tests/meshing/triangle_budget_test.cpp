@@ -85,5 +85,37 @@ TEST(TriangleBudget, RefusesBadInput) {
   EXPECT_THROW(simplify_to_budget(std::vector<BudgetPart>{{&cube}}, 0), InvalidInput);
 }
 
+TEST(TriangleBudget, EndsAtTheDeadlineWithWhatIsMeasured) {
+  const TriangleMesh a = test::uv_sphere(10, 45, 60), b = test::uv_sphere(20, 45, 60);
+  const std::vector<BudgetPart> parts{{&a, 1, 1}, {&b, 1, 3}};
+  for (const double seconds : {-1.0, 0.1, 0.3, 0.6, 1.2}) {
+    SCOPED_TRACE(seconds);
+    SimplifyOptions options;
+    options.deadline = Deadline(seconds);
+    const BudgetResult r = simplify_to_budget(parts, 2400, options);
+    EXPECT_EQ(r.reached, r.triangles <= 2400);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      EXPECT_LE(surface_deviation(*parts[i].mesh, r.parts[i].mesh).value(), r.parts[i].deviation.bound() + 1e-9);
+    if (seconds > 0) continue;
+    EXPECT_FALSE(r.reached);
+    EXPECT_EQ(r.stop, StopReason::time_limit);
+    EXPECT_EQ(r.parts[0].stop, StopReason::time_limit);
+    EXPECT_EQ(r.triangles, a.triangles.size() + 3 * b.triangles.size());
+  }
+}
+
+TEST(TriangleBudget, ProgressGoesOnWithinOneTrialAndCancels) {
+  const TriangleMesh a = test::uv_sphere(10, 45, 60);
+  const std::vector<BudgetPart> parts{{&a}};
+  std::vector<double> told;
+  SimplifyOptions options;
+  options.progress = [&](const Progress& done) { return told.push_back(done.fraction), true; };
+  simplify_to_budget(parts, 1000, options);
+  EXPECT_GT(told.size(), 40U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  options.progress = [](const Progress&) { return false; };
+  EXPECT_THROW(simplify_to_budget(parts, 1000, options), Cancelled);
+}
+
 }  // namespace
 }  // namespace papilla

@@ -237,6 +237,22 @@ TEST(Measure, OverlapBetweenChartsIsToldFromOverlapWithin) {
   EXPECT_EQ(r.overlapping_within_charts, 0u);
 }
 
+TEST(Measure, OverlapNeedNotBeLookedFor) {
+  const TriangleMesh mesh = test::cube(1);
+  CornerAttribute<Vec2> uv;
+  uv.values = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (std::size_t t = 0; t < 12; ++t) uv.indices.push_back(t % 2 == 0 ? Triangle{0, 1, 2} : Triangle{0, 2, 3});
+  MeasureOptions options;
+  options.overlap = false;
+  const DistortionReport with = measure_distortion(mesh, uv), without = measure_distortion(mesh, uv, options);
+  EXPECT_TRUE(with.has_overlap);
+  EXPECT_FALSE(without.has_overlap);
+  EXPECT_EQ(without.overlapping_triangles, 0u);
+  EXPECT_EQ(without.overlap_area_fraction, 0);
+  EXPECT_EQ(without.charts, with.charts);
+  EXPECT_EQ(without.stretch_l2, with.stretch_l2);
+}
+
 TEST(Measure, CoincidentChartsCoverEverythingTwice) {
   TriangleMesh mesh = test::cube(1);
   CornerAttribute<Vec2> uv;  // every face fills the same square

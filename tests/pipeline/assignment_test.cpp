@@ -179,6 +179,9 @@ TEST(Assignment, ARuleThatTakesNothingSaysWhyWithANearName) {
             "node 'cockpit/seta_left/cushion' matches nothing; did you mean 'cockpit/seat_left/cushion'?");
   EXPECT_EQ(problem(rule(&S::layer, "visibel", "soft")), "layer 'visibel' matches nothing; did you mean 'visible'?");
   EXPECT_EQ(problem(rule(&S::gltf_material, "x", "soft")), "gltf_material 'x' matches nothing; the scene has none");
+  EXPECT_EQ(problem(rule(&S::node, "**/seat_lfet/*/seam*", "soft")),
+            "node '**/seat_lfet/*/seam*' matches nothing; did you mean 'seat_left'?");
+  EXPECT_EQ(problem(rule(&S::node, "**/tray*", "soft")), "node '**/tray*' matches nothing");
   AssignRule both = rule(&S::part, "cushion", "soft");
   both.layer = "trim";
   EXPECT_EQ(problem(both), "part 'cushion', layer 'trim' matches nothing together");

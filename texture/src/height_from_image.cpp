@@ -272,7 +272,8 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
                        const HeightResult& result) {
   constexpr int k_least_side = 32;
   const bool measurable = std::min(residual.width, residual.height) >= k_least_side;
-  const double hurst = measurable ? std::clamp(best_dimension(residual).estimate.hurst, 0.05, 0.95) : 0.5;
+  const auto fractal = measurable ? best_dimension(residual).estimate : std::nullopt;
+  const double hurst = fractal ? std::clamp(fractal->hurst, 0.05, 0.95) : 0.5;  // Without a law the middle.
   const double pitch = result.map.pitch_mm_x;
   const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
   Field noise =
@@ -289,7 +290,10 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
 Field relief_with_roughness(const GreyImage& image, const Lattice& lattice, const HeightOptions& options,
                             HeightResult& result) {
   const SymmetricPart part = symmetric_part(image, lattice.vectors_px);
-  Field field = relief_of(result.tile ? fill_tile(part.primitive, *result.tile) : part.synthesis, options, result);
+  const GreyImage& cell = options.primitive ? *options.primitive : part.primitive;
+  GreyImage regular = result.tile ? fill_tile(cell, *result.tile) : part.synthesis;
+  regular.bits = image.bits;  // Of the camera: the mean is as it stored the grey values.
+  Field field = relief_of(regular, options, result);
   const double range = range_of(field);
   if (range > 0)
     for (double& value : field) value /= range;
@@ -392,6 +396,15 @@ HeightMap opposite_relief(const HeightMap& relief) {
   return result;
 }
 
+HeightChoice choose_height_method(const GreyImage& image, const HeightOptions& options) {
+  texture_detail::require_image(image, "choose_height_method");
+  require_options(options);
+  HeightResult result;
+  result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
+  choose_method(SamplesInMemory(image.pixels, image.width, image.height), image.bits, options, result);
+  return {result.method, result.reason};
+}
+
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options) {
   texture_detail::require_image(image, "height_from_image");
   require_options(options);
@@ -402,16 +415,23 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   result.map.pitch_mm_x = result.map.pitch_mm_y = pitch;
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
   const bool composes = options.tile || options.roughness != HeightRoughness::whole;
-  const Lattice lattice = options.lattice ? *options.lattice
-                          : composes      ? analyze_symmetry(image, {}, FeatureKind::squared, options.progress).lattice
-                                          : Lattice{};
+  Lattice lattice;
+  std::optional<GreyImage> straight;  // Only a straight picture has the mean cell that tiles.
+  if (options.lattice) {
+    lattice = *options.lattice;
+  } else if (composes) {
+    SymmetryAnalysis symmetry = analyze_symmetry(image, {}, FeatureKind::squared, options.progress);
+    lattice = std::move(symmetry.lattice);
+    if (options.tile && symmetry.deformation && symmetry.straight->pixels.size() == image.pixels.size())
+      straight = std::move(symmetry.straight);
+  }
   choose_method(SamplesInMemory(image.pixels, image.width, image.height), image.bits, options, result);
   if (options.tile) choose_tile(image, lattice, result);
   Field field;
   if (composes && lattice.found) {
     const bool tiles = options.tile && options.roughness != HeightRoughness::none;
     result.roughness = tiles ? HeightRoughness::synthesized : options.roughness;
-    field = relief_with_roughness(image, lattice, options, result);
+    field = relief_with_roughness(straight ? *straight : image, lattice, options, result);
   } else {
     field = relief_of(image, options, result);
   }

@@ -211,7 +211,7 @@ double ShadingSpectrum::noise_ratio(double wx, double wy) const {
 
 double ShadingSpectrum::expected_correlation() const {
   constexpr double k_longest_waves = 1.5;  // Waves per side; longer ones are the flattening's.
-  constexpr double k_measured = 0.93;      // Mean of the true correlation over the expected one; see variational.md.
+  constexpr double k_measured = 0.93;      // Mean of the true correlation over the expected one; see wiener.md.
   const double least = 2 * k_pi * k_longest_waves / std::max(smooth_.width, smooth_.height);
   double kept = 0, all = 0;
   for (int v = 0; v < smooth_.height; ++v)

@@ -168,6 +168,9 @@ class Residuals {
       residuals[2 * i] = weights_[i][0] * ranks[i] / rank_scale_;
       residuals[2 * i + 1] = weights_[i][1] * curls[i] / curl_scale_;
     }
+    // Level ground has no scale; Ceres would say so on stderr.
+    if (!std::all_of(residuals, residuals + 2 * crosses_.size(), [](double r) { return std::isfinite(r); }))
+      return false;
     constexpr double k_usual = 0.2, k_spread = 0.35;  // Of the logarithm of cot(elevation).
     for (Eigen::Index k = 0; k < lights_; ++k)
       residuals[2 * crosses_.size() + static_cast<std::size_t>(k)] =

@@ -245,7 +245,8 @@ Json repair_numbers_json(const RepairResult& result) {
           {"lost_mm", result.lost_mm},
           {"added_mm", result.added_mm},
           {"sampled", result.sampled},
-          {"refused", {{"triangles", result.refused_triangles}, {"deviation_mm", result.refused_mm}}}};
+          {"refused", {{"triangles", result.refused_triangles}, {"deviation_mm", result.refused_mm}}},
+          {"unfinished_triangles", result.unfinished_triangles}};
 }
 
 Json repair_json(const RepairSceneResult& result, const WrittenRepair& written, const RepairSceneOptions& options) {
@@ -262,6 +263,7 @@ Json repair_json(const RepairSceneResult& result, const WrittenRepair& written, 
                {"parts", result.parts.size()},
                {"identical_parts", shared_parts_json(result.shared, result.scene)},
                {"unsettled", unsettled},
+               {"stop", to_string(result.stop)},
                {"losses", result.scene.losses},
                {"warnings", result.scene.warnings},
                {"seconds", result.seconds}});
@@ -287,6 +289,7 @@ Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions
                                 {"max_deviation_mm", level.max_deviation_mm},
                                 {"screen_coverage", level.screen_coverage}});
   json["triangles_after"] = result.triangles_after;
+  json["stop"] = to_string(result.stop);
   json["parts"] = Json::array();
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
     const SimplifyResult& part = result.parts[i];

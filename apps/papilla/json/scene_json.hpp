@@ -61,14 +61,16 @@ Json inspect_json(const Scene& scene, const std::vector<MeshStatistics>& statist
 /// {part, node, layers[], cad_materials[], colour, material} a surface and use.
 Json nodes_json(const std::vector<SurfacePlace>& places);
 Json tessellation_json(const Scene& scene, const CadReport& report);
-/// {operations{}, deviations_mm{}, tolerance_mm, lost_mm, added_mm, sampled, refused{triangles, deviation_mm}}: what
+/// {operations{}, deviations_mm{}, tolerance_mm, lost_mm, added_mm, sampled, refused{triangles, deviation_mm},
+/// unfinished_triangles}: what
 /// every verb says that repairs.
 Json repair_numbers_json(const RepairResult& result);
 Json repair_json(const RepairSceneResult& result, const WrittenRepair& written, const RepairSceneOptions& options);
 Json simplify_json(const SimplifySceneResult& result, const SimplifySceneOptions& options);
 Json unwrap_json(const UnwrapResult& result, const UnwrapOptions& options, const SceneDistortion& distortion);
 
-/// The report's numbers by their key names in JSON; the keys of nested objects are joined by dots.
+/// The report's numbers by their key names in JSON; the keys of nested objects are joined by dots. Without those of
+/// overlap when it was not looked for.
 using DistortionNumbers = std::vector<std::pair<std::string, std::variant<std::uint64_t, double>>>;
 DistortionNumbers distortion_numbers(const DistortionReport& report);
 
@@ -80,6 +82,8 @@ Json histogram_json(const DistortionReport& report);
 
 /// {part, material, stage, run, reason} a line.
 Json plan_json(const std::vector<PartSurface>& surfaces);
+/// {material, steps[] {step, run, reason}, problem} a grain.
+Json grain_plans_json(const std::vector<GrainPlan>& plans);
 /// {part, material, mm_per_unit, flipped, degenerate, overlapping, note, lost[]} a line, of surfaces with grain.
 Json own_uv_json(const std::vector<PartSurface>& surfaces);
 /// {in_place, reason}.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "json/json.hpp"
@@ -11,11 +12,17 @@
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
+#include "papilla/texture/part_roughness.hpp"
 #include "papilla/texture/prepare.hpp"
 
 namespace papilla::app {
 
 // Results on textures under the key names of docs/files.md.
+
+/// {step, run, reason} a line.
+Json steps_json(const AnalysisPlan& steps);
+/// {hurst, rms_mm, wavelength_range_mm[], anisotropy{ratio, direction_deg}}; null without one.
+Json roughness_model_json(const std::optional<RoughnessModel>& roughness);
 
 /// Of `analyze`, `height`, `prepare`, `synthesize`, `texture` and `texture --sheet`.
 Json survey_json(const std::string& image, const TextureSurvey& survey);

@@ -4,28 +4,39 @@
 #include <cmath>
 #include <iterator>
 
+#include "papilla/io/node_places.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
 
 namespace papilla::app {
+
+namespace {
+
+std::string overlap_line(const DistortionReport& r) {
+  if (!r.has_overlap) return "overlap not looked for: the time limit left no time for it\n";
+  return shown_format("overlap {:.4g} of the uv area, {:.4g} within charts\n", r.overlap_area_fraction,
+                      r.overlap_within_charts);
+}
+
+}  // namespace
 
 std::string distortion_text(const Scene& scene, const SceneDistortion& distortion) {
   const DistortionReport& r = distortion.report;
   std::string text = shown_format(
       "{} triangles in {} charts, seams {:.1f} mm\n"
       "flipped {}, mirrored charts {}, degenerate {} in space and {} in uv\n"
-      "overlap {:.4g} of the uv area, {:.4g} within charts\n"
+      "{}"
       "symmetric Dirichlet {:.4f} by area, half below {:.4f}, 99 % below {:.4f}, max {:.4g}\n"
       "stretch L2 {:.4f}, L∞ {:.4g}\n"
       "angle error {:.3f}° (max {:.3g}°), area ratio {:.4g} to {:.4g}, edge length error {:.3g}\n",
       r.triangles, r.charts, r.seam_length_mm, r.flipped, r.mirrored_charts, r.degenerate_3d, r.degenerate_uv,
-      r.overlap_area_fraction, r.overlap_within_charts, r.symmetric_dirichlet.mean,
-      r.symmetric_dirichlet_percentiles.p50, r.symmetric_dirichlet_percentiles.p99, r.symmetric_dirichlet.max,
-      r.stretch_l2, r.stretch_linf, r.angle_error_deg.mean, r.angle_error_deg.max, r.area_ratio.min, r.area_ratio.max,
-      r.edge_length_error);
+      overlap_line(r), r.symmetric_dirichlet.mean, r.symmetric_dirichlet_percentiles.p50,
+      r.symmetric_dirichlet_percentiles.p99, r.symmetric_dirichlet.max, r.stretch_l2, r.stretch_linf,
+      r.angle_error_deg.mean, r.angle_error_deg.max, r.area_ratio.min, r.area_ratio.max, r.edge_length_error);
   if (const auto worst = worst_chart(distortion))
     text += shown_format("most of it in chart {} of part '{}': {:.3g} % of the distortion, at triangle {} {:.4g}\n",
-                         worst->chart, scene.parts[worst->part].name, 100 * worst->share, worst->triangle, worst->max);
+                         worst->chart, shown_name(scene.parts[worst->part]), 100 * worst->share, worst->triangle,
+                         worst->max);
   return text;
 }
 

@@ -121,6 +121,10 @@ std::string tessellation_text(const Scene& scene, const CadReport& report) {
   return text;
 }
 
+std::string ending_line(StopReason stop) {
+  return stop == StopReason::time_limit ? "ended by the time limit: the best valid result so far\n" : "";
+}
+
 std::string repair_numbers_text(const RepairResult& result) {
   std::string done, text;
   for (const auto& [name, count] : k_repair_counts) {
@@ -146,6 +150,10 @@ std::string repair_numbers_text(const RepairResult& result) {
     text += shown_format(
         "not done: pieces of {} triangles stay as they came, as repair would have moved them by {:.3g} mm\n",
         result.refused_triangles, result.refused_mm);
+  if (result.unfinished_triangles > 0)
+    text +=
+        shown_format("not done: pieces of {} triangles stay as they came, as the time limit left no time for them\n",
+                     result.unfinished_triangles);
   return text;
 }
 
@@ -155,15 +163,19 @@ std::string repair_text(const RepairSceneResult& result, const WrittenRepair& wr
                        written.max_deviation_mm(result.total), result.total.weld_tolerance_mm);
   text += repair_numbers_text(result.total) + sides_text(result.sides, true);
   for (std::size_t i = 0; i < result.parts.size(); ++i)
-    if (!result.parts[i].settled) text += shown_format("not settled: {}\n", result.scene.parts[i].name);
-  return text;
+    if (!result.parts[i].settled && result.parts[i].unfinished_triangles == 0)
+      text += shown_format("not settled: {}\n", shown_name(result.scene.parts[i]));
+  return text + ending_line(result.stop);
 }
 
 std::string simplify_text(const SimplifySceneResult& result, const SimplifySceneOptions& options) {
   const Scene& scene = result.scene;
   std::string text;
   if (result.perception) text += left_out_table(scene, *result.perception);
-  if (result.budget && !result.budget->reached)
+  if (result.budget && !result.budget->reached && result.stop == StopReason::time_limit)
+    text += shown_format("the budget of {} triangles was not reached in time: {} are left within {:.3g} mm\n",
+                         *options.budget, result.budget->triangles, result.budget->tolerance_mm);
+  else if (result.budget && !result.budget->reached)
     text += shown_format(
         "the budget of {} triangles can't be reached: {} are left within {:.3g} mm, and more deviation saves hardly "
         "any\n",
@@ -183,7 +195,8 @@ std::string simplify_text(const SimplifySceneResult& result, const SimplifyScene
                            level.triangles_before, level.triangles, "-", name, level.tolerance_mm);
   }
   return text +
-         simplified_row(result.triangles_before, result.triangles_after, result.max_deviation_mm, "drawn in all");
+         simplified_row(result.triangles_before, result.triangles_after, result.max_deviation_mm, "drawn in all") +
+         ending_line(result.stop);
 }
 
 std::string unwrap_remarks(const UnwrapResult& result) {
@@ -194,7 +207,7 @@ std::string unwrap_remarks(const UnwrapResult& result) {
       text += shown_format(
           "part '{}' falls into {} charts, as {} of its {} inner edges have three triangles or more, or two that are "
           "wound against each other: repair it first, papilla repair IN -o CLEAN\n",
-          result.scene.parts[p].name, part.flattening.charts.count, part.nonmanifold_edges + part.opposed_pairs,
+          shown_name(result.scene.parts[p]), part.flattening.charts.count, part.nonmanifold_edges + part.opposed_pairs,
           part.shared_edges);
     else if (part.opposed_edges > 0)
       text += shown_format(
@@ -207,7 +220,7 @@ std::string unwrap_remarks(const UnwrapResult& result) {
       text += shown_format("{} charts did not take the method, the first: {}\n", part.flattening.notes.size(),
                            part.flattening.notes.front().reason);
   }
-  return text;
+  return text + ending_line(result.stop);
 }
 
 }  // namespace papilla::app

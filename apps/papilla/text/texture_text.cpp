@@ -22,13 +22,23 @@ class Lines {
 };
 
 void add_readings(Lines& lines, const FractalReadings& readings) {
-  for (const auto& [name, least_side, estimate] : named_readings(readings)) {
-    if (estimate)
-      lines.add("fractal    {:<12} D = {:.3f}  [{:.3f}, {:.3f}]\n", name, estimate->dimension, estimate->low,
-                estimate->high);
+  for (const FractalReading& reading : named_readings(readings)) {
+    if (reading.has_dimension())
+      lines.add("fractal    {:<12} D = {:.3f}  [{:.3f}, {:.3f}]\n", reading.name, reading.estimate->dimension,
+                reading.estimate->low, reading.estimate->high);
+    else if (reading.estimate)
+      lines.add("fractal    {:<12} no dimension: outside 2 to 3\n", reading.name);
+    else if (!reading.none.empty())
+      lines.add("fractal    {:<12} no dimension: {}\n", reading.name, reading.none);
     else
-      lines.add("fractal    {:<12} needs {} pixels a side\n", name, least_side);
+      lines.add("fractal    {:<12} needs {} pixels a side\n", reading.name, reading.least_side);
   }
+  if (!readings.best || !readings.best->power_law()) return;
+  const BestDimension& best = *readings.best;
+  lines.add(
+      "fractal    {} over wavelengths of {:.1f} to {:.0f} pixels; point spread {:.2f} px, noise {:.4f}, misfit "
+      "{:.2f}\n",
+      best.reason, best.least_scale_px, best.most_scale_px, best.psf_sigma_px, best.noise_rms, best.chi2_per_dof);
 }
 
 void add_groups(Lines& lines, const TextureSurvey& survey) {
@@ -40,6 +50,9 @@ void add_groups(Lines& lines, const TextureSurvey& survey) {
               to_string(group->group), group->order, 100 * group->kept);
     lines.add("symmetry   lattice ({:.2f}, {:.2f}), ({:.2f}, {:.2f}) pixels, significance {:.2f}, explains {:.0f} %\n",
               a.x, a.y, b.x, b.y, lattice.significance, 100 * analysis.explained_variance());
+    if (const auto& bent = analysis.deformation)
+      lines.add("symmetry   the lattice bends: displaced by {:.1f} % of the cell (rms), {:.1f} % at most\n",
+                bent->rms_percent_of_cell, bent->max_percent_of_cell);
   } else {
     lines.add("symmetry   no lattice: {} (significance {:.2f})\n", lattice.reason, lattice.significance);
   }
@@ -88,6 +101,7 @@ std::string survey_text(const std::string& image, const TextureSurvey& survey) {
                 lattice.none);
   }
   if (survey.fractal) add_readings(lines, *survey.fractal);
+  if (!survey.no_fractal.empty()) lines.add("fractal    not measured: {}; --only fractal does\n", survey.no_fractal);
   if (survey.groups) add_groups(lines, survey);
   if (survey.order) add_order(lines, *survey.order);
   for (const SurveyPicture& picture : survey.pictures) {

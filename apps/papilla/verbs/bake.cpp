@@ -69,7 +69,8 @@ Json run(const Options& options, VerbContext& context) {
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options(options.output);
   wanted.read = options.scene.read_options();
-  wanted.bake.unwrap.method.deadline = context.deadline;
+  wanted.bake.unwrap.method.deadline = wanted.bake.plan.deadline = wanted.bake.plan.sides.deadline = context.deadline;
+  wanted.read_deadline = context.read_deadline;
   wanted.write = options.write_options();
   wanted.for_pictures = options.pictures;
   if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
@@ -89,7 +90,9 @@ Json run(const Options& options, VerbContext& context) {
   if (const auto& budget = result.plan.budget)
     context.console.print(shown_format("budget of {} triangles: {} within {:.3g} mm{}\n", *wanted.bake.plan.budget,
                                        budget->triangles, budget->tolerance_mm,
-                                       budget->reached ? "" : "; more deviation saves hardly any"));
+                                       budget->reached                          ? ""
+                                       : budget->stop == StopReason::time_limit ? ", not reached in time"
+                                                                                : "; more deviation saves hardly any"));
   context.console.print(bake_table(result));
   print_notes(result.scene, context.console);
   context.console.print(changes_line(result.changes));

@@ -7,13 +7,18 @@
 #include "option_checks.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
+#include "papilla/core/progress_until.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
+#include "papilla/pipeline/simplify_scene.hpp"
 #include "scene_output.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
 namespace {
+
+/// Writing, reading and counting, a triangle: kept of the time that there is.
+constexpr double k_finishing_s = 4e-6;
 
 struct Options {
   std::string in, out;
@@ -27,7 +32,10 @@ Json run(const Options& options, VerbContext& context) {
   RepairSceneOptions repair = options.repair;
   if (options.verify) repair.repair.sample_above = std::numeric_limits<std::size_t>::max();
   repair.sides = options.sides.options(options.out);
-  Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
+  Scene scene =
+      read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.read_deadline));
+  repair.repair.deadline = repair.sides.deadline =
+      context.deadline.earlier_by(k_finishing_s * static_cast<double>(drawn_triangles(scene)));
   RepairSceneResult result =
       named_by(options.in, [&] { return repair_scene(std::move(scene), repair, context.progress); });
   write_output(result.scene, options.out, context.console);
@@ -46,7 +54,7 @@ void add_repair(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"repair", "Make clean, oriented, manifold parts of whatever a file holds.",
-                             "papilla repair scan.stl -o clean.glb"},
+                             "papilla repair scan.stl -o clean.glb", VerbInfo::AtDeadline::ends},
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB, glTF, FBX, 3MF, DAE, AC, X3D or BLEND file"))
       ->type_name("IN")

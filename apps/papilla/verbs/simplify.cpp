@@ -10,12 +10,15 @@
 #include "option_checks.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
+#include "papilla/core/progress_until.hpp"
 #include "scene_output.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
 namespace {
+
+constexpr double k_writing_s = 1e-6;  ///< A triangle: kept of the time that there is.
 
 struct Options {
   std::string in, out;
@@ -49,7 +52,9 @@ Json run(const Options& options, VerbContext& context) {
   wanted.perception = options.perception.options();
   wanted.simplify.two_sided = !options.one_sided;
   wanted.simplify.keep_faces = !options.merge_faces;
-  Scene scene = read_scene(options.in, options.read.read_options(), context.progress);
+  Scene scene =
+      read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.read_deadline));
+  wanted.simplify.deadline = context.deadline.earlier_by(k_writing_s * static_cast<double>(drawn_triangles(scene)));
   SimplifySceneResult result =
       named_by(options.in, [&] { return simplify_scene(std::move(scene), wanted, context.progress); });
   if (options.strict && result.budget && !result.budget->reached)
@@ -97,7 +102,7 @@ void add_simplify(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"simplify", "Leave out triangles within a tolerance that is measured, both ways.",
-                             "papilla simplify dash.glb -o light.glb --tolerance 0.1"},
+                             "papilla simplify dash.glb -o light.glb --tolerance 0.1", VerbInfo::AtDeadline::ends},
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("in", options->in, "File to read"))->type_name("IN")->required();
   writes(verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write"))

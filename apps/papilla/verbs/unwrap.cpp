@@ -11,6 +11,7 @@
 #include "options/side_option.hpp"
 #include "options/unwrap_option.hpp"
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/progress_until.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/pictures/uv_layout.hpp"
 #include "scene_output.hpp"
@@ -41,13 +42,16 @@ Json run(const Options& options, VerbContext& context) {
   UnwrapOptions unwrap = options.unwrap.options();
   unwrap.sides = options.sides.options(options.output);
   unwrap.method.deadline = context.deadline;
-  Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
+  Scene scene =
+      read_scene(options.input, options.scene.read_options(), progress_until(context.progress, context.read_deadline));
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
       named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
   write_output(result.scene, options.output, context.console);
   const Scene written = read_scene(options.output);  // what is said is what is written, in the file's precision
-  const SceneDistortion distortion = measure_scene(written);
+  MeasureOptions measure;
+  measure.overlap = !context.deadline.passed();
+  const SceneDistortion distortion = measure_scene(written, measure);
   if (!options.trace.empty()) write_atomically(options.trace, trace_csv(result.trace));
   if (!options.picture.empty())
     write_color_image(options.picture, draw_uv_layout(distortion.mesh.uv, distortion.report));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
@@ -16,9 +17,13 @@ namespace papilla {
 /// The temporary file has an unpredictable name, is new, and is locked until it is renamed. Temporary files that a
 /// killed process of the same user left in the folder are removed by the next process that writes there.
 /// The stream throws when the system refuses a byte. Its position can be set, except on devices and pipes.
-/// @throws IoError naming `path` and the system's reason; OverwriteRefused as note_output() of file_guard.hpp;
+/// @param bytes  that `write` will write at least, as far as known: when the file system has less space for this user,
+///        nothing is begun.
+/// @throws IoError naming `path` and the system's reason, or the bytes needed and free; OverwriteRefused as
+/// note_output() of file_guard.hpp;
 ///         whatever `write` throws passes through after the temporary file is removed.
-void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream& out)>& write);
+void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream& out)>& write,
+                      std::uintmax_t bytes = 0);
 
 /// The same for content that fits into memory.
 void write_atomically(const std::filesystem::path& path, std::string_view content);

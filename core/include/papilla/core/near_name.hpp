@@ -14,7 +14,8 @@ namespace papilla {
 /// Near is a name that the word becomes by at most max(2, letters / 3) changes, fewer than it has letters: a letter
 /// more, less or another one, two neighbours exchanged (optimal string alignment distance). Upper and lower case are
 /// alike. In the word, a shell pattern, '*' and '?' stand for any text and any letter. Failing that, near is a name
-/// that contains a word of three letters or more. Of names that are equally near the first one is taken.
+/// that contains a word of three letters or more, with at most letters / 5 changes. Of names that are equally near the
+/// first one is taken.
 ///
 /// Names of more than 200 bytes are left out. Cost: letters of the word times letters of all names at most.
 /// @param most_changes Instead of that limit; where names are few, the nearest one helps even if it is far.

@@ -43,6 +43,14 @@ struct Picture {
 /// @throws IoError, InvalidInput as read_grey_image().
 Picture read_picture(const std::filesystem::path& path, std::size_t bytes_per_pixel = sizeof(float) + 3);
 
+/// read_picture() of one that may be larger than what is wanted of it: where a side is longer than `most_side`, both
+/// are means over n × n pixels, n the least that makes them no longer, and the pitch is n times as large. Memory: the
+/// result and what ImageBands takes, whatever the picture.
+/// @param bytes_per_pixel what the caller is going to take for a pixel of the result, grey value and colour included.
+/// @throws IoError, InvalidInput as ImageBands and read_grey_image().
+Picture read_reduced_picture(const std::filesystem::path& path, int most_side,
+                             std::size_t bytes_per_pixel = sizeof(float) + 3);
+
 /// The same as read_color_image() for a picture in memory, PNG or JPEG; `name` only names it in messages.
 /// @throws InvalidInput as read_color_image().
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);

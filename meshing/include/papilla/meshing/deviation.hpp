@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "papilla/core/progress.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
@@ -29,6 +30,7 @@ struct DeviationOptions {
   std::uint64_t mean_samples = 200'000;  ///< Of mean and rms, area-weighted; at least one a triangle. 0: leave them 0.
   std::uint32_t pieces_per_triangle = 20'000;  ///< Refinement limit of one triangle (plus 32 a triangle of the
                                                ///< other surface); what is left counts in the bound.
+  ProgressCallback progress = {};              ///< Told the fraction of a side; may be empty.
 };
 
 /// A triangle found to exceed DeviationOptions::list_above_mm, with the largest distance met on it.
@@ -75,7 +77,7 @@ struct DeviationResult {
 /// Same result for any number of threads.
 /// Cost: O((n + m) log(n + m)) for surfaces that follow each other, about 2 us a triangle and side on one core.
 /// @throws InvalidInput when exactly one surface has no triangles, when an index is out of range, or a coordinate is
-///         not finite or beyond 1e15 mm, or an option is negative or not a number.
+///         not finite or beyond 1e15 mm, or an option is negative or not a number; Cancelled.
 /// The convexity bound is that of Tang, Lee and Kim, Interactive Hausdorff Distance Computation for General Polygonal
 /// Models, SIGGRAPH 2009; cutting along the prisms instead of halving is ours.
 DeviationResult surface_deviation(const TriangleMesh& from, const TriangleMesh& to,

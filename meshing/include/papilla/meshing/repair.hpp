@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
 
@@ -26,6 +27,7 @@ struct RepairOptions {
   double fill_holes_mm = 0;                 ///< Holes that fit into a box of this diagonal are filled; 0: holes stay.
   std::size_t max_passes = 16;              ///< At least 1.
   std::size_t sample_above = 100'000;       ///< Pieces of more triangles are measured by samples.
+  Deadline deadline = {};                   ///< Pieces not done by then stay as they came.
   ProgressCallback progress = {};           ///< Told the fraction done; may be empty.
 };
 
@@ -92,12 +94,14 @@ struct RepairResult {
                         ///< the tolerance are not told apart.
   double added_mm = 0;  ///< The other way round: what fills gaps and holes counts.
   bool sampled = false;  ///< Both are the largest met at samples where pieces are larger than `sample_above`.
-  std::size_t refused_triangles = 0;  ///< Of pieces that stay as they came, because they would have moved too far.
-  double refused_mm = 0;              ///< How far.
-  std::set<std::uint32_t> two_sided;  ///< Materials (TriangleMesh::material, 0 without) of sheets whose back was
-                                      ///< dropped: to be shown from both sides.
+  std::size_t refused_triangles = 0;     ///< Of pieces that stay as they came, because they would have moved too far.
+  double refused_mm = 0;                 ///< How far.
+  std::size_t unfinished_triangles = 0;  ///< Of pieces that stay as they came, because the deadline had passed.
+  std::set<std::uint32_t> two_sided;     ///< Materials (TriangleMesh::material, 0 without) of sheets whose back was
+                                         ///< dropped: to be shown from both sides.
   std::size_t passes = 0;
-  bool settled = false;  ///< The last pass found nothing left to do. Otherwise max_passes ended the work.
+  bool settled = false;  ///< The last pass found nothing left to do. Otherwise max_passes or the deadline ended the
+                         ///< work.
 };
 
 /// Makes a clean, oriented, manifold mesh of a triangle soup: welds, drops duplicates, removes degenerate triangles,
@@ -105,12 +109,12 @@ struct RepairResult {
 /// have nothing to do with each other are repaired one by one; one that is measured to have moved by more than
 /// `tolerance_mm` stays as it came.
 ///
-/// Guarantees when `settled` and nothing is refused: no degenerate or duplicate triangle, no edge of more than two
-/// triangles, no neighbours running opposite senses, no T-junction, every vertex with one fan of triangles (indices;
-/// sheets that touch in a point keep equal positions there); all of that, as mesh_statistics() counts it, also of the
-/// positions rounded to single precision in millimetres or metres, as files hold them; repairing the result again
-/// changes nothing. Closed input stays closed unless it was a double sheet; no surface is lost but that of degenerate
-/// triangles. Positions, normals, uv, colours, materials and CAD faces are carried through.
+/// Guarantees when `settled` and nothing is refused or unfinished: no degenerate or duplicate triangle, no edge of more
+/// than two triangles, no neighbours running opposite senses, no T-junction, every vertex with one fan of triangles
+/// (indices; sheets that touch in a point keep equal positions there); all of that, as mesh_statistics() counts it,
+/// also of the positions rounded to single precision in millimetres or metres, as files hold them; repairing the result
+/// again changes nothing. Closed input stays closed unless it was a double sheet; no surface is lost but that of
+/// degenerate triangles. Positions, normals, uv, colours, materials and CAD faces are carried through.
 ///
 /// Cost: O(n log n), a few linear passes for CAD soups, and 4 us for each triangle that changed in pieces that are
 /// measured whole; about 250 bytes per triangle. Deterministic.

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
+#include "papilla/core/progress.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/meshing/deviation.hpp"
 #include "papilla/meshing/triangle_mesh.hpp"
@@ -22,7 +24,9 @@ struct SimplifyOptions {
   bool lock_border = false;  ///< Keep every border vertex; otherwise borders keep their course within the tolerance.
   double feature_angle_deg = 30;  ///< Edges with a larger angle between their normals stay edges; 180: none.
   bool keep_faces = true;         ///< The borders between TriangleMesh::face numbers stay, too.
-  int passes = 2;  ///< Each further pass allows collapses of twice the error; 1 is fastest, 4 leaves least.
+  int passes = 2;          ///< Each further pass allows collapses of twice the error; 1 is fastest, 4 leaves least.
+  Deadline deadline = {};  ///< Ends with what holds the tolerance by then; time to measure it is kept.
+  ProgressCallback progress = {};  ///< Told the fraction done; may be empty.
 };
 
 struct SimplifyResult {
@@ -33,7 +37,7 @@ struct SimplifyResult {
   /// Run time against triangles kept / triangles before, of every mesh that held the tolerance.
   Trace trace;
   /// `converged`: the target is reached, or without one all passes are done; `iteration_limit`: the tolerance ended it
-  /// before the target.
+  /// before the target; `time_limit`: the deadline ended it.
   StopReason stop = StopReason::converged;
 };
 
@@ -63,7 +67,7 @@ struct SimplifyResult {
 /// @param mesh With finite positions and indices in range.
 /// @throws InvalidInput when the mesh breaks that or exceeds 1e15 mm, neither a tolerance nor a target is given, the
 /// tolerance
-///         is not positive, the angle is not in [0, 180], or passes are not in [1, 6].
+///         is not positive, the angle is not in [0, 180], or passes are not in [1, 6]; Cancelled.
 SimplifyResult simplify(const TriangleMesh& mesh, const SimplifyOptions& options);
 
 /// What one tolerance of simplify() gives.

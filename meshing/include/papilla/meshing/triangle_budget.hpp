@@ -23,6 +23,8 @@ struct BudgetResult {
   /// The common tolerance that every part holds, by measurement: part i lies within tolerance_mm / importance. 0 when
   /// the scene needed nothing; when the budget was not reached the largest distance measured.
   double tolerance_mm = 0;
+  /// `time_limit`: the deadline ended the search. The fewest triangles by then, of a tolerance that is measured.
+  StopReason stop = StopReason::converged;
   Trace trace;  ///< Run time against triangles drawn / budget, of every tolerance that was tried.
 };
 
@@ -32,11 +34,12 @@ struct BudgetResult {
 /// that needs nothing comes back as it is. What cannot be reached within any tolerance is simplified as far as it pays:
 /// within the first tolerance of those doubled that leaves at most 5 % more triangles than there must be. Cost: one
 /// pass of collapses without measuring per doubling of the error from 1e-6 of the largest part, and 3 to 7 times
-/// simplify(); parts are independent and parallel. Deterministic, whatever the number of threads.
+/// simplify(); parts are independent and parallel. At the deadline the search ends with what it has. Deterministic,
+/// whatever the number of threads.
 /// @param options Its tolerance and target do not matter.
 /// @throws InvalidInput as simplify(), naming the part; also for a missing mesh, an importance that is not positive, or
 /// a
-///         budget of 0.
+///         budget of 0; Cancelled.
 BudgetResult simplify_to_budget(std::span<const BudgetPart> parts, std::size_t max_triangles,
                                 const SimplifyOptions& options = {});
 

@@ -28,6 +28,7 @@ struct MeasureOptions {
   /// Per triangle: the part it belongs to; empty: one part. Charts, seams and overlap end at parts.
   std::vector<std::uint32_t> part = {};
   int overlap_rows = 4096;  ///< Rows in which the area of an overlap is summed; 64 to 65536.
+  bool overlap = true;      ///< Whether overlap is looked for: a quarter of the time.
 };
 
 struct MeanMax {
@@ -83,6 +84,7 @@ struct DistortionReport {
   double overlap_area_fraction = 0;  ///< Area of the plane covered more than once / area covered.
   double overlap_within_charts = 0;  ///< The same counting each chart alone: what matters for tiling textures.
   std::size_t overlapping_triangles = 0, overlapping_within_charts = 0;
+  bool has_overlap = true;  ///< MeasureOptions::overlap. When it is false the four above are 0.
 
   double stretch_l2 = 0;          ///< √(Σ A (σ1⁻² + σ2⁻²) / 2 / Σ A) [Sander et al. 2001]; 1 = isometry.
   double stretch_linf = 0;        ///< max 1/σ2.

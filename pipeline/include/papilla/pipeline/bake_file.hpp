@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/io/gltf_edit.hpp"
 #include "papilla/io/scene_file.hpp"
@@ -14,7 +15,8 @@ namespace papilla {
 
 struct BakeFileOptions {
   ReadOptions read;
-  BakeOptions bake;  ///< Its `plan.in_place` does not matter.
+  Deadline read_deadline;  ///< Of reading, before which there is no result to end with. bake_file() is cancelled there.
+  BakeOptions bake;        ///< Its `plan.in_place` does not matter.
   WriteOptions write;
   bool for_pictures = false;  ///< The result's scene is read again, for write_bake_pictures().
 };
@@ -36,6 +38,7 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
 
 struct PlannedFile : BakePlan {
   BakeWay way;
+  std::vector<GrainPlan> grains;  ///< Of the materials whose grain is used.
 };
 
 /// What bake_file() would do. In place no loss is listed, as what the reader leaves out stays in the file.

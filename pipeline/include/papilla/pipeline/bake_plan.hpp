@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/meshing/triangle_budget.hpp"
@@ -46,6 +48,7 @@ struct PartSurface {
 struct BakePlanOptions {
   PerceptionOptions perception;       ///< Parts to be left out.
   std::optional<std::size_t> budget;  ///< Triangles that the scene may draw.
+  Deadline deadline;                  ///< Of the search for what meets it: SimplifyOptions::deadline.
   SceneSideOptions sides;             ///< `perception.view` tells where eyes are when `inside` is not given.
   bool keep_copies = false;           ///< Identical parts are not made instances of one.
   /// For an edit of the scene's file: nothing is shared, pictures stay, and so do triangles but for sheets with relief
@@ -75,6 +78,9 @@ struct BakePlan {
 /// @throws InvalidInput as measure_perception() and fit_scene_to_budget(), and for strict rules.
 BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options = {},
                    const ProgressCallback& progress = {});
+
+/// Names of the materials whose grain the surfaces use, in order.
+std::set<std::string> grains_of(const std::vector<PartSurface>& surfaces);
 
 /// The decisions for a scene as it is: nothing is shared, left out or simplified.
 /// @param assignment Of the scene's parts. @param perception Of them; empty when nothing was asked.

@@ -53,6 +53,9 @@ struct BakeResult {
 /// total_repair() of the surfaces that were repaired.
 RepairResult repair_of(const std::vector<BakedSurface>& surfaces);
 
+/// The ending that promises least, of all surfaces, their repair and the search for a budget.
+StopReason ending_of(const BakeResult& result);
+
 /// The main job: plan_bake(), then for every surface what its plan says and nothing else. Surfaces run in parallel; the
 /// result does not depend on the number of threads.
 /// @throws InvalidInput, IoError, SolverFailure naming the part or picture.

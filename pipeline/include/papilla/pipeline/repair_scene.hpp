@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "papilla/core/progress.hpp"
+#include "papilla/core/trace.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/statistics.hpp"
@@ -23,9 +24,10 @@ struct RepairSceneResult {
   Scene scene;
   std::vector<SharedPart> shared;
   SceneSides sides;
-  MeshStatistics before;            ///< Of all parts together.
-  std::vector<RepairResult> parts;  ///< In the order of Scene::parts; without their meshes.
-  RepairResult total;               ///< total_repair() of these.
+  MeshStatistics before;                    ///< Of all parts together.
+  std::vector<RepairResult> parts;          ///< In the order of Scene::parts; without their meshes.
+  RepairResult total;                       ///< total_repair() of these.
+  StopReason stop = StopReason::converged;  ///< `time_limit`: some pieces stay as they came, because time was up.
   double seconds = 0;
 };
 
@@ -42,7 +44,7 @@ struct WrittenRepair {
 
 /// repair() of every part of a scene, then turn_sheets(); identical parts are shared first. Where the backs of double
 /// sheets were dropped the materials become double sided: show_both_sides(). Parts run in parallel; the result does not
-/// depend on the number of threads.
+/// depend on the number of threads. After RepairOptions::deadline the rest stays as it came, and so do sheets.
 /// @throws InvalidInput naming the part.
 RepairSceneResult repair_scene(Scene scene, const RepairSceneOptions& options = {},
                                const ProgressCallback& progress = {});

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/meshing/sheet_sides.hpp"
 
@@ -26,6 +27,7 @@ struct SceneSideOptions {
   std::optional<Vec3> inside;  ///< A point where people are, mm in the scene's frame; not given: it is looked for.
   /// Parts without material get one where a sheet must be seen from both sides. Only glTF has a place for that.
   bool add_materials = true;
+  Deadline deadline = {};  ///< After it sheets stay as they are.
 };
 
 /// The sheets of one part: its pieces with a border.
@@ -54,7 +56,8 @@ struct SceneSides {
   std::vector<PartSides> parts;  ///< Those with sheets, in the order of Scene::parts.
   std::size_t open_components = 0, facing_away = 0, ambiguous = 0;  ///< Of all parts.
   std::vector<PartSheets> sheets;                                   ///< Of `parts`.
-  std::string skipped;  ///< Why nothing was looked at, though it was to be: coordinates beyond what sight lines carry.
+  std::string skipped;  ///< Why nothing was looked at, though it was to be: coordinates beyond what sight lines carry,
+                        ///< or no time was left.
   double seconds = 0;
 };
 

@@ -30,6 +30,7 @@ struct LevelReport {
   std::size_t level = 0;  ///< From 1; 0: left out, because it would keep more than 90 % of the last one's triangles.
   double tolerance_mm = 0, max_deviation_mm = 0, screen_coverage = 0;
   std::size_t triangles_before = 0, triangles = 0;
+  StopReason stop = StopReason::converged;  ///< SimplifyResult::stop.
 };
 
 /// Gives every part coarser levels: levels_of_detail() of `originals`, which its mesh was simplified from. The screen
@@ -50,7 +51,7 @@ struct SimplifySceneOptions {
   std::optional<double> tolerance_mm;  ///< Largest distance between input and result, per part.
   std::optional<double> ratio;         ///< In (0, 1]: stop each part at this share of its triangles.
   std::optional<std::size_t> budget;   ///< Triangles that the scene may draw; not together with the two above.
-  SimplifyOptions simplify;            ///< Its tolerance and target are replaced by the above.
+  SimplifyOptions simplify;            ///< Its tolerance, target and progress are replaced.
   LevelOptions levels;                 ///< Coarser levels of detail beside the result.
   PerceptionOptions perception;        ///< Parts to be left out before.
   bool keep_copies = false;            ///< Do not make identical parts instances of one.
@@ -65,13 +66,14 @@ struct SimplifySceneResult {
   std::optional<BudgetResult> budget;         ///< Without its parts.
   std::vector<LevelReport> levels;
   std::size_t triangles_before = 0, triangles_after = 0;  ///< Drawn: every part as often as nodes show it.
+  StopReason stop = StopReason::converged;                ///< `time_limit`: the deadline cut some part short.
   double max_deviation_mm = 0, max_deviation_met_mm = 0;  ///< Largest bound, largest distance that was met.
   double seconds = 0;
 };
 
 /// simplify() of every part of a scene within a tolerance, to a share of its triangles, or simplify_to_budget() of all;
 /// identical parts are shared and parts that nobody perceives left out first. Parts run in parallel; the result does
-/// not depend on the number of threads.
+/// not depend on the number of threads. SimplifyOptions::deadline ends it with what holds by then.
 /// @throws InvalidInput naming the part; when a budget is combined with a tolerance or a ratio; as add_levels().
 SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& options,
                                    const ProgressCallback& progress = {});

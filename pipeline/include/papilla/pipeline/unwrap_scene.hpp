@@ -29,7 +29,7 @@ struct UniqueUv {
 /// Options of unwrap_scene(). Every caller that wants uv starts from these defaults.
 struct UnwrapOptions {
   MethodOptions method;
-  SceneSideOptions sides;  ///< Of unwrap_scene().
+  SceneSideOptions sides;  ///< Of unwrap_scene(). Its deadline is replaced by that of the method.
   bool repair = false;     ///< repair() every part before; without, equal positions are welded and nothing else.
   UvLayout layout = UvLayout::atlas;
   std::optional<double> gutter_mm;  ///< Not given: 0.5 % of the side of a square with the area of all charts.

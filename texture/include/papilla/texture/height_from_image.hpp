@@ -43,6 +43,9 @@ std::string_view to_string(HeightRoughness roughness) noexcept;
 /// The roughness of that name. @throws InvalidInput for any other name.
 HeightRoughness height_roughness(std::string_view name);
 
+/// The rate of a device and the speed of a hand where nothing is said of them.
+inline constexpr double k_device_rate_hz = 1000, k_hand_speed_mm_per_s = 100;
+
 /// The shortest wavelength that a device can render at a stroking speed v: two ticks of the haptic loop, 2 v / rate.
 /// @throws InvalidInput when a value is not positive.
 double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz);
@@ -68,8 +71,20 @@ struct HeightOptions {
   bool tile = false;
   int largest_piece_px = 2048;          ///< ShadingOptions::largest_piece_px.
   std::optional<Lattice> lattice = {};  ///< Of the picture, when it is known; else analyze_symmetry() finds it.
+  /// The cell to take with that lattice instead of the mean one: the mean over its group, WallpaperSymmetry::primitive.
+  std::optional<GreyImage> primitive = {};
   ProgressCallback progress = {};
 };
+
+/// A method and why it is taken.
+struct HeightChoice {
+  HeightMethod method = HeightMethod::intensity;
+  std::string reason;
+};
+
+/// The method that height_from_image() takes for a picture: that of the options, or the one whose relief is expected to
+/// correlate more with the true one. Cost: O(pixels). @throws InvalidInput as height_from_image().
+HeightChoice choose_height_method(const GreyImage& image, const HeightOptions& options = {});
 
 /// What height_from_image() returns.
 struct HeightResult {
