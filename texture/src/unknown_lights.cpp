@@ -318,8 +318,8 @@ bool is_spread(const Obliqueness& lights) {
 Obliqueness solve(const Crosses& crosses, Eigen::Index count, UnknownLights* result) {
   Obliqueness lights = linear_lights(crosses, count);
   const double length = std::sqrt(lights.squaredNorm() / static_cast<double>(count));
-  if (!(length > 0) || !is_solvable(lights * (k_usual_obliqueness /
-                                              length))) {  // Photographs without differences: any lights explain them.
+  // Photographs without differences: any lights explain them.
+  if (!(length > 0) || !is_solvable(lights * (k_usual_obliqueness / length))) {
     for (Eigen::Index k = 0; k < count; ++k) {
       const double turn = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
       lights.row(k) << std::cos(turn), std::sin(turn);
