@@ -55,7 +55,7 @@ struct Options {
   std::string motion = "stroke";
   std::uint64_t seed = 1;
   std::vector<double> origin;
-  bool quiet = false, list = false, passivity = false;
+  bool quiet = false, list = false, passivity = false, no_overlay = false;
 };
 
 constexpr double k_default_seconds = 2;
@@ -83,6 +83,7 @@ HapticSceneOptions scene_options(const Options& options, const DeviceChoice& cho
   HapticSceneOptions scene;
   scene.probe_radius_m = probe_radius_m(options, choice);
   scene.shortest_wave_m = 2 * options.speed / options.rate_hz;
+  scene.overlay = !options.no_overlay;
   if (!options.origin.empty() && choice.preset == nullptr) {
     scene.reach_around = {{options.origin[0], options.origin[1], options.origin[2]}};
     scene.reach_m = options.reach_mm > 0 ? 1e-3 * options.reach_mm : k_default_reach_m;
@@ -229,6 +230,7 @@ int run(const Options& options) {
   report.maps_loaded = scene.maps_loaded;
   report.maps_missing = scene.maps_missing;
   report.maps_coarsened = scene.maps_coarsened;
+  report.roughness_overlays = scene.roughness_overlays;
   report.triangles_out_of_reach = scene.triangles_out_of_reach;
   report.warnings = std::move(scene.warnings);
   report.material_names = std::move(scene.names);
@@ -371,6 +373,8 @@ int main(int argc, char** argv) {
                   "Radius of the probe, default: the device's, 0.5; 0: a point")
       ->type_name("MM")
       ->check(app::in_range(0.0, 100.0));
+  program.add_flag("--no-overlay", options.no_overlay,
+                   "Leave out the roughness that tags ask to be laid over their height maps");
   program.add_flag("--passivity-control", options.passivity,
                    "Soften a contact that gives energy to the hand, beside the limit of stiffness");
   program.add_option("--watchdog", options.watchdog_ms, "Age of a position from which on there is no force")

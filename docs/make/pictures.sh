@@ -24,4 +24,24 @@ for sheet in types library; do
   oiiotool "$runs/sheet-$sheet/sheet.png" --compression jpeg:90 -o "$out/texture-$sheet.jpg"
 done
 
+# Four photographs of one grain, the relief of them and the confidence.
+grain=$runs/photographs
+mkdir -p "$grain"
+"$bin/papilla" synthesize grain --kind quads8 --size 400 -o "$grain/grain.png" --relief "$grain/truth.exr" --quiet
+while read -r name light; do
+  "$bin/papilla" synthesize photo "$grain/truth.exr" -o "$grain/$name.jpg" "--light=$light" --albedo-noise 0.08 --uneven-light 0.15 \
+    --vignette 0.1 --blur-px 0.7 --noise 0.01 --quiet
+done <<<"right 0.77,0,0.64
+below 0,0.77,0.64
+left -0.77,0,0.64
+above 0,-0.77,0.64"
+echo '{"lights": [[0.77, 0, 0.64], [0, 0.77, 0.64], [-0.77, 0, 0.64], [0, -0.77, 0.64]]}' >"$grain/lights.json"
+"$bin/papilla" height "$grain"/{right,below,left,above}.jpg --lights "$grain/lights.json" --pitch 0.1 -o "$grain/relief.exr" \
+  --pictures "$grain/report" --quiet
+oiiotool --pattern constant:color=1,1,1 800x200 3 \
+  "$grain/right.jpg" --ch 0,0,0 --resize 200x200 --swap --paste +0+0 "$grain/below.jpg" --ch 0,0,0 --resize 200x200 --swap --paste +200+0 \
+  "$grain/left.jpg" --ch 0,0,0 --resize 200x200 --swap --paste +400+0 "$grain/above.jpg" --ch 0,0,0 --resize 200x200 --swap --paste +600+0 \
+  --compression jpeg:90 -d uint8 -o "$out/four-photographs.jpg"
+oiiotool "$grain/report/relief.png" --compression jpeg:90 -o "$out/four-photographs-relief.jpg"
+
 node "$make/screenshot.mjs" "$report/index.html" "$out/report-page.png"

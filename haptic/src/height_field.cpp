@@ -235,6 +235,13 @@ HeightField::Weighted HeightField::weighted(long x, long y, const Weights& along
 HeightSample HeightField::sample(Vec2 uv) const noexcept {
   const double x = texel_coordinate(a_[0][0] * uv.x + a_[0][1] * uv.y + t_[0]);
   const double y = texel_coordinate(a_[1][0] * uv.x + a_[1][1] * uv.y + t_[1]);
+  const HeightSample at = sample_texels(x, y);
+  return {at.height_m,
+          {at.gradient_m.x * a_[0][0] + at.gradient_m.y * a_[1][0],
+           at.gradient_m.x * a_[0][1] + at.gradient_m.y * a_[1][1]}};
+}
+
+HeightSample HeightField::sample_texels(double x, double y) const noexcept {
   const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
   const long ix = static_cast<long>(x0), iy = static_cast<long>(y0);
   Weighted sum;
@@ -254,8 +261,7 @@ HeightSample HeightField::sample(Vec2 uv) const noexcept {
   const double h = base_m_ + metres_per_step_ * sum.value;
   if (h < min_m_) return {min_m_, {}};
   if (h > max_m_) return {max_m_, {}};
-  const double by_x = metres_per_step_ * sum.by_x, by_y = metres_per_step_ * sum.by_y;
-  return {h, {by_x * a_[0][0] + by_y * a_[1][0], by_x * a_[0][1] + by_y * a_[1][1]}};
+  return {h, {metres_per_step_ * sum.by_x, metres_per_step_ * sum.by_y}};
 }
 
 std::array<Vec2, 2> HeightField::texels_per_uv() const noexcept {
@@ -273,6 +279,37 @@ HeightField HeightField::halved() const {
       result.push_back(static_cast<std::uint16_t>((sum + 2) / 4));
     }
   return HeightField(width_ / 2, height_ / 2, std::move(result), options_);
+}
+
+HeightField HeightField::overlaid(int factor, const std::vector<double>& added_m) const {
+  if (factor < 1 ||
+      added_m.size() != samples_.size() * static_cast<std::size_t>(factor) * static_cast<std::size_t>(factor))
+    throw InvalidInput("HeightField::overlaid: " + std::to_string(added_m.size()) + " heights are not " +
+                       std::to_string(factor) + " times " + std::to_string(width_) + " x " + std::to_string(height_));
+  std::vector<double> heights;
+  heights.reserve(added_m.size());
+  const double step = 1.0 / factor,
+               first = 0.5 * (step - 1);  // The centre of the first of `factor` samples in a texel.
+  for (int y = 0; y < factor * height_; ++y)
+    for (int x = 0; x < factor * width_; ++x)
+      heights.push_back(sample_texels(first + step * x, first + step * y).height_m + added_m[heights.size()]);
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const double bottom = *low, range = *high - bottom;
+  HeightFieldOptions options = options_;
+  options.offset_m = bottom;
+  options.scale_m = range;
+  options.white_is_outward = true;
+  std::vector<std::uint16_t> samples;
+  samples.reserve(heights.size());
+  for (const double h : heights)
+    samples.push_back(static_cast<std::uint16_t>(range > 0 ? std::lround(65535 * (h - bottom) / range) : 0));
+  return HeightField(factor * width_, factor * height_, std::move(samples), options);
+}
+
+std::optional<Vec2> HeightField::pitch_m(Vec2 metres_per_uv) const {
+  const auto step = steps(metres_per_uv);
+  if (!step) return std::nullopt;
+  return Vec2{norm(step->x), norm(step->y)};
 }
 
 std::optional<HeightField::Steps> HeightField::steps(Vec2 metres_per_uv) const {

@@ -64,6 +64,14 @@ class Members {
     return true;
   }
 
+  void flag(const char* name, const char* code, bool& value) const {
+    if (!has(name)) return;
+    if (object_.at(name).is_boolean())
+      value = object_.at(name).get<bool>();
+    else
+      warn(code, name, "is neither true nor false, false is used");
+  }
+
   void text(const char* name, const char* code, std::string& value) const {
     if (!has(name)) return;
     if (!object_.at(name).is_string())
@@ -183,13 +191,24 @@ std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& 
   constexpr const char* k_code = "tag_roughness";
   const Members in(json, place, warnings);
   RoughnessTag roughness;
-  in.number("fractalDimension", k_code, 2, 3, roughness.fractal_dimension);
-  if (!in.number("rmsHeight", k_code, 0, 0.1, roughness.rms_height_m)) return std::nullopt;
+  in.flag("overlay", k_code, roughness.overlay);
+  // Version 2 has names and a range of its own; version 1 can't say them.
+  const bool two = in.has("rms");
+  const char* const wavelengths = two ? "wavelength_range" : "wavelengthRange";
+  double value = two ? 0.5 : 2.5;
+  if (two ? in.number("hurst", k_code, 0, 1, value) : in.number("fractalDimension", k_code, 2, 3, value))
+    roughness.fractal_dimension = two ? 3 - value : value;
+  if (!in.number(two ? "rms" : "rmsHeight", k_code, 0, 0.1, roughness.rms_height_m)) return std::nullopt;
   const Vec2 before = roughness.wavelength_range_m;
-  if (in.pair("wavelengthRange", k_code, 1e-9, 100, roughness.wavelength_range_m) &&
+  if (in.pair(wavelengths, k_code, 1e-9, 100, roughness.wavelength_range_m) &&
       roughness.wavelength_range_m.x > roughness.wavelength_range_m.y) {
-    in.warn(k_code, "wavelengthRange", "goes from long to short, the default is used");
+    in.warn(k_code, wavelengths, "goes from long to short, the default is used");
     roughness.wavelength_range_m = before;
+  }
+  if (const Json* anisotropy = in.object("anisotropy", k_code)) {
+    const Members of(*anisotropy, place + ".anisotropy", warnings);
+    of.number("ratio", k_code, 1, 100, roughness.anisotropy);
+    of.number("direction", k_code, -10, 10, roughness.direction);
   }
   return roughness;
 }
@@ -273,9 +292,10 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   const std::string place = "haptic";
   if (!json.is_object()) throw InvalidInput("haptic tag: is no JSON object");
   const auto version = json.find("version");
-  if (version == json.end() || !version->is_number() || version->get<double>() != MaterialTag::k_version)
+  const double number = version != json.end() && version->is_number() ? version->get<double>() : 0;
+  if (number != 1 && number != MaterialTag::k_newest_version)
     throw InvalidInput("haptic tag: version " + (version == json.end() ? "is missing" : version->dump()) +
-                       ", expected 1");
+                       ", expected 1 or 2");
   const Members in(json, place, warnings);
   if (!in.has("stiffness") && !in.has("height")) throw InvalidInput("haptic tag: has neither stiffness nor height");
   MaterialTag tag;
@@ -285,12 +305,7 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   in.number("stribeckVelocity", "tag_stribeck", 1e-9, 1e3, tag.stribeck_velocity);
   if (const Json* friction = in.object("frictionModel", "tag_friction_model"))
     tag.friction_model = read_friction_model(*friction, place + ".frictionModel", warnings);
-  if (in.has("forceShading")) {
-    if (in.at("forceShading").is_boolean())
-      tag.force_shading = in.at("forceShading").get<bool>();
-    else
-      in.warn("tag_force_shading", "forceShading", "is neither true nor false, false is used");
-  }
+  in.flag("forceShading", "tag_force_shading", tag.force_shading);
   if (const Json* height = in.object("height", "tag_height"))
     tag.height = read_height(*height, place + ".height", warnings);
   if (const Json* roughness = in.object("roughness", "tag_roughness"))
@@ -331,8 +346,25 @@ Json height_json(const HeightTag& h) {
   return json;
 }
 
+Json roughness_json(const RoughnessTag& roughness) {
+  Json json = Json::object();
+  if (!roughness.overlay) {
+    if (roughness.fractal_dimension) json["fractalDimension"] = *roughness.fractal_dimension;
+    json["rmsHeight"] = roughness.rms_height_m;
+    json["wavelengthRange"] = pair_json(roughness.wavelength_range_m);
+  } else {
+    if (roughness.fractal_dimension) json["hurst"] = 3 - *roughness.fractal_dimension;
+    json["rms"] = roughness.rms_height_m;
+    json["wavelength_range"] = pair_json(roughness.wavelength_range_m);
+  }
+  if (roughness.anisotropy != 1)
+    json["anisotropy"] = {{"ratio", roughness.anisotropy}, {"direction", roughness.direction}};
+  if (roughness.overlay) json["overlay"] = true;
+  return json;
+}
+
 Json tag_json(const MaterialTag& tag) {
-  Json json = {{"version", MaterialTag::k_version},
+  Json json = {{"version", tag.roughness && tag.roughness->overlay ? 2 : 1},
                {"stiffness", tag.stiffness},
                {"damping", tag.damping},
                {"staticFriction", tag.static_friction},
@@ -342,10 +374,7 @@ Json tag_json(const MaterialTag& tag) {
     json["frictionModel"] = {{"name", tag.friction_model->name}, {"stiffness", tag.friction_model->stiffness}};
   if (tag.force_shading) json["forceShading"] = true;
   if (tag.height) json["height"] = height_json(*tag.height);
-  if (tag.roughness)
-    json["roughness"] = {{"fractalDimension", tag.roughness->fractal_dimension},
-                         {"rmsHeight", tag.roughness->rms_height_m},
-                         {"wavelengthRange", pair_json(tag.roughness->wavelength_range_m)}};
+  if (tag.roughness) json["roughness"] = roughness_json(*tag.roughness);
   if (tag.force_model)
     json["forceModel"] = {{"name", tag.force_model->name},
                           {"amplitude", tag.force_model->amplitude},

@@ -28,6 +28,7 @@ struct ImageBands::State {
   int decoded = 0;             ///< Rows.
   std::vector<float> waiting;  ///< Grey rows decoded and not yet returned by next().
   std::vector<float> stored;   ///< Scratch: rows as the file stores them.
+  std::vector<float> blocks;   ///< Sums of the sample's current row.
   ColorImage sample;
 
   State(const std::filesystem::path& file, std::size_t most_pixels, int sample_side)
@@ -38,6 +39,7 @@ struct ImageBands::State {
         stride(static_cast<int>((std::int64_t{std::max(width, height)} + sample_side - 1) / sample_side)),
         channels(static_cast<std::size_t>(input.channels())) {
     sample.width = (width + stride - 1) / stride;
+    blocks.assign(3 * static_cast<std::size_t>(sample.width), 0.0F);
     // Stored, waiting, and the grey rows that are returned.
     input.require_memory(io_detail::pixel_count(width, rows_at_once) * (channels + 2) * sizeof(float));
   }
@@ -48,8 +50,7 @@ struct ImageBands::State {
     stored.resize(count * channels);
     input.read(decoded, rows, stored.data());
     if (input.is_float()) check_values();
-    for (int y = 0; y < rows; ++y)
-      if ((decoded + y) % stride == 0) take_sample(y);
+    for (int y = 0; y < rows; ++y) add_to_sample(y);
     for (std::size_t i = 0; i < count; ++i)
       waiting.push_back(channels == 3
                             ? 0.2126F * stored[3 * i] + 0.7152F * stored[3 * i + 1] + 0.0722F * stored[3 * i + 2]
@@ -68,14 +69,22 @@ struct ImageBands::State {
                                    std::isfinite(*bad) ? "beyond a million" : "not finite"));
   }
 
-  void take_sample(int row) {
-    for (int x = 0; x < width; x += stride)
+  /// Adds a row, the `row`-th of the rows stored, to the blocks of the sample; their last row ends them.
+  void add_to_sample(int row) {
+    for (int x = 0; x < width; ++x)
       for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t channel = channels == 3 ? c : 0;
-        const float value =
-            stored[(io_detail::pixel_count(width, row) + static_cast<std::size_t>(x)) * channels + channel];
-        sample.pixels.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(value, 0.0F, 1.0F))));
+        const std::size_t pixel = io_detail::pixel_count(width, row) + static_cast<std::size_t>(x);
+        blocks[3 * static_cast<std::size_t>(x / stride) + c] += stored[pixel * channels + (channels == 3 ? c : 0)];
       }
+    const int y = decoded + row, rows = y % stride + 1;
+    if (rows < stride && y + 1 < height) return;
+    for (int x = 0; x < sample.width; ++x)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int columns = std::min(stride, width - x * stride);
+        const float mean = blocks[3 * static_cast<std::size_t>(x) + c] / static_cast<float>(columns * rows);
+        sample.pixels.push_back(static_cast<unsigned char>(std::lround(255 * std::clamp(mean, 0.0F, 1.0F))));
+      }
+    std::fill(blocks.begin(), blocks.end(), 0.0F);
     ++sample.height;
   }
 };
@@ -89,7 +98,10 @@ int ImageBands::height() const noexcept { return state_->height; }
 int ImageBands::bits() const noexcept { return state_->input.bits(); }
 double ImageBands::pitch_mm() const noexcept { return state_->input.pitch_mm(); }
 void ImageBands::require_memory(std::size_t bytes_per_pixel) const {
-  state_->input.require_memory(bytes_per_pixel * io_detail::pixel_count(state_->width, state_->height));
+  require_memory(bytes_per_pixel, io_detail::pixel_count(state_->width, state_->height));
+}
+void ImageBands::require_memory(std::size_t bytes_per_pixel, std::size_t pixels) const {
+  state_->input.require_memory(bytes_per_pixel * pixels);
 }
 const ColorImage& ImageBands::sample() const noexcept { return state_->sample; }
 

@@ -179,6 +179,25 @@ Picture read_picture(const fs::path& path, std::size_t bytes_per_pixel) {
   return {std::move(grey), bands.sample()};
 }
 
+Picture read_reduced_picture(const fs::path& path, int most_side, std::size_t bytes_per_pixel) {
+  ImageBands bands(path, k_max_streamed_pixels, most_side);
+  const int n = (std::max(bands.width(), bands.height()) - 1) / most_side + 1;
+  GreyImage grey{
+      (bands.width() + n - 1) / n, (bands.height() + n - 1) / n, {}, n * bands.pitch_mm(), n > 1 ? 32 : bands.bits()};
+  bands.require_memory(bytes_per_pixel, pixel_count(grey.width, grey.height));
+  for (int row = 0; row < grey.height; ++row) {
+    const GreyImage band = bands.next(n);
+    for (int column = 0; column < grey.width; ++column) {
+      const int left = column * n, right = std::min(left + n, band.width);
+      double sum = 0;
+      for (int y = 0; y < band.height; ++y)
+        for (int x = left; x < right; ++x) sum += static_cast<double>(band.at(x, y));
+      grey.pixels.push_back(static_cast<float>(sum / ((right - left) * band.height)));
+    }
+  }
+  return {std::move(grey), bands.sample()};
+}
+
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {
   PictureInput input(bytes, name, k_max_image_pixels);
   return read_rgb(input, 3);
@@ -213,13 +232,15 @@ EncodedHeight encode_height_png16(const HeightMap& map) {
   return result;
 }
 
-void write_grey_image(const fs::path& path, const GreyImage& image, int bits) {
+void write_grey_image(const fs::path& path, const GreyImage& image, int bits, int jpeg_quality) {
   check_pixels(image.width, image.height, image.pixels.size(), 1, "write_grey_image");
   if (bits != 8 && bits != 16 && bits != 32)
     throw InvalidInput(fmt::format("write_grey_image: bits = {} is not 8, 16 or 32", bits));
   const TypeDesc type = bits == 8 ? TypeDesc::UINT8 : bits == 16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
   ImageSpec spec(image.width, image.height, 1, type);
   set_pitch(spec, image.pitch_mm, image.pitch_mm);
+  if (path.extension() == ".jpg" || path.extension() == ".jpeg")
+    spec.attribute("Compression", fmt::format("jpeg:{}", jpeg_quality));
   write_bytes(path, encode(path, spec, TypeDesc::FLOAT, image.pixels.data()));
 }
 

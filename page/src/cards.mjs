@@ -100,10 +100,14 @@ function constants(material, about) {
   add('relief', tag?.height && `rms ${number(1000 * tag.height.rms)} mm, range ${number(1000 * tag.height.scale)} mm`);
   const slope = about?.height?.slope;
   add('slope', slope && `at most ${number(slope.steepest.after)}${slope.steeper_share.before > 0 ? `, limited: ${number(100 * slope.steeper_share.before)} % was steeper than ${number(slope.max_slope)}` : ''}`);
-  add('fractal dimension', about?.roughness?.fractal_dimension === undefined ? tag?.roughness && number(tag.roughness.fractalDimension) : about.roughness.fractal_dimension === null ? 'none: no power law' : number(about.roughness.fractal_dimension));
+  add('fractal dimension', about?.roughness?.fractal_dimension === undefined ? tag?.roughness && (tag.roughness.fractalDimension === undefined ? 'none: no power law' : number(tag.roughness.fractalDimension)) : about.roughness.fractal_dimension === null ? 'none: no power law' : number(about.roughness.fractal_dimension));
   add('class', about?.class?.name?.replaceAll('_', ' '));
   add('lattice', about && (about.lattice ? about.period_mm.map((v) => vectorText(v)).join(' and ') : 'none found'));
   add('height from', about?.height && `${about.height.method}: ${about.height.reason}`);
+  const over = about?.roughness?.overlay;
+  add('roughness over it', over && `H ${number(over.hurst)}, rms ${number(over.rms_mm)} mm, waves of ${over.wavelength_range_mm.map(number).join(' to ')} mm`);
+  const steps = about?.plan?.filter((step) => step.run) ?? [];
+  add('made in steps', steps.length && steps.map((step) => step.step.replaceAll('_', ' ')).join(', '));
   add('picture', about?.picture && `${about.picture.file.split(/[\\/]/).pop()}, ${about.picture.size_mm.map(number).join(' x ')} mm${about.picture.tiles ? ', tiles' : ', does not tile'}`);
   add('made by', tag?.provenance?.tool);
   return element('dl', {}, ...rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));

@@ -161,6 +161,8 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
   plan.in_place = result.way.in_place;
   if (plan.in_place) plan.levels = std::move(origin.levels);
   static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
+  for (const std::string& name : grains_of(result.surfaces))
+    result.grains.push_back(plan_grain(rules.materials.at(name), options.bake.library));
   return result;
 }
 

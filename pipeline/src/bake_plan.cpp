@@ -224,6 +224,13 @@ void note_rules(const Assignment& assignment, bool strict, const std::string& so
 
 }  // namespace
 
+std::set<std::string> grains_of(const std::vector<PartSurface>& surfaces) {
+  std::set<std::string> names;
+  for (const PartSurface& surface : surfaces)
+    if (has_relief(surface)) names.insert(surface.material);
+  return names;
+}
+
 std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& assignment,
                                        const std::vector<PartPerception>& perception, bool in_place) {
   std::vector<PartSurface> surfaces = split_by_slot(scene, assignment);

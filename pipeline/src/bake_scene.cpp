@@ -361,9 +361,7 @@ void drop_unused_textures(Scene& scene) {
 /// Makes the grains that the surfaces use.
 std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& rules, const RecipeLibrary& library,
                                          const ProgressCallback& progress) {
-  std::set<std::string> names;
-  for (const PartSurface& surface : plan.surfaces)
-    if (runs(surface, Stage::height)) names.insert(surface.material);
+  const std::set<std::string> names = grains_of(plan.surfaces);
   std::map<std::string, Grain> grains;
   for (const std::string& name : names) {
     report_progress(progress, "grain " + name, static_cast<double>(grains.size()) / static_cast<double>(names.size()));

@@ -22,10 +22,11 @@
 #include "papilla/procedural/texture.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/normal_map.hpp"
+#include "papilla/texture/picture_relief.hpp"
 #include "papilla/texture/resample.hpp"
 #include "papilla/texture/roughness.hpp"
-#include "papilla/texture/symmetry.hpp"
 #include "papilla/texture/texture_class.hpp"
+#include "papilla/texture/texture_reading.hpp"
 #include "papilla/texture/tiling.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
 
@@ -43,7 +44,8 @@ constexpr double k_default_depth = 0.01;
 void find_size(const MaterialRule& rule, const GreyImage& image, double (&size_mm)[2]) {
   const double pixels[2] = {static_cast<double>(image.width), static_cast<double>(image.height)};
   for (int k = 0; k < 2; ++k) {
-    size_mm[k] = rule.size_mm[k] > 0 ? rule.size_mm[k] : pixels[k] * image.pitch_mm;
+    const double pitch_mm = rule.height.pitch_mm > 0 ? rule.height.pitch_mm : image.pitch_mm;
+    size_mm[k] = rule.size_mm[k] > 0 ? rule.size_mm[k] : pixels[k] * pitch_mm;
     if (!(size_mm[k] > 0))
       throw InvalidInput("material '" + rule.name + "': " + rule.texture.string() +
                          " has no resolution; size_mm must say how many millimetres it shows");
@@ -58,25 +60,60 @@ EncodedImage png(std::string name, std::vector<std::byte> bytes) {
   return image;
 }
 
-/// The relief of the picture, at most k_most_samples a side, over size_mm.
-HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const Lattice& lattice, Grain& grain) {
-  HeightOptions options;
-  options.lattice = lattice;
-  options.method = height_method(rule.height.method);
-  options.pitch_mm = grain.size_mm[0] / image.width;
-  options.depth_mm = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
-  HeightResult result = height_from_image(image, options);
-  HeightMap relief = std::move(result.map);
-  relief.pitch_mm_x = grain.size_mm[0] / relief.width;
-  relief.pitch_mm_y = grain.size_mm[1] / relief.height;
+/// What the class's plan is carried out with.
+PictureReliefOptions relief_options(const MaterialRule& rule, const GreyImage& image, const Grain& grain) {
+  PictureReliefOptions options = rule.height.relief;
+  options.height.pitch_mm = grain.size_mm[0] / image.width;
+  options.height.depth_mm =
+      rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+  options.seen = grain.picture.has_value();
+  return options;
+}
+
+/// Roughness laid over a relief must leave it as gentle as the friction asks: twice its root mean square slope is what
+/// it adds to the relief's, so that takes at most half of what there is.
+void limit_roughness(const MaterialRule& rule, double max_slope, Grain& grain) {
+  constexpr double k_peaks = 2, k_most_share = 0.5;
+  if (!grain.height.overlay) return;
+  RoughnessModel& overlay = *grain.height.overlay;
+  const double most = k_most_share * max_slope / k_peaks;
+  if (overlay.rms_slope > most) {
+    const double share = most / overlay.rms_slope;
+    grain.warnings.push_back(
+        fmt::format("material '{}': height: its roughness of rms {:.3g} mm is steeper than the friction lets go; "
+                    "reduced to {:.3g} mm",
+                    rule.name, overlay.rms_mm, share * overlay.rms_mm));
+    overlay.rms_mm *= share;
+    overlay.rms_slope = most;
+  }
+  grain.height.max_slope = max_slope - k_peaks * overlay.rms_slope;
+}
+
+/// The relief of the picture, at most k_most_samples a side, over the grain's size, which becomes that of the relief.
+HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const TextureReading& reading, Grain& grain) {
+  PictureRelief made = relief_of_picture(image, reading, relief_options(rule, image, grain));
+  HeightMap relief = std::move(made.height.map);
+  if (rule.height.opposite) relief = opposite_relief(relief);
+  relief.pitch_mm_x = grain.size_mm[0] / image.width;
+  relief.pitch_mm_y = grain.size_mm[1] / image.height;
+  grain.size_mm[0] = relief.pitch_mm_x * relief.width;
+  grain.size_mm[1] = relief.pitch_mm_y * relief.height;
   if (relief.width > k_most_samples || relief.height > k_most_samples)
     relief = resample(relief, std::min(relief.width, k_most_samples), std::min(relief.height, k_most_samples));
   for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
-  grain.height = {.method = std::string(to_string(result.method)),
-                  .reason = result.reason,
-                  .light = result.light,
-                  .light_estimated = result.light_estimated,
-                  .stop = result.stop};
+  grain.height = {.method = made.like ? "synthesis" : std::string(to_string(made.height.method)),
+                  .reason = made.height.reason,
+                  .light = made.like || made.height.method == HeightMethod::intensity
+                               ? std::nullopt
+                               : std::optional(made.height.light),
+                  .light_estimated = made.height.light_estimated,
+                  .stop = made.height.stop,
+                  .overlay = made.roughness};
+  if (grain.height.overlay) {
+    grain.height.overlay->rms_mm *= rule.height.scale;
+    grain.height.overlay->rms_slope *= rule.height.scale;
+  }
+  grain.plan = std::move(made.plan);
   return relief;
 }
 
@@ -117,7 +154,7 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
     return computed_source(rule, library);
   try {
-    Picture picture = read_picture(rule.texture, k_height_bytes_per_pixel + 3);
+    Picture picture = read_reduced_picture(rule.texture, k_most_grain_side, k_height_bytes_per_pixel + 3);
     return {std::move(picture.grey), std::move(picture.color)};
   } catch (const IoError& unread) {
     std::vector<std::string_view> recipes;
@@ -184,6 +221,7 @@ void limit_slopes(const MaterialRule& rule, Grain& grain) {
   apply_constants(rule, constants);
   GrainHeight& height = grain.height;
   height.max_slope = rule.height.max_slope.value_or(default_max_slope(constants.static_friction));
+  limit_roughness(rule, height.max_slope, grain);
   height.unlimited_depth_mm = range_mm(grain.relief);
   const bool periodic = std::exchange(grain.relief.periodic, true);
   height.slopes = limit_slope(grain.relief, {.max_slope = height.max_slope});
@@ -202,35 +240,45 @@ void limit_slopes(const MaterialRule& rule, Grain& grain) {
 void describe_relief(Grain& grain) {
   grain.roughness = measure_roughness(grain.relief);
   RoughnessTag tag;
+  if (const auto& overlay = grain.height.overlay) {
+    tag = {3 - overlay->hurst,
+           overlay->rms_mm * k_metres_per_mm,
+           {overlay->shortest_mm * k_metres_per_mm, overlay->longest_mm * k_metres_per_mm},
+           overlay->anisotropy,
+           overlay->direction_rad,
+           true};
+    grain.tag.roughness = tag;
+    return;
+  }
   tag.rms_height_m = grain.roughness.rms_mm * k_metres_per_mm;
   tag.wavelength_range_m = {grain.roughness.shortest_wavelength_mm * k_metres_per_mm,
                             grain.roughness.longest_wavelength_mm * k_metres_per_mm};
-  if (grain.roughness.fractal) tag.fractal_dimension = std::clamp(grain.roughness.fractal->dimension, 2.0, 3.0);
+  if (grain.roughness.fractal) tag.fractal_dimension = grain.roughness.fractal->dimension;
   grain.tag.roughness = tag;
 }
 
-/// Class, lattice and look of the picture. @return its lattice, found or not.
-Lattice analyze(const MaterialRule& rule, const Source& source, Grain& grain) {
-  const GreyImage& image = source.grey;
-  const SymmetryAnalysis symmetry = analyze_symmetry(image);
-  grain.kind = classify(image, symmetry.explained_variance(), symmetry.lattice.stripes);
-  grain.tiles = measure_tiling(image).tiles;
+/// How the picture looks, and whether it is shown.
+void look_at(const MaterialRule& rule, const Source& source, Grain& grain) {
+  grain.tiles = measure_tiling(source.grey).tiles;
   grain.monochrome = is_monochrome(source.color);
   if (rule.show == "picture" || (rule.show == "auto" && !grain.monochrome))
     grain.picture = png("grain." + rule.name, encode_png(source.color));
-  if (!symmetry.lattice.found) return symmetry.lattice;
-  const Vec2 mm_per_px{grain.size_mm[0] / image.width, grain.size_mm[1] / image.height};
+}
+
+/// Class and lattice of the picture.
+void describe_picture(const TextureReading& reading, Vec2 mm_per_px, Grain& grain) {
+  grain.kind = reading.kind;
+  if (!reading.group) return;
   GrainLattice lattice;
   SymmetryTag tag;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Vec2 px = symmetry.lattice.vectors_px[k];
+    const Vec2 px = reading.symmetry.lattice.vectors_px[k];
     lattice.period_mm[k] = {px.x * mm_per_px.x, px.y * mm_per_px.y};
     tag.period_m[k] = k_metres_per_mm * lattice.period_mm[k];
   }
-  tag.group = lattice.group = to_string(find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px).group);
+  tag.group = lattice.group = to_string(reading.group->group);
   grain.lattice = lattice;
   grain.tag.symmetry = tag;
-  return symmetry.lattice;
 }
 
 }  // namespace
@@ -240,12 +288,29 @@ double default_max_slope(double static_friction) {
   return static_friction > 0 ? std::min(k_most, k_share / static_friction) : k_most;
 }
 
+GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
+  GrainPlan plan{rule.name, {}, {}};
+  try {
+    const Source source = read_source(rule, library);
+    if (source.recipe) return plan;
+    Grain grain;
+    find_size(rule, source.grey, grain.size_mm);
+    look_at(rule, source, grain);
+    plan.steps = plan_relief(source.grey, read_texture(source.grey), relief_options(rule, source.grey, grain));
+  } catch (const Error& error) {
+    plan.problem = error.what();
+  }
+  return plan;
+}
+
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   Grain grain;
   const Stopwatch analyze_clock;
   Source source = read_source(rule, library);
   find_size(rule, source.grey, grain.size_mm);
-  const Lattice lattice = analyze(rule, source, grain);
+  look_at(rule, source, grain);
+  const TextureReading reading = read_texture(source.grey);
+  describe_picture(reading, {grain.size_mm[0] / source.grey.width, grain.size_mm[1] / source.grey.height}, grain);
   grain.source = source.recipe ? rule.recipe : rule.texture.string();
   if (source.recipe) {
     grain.tag.static_friction = grain.tag.dynamic_friction = source.friction;
@@ -255,7 +320,7 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   grain.analyze_seconds = analyze_clock.seconds();
 
   const Stopwatch height_clock;
-  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, lattice, grain);
+  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, reading, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
   describe_relief(grain);

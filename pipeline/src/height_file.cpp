@@ -15,6 +15,7 @@
 #include "papilla/texture/normal_map.hpp"
 #include "pictures/relief.hpp"
 #include "pictures/texture_plots.hpp"
+#include "relief_files.hpp"
 
 namespace papilla {
 namespace {
@@ -62,16 +63,6 @@ bool needs_memory(const HeightFileOptions& options) {
          options.height.shortest_wavelength_mm > 0 || !options.normal_map.empty() || !options.pictures.empty();
 }
 
-/// The middle of a picture, at most `most` pixels a side.
-GreyImage middle_of(const SampleRows& picture, int most, int bits) {
-  const int width = std::min(picture.width(), most), height = std::min(picture.height(), most);
-  GreyImage middle{width, height,
-                   std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)), 0, bits};
-  for (int y = 0; y < height; ++y)
-    picture.read((picture.width() - width) / 2, (picture.height() - height) / 2 + y, width, &middle.at(0, y));
-  return middle;
-}
-
 HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const HeightFileOptions& options) {
   constexpr int k_rows = 64;
   // A device has no room beside it.
@@ -86,8 +77,7 @@ HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const Hei
   HeightOptions height = options.height;
   if (!(height.pitch_mm > 0)) height.pitch_mm = bands.pitch_mm();
   SampleFile samples(bands.width(), bands.height(), folder);
-  const HeightRows rows =
-      height_from_rows(grey, middle_of(grey, options.largest_px / 2, bands.bits()), height, samples);
+  const HeightRows rows = height_from_rows(grey, bands.bits(), height, samples);
   HeightFiles files{rows.result, {}, {}, {}};
   const auto write = [&](const fs::path& file, double factor, double offset_mm) {
     const ScaledSamples heights(samples, factor * rows.scale, rows.lowest, offset_mm);
@@ -119,6 +109,11 @@ HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& outp
     return height_by_bands(bands, output, options);
   bands.require_memory(k_height_bytes_per_pixel);
   HeightFiles files{height_from_image(bands.next(bands.height()), options.height), {}, {}, {}};
+  write_relief_files(files, output, options);
+  return files;
+}
+
+void write_relief_files(HeightFiles& files, const fs::path& output, const HeightFileOptions& options) {
   const HeightMap& map = files.result.map;
   write_height_file(output, map);
   if (!options.normal_map.empty()) write_color_image(options.normal_map, normal_map(map));
@@ -128,7 +123,6 @@ HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& outp
   }
   if (options.deeper) files.deeper = write_deeper(output, map);
   if (!options.pictures.empty()) files.pictures = draw_pictures(options.pictures, map);
-  return files;
 }
 
 }  // namespace papilla

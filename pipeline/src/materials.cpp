@@ -10,12 +10,51 @@
 namespace papilla {
 namespace {
 
+bool is_word(const JsonValue& value, const char* word) { return value.json().is_string() && value.json() == word; }
+
+/// "auto", or three numbers.
+std::optional<Vec3> read_light(const JsonValue& value) {
+  if (is_word(value, "auto")) return std::nullopt;
+  if (!value.json().is_array() || value.json().size() != 3) value.fail("must be \"auto\" or [x, y, z]");
+  const Vec3 light{value.at(0).number(-1e6, 1e6), value.at(1).number(-1e6, 1e6), value.at(2).number(-1e6, 1e6)};
+  if (!(light.z > 0)) value.fail("must have z > 0, towards the viewer");
+  return light;
+}
+
+/// "none", "auto" with the device's rate and the hand's speed, or millimetres.
+double read_cut(const JsonValue& height, const JsonValue& value) {
+  if (is_word(value, "none")) return 0;
+  if (!is_word(value, "auto")) return value.number(1e-3, 1e3);
+  const auto rate = height.get("rate"), speed = height.get("speed");
+  return shortest_playable_wavelength_mm(speed ? speed->number(1e-3, 1e4) : k_hand_speed_mm_per_s,
+                                         rate ? rate->number(1, 1e6) : k_device_rate_hz);
+}
+
 HeightRule read_height(const JsonValue& value) {
-  value.expect_keys({"method", "depth_mm", "scale", "max_slope"});
+  value.expect_keys({"method", "depth_mm", "depth", "scale", "max_slope", "pitch", "light", "periodic", "roughness",
+                     "transfer", "cut", "rate", "speed", "tile", "alternative", "source", "seed"});
   HeightRule rule;
+  HeightOptions& height = rule.relief.height;
   if (const auto v = value.get("method"))
-    rule.method = v->one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"});
-  if (const auto v = value.get("depth_mm")) rule.depth_mm = v->number(1e-6, 100);
+    height.method = height_method(v->one_of({"auto", "wiener", "variational", "pentland", "tsai-shah", "intensity"}));
+  const auto depth_mm = value.get("depth_mm"), depth = value.get("depth");
+  if (depth_mm && depth) depth->fail("is the same as depth_mm: only one of them");
+  if (depth_mm || depth) rule.depth_mm = (depth_mm ? depth_mm : depth)->number(1e-6, 100);
+  if (const auto v = value.get("pitch")) rule.pitch_mm = v->number(1e-6, 1e3);
+  if (const auto v = value.get("light")) height.light = read_light(*v);
+  if (const auto v = value.get("periodic"))
+    if (!is_word(*v, "auto")) height.periodic = v->yes_or_no();
+  if (const auto v = value.get("roughness"))
+    if (const std::string name = v->one_of({"auto", "whole", "none", "residual", "synthesized"}); name != "auto")
+      rule.relief.roughness = height_roughness(name);
+  if (const auto v = value.get("transfer")) height.transfer = transfer(v->one_of({"auto", "srgb", "linear"}));
+  if (const auto v = value.get("cut")) height.shortest_wavelength_mm = read_cut(value, *v);
+  if (const auto v = value.get("tile"))
+    if (!is_word(*v, "auto")) rule.relief.tile = v->yes_or_no();
+  if (const auto v = value.get("alternative")) rule.opposite = v->yes_or_no();
+  if (const auto v = value.get("source"))
+    rule.relief.source = relief_source(v->one_of({"auto", "picture", "synthesis"}));
+  if (const auto v = value.get("seed")) height.seed = static_cast<std::uint64_t>(v->number(0, 1e9));
   if (const auto v = value.get("scale")) rule.scale = v->number(0, 100);
   if (const auto v = value.get("max_slope")) rule.max_slope = v->number(0.01, 1000);
   return rule;

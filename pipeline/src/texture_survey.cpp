@@ -13,8 +13,10 @@
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/analysis_pictures.hpp"
+#include "papilla/texture/picture_relief.hpp"
 #include "papilla/texture/resample.hpp"
 #include "papilla/texture/texture_order.hpp"
+#include "papilla/texture/texture_reading.hpp"
 #include "pictures/pixel_text.hpp"
 #include "pictures/texture_plots.hpp"
 
@@ -68,17 +70,29 @@ SymmetryAnalysis symmetry_of(const GreyImage& image, const SurveyOptions& option
   return analysis;
 }
 
+/// Whether the class of the picture asks for the readings; else says why not.
+bool wants_fractal(const SurveyOptions& options, TextureSurvey& survey) {
+  if (!options.fractal || !options.by_class || !survey.order) return options.fractal;
+  const PlanStep& step = step_of(survey.order->plan, "fractal_dimension");
+  if (!step.run) survey.no_fractal = step.reason;
+  return step.run;
+}
+
 void survey_whole(const ImageBands& bands, const SurveyOptions& options, const ProgressCallback& progress,
                   TextureSurvey& survey) {
-  if (needs_lattice(options)) survey.symmetry = symmetry_of(survey.middle, options, progress);
-  if (options.fractal) survey.fractal = read_fractal_dimensions(survey.middle, progress);
-  if (!options.order) return;
-  const SymmetryAnalysis& symmetry = *survey.symmetry;
-  survey.order = OrderSurvey{classify(survey.middle, symmetry.explained_variance(), symmetry.lattice.stripes),
-                             orientation_field(survey.middle),
-                             measure_suitability(survey.middle, symmetry.lattice),
-                             is_monochrome(bands.sample()),
-                             {}};
+  std::optional<TextureReading> reading;
+  if (needs_lattice(options)) {
+    reading = read_texture(survey.middle, {options.lattice, options.feature, false, progress});
+    if (options.order)
+      survey.order = OrderSurvey{reading->kind, orientation_field(survey.middle), reading->suitability,
+                                 is_monochrome(bands.sample()), reading->plan};
+  }
+  if (wants_fractal(options, survey)) survey.fractal = read_fractal_dimensions(survey.middle, progress);
+  if (survey.order) {
+    if (survey.fractal) reading->roughness = survey.fractal->best;
+    survey.order->plan = plan_relief(survey.middle, *reading);
+  }
+  if (reading) survey.symmetry = std::move(reading->symmetry);
 }
 
 /// Drops the lattice of the middle unless enough pieces have it too.
@@ -88,6 +102,8 @@ void confirm_lattice(SymmetryAnalysis& symmetry, const std::vector<Lattice>& lat
   symmetry.lattice.found = false;
   symmetry.lattice.vectors_px = {};
   symmetry.part.reset();
+  symmetry.straight.reset();
+  symmetry.deformation.reset();
   symmetry.lattice.reason =
       fmt::format("the middle repeats, but only {} of {} pieces do so likewise", agreement.same, agreement.pieces());
 }
@@ -125,7 +141,6 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
   }
   report_progress(progress, "pieces of the picture", 1);
   survey.middle = middle.take();
-  if (options.fractal) survey.fractal = mean_readings(readings);
   if (needs_lattice(options)) {
     survey.symmetry = symmetry_of(survey.middle, options, progress);
     confirm_lattice(*survey.symmetry, lattices, pieces.lattice);
@@ -136,13 +151,15 @@ void survey_pieces(ImageBands& bands, const SurveyOptions& options, const Progre
                                order.suitability(survey.symmetry->lattice),
                                is_monochrome(bands.sample()),
                                {}};
+  if (survey.order) survey.order->plan = plan_analysis(survey.order->kind, survey.order->suitability);
+  if (!readings.empty() && wants_fractal(options, survey)) survey.fractal = mean_readings(readings);
   survey.pieces = pieces;
 }
 
 SymmetryGroups groups_of(const TextureSurvey& survey, SymmetryPattern pattern) {
   SymmetryGroups groups;
   const SymmetryAnalysis& symmetry = *survey.symmetry;
-  if (symmetry.lattice.found) groups.plane = find_wallpaper_group(*symmetry.part, symmetry.lattice.vectors_px);
+  if (symmetry.lattice.found) groups.plane = find_wallpaper_group(symmetry);
   const GreyImage& image = survey.middle;
   if (pattern == SymmetryPattern::strip) groups.strip = find_frieze_group(image);
   if (pattern == SymmetryPattern::rosette)
@@ -169,13 +186,22 @@ std::vector<SurveyPicture> draw_survey(const TextureSurvey& survey, const std::f
 }  // namespace
 
 std::array<FractalReading, 6> named_readings(const FractalReadings& readings) {
-  const auto estimate = [](const auto& reading) { return reading ? &*reading : nullptr; };
-  return {{{"box", k_least_fractal_side, estimate(readings.box)},
-           {"information", k_least_fractal_side, estimate(readings.information)},
-           {"correlation", k_least_fractal_side, estimate(readings.correlation)},
-           {"probability", k_least_probability_side, estimate(readings.probability)},
-           {"fshot", k_least_fractal_side, readings.fshot ? &readings.fshot->estimate : nullptr},
-           {"best", k_least_fractal_side, readings.best ? &readings.best->estimate : nullptr}}};
+  const auto reading = [](std::string_view name, int side, const FractalEstimate* estimate) {
+    return FractalReading{name, side, estimate, estimate != nullptr ? &estimate->curve : nullptr};
+  };
+  const auto of = [](const auto& value) { return value ? &*value : nullptr; };
+  FractalReading best = reading("best", k_least_fractal_side, nullptr);
+  if (readings.best) {
+    best.estimate = of(readings.best->estimate);
+    best.curve = &readings.best->curve;
+    if (!readings.best->power_law()) best.none = readings.best->reason;
+  }
+  return {reading("box", k_least_fractal_side, of(readings.box)),
+          reading("information", k_least_fractal_side, of(readings.information)),
+          reading("correlation", k_least_fractal_side, of(readings.correlation)),
+          reading("probability", k_least_probability_side, of(readings.probability)),
+          reading("fshot", k_least_fractal_side, readings.fshot ? &readings.fshot->estimate : nullptr),
+          best};
 }
 
 TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,
@@ -193,7 +219,6 @@ TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOpti
     survey_whole(bands, options, progress, survey);
   }
   if (options.symmetry) survey.groups = groups_of(survey, options.pattern);
-  if (survey.order) survey.order->plan = plan_analysis(survey.order->kind, survey.order->suitability);
   if (!options.pictures.empty()) survey.pictures = draw_survey(survey, options.pictures);
   return survey;
 }

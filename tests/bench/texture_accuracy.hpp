@@ -13,8 +13,12 @@ void report_published_tables(BenchReport& report);
 void report_dimension_error(BenchReport& report);
 /// Lattices and groups of 1700 generated pictures; false lattices on pictures without one.
 void report_symmetry(BenchReport& report);
+/// Lattices and groups of patterns whose cells are displaced.
+void report_bent_lattices(BenchReport& report);
 /// Depth error of shape from shading on known reliefs, and whether anything is ever not finite.
 void report_height(BenchReport& report);
+/// Correlation with the truth of reliefs from four photographs, lights given and unknown, still and moved.
+void report_stereo(BenchReport& report);
 /// Lattices of photographs given on the command line, and a relief that ships beside its photograph.
 void report_photographs(BenchReport& report);
 

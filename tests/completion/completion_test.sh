@@ -122,13 +122,13 @@ for program in "$@"; do
   expect_choices "$program" unwrap --grain 'up longest'
   expect_choices "$program" unwrap --solver 'hermitian cgal gauss-newton gradient-descent direct gauss-seidel'
   expect_choices "$program" inspect --unit 'file mm cm m in ft'
-  expect_choices "$program" height --method 'auto variational pentland tsai-shah intensity'
+  expect_choices "$program" height --method 'auto wiener variational pentland tsai-shah intensity'
   expect_choices "$program" texture --bits '8 16 32'
   if [[ $(basename "$program") == papilla ]]; then
     expect 'lscm' "$program" unwrap --method ls
     expect 'tessellation' "$program" evaluate tes
     expect 'lscm,best' "$program" evaluate param --method lscm,be
-    expect 'grain fractal' "$program" synthesize ''
+    expect 'grain fractal photo' "$program" synthesize ''
   fi
   expect '--help' "$program" --hel
   for verb in $(completed "$program" ''); do

@@ -65,6 +65,23 @@ TEST(HapticScene, HalvesMapsThatTheRateCantCarry) {
   EXPECT_EQ(load_haptic_scene(file.path).heights[0].width(), 128);
 }
 
+TEST(HapticScene, LaysRoughnessOverTheMap) {
+  nlohmann::json rough = tag();
+  rough["version"] = 2;
+  rough["roughness"] = {{"hurst", 0.4}, {"rms", 5e-6}, {"wavelength_range", {3e-4, 1e-3}}, {"overlay", true}};
+  const File file(testing::plate_glb({{"haptic", rough}}, testing::sine_png()));
+  const HapticScene felt = load_haptic_scene(file.path, {.probe_radius_m = 0, .felt_depth_m = 0});
+  const HapticScene plain = load_haptic_scene(file.path, {.probe_radius_m = 0, .felt_depth_m = 0, .overlay = false});
+  EXPECT_TRUE(felt.warnings.empty());
+  EXPECT_EQ(felt.roughness_overlays, 1);
+  EXPECT_EQ(plain.roughness_overlays, 0);
+  EXPECT_EQ(plain.heights[0].width(), 128);
+  EXPECT_GE(felt.heights[0].width(), 5 * 128);  // Texels of 0.31 mm: four to 0.3 mm need a fifth.
+  const double rise = felt.heights[0].sample({0.3, 0.6}).height_m - plain.heights[0].sample({0.3, 0.6}).height_m;
+  EXPECT_NE(rise, 0);
+  EXPECT_LT(std::abs(rise), 3e-5);
+}
+
 TEST(HapticScene, FollowsTheTextureTransformOfPackers) {
   // As gltfpack: coordinates are scaled down, the transform of the texture scales them up, the tag is unchanged.
   std::string glb = testing::plate_glb({{"haptic", tag()}}, testing::sine_png());

@@ -282,22 +282,5 @@ TEST(HeightField, ShareSteeperThanASlope) {
   EXPECT_EQ(saw.share_steeper(0.5, {0.0064, 1}), 1);
 }
 
-TEST(RoughnessField, HasTheHeightAskedForAndRepeats) {
-  const RoughnessTag tag{2.3, 2e-5, {2e-4, 1e-2}};
-  const HeightField field = roughness_field(tag, {0.04, 0.04}, 7);
-  double sum = 0, sum2 = 0;
-  int n = 0;
-  for (double u = 0; u < 0.25; u += 1.0 / 1024)
-    for (double v = 0; v < 0.25; v += 1.0 / 1024, ++n) {
-      const double h = field.sample({u, v}).height_m;
-      sum += h;
-      sum2 += h * h;
-    }
-  EXPECT_NEAR(sum / n, 0, 1e-7);
-  EXPECT_NEAR(std::sqrt(sum2 / n), 2e-5, 2e-7);
-  EXPECT_NEAR(field.sample({0.1, 0.1}).height_m, field.sample({0.35, 0.1}).height_m, 1e-12);
-  EXPECT_EQ(roughness_field(tag, {0.04, 0.04}, 7).sample({0.11, 0.2}).height_m, field.sample({0.11, 0.2}).height_m);
-}
-
 }  // namespace
 }  // namespace papilla

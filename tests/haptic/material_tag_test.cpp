@@ -70,6 +70,34 @@ TEST(MaterialTag, RoundTripKeepsEveryBit) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(MaterialTag, RoughnessOverTheMapIsVersion2) {
+  MaterialTag tag = full_tag();
+  tag.roughness = RoughnessTag{2.7, 3.3e-6, {2e-4, 1e-3}, 1.75, 0.3, true};
+  const auto json = nlohmann::json::parse(to_json(tag));
+  EXPECT_EQ(json["version"], 2);
+  EXPECT_DOUBLE_EQ(json["roughness"]["hurst"].get<double>(), 0.3);
+  EXPECT_EQ(json["roughness"]["rms"], 3.3e-6);
+  EXPECT_EQ(json["roughness"]["wavelength_range"], (std::vector<double>{2e-4, 1e-3}));
+  EXPECT_EQ(json["roughness"]["anisotropy"]["ratio"], 1.75);
+  EXPECT_EQ(json["roughness"]["overlay"], true);
+  std::vector<HapticWarning> warnings;
+  EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
+  tag.roughness->fractal_dimension.reset();
+  EXPECT_FALSE(nlohmann::json::parse(to_json(tag))["roughness"].contains("hurst"));
+  EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_THROW(parse_material_tag(R"({"version":3,"stiffness":1})", warnings), InvalidInput);
+}
+
+TEST(MaterialTag, RoughnessWithoutPowerLawHasNoDimension) {
+  MaterialTag tag = full_tag();
+  tag.roughness->fractal_dimension.reset();
+  EXPECT_EQ(to_json(tag).find("fractalDimension"), std::string::npos);
+  std::vector<HapticWarning> warnings;
+  EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST(MaterialTag, NamesAreThoseOfTheFormat) {
   const auto json = nlohmann::json::parse(to_json(full_tag()));
   EXPECT_EQ(json["version"], 1);
@@ -161,7 +189,7 @@ TEST(MaterialTag, HeightWithoutScaleIsDropped) {
 TEST(MaterialTag, RefusesWhatIsNoTag) {
   std::vector<HapticWarning> warnings;
   for (const char* json :
-       {"", "nonsense", "[]", "1", "{}", R"({"version":1})", R"({"version":2,"stiffness":1})",
+       {"", "nonsense", "[]", "1", "{}", R"({"version":1})", R"({"version":3,"stiffness":1})",
         R"({"version":"1","stiffness":1})", R"({"stiffness":1})", R"({"version":1,"stiffness":NaN})"})
     EXPECT_THROW(parse_material_tag(json, warnings), InvalidInput) << json;
 }

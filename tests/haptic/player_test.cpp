@@ -212,7 +212,7 @@ TEST_F(Player, OddTagsGiveWarningsOrAreRefused) {
   const Json report = play_glb({{"haptic", odd}}, testing::sine_png()).json();
   expect_warning(report, "tag_stiffness");
   expect_warning(report, "tag_friction");
-  odd["version"] = 2;
+  odd["version"] = 3;
   expect_refusal(play_glb({{"haptic", odd}}, ""), 3);
   expect_refusal(play_glb(Json::object(), ""), 3);
 }

@@ -67,6 +67,25 @@ TEST(ImageBands, SampleIsEveryPixelOfASmallPicture) {
   EXPECT_EQ(bands.sample().pixels, image.pixels);
 }
 
+TEST(ImageBands, SampleHoldsTheMeansOfItsBlocks) {
+  const TemporaryFolder folder;
+  ColorImage image{5, 3, {}};  // Blocks of 2 × 2, those at the right and below smaller.
+  for (int i = 0; i < 45; ++i) image.pixels.push_back(static_cast<unsigned char>(5 * i));
+  write_color_image(folder / "a.png", image);
+  ImageBands bands(folder / "a.png", k_max_streamed_pixels, 3);
+  while (bands.next(1).height > 0) {
+  }
+  ASSERT_EQ(bands.sample().width, 3);
+  ASSERT_EQ(bands.sample().height, 2);
+  const auto at = [&](int x, int y, int c) { return 5.0 * (15 * y + 3 * x + c); };
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(bands.sample().pixels[static_cast<std::size_t>(c)],
+                (at(0, 0, c) + at(1, 0, c) + at(0, 1, c) + at(1, 1, c)) / 4, 0.51);
+    EXPECT_NEAR(bands.sample().pixels[static_cast<std::size_t>(6 + c)], (at(4, 0, c) + at(4, 1, c)) / 2, 0.51);
+    EXPECT_NEAR(bands.sample().pixels[static_cast<std::size_t>(9 + c)], (at(0, 2, c) + at(1, 2, c)) / 2, 0.51);
+  }
+}
+
 TEST(ImageBands, SampleOfALargePictureIsSmall) {
   const TemporaryFolder folder;
   write_grey_image(folder / "a.tif", ramp(3000, 20), 8);

@@ -88,6 +88,28 @@ TEST(ImageFile, GreyAndColourOfOneDecodingAreThoseOfTwo) {
   }
 }
 
+TEST(ImageFile, ReducedPicturesAreMeansWithAsMuchCoarserPixels) {
+  const TemporaryFolder folder;
+  GreyImage image{7, 5, {}, 0.05, 16};
+  for (int i = 0; i < 35; ++i) image.pixels.push_back(static_cast<float>(i * i) / 1225);
+  write_grey_image(folder / "a.tif", image, 16);
+  const Picture whole = read_reduced_picture(folder / "a.tif", 7);
+  EXPECT_EQ(whole.grey.pixels, read_grey_image(folder / "a.tif").pixels);
+  EXPECT_EQ(whole.grey.bits, 16);
+  const Picture reduced = read_reduced_picture(folder / "a.tif", 3);
+  ASSERT_EQ(reduced.grey.width, 3);
+  ASSERT_EQ(reduced.grey.height, 2);
+  EXPECT_EQ(reduced.color.width, 3);
+  EXPECT_EQ(reduced.color.height, 2);
+  EXPECT_NEAR(reduced.grey.pitch_mm, 0.15, 1e-5);
+  double first = 0, last = 0;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) first += static_cast<double>(image.at(x, y)) / 9;
+  for (int y = 3; y < 5; ++y) last += static_cast<double>(image.at(6, y)) / 2;
+  EXPECT_NEAR(reduced.grey.pixels[0], first, 2e-5);
+  EXPECT_NEAR(reduced.grey.pixels[5], last, 2e-5);
+}
+
 TEST(ImageFile, GreyComesBackWithPitchInEveryDepth) {
   const TemporaryFolder folder;
   GreyImage image{3, 2, {0, 0.25F, 0.5F, 0.75F, 1, 0.125F}, 0.05, 32};

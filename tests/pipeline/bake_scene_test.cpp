@@ -39,6 +39,7 @@ class BakeTest : public testing::Test {
     grain.size_mm[1] = 20;
     grain.height.depth_mm = 0.4;
     grain.height.scale = 2;
+    grain.height.relief.tile = false;  // The whole picture.
     grain.stiffness = 900;
     MaterialRule hard;
     hard.name = "hard";
@@ -136,6 +137,22 @@ TEST_F(BakeTest, GrainHasItsPhysicalScale) {
   EXPECT_NEAR(high_u - low_u, 2.5, 1e-9);
   EXPECT_NEAR(high_v - low_v, 5.0, 1e-9);
   EXPECT_NEAR(result.surfaces.at(0).distortion.symmetric_dirichlet.mean, 4, 1e-9);
+}
+
+/// Three of the six spheres of 10.7 pixels fill a tile of 32 pixels, half of the picture.
+TEST_F(BakeTest, WhatRepeatsIsBakedOnceOnAnExactTile) {
+  rules_.materials.at("grain").height.relief.tile.reset();
+  const BakeResult result = bake_scene(scene_of({square("dash")}), rules_, {});
+  const Grain& grain = result.grains.at("grain");
+  EXPECT_DOUBLE_EQ(grain.size_mm[0], 20);
+  EXPECT_DOUBLE_EQ(grain.size_mm[1], 10);
+  EXPECT_EQ(grain.relief.width, 32);
+  EXPECT_TRUE(grain.relief.periodic);
+  EXPECT_TRUE(step_of(grain.plan, "exact_tile").run);
+  ASSERT_TRUE(grain.tag.height);
+  EXPECT_DOUBLE_EQ(grain.tag.height->metres_per_uv.x, 0.02);
+  EXPECT_DOUBLE_EQ(grain.tag.height->metres_per_uv.y, 0.01);
+  EXPECT_FALSE(grain.height.overlay);
 }
 
 TEST_F(BakeTest, TheTagDecodesToTheReliefThatTheNormalMapShows) {

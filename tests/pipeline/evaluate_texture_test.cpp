@@ -8,6 +8,7 @@
 #include "evaluate/kinds.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/grain.hpp"
+#include "papilla/texture/stein_surface.hpp"
 
 namespace papilla {
 namespace {
@@ -26,8 +27,8 @@ class EvaluateTexture : public testing::Test {
 };
 
 TEST_F(EvaluateTexture, FractalRunsEveryEstimatorOnEverySize) {
-  write_grey_image(file("grain.png"), grain_.picture, 8);
-  const std::vector<EvaluationRun> runs = evaluate_fractal({file("grain.png"), "grain.png", {}, {}});
+  write_grey_image(file("rough.png"), to_grey_image(brownian_surface_exact({145, 0.5, 3})), 8);
+  const std::vector<EvaluationRun> runs = evaluate_fractal({file("rough.png"), "rough.png", {}, {}});
   ASSERT_EQ(runs.size(), 6U);
   for (const EvaluationRun& run : runs) {
     EXPECT_EQ(run.trace.size(), run.method == "probability" ? 2U : 3U) << run.method;
@@ -45,19 +46,21 @@ TEST_F(EvaluateTexture, SymmetryLeavesLittleOfARegularGrain) {
 TEST_F(EvaluateTexture, HeightKnowsTheErrorOfAReliefAndTheResidualOfAPicture) {
   write_height_float(file("grain.exr"), grain_.relief);
   const std::vector<EvaluationRun> known = evaluate_height({file("grain.exr"), "grain.exr", {}, {}});
-  ASSERT_EQ(known.size(), 12U);
-  const auto least = [](const EvaluationRun& run) {
-    return std::min_element(run.trace.begin(), run.trace.end(),
-                            [](const TraceSample& a, const TraceSample& b) { return a.error < b.error; })
-        ->error;
+  const auto least_of = [&](const char* method) {
+    double least = 1e300;
+    for (const EvaluationRun& run : known)
+      for (const TraceSample& sample : run.trace)
+        if (run.method == method && run.error_name == known.front().error_name) least = std::min(least, sample.error);
+    return least;
   };
-  EXPECT_EQ(known[8].method, "variational");
-  EXPECT_LT(least(known[8]), 0.2);
-  EXPECT_EQ(known[3].method, "intensity");
-  EXPECT_EQ(known[3].trace.size(), 3U);  // 64, 128 and 144 pixels
+  for (const char* method : {"variational", "wiener", "pentland"}) EXPECT_LT(least_of(method), 0.2) << method;
+  const auto intensity =
+      std::find_if(known.begin(), known.end(), [](const EvaluationRun& run) { return run.method == "intensity"; });
+  ASSERT_NE(intensity, known.end());
+  EXPECT_EQ(intensity->trace.size(), 3U);  // 64, 128 and 144 pixels
   write_grey_image(file("grain.png"), grain_.picture, 8);
   const std::vector<EvaluationRun> unknown = evaluate_height({file("grain.png"), "grain.png", {}, {}});
-  ASSERT_EQ(unknown.size(), 3U);
+  ASSERT_GE(unknown.size(), 3U);
   EXPECT_NE(unknown[0].error_name, known[0].error_name);
 }
 

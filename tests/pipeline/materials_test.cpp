@@ -61,6 +61,37 @@ TEST_F(MaterialsTest, ReadsTheDocumentedExample) {
   EXPECT_TRUE(file.assign[2].material.empty());
 }
 
+TEST_F(MaterialsTest, HeightTakesTheOptionsOfTheVerb) {
+  const Materials file = read(R"({"materials": {
+      "a": {"texture": "a.png", "height": {"method": "pentland", "depth": 0.25, "pitch": 0.08, "light": [1, -2, 3],
+            "periodic": false, "roughness": "residual", "cut": "auto", "rate": 500, "speed": 40, "tile": true,
+            "alternative": true, "source": "synthesis", "seed": 7}},
+      "b": {"texture": "b.png", "height": {"light": "auto", "periodic": "auto", "roughness": "auto", "cut": 0.4,
+            "tile": "auto", "source": "auto"}}}})");
+  const HeightRule& a = file.materials.at("a").height;
+  EXPECT_EQ(a.relief.height.method, HeightMethod::pentland);
+  EXPECT_EQ(a.depth_mm, 0.25);
+  EXPECT_EQ(a.pitch_mm, 0.08);
+  ASSERT_TRUE(a.relief.height.light);
+  EXPECT_EQ(a.relief.height.light->y, -2);
+  EXPECT_EQ(a.relief.height.periodic, false);
+  EXPECT_EQ(a.relief.roughness, HeightRoughness::residual);
+  EXPECT_DOUBLE_EQ(a.relief.height.shortest_wavelength_mm, 2 * 40.0 / 500);
+  EXPECT_EQ(a.relief.tile, true);
+  EXPECT_TRUE(a.opposite);
+  EXPECT_EQ(a.relief.source, ReliefSource::synthesis);
+  EXPECT_EQ(a.relief.height.seed, 7U);
+  const HeightRule& b = file.materials.at("b").height;
+  EXPECT_FALSE(b.relief.height.light || b.relief.height.periodic || b.relief.roughness || b.relief.tile);
+  EXPECT_EQ(b.relief.height.shortest_wavelength_mm, 0.4);
+  EXPECT_NE(complaint(R"({"materials": {"a": {"height": {"light": [0, 0, -1]}}}})")
+                .find("/materials/a/height/light: must have z > 0"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint(R"({"materials": {"a": {"height": {"depth": 1, "depth_mm": 1}}}})").find("/materials/a/height/depth"),
+      std::string::npos);
+}
+
 TEST_F(MaterialsTest, ReadsHowASurfaceHoldsAndShades) {
   const Materials file = read(R"({"materials": {
       "cloth": {"frictionModel": {"name": "bristle", "stiffness": 400}, "forceShading": true}, "plain": {}}})");

@@ -61,6 +61,8 @@ TEST(SteadyStroke, ASteepReliefCatchesAPoint) {
   const fs::path folder = fs::temp_directory_path() / ("papilla-steep-" + std::to_string(::getpid()));
   MaterialRule leather = testing::demo_rules(PAPILLA_DATA, folder).materials.at("leather");
   leather.height.max_slope = 1000;
+  leather.height.relief.height.method = HeightMethod::intensity;
+  leather.height.relief.part = false;
   const DeviceCaps device = device_preset("omega3").caps();
   const testing::FeltPlate steep = testing::felt_plate(leather, device, {.probe_radius_m = 0, .felt_depth_m = 0});
   bool found = false;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "papilla/core/error.hpp"
@@ -28,7 +29,7 @@ TEST(FractalReadings, AreThoseOfTheMethods) {
   const GreyImage image = test::noise_image(80, 70, 1, 8);
   const FractalReadings readings = read_fractal_dimensions(image);
   EXPECT_EQ(readings.box->dimension, box_dimension(image).dimension);
-  EXPECT_EQ(readings.best->estimate.dimension, best_dimension(image).estimate.dimension);
+  EXPECT_EQ(readings.best->reason, best_dimension(image).reason);
   EXPECT_EQ(readings.fshot->sta, fshot_dimension(image).sta);
 }
 
@@ -43,10 +44,10 @@ TEST(FractalReadings, SmallPicturesHaveNone) {
 TEST(FractalReadings, MeanOverPiecesFindsTheDimensionOfTheWhole) {
   for (const double hurst : {0.3, 0.7}) {
     const FractalReadings mean = mean_readings(quarters(to_grey_image(brownian_surface_exact({512, hurst, 3}))));
-    EXPECT_NEAR(mean.best->estimate.dimension, 3 - hurst, 0.01);
-    EXPECT_LE(mean.best->estimate.low, 3 - hurst);
-    EXPECT_GE(mean.best->estimate.high, 3 - hurst);
-    EXPECT_DOUBLE_EQ(mean.best->estimate.hurst, 3 - mean.best->estimate.dimension);
+    EXPECT_NEAR(mean.best->estimate->dimension, 3 - hurst, 0.01);
+    EXPECT_LE(mean.best->estimate->low, 3 - hurst);
+    EXPECT_GE(mean.best->estimate->high, 3 - hurst);
+    EXPECT_DOUBLE_EQ(mean.best->estimate->hurst, 3 - mean.best->estimate->dimension);
   }
 }
 
@@ -55,7 +56,22 @@ TEST(FractalReadings, OnePieceIsItself) {
   const FractalReadings mean = mean_readings(std::vector{one});
   EXPECT_EQ(mean.box->low, one.box->low);
   EXPECT_EQ(mean.fshot->str, one.fshot->str);
-  EXPECT_EQ(mean.best->estimate.high, one.best->estimate.high);
+  EXPECT_EQ(mean.best->reason, one.best->reason);
+}
+
+TEST(FractalReadings, HalfOfThePiecesDecideOnThePowerLaw) {
+  const FractalReadings rough = read_fractal_dimensions(to_grey_image(brownian_surface_exact({128, 0.5, 6})));
+  const FractalReadings none = read_fractal_dimensions(test::noise_image(128, 128, 4));
+  ASSERT_TRUE(rough.best->power_law());
+  ASSERT_FALSE(none.best->power_law());
+  const BestDimension half = *mean_readings(std::vector{rough, none, none, rough}).best;
+  ASSERT_TRUE(half.power_law());
+  EXPECT_DOUBLE_EQ(half.estimate->dimension, rough.best->estimate->dimension);
+  EXPECT_EQ(half.least_scale_px, rough.best->least_scale_px);
+  const BestDimension few = *mean_readings(std::vector{rough, none, none}).best;
+  EXPECT_FALSE(few.power_law());
+  EXPECT_NE(few.reason.find("2 of 3 pieces"), std::string::npos) << few.reason;
+  EXPECT_NE(few.reason.find(none.best->reason), std::string::npos) << few.reason;
 }
 
 TEST(FractalReadings, IntervalIsThatOfTheMean) {

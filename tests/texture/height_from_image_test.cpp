@@ -39,14 +39,14 @@ TEST(HeightFromImage, GivesBackTheReliefOfALitGrain) {
   for (const GrainKind kind : {GrainKind::spheres6, GrainKind::quads6, GrainKind::ovals6}) {
     const GrainResult grain = synthesize_grain(kind, {192});
     const HeightResult result = height_from_image(grain.picture);  // Everything automatic.
-    EXPECT_EQ(result.method, HeightMethod::variational) << to_string(kind);
+    EXPECT_EQ(result.method, HeightMethod::wiener) << to_string(kind);
     EXPECT_TRUE(result.map.periodic) << to_string(kind);
     EXPECT_TRUE(result.light_estimated);
     EXPECT_GT(correlation(result.map, grain.relief), 0.75) << to_string(kind);
     // The true light in place of the estimated one.
     const HeightResult lit = height_from_image(grain.picture, {.light = GrainOptions{}.light});
     EXPECT_FALSE(lit.light_estimated);
-    EXPECT_GT(correlation(lit.map, grain.relief), 0.85) << to_string(kind);
+    EXPECT_GT(correlation(lit.map, grain.relief), 0.8) << to_string(kind);
     EXPECT_FALSE(result.trace.empty());
   }
 }
@@ -195,12 +195,14 @@ TEST(HeightFromImage, RefusesBadArguments) {
   EXPECT_THROW(height_from_image(image, {.depth_mm = 0}), InvalidInput);
   EXPECT_THROW(height_from_image(image, {.pitch_mm = -1}), InvalidInput);
   EXPECT_THROW(height_from_image(image, {.method = HeightMethod::variational, .light = Vec3{0, 0, -1}}), InvalidInput);
+  EXPECT_THROW(height_from_image(image, {.method = HeightMethod::photometric_stereo}), InvalidInput);
   GreyImage bad = image;
   bad.at(5, 5) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(height_from_image(bad), InvalidInput);
   EXPECT_THROW(height_method("magic"), InvalidInput);
   EXPECT_EQ(height_method("tsai-shah"), HeightMethod::tsai_shah);
   EXPECT_EQ(to_string(HeightMethod::automatic), "auto");
+  EXPECT_EQ(to_string(HeightMethod::photometric_stereo), "photometric-stereo");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST_P(HeightRowsOf, AgreeWithTheHeightsInMemory) {
   const HeightResult pieces = height_from_image(image, options);
   const TemporaryFolder folder("papilla-test");
   SampleFile samples(512, 384, folder.path());
-  const HeightRows rows = height_from_rows(picture, image, options, samples);
+  const HeightRows rows = height_from_rows(picture, image.bits, options, samples);
   const ScaledSamples relief(samples, rows.scale, rows.lowest);
 
   double squares = 0, most_off_pieces = 0;
@@ -83,6 +83,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, HeightRowsOf,
                                          Case{HeightMethod::tsai_shah, true, 1e-6, {2, 2}},
                                          Case{HeightMethod::pentland, false, 0.02, {4, 3}},
                                          Case{HeightMethod::pentland, true, 0.02, {4, 3}},
+                                         Case{HeightMethod::wiener, false, 0.03, {4, 3}},
+                                         Case{HeightMethod::wiener, true, 0.03, {4, 3}},
                                          Case{HeightMethod::variational, false, 0.05, {4, 3}},
                                          Case{HeightMethod::variational, true, 0.02, {4, 3}}));
 
@@ -97,7 +99,7 @@ TEST(HeightFromRows, NamesTheSampleThatIsNoNumber) {
       image.at(3, 61) = value;
       const SamplesInMemory picture(image.pixels, 64, 64);
       try {
-        height_from_rows(picture, middle, {.method = method, .periodic = false}, samples);
+        height_from_rows(picture, middle.bits, {.method = method, .periodic = false}, samples);
         ADD_FAILURE() << to_string(method);
       } catch (const InvalidInput& error) {
         EXPECT_STREQ(error.what(), "height_from_rows: sample [3, 61] is not a finite number");
@@ -110,8 +112,8 @@ TEST(HeightFromRows, RefusesWhatNeedsThePictureInMemory) {
   const SamplesInMemory picture(image.pixels, 64, 64);
   const TemporaryFolder folder("papilla-test");
   SampleFile samples(64, 64, folder.path());
-  EXPECT_THROW(height_from_rows(picture, image, {.tile = true}, samples), InvalidInput);
-  EXPECT_THROW(height_from_rows(picture, image, {.roughness = HeightRoughness::none}, samples), InvalidInput);
+  EXPECT_THROW(height_from_rows(picture, image.bits, {.tile = true}, samples), InvalidInput);
+  EXPECT_THROW(height_from_rows(picture, image.bits, {.roughness = HeightRoughness::none}, samples), InvalidInput);
 }
 
 TEST(SampleFile, GivesBackPartsOfRowsAndLeavesNoName) {

@@ -64,8 +64,9 @@ Range range_of(const Values& values) {
   return {static_cast<double>(*low), static_cast<double>(*high)};
 }
 
-/// Both families of lattice lines through the centre of the panel.
-void draw_lattice(Panel& panel, const std::array<Vec2, 2>& vectors) {
+/// Both families of lattice lines through the centre of the panel, bent where the lattice is.
+void draw_lattice(Panel& panel, const std::array<Vec2, 2>& vectors, const Displacement* displacement) {
+  constexpr double k_piece_px = 4;
   const Vec2 centre{panel.width() / 2.0, panel.height() / 2.0};
   const double diagonal = std::hypot(panel.width(), panel.height());
   const double area = std::abs(cross(vectors[0], vectors[1]));
@@ -74,7 +75,20 @@ void draw_lattice(Panel& panel, const std::array<Vec2, 2>& vectors) {
     const Vec2 half = (diagonal / norm(along)) * along;
     for (int k = -lines; k <= lines; ++k) {
       const Vec2 middle = centre + static_cast<double>(k) * step;
-      panel.line(middle - half, middle + half, k_lattice_color);
+      if (displacement == nullptr) {
+        panel.line(middle - half, middle + half, k_lattice_color);
+        continue;
+      }
+      const int pieces = static_cast<int>(std::ceil(2 * diagonal / k_piece_px));
+      Vec2 from{};
+      for (int i = 0; i <= pieces; ++i) {
+        const Vec2 straight = middle + (2.0 * i / pieces - 1) * half;
+        const bool near = straight.x > -diagonal && straight.y > -diagonal && straight.x < panel.width() + diagonal &&
+                          straight.y < panel.height() + diagonal;
+        const Vec2 to = near ? bent_place(*displacement, straight) : straight;
+        if (i > 0) panel.line(from, to, k_lattice_color);
+        from = to;
+      }
     }
   }
 }
@@ -117,7 +131,9 @@ ColorImage symmetry_strip(const SymmetryAnalysis& analysis) {
 
   Panel original(strip, 0, width), matrix(strip, stride, width);
   original.fill([&](int x, int y) { return range(static_cast<double>(image.at(x, y))); });
-  if (analysis.lattice.found) draw_lattice(original, analysis.lattice.vectors_px);
+  if (analysis.lattice.found)
+    draw_lattice(original, analysis.lattice.vectors_px,
+                 analysis.deformation ? &analysis.deformation->displacement : nullptr);
   draw_matrix(matrix, analysis);
   if (!analysis.part) return strip;
 

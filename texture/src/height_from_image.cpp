@@ -13,6 +13,7 @@
 
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/core/units.hpp"
 #include "papilla/texture/best_dimension.hpp"
 #include "papilla/texture/light_direction.hpp"
 #include "papilla/texture/roughness.hpp"
@@ -20,14 +21,15 @@
 #include "papilla/texture/symmetry.hpp"
 #include "papilla/texture/tiling.hpp"
 #include "row_window.hpp"
+#include "shading_spectrum.hpp"
 #include "shaped_noise.hpp"
 #include "slopes.hpp"
 
 namespace papilla {
 namespace {
 
-constexpr std::array<std::string_view, 5> k_method_names = {"auto", "variational", "pentland", "tsai-shah",
-                                                            "intensity"};
+constexpr std::array<std::string_view, 7> k_method_names = {
+    "auto", "variational", "pentland", "tsai-shah", "intensity", "wiener", "photometric-stereo"};
 
 constexpr std::array<std::string_view, 4> k_roughness_names = {"whole", "none", "residual", "synthesized"};
 
@@ -35,6 +37,8 @@ constexpr std::array<std::string_view, 4> k_roughness_names = {"whole", "none", 
 constexpr double k_roughness_mm = 1;
 
 void require_options(const HeightOptions& options) {
+  if (options.method == HeightMethod::photometric_stereo)
+    throw InvalidInput("height_from_image: photometric-stereo needs three or more photographs");
   if (!texture_detail::is_positive(options.depth_mm))
     throw InvalidInput("height_from_image: depth " + std::to_string(options.depth_mm) + " mm is not positive");
   if (options.pitch_mm != 0 && !texture_detail::is_positive(options.pitch_mm))
@@ -46,16 +50,6 @@ void require_options(const HeightOptions& options) {
   if (options.shortest_wavelength_mm != 0 && !texture_detail::is_positive(options.shortest_wavelength_mm))
     throw InvalidInput("height_from_image: wavelength " + std::to_string(options.shortest_wavelength_mm) +
                        " mm is not positive");
-}
-
-void choose_method(const HeightOptions& options, const Lattice& lattice, HeightResult& result) {
-  if (options.method != HeightMethod::automatic) {
-    result.method = options.method;
-    result.reason = "asked for";
-    return;
-  }
-  result.method = lattice.found ? HeightMethod::variational : HeightMethod::intensity;
-  result.reason = lattice.found ? "the picture repeats: lit elements" : "grey read as height: " + lattice.reason;
 }
 
 /// Sets the size of the map to one tile of the lattice.
@@ -71,24 +65,19 @@ void choose_tile(const GreyImage& image, const Lattice& lattice, HeightResult& r
   result.map.periodic = true;
 }
 
-void choose_light(const SampleRows& picture, const HeightOptions& options, HeightResult& result) {
-  if (options.light) {
-    result.light = texture_detail::require_light(*options.light, "height_from_image");
-    return;
-  }
-  const LightEstimate estimate = estimate_light(picture);
-  result.light = estimate.direction;
-  result.light_estimated = true;
-  result.light_coherence = estimate.coherence;
-}
-
 struct Statistics {
   float low = 0, high = 0;
   double mean = 0, deviation = 0;  ///< Root mean square from the mean.
+  double dark = 0, bright = 0;     ///< Shares below and above the bounds.
+};
+
+/// Brightness over the mean.
+struct Bounds {
+  double dark = 0, bright = 1e300;
 };
 
 /// @throws InvalidInput when a sample is not finite.
-Statistics statistics(const SampleRows& samples) {
+Statistics statistics(const SampleRows& samples, const Bounds& bounds = {}) {
   Statistics s;
   std::vector<float> row(static_cast<std::size_t>(samples.width()));
   const auto each_row = [&](const auto& visit) {
@@ -110,23 +99,93 @@ Statistics statistics(const SampleRows& samples) {
   });
   s.mean = sum / samples.count();
   each_row([&](int) {
-    for (const float value : row)
-      squares += (static_cast<double>(value) - s.mean) * (static_cast<double>(value) - s.mean);
+    for (const float sample : row) {
+      const auto value = static_cast<double>(sample);
+      squares += (value - s.mean) * (value - s.mean);
+      if (value < bounds.dark * s.mean) s.dark += 1 / samples.count();
+      if (value > bounds.bright * s.mean) s.bright += 1 / samples.count();
+    }
   });
   s.deviation = std::sqrt(squares / samples.count());
   return s;
 }
 
+/// Linear, evened brightness of a picture, whose samples it checks.
+EvenedSamples brightness_of(const SampleRows& picture, int bits, const HeightOptions& options, HeightResult& result) {
+  statistics(picture);
+  result.decoded_srgb = decodes_srgb(options.transfer, bits);
+  const LightField field = result.map.periodic ? LightField{} : light_field(picture, result.decoded_srgb);
+  result.unevenness = field.unevenness;
+  return EvenedSamples(picture, result.decoded_srgb, field);
+}
+
+void choose_light(const SampleRows& brightness, const HeightOptions& options, HeightResult& result) {
+  if (options.light) {
+    result.light = texture_detail::require_light(*options.light, "height_from_image");
+    return;
+  }
+  const LightEstimate estimate = estimate_light(brightness);
+  result.light = estimate.direction;
+  result.light_estimated = result.ambiguous = true;
+  result.light_coherence = estimate.coherence;
+  result.light_uncertainty_deg = estimate.uncertainty_deg;
+}
+
+std::string rounded(double value) {
+  const auto hundredths = std::lround(100 * value);
+  return std::to_string(hundredths / 100) + (hundredths % 100 < 10 ? ".0" : ".") + std::to_string(hundredths % 100);
+}
+
+/// Wiener's filter or grey as height, whichever is expected to correlate more; the light is known then.
+void choose_by_expectation(const SampleRows& brightness, const HeightOptions& options, HeightResult& result) {
+  choose_light(brightness, options, result);
+  // Share of pictures with such a coherence that are lit, of the model's and of real ones.
+  constexpr double k_not_lit = 0.15, k_lit = 0.35;
+  const double lit =
+      options.light ? 1 : std::clamp((result.light_coherence - k_not_lit) / (k_lit - k_not_lit), 0.0, 1.0);
+  const double turned = std::cos(result.light_uncertainty_deg * k_radians_per_degree);
+  const double shading = lit > 0
+                             ? lit * turned *
+                                   texture_detail::ShadingSpectrum(texture_detail::middle_of(brightness), result.light)
+                                       .expected_correlation()
+                             : 0;
+  constexpr double k_grey_of_heights = 0.5, k_grey_of_lit = 0.15;
+  const double grey = (1 - lit) * k_grey_of_heights + lit * k_grey_of_lit;
+  result.method = shading >= grey ? HeightMethod::wiener : HeightMethod::intensity;
+  result.expected_correlation = std::max(shading, grey);
+  result.reason = std::string(lit > 0 ? "" : "no direction of light is seen: ") + "expected correlation " +
+                  rounded(shading) + " from shading, " + rounded(grey) + " with grey read as height";
+  if (result.method == HeightMethod::intensity) {
+    result.light = HeightResult{}.light;
+    result.light_estimated = result.ambiguous = false;
+    result.light_uncertainty_deg = 0;
+    result.ambiguous = !options.light;
+  }
+}
+
+void choose_method(const SampleRows& picture, int bits, const HeightOptions& options, HeightResult& result) {
+  if (options.method == HeightMethod::automatic) {
+    choose_by_expectation(brightness_of(picture, bits, options, result), options, result);
+    return;
+  }
+  result.method = options.method;
+  result.reason = "asked for";
+}
+
 /// The light, and how the picture is to be solved for its heights; nothing for a flat or black one, whose heights are
 /// 0.
-std::optional<ShadingOptions> choose_shading(const SampleRows& picture, const HeightOptions& options,
+std::optional<ShadingOptions> choose_shading(const SampleRows& brightness, const HeightOptions& options,
                                              HeightResult& result) {
-  const Statistics grey = statistics(picture);
-  choose_light(picture, options, result);
+  if (options.method != HeightMethod::automatic) choose_light(brightness, options, result);
+  // A matt surface that faces the light is 1 / s_z times as bright as level ground.
+  constexpr double k_shadow = 0.25, k_highlight = 1.05;
+  const Statistics grey = statistics(brightness, {k_shadow, k_highlight / result.light.z});
   if (!(grey.low < grey.high) || !(grey.mean > 0)) {
     result.stop = StopReason::direct;
     return std::nullopt;
   }
+  result.shadows_fraction = grey.dark;
+  result.highlights_fraction = grey.bright;
   ShadingOptions shading;
   shading.light = result.light;
   shading.albedo = options.albedo > 0 ? options.albedo : grey.mean / result.light.z;
@@ -143,12 +202,24 @@ Solve* solver(HeightMethod method, Solve* variational, Solve* pentland, Solve* t
   return method == HeightMethod::variational ? variational : method == HeightMethod::pentland ? pentland : tsai_shah;
 }
 
-std::vector<double> height_by_shading(const GreyImage& image, const HeightOptions& options, HeightResult& result) {
-  const auto shading = choose_shading(SamplesInMemory(image.pixels, image.width, image.height), options, result);
-  if (!shading) return std::vector<double>(image.pixels.size(), 0.0);
+/// The heights by wiener, which estimates more than the other methods.
+ShadingResult kept(WienerShadingResult solved, const HeightOptions& options, HeightResult& result) {
+  if (options.method != HeightMethod::automatic) result.expected_correlation = solved.expected_correlation;
+  return solved;
+}
+
+std::vector<double> height_by_shading(const GreyImage& picture, const HeightOptions& options, HeightResult& result) {
+  const SamplesInMemory samples(picture.pixels, picture.width, picture.height);
+  const EvenedSamples evened = brightness_of(samples, picture.bits, options, result);
+  const auto shading = choose_shading(evened, options, result);
+  if (!shading) return std::vector<double>(picture.pixels.size(), 0.0);
+  GreyImage image{picture.width, picture.height, std::vector<float>(picture.pixels.size()), 0, 32};
+  for (int y = 0; y < image.height; ++y) evened.read(0, y, image.width, &image.at(0, y));
   using Solve = ShadingResult(const GreyImage&, const ShadingOptions&);
-  ShadingResult solved = solver<Solve>(result.method, shape_from_shading_variational, shape_from_shading_pentland,
-                                       shape_from_shading_tsai_shah)(image, *shading);
+  ShadingResult solved = result.method == HeightMethod::wiener
+                             ? kept(shape_from_shading_wiener(image, *shading), options, result)
+                             : solver<Solve>(result.method, shape_from_shading_variational, shape_from_shading_pentland,
+                                             shape_from_shading_tsai_shah)(image, *shading);
   result.trace = std::move(solved.trace);
   result.stop = solved.stop;
   result.pieces = solved.pieces;
@@ -201,7 +272,8 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
                        const HeightResult& result) {
   constexpr int k_least_side = 32;
   const bool measurable = std::min(residual.width, residual.height) >= k_least_side;
-  const double hurst = measurable ? std::clamp(best_dimension(residual).estimate.hurst, 0.05, 0.95) : 0.5;
+  const auto fractal = measurable ? best_dimension(residual).estimate : std::nullopt;
+  const double hurst = fractal ? std::clamp(fractal->hurst, 0.05, 0.95) : 0.5;  // Without a law the middle.
   const double pitch = result.map.pitch_mm_x;
   const double longest_px = pitch > 0 ? k_roughness_mm / pitch : 1e300;
   Field noise =
@@ -218,7 +290,10 @@ Field synthesized_like(const GreyImage& residual, const Field& rough, const Heig
 Field relief_with_roughness(const GreyImage& image, const Lattice& lattice, const HeightOptions& options,
                             HeightResult& result) {
   const SymmetricPart part = symmetric_part(image, lattice.vectors_px);
-  Field field = relief_of(result.tile ? fill_tile(part.primitive, *result.tile) : part.synthesis, options, result);
+  const GreyImage& cell = options.primitive ? *options.primitive : part.primitive;
+  GreyImage regular = result.tile ? fill_tile(cell, *result.tile) : part.synthesis;
+  regular.bits = image.bits;  // Of the camera: the mean is as it stored the grey values.
+  Field field = relief_of(regular, options, result);
   const double range = range_of(field);
   if (range > 0)
     for (double& value : field) value /= range;
@@ -321,6 +396,15 @@ HeightMap opposite_relief(const HeightMap& relief) {
   return result;
 }
 
+HeightChoice choose_height_method(const GreyImage& image, const HeightOptions& options) {
+  texture_detail::require_image(image, "choose_height_method");
+  require_options(options);
+  HeightResult result;
+  result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
+  choose_method(SamplesInMemory(image.pixels, image.width, image.height), image.bits, options, result);
+  return {result.method, result.reason};
+}
+
 HeightResult height_from_image(const GreyImage& image, const HeightOptions& options) {
   texture_detail::require_image(image, "height_from_image");
   require_options(options);
@@ -331,17 +415,23 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   result.map.pitch_mm_x = result.map.pitch_mm_y = pitch;
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
   const bool composes = options.tile || options.roughness != HeightRoughness::whole;
-  const bool asks_lattice = options.method == HeightMethod::automatic || composes;
-  const Lattice lattice = options.lattice ? *options.lattice
-                          : asks_lattice  ? analyze_symmetry(image, {}, FeatureKind::squared, options.progress).lattice
-                                          : Lattice{};
-  choose_method(options, lattice, result);
+  Lattice lattice;
+  std::optional<GreyImage> straight;  // Only a straight picture has the mean cell that tiles.
+  if (options.lattice) {
+    lattice = *options.lattice;
+  } else if (composes) {
+    SymmetryAnalysis symmetry = analyze_symmetry(image, {}, FeatureKind::squared, options.progress);
+    lattice = std::move(symmetry.lattice);
+    if (options.tile && symmetry.deformation && symmetry.straight->pixels.size() == image.pixels.size())
+      straight = std::move(symmetry.straight);
+  }
+  choose_method(SamplesInMemory(image.pixels, image.width, image.height), image.bits, options, result);
   if (options.tile) choose_tile(image, lattice, result);
   Field field;
   if (composes && lattice.found) {
     const bool tiles = options.tile && options.roughness != HeightRoughness::none;
     result.roughness = tiles ? HeightRoughness::synthesized : options.roughness;
-    field = relief_with_roughness(image, lattice, options, result);
+    field = relief_with_roughness(straight ? *straight : image, lattice, options, result);
   } else {
     field = relief_of(image, options, result);
   }
@@ -357,10 +447,8 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   return result;
 }
 
-HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, const HeightOptions& options,
-                            SampleFile& relief) {
+HeightRows height_from_rows(const SampleRows& picture, int bits, const HeightOptions& options, SampleFile& relief) {
   require_options(options);
-  texture_detail::require_image(middle, "height_from_rows");
   if (options.tile || options.roughness != HeightRoughness::whole || options.shortest_wavelength_mm > 0)
     throw InvalidInput(
         "height_from_rows: a tile, roughness apart and a shortest wavelength need the picture in memory");
@@ -370,31 +458,30 @@ HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, 
   result.map.height = picture.height();
   result.map.pitch_mm_x = result.map.pitch_mm_y = options.pitch_mm;
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(picture).tiles;
-  Lattice lattice;
-  if (options.method == HeightMethod::automatic)
-    lattice = options.lattice ? *options.lattice
-                              : analyze_symmetry(middle, {}, FeatureKind::squared, options.progress).lattice;
-  choose_method(options, lattice, result);
-  if (options.method == HeightMethod::automatic)
-    result.reason +=
-        " (seen in the middle " + std::to_string(middle.width) + " x " + std::to_string(middle.height) + ")";
+  choose_method(picture, bits, options, result);
 
   std::vector<float> row(static_cast<std::size_t>(picture.width()), 0.0F);
-  std::optional<ShadingOptions> shading;
   const bool lit = result.method != HeightMethod::intensity;
-  if (lit) shading = choose_shading(picture, options, result);
-  if (shading) {
+  const auto write = [&](int y, std::span<const double> heights) {
+    std::transform(heights.begin(), heights.end(), row.begin(), [](double h) { return static_cast<float>(h); });
+    relief.write(y, row);
+  };
+  const auto solve = [&] {
+    const EvenedSamples evened = brightness_of(picture, bits, options, result);
+    const auto shading = choose_shading(evened, options, result);
+    if (!shading) return false;
     using Solve = ShadingResult(const SampleRows&, const ShadingOptions&, const HeightWriter&);
-    ShadingResult solved = solver<Solve>(result.method, shape_from_shading_variational_by_rows,
-                                         shape_from_shading_pentland_by_rows, shape_from_shading_tsai_shah_by_rows)(
-        picture, *shading, [&](int y, std::span<const double> heights) {
-          std::transform(heights.begin(), heights.end(), row.begin(), [](double h) { return static_cast<float>(h); });
-          relief.write(y, row);
-        });
+    ShadingResult solved =
+        result.method == HeightMethod::wiener
+            ? kept(shape_from_shading_wiener_by_rows(evened, *shading, write), options, result)
+            : solver<Solve>(result.method, shape_from_shading_variational_by_rows, shape_from_shading_pentland_by_rows,
+                            shape_from_shading_tsai_shah_by_rows)(evened, *shading, write);
     result.trace = std::move(solved.trace);
     result.stop = solved.stop;
     result.pieces = solved.pieces;
-  } else {
+    return true;
+  };
+  if (!lit || !solve()) {
     for (int y = 0; y < picture.height(); ++y) {
       if (!lit) picture.read(0, y, picture.width(), row.data());
       relief.write(y, row);

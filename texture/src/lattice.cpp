@@ -292,12 +292,20 @@ std::vector<Node> lattice_nodes(const CorrelationMap& map, const Basis& basis, d
 
 double whole_radius(const CorrelationMap& map) { return std::hypot(map.reach_x(), map.reach_y()); }
 
+/// How far nodes count.
+double node_radius(const CorrelationMap& map, const Basis& basis, const LatticeOptions& options) {
+  if (options.reach_cells <= 0) return whole_radius(map);
+  // The four nearest nodes always.
+  return std::min(whole_radius(map), std::max(options.reach_cells * std::sqrt(basis.area()),
+                                              1.01 * std::max(norm(basis.a + basis.b), norm(basis.a - basis.b))));
+}
+
 /// Enough to distinguish a repetition from chance; an error of the basis moves near nodes least.
 constexpr std::size_t k_scored_nodes = 40;
 
 /// Mean correlation over the nearest nodes; −1 when fewer than three lie within the map.
-double score(const CorrelationMap& map, const Basis& basis) {
-  const double radius = std::min(whole_radius(map), 6 * std::sqrt(basis.area()) + norm(basis.b));
+double score(const CorrelationMap& map, const Basis& basis, const LatticeOptions& options) {
+  const double radius = std::min(node_radius(map, basis, options), 6 * std::sqrt(basis.area()) + norm(basis.b));
   const std::vector<Node> nodes = lattice_nodes(map, basis, radius, k_scored_nodes);
   if (nodes.size() < 3) return -1;
   double sum = 0;
@@ -324,12 +332,22 @@ std::vector<Peak> deepest_first(const CorrelationMap& map) {
   return peaks;
 }
 
+/// Whether the correlation dips on the way to a node.
+bool dips_before(const CorrelationMap& map, Vec2 node) {
+  constexpr double k_least_dip = 0.1;  // Of the correlation at the node.
+  double lowest = map.sample(node);
+  for (int k = 1; k < 16; ++k) lowest = std::min(lowest, map.sample((k / 16.0) * node));
+  return lowest <= (1 - k_least_dip) * map.sample(node);
+}
+
 /// The smallest cell among the pairs of short good peaks whose nodes repeat nearly as well as those of the best pair.
 std::optional<Basis> best_pair(const CorrelationMap& map, const std::vector<Peak>& peaks,
                                const LatticeOptions& options) {
+  // In a lattice that bends, the two directions may repeat unequally well.
+  const double tolerance = std::pow(options.node_tolerance, options.reach_cells > 0 ? 3 : 1);
   std::vector<Peak> good;
   for (const Peak& peak : peaks)
-    if (peak.correlation >= options.node_tolerance * peaks.front().correlation) good.push_back(peak);
+    if (peak.correlation >= tolerance * peaks.front().correlation && dips_before(map, peak.t)) good.push_back(peak);
   std::stable_sort(good.begin(), good.end(), [](const Peak& p, const Peak& q) { return norm(p.t) < norm(q.t); });
   if (good.size() > static_cast<std::size_t>(options.most_candidates))
     good.resize(static_cast<std::size_t>(options.most_candidates));
@@ -340,7 +358,7 @@ std::optional<Basis> best_pair(const CorrelationMap& map, const std::vector<Peak
     for (std::size_t j = 0; j < i; ++j) {
       const Basis basis = reduced({good[i].t, good[j].t});
       if (!is_plausible(basis)) continue;
-      candidates.emplace_back(basis, score(map, basis));
+      candidates.emplace_back(basis, score(map, basis, options));
       best = std::max(best, candidates.back().second);
     }
   std::optional<Basis> chosen;
@@ -351,7 +369,7 @@ std::optional<Basis> best_pair(const CorrelationMap& map, const std::vector<Peak
 }
 
 /// Least squares fit of the basis to the peaks next to its nodes, over a growing neighbourhood.
-Basis refined(const CorrelationMap& map, Basis basis) {
+Basis refined(const CorrelationMap& map, Basis basis, const LatticeOptions& options) {
   constexpr double k_growth = 1.6;
   constexpr double k_most_shift = 0.25;  // Of |a|: a peak further from its node belongs to another one.
   constexpr std::size_t k_most_nodes = 2000;
@@ -372,7 +390,7 @@ Basis refined(const CorrelationMap& map, Basis basis) {
       const Basis fitted{(1 / determinant) * (nn * mt - mn * nt), (1 / determinant) * (mm * nt - mn * mt)};
       if (is_plausible(reduced(fitted))) basis = fitted;
     }
-    if (radius > whole_radius(map)) return reduced(basis);
+    if (radius > node_radius(map, basis, options)) return reduced(basis);
   }
 }
 
@@ -407,19 +425,23 @@ struct Sample {
 };
 
 /// True when the nodes of `fine` that are no nodes of `coarse` repeat the picture as well as those that are: all but
-/// `index_tolerance`, or what their scatter explains.
-bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis& coarse, double index_tolerance) {
+/// `index_tolerance`, or what their scatter explains. Few near nodes of a bent lattice scatter enough to explain
+/// anything.
+bool repeats_on_finer(const CorrelationMap& map, const Basis& fine, const Basis& coarse, const LatticeOptions& options,
+                      bool allow_scatter) {
   const double area = cross(coarse.a, coarse.b);
   const auto whole = [](double x) { return std::abs(x - std::round(x)) < 0.01; };
   Sample own, other;
-  for (const Node& node : lattice_nodes(map, fine, whole_radius(map), 400)) {
+  for (const Node& node : lattice_nodes(map, fine, node_radius(map, coarse, options), 400)) {
     const bool shared = whole(cross(node.t, coarse.b) / area) && whole(cross(coarse.a, node.t) / area);
     (shared ? own : other).add(map.sample(node.t));
   }
-  if (own.count < 2 || other.count == 0 || own.sum <= 0) return true;
+  // A few nodes of a lattice that bends say nothing about a coarser one.
+  const int least = options.reach_cells > 0 && allow_scatter ? 6 : 2;
+  if (own.count < least || other.count == 0 || own.sum <= 0) return true;
   constexpr double k_sure = 4;  // Standard errors.
-  const double scatter = k_sure * std::sqrt(own.variance() + other.variance());
-  return other.mean() >= own.mean() - std::max((1 - index_tolerance) * own.mean(), scatter);
+  const double scatter = allow_scatter ? k_sure * std::sqrt(own.variance() + other.variance()) : 0;
+  return other.mean() >= own.mean() - std::max((1 - options.index_tolerance) * own.mean(), scatter);
 }
 
 /// Replaces the basis by a finer lattice as long as all its new nodes repeat as well, and by a
@@ -430,14 +452,14 @@ Basis with_corrected_index(const CorrelationMap& map, Basis basis, const Lattice
     for (const int p : {2, 3, 5})
       for (const Basis& candidate : finer_lattices(basis, p))
         if (is_plausible(reduced(candidate)) &&
-            repeats_on_finer(map, reduced(candidate), basis, options.index_tolerance))
-          return refined(map, reduced(candidate));
+            repeats_on_finer(map, reduced(candidate), basis, options, options.reach_cells <= 0))
+          return refined(map, reduced(candidate), options);
     return std::nullopt;
   };
   const auto coarser = [&]() -> std::optional<Basis> {
     for (const int p : {2, 3, 5})
       for (const Basis& candidate : coarser_lattices(basis, p))
-        if (!repeats_on_finer(map, basis, candidate, options.index_tolerance)) return refined(map, reduced(candidate));
+        if (!repeats_on_finer(map, basis, candidate, options, true)) return refined(map, reduced(candidate), options);
     return std::nullopt;
   };
   for (int round = 0; round < k_most_rounds; ++round) {
@@ -471,7 +493,7 @@ std::optional<Basis> projected(const std::vector<Peak>& peaks, const LatticeOpti
 std::optional<Basis> fitted(const CorrelationMap& map, const std::vector<Peak>& peaks, const LatticeOptions& options) {
   const std::optional<Basis> pair = best_pair(map, peaks, options);
   if (!pair) return std::nullopt;
-  return with_corrected_index(map, refined(map, *pair), options);
+  return with_corrected_index(map, refined(map, *pair, options), options);
 }
 
 /// Correlation at a node minus its mean over the cell around the node.
@@ -501,13 +523,8 @@ double significance(const CorrelationMap& map, const Basis& basis, const std::ve
 
 /// True when the correlation does not dip on the way to some neighbouring node.
 bool is_striped(const CorrelationMap& map, const Basis& basis) {
-  constexpr double k_least_dip = 0.1;  // Of the correlation at the node.
-  for (const Vec2 node : {basis.a, basis.b, basis.a + basis.b, basis.a - basis.b}) {
-    if (!map.contains(node)) continue;
-    double lowest = map.sample(node);
-    for (int k = 1; k < 16; ++k) lowest = std::min(lowest, map.sample((k / 16.0) * node));
-    if (lowest > (1 - k_least_dip) * map.sample(node)) return true;
-  }
+  for (const Vec2 node : {basis.a, basis.b, basis.a + basis.b, basis.a - basis.b})
+    if (map.contains(node) && !dips_before(map, node)) return true;
   return false;
 }
 
@@ -546,7 +563,7 @@ Lattice find_lattice(const FeatureMatrix& matrix, const LatticeOptions& options)
     return lattice;
   }
   const Basis basis = *found;
-  const std::vector<Node> nodes = lattice_nodes(map, basis, whole_radius(map), 2000);
+  const std::vector<Node> nodes = lattice_nodes(map, basis, node_radius(map, basis, options), 2000);
   lattice.nodes = static_cast<int>(nodes.size());
   lattice.significance = significance(map, basis, nodes);
   if (lattice.significance < options.least_significance) {

@@ -13,6 +13,8 @@
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/texture/image.hpp"
+#include "papilla/texture/lattice_deformation.hpp"
+#include "papilla/texture/resample.hpp"
 #include "papilla/texture/symmetry.hpp"
 #include "pyramid.hpp"
 #include "shaped_noise.hpp"
@@ -271,6 +273,28 @@ void require(const GreyImage& image, const PrepareOptions& options) {
     throw InvalidInput("prepare_picture: plasticity " + std::to_string(options.plasticity) + " is not within 0 to 4");
 }
 
+/// Straightens the picture when its lattice bends, and cuts off what would have come from beyond the borders.
+void straighten(PreparedPicture& result, const PrepareOptions& options) {
+  if (!options.straighten) return;
+  constexpr int k_most_side = 2048, k_least_side = 16;
+  GreyImage& image = result.image;
+  const auto step = [&](bool run, std::string reason) {
+    result.steps.push_back({"straighten", run, std::move(reason)});
+  };
+  if (std::max(image.width, image.height) > k_most_side) return step(false, "the picture has over 2048 pixels a side");
+  const SymmetryAnalysis symmetry = analyze_symmetry(image);
+  if (!symmetry.lattice.found) return step(false, "no lattice: " + symmetry.lattice.reason);
+  if (!symmetry.deformation) return step(false, "the lattice is straight");
+  const LatticeDeformation& bent = *symmetry.deformation;
+  const double cell = std::sqrt(std::abs(cross(bent.vectors_px[0], bent.vectors_px[1])));
+  const int rim = static_cast<int>(std::ceil(bent.max_percent_of_cell / 100 * cell));
+  if (std::min(image.width, image.height) - 2 * rim < k_least_side)
+    return step(false, "the lattice bends further than the picture is wide");
+  image = straightened(image, bent.displacement);
+  image = crop(image, rim, rim, image.width - 2 * rim, image.height - 2 * rim);
+  step(true, "cells are displaced by " + std::to_string(std::lround(bent.rms_percent_of_cell)) + " % of their size");
+}
+
 double default_flatten_px(const GreyImage& image) {
   double length = std::min(image.width, image.height) / 10.0;
   const Lattice lattice = analyze_symmetry(image).lattice;
@@ -350,12 +374,13 @@ PreparedPicture prepare_picture(const GreyImage& image, const PrepareOptions& op
   result.before = measure_picture(image);
   const bool flat = !(result.before.contrast > 0);
   report(0.1);
+  straighten(result, options);
   result.steps.push_back({"flatten", options.flatten && !flat,
                           flat              ? "the picture is flat"
                           : options.flatten ? "gradients of brightness and contrast show as a pattern when tiled"
                                             : "not asked for"});
   if (options.flatten && !flat)
-    flatten(result.image, options.flatten_px > 0 ? options.flatten_px : default_flatten_px(image));
+    flatten(result.image, options.flatten_px > 0 ? options.flatten_px : default_flatten_px(result.image));
   report(0.4);
   result.steps.push_back({"plasticity", options.plasticity > 0,
                           options.plasticity > 0 ? "fine detail raised as asked for" : "not asked for"});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "best_plane.hpp"
@@ -23,6 +24,21 @@ double mean_difference(const Field& a, const Field& b, double scale) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(scale * a[i] - b[i]);
   return sum / static_cast<double>(a.size());
+}
+
+/// Sum of the squared forward differences of scale · a − b.
+double slope_squares(const Field& a, const Field& b, double scale, const HeightMap& size) {
+  const auto at = [&](int x, int y) {
+    const std::size_t i = size.index(x, y);
+    return scale * a[i] - b[i];
+  };
+  double squares = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      if (x + 1 < size.width) squares += std::pow(at(x + 1, y) - at(x, y), 2);
+      if (y + 1 < size.height) squares += std::pow(at(x, y + 1) - at(x, y), 2);
+    }
+  return squares;
 }
 
 }  // namespace
@@ -50,6 +66,8 @@ ReliefError relief_error(const std::vector<double>& found_px, const HeightMap& t
   ReliefError error;
   error.mean = mean_difference(found, expected, 1) / range;
   error.scaled_mean = mean_difference(found, expected, square > 0 ? product / square : 0) / range;
+  error.slope = std::sqrt(slope_squares(found, expected, square > 0 ? product / square : 0, truth) /
+                          slope_squares(found, expected, 0, truth));
   if (square > 0 && expected_square > 0) error.correlation = product / std::sqrt(square * expected_square);
   return error;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "checks.hpp"
 #include "papilla/texture/best_dimension.hpp"
@@ -26,8 +27,10 @@ Roughness measure_roughness(const HeightMap& relief) {
   roughness.shortest_wavelength_mm = 2 * std::max(relief.pitch_mm_x, relief.pitch_mm_y);
   roughness.longest_wavelength_mm = std::min(relief.width * relief.pitch_mm_x, relief.height * relief.pitch_mm_y);
   constexpr int k_least_side = 32;
-  if (std::min(relief.width, relief.height) >= k_least_side)
-    roughness.fractal = best_dimension({relief.width, relief.height, relief.mm, 0, 32}).estimate;
+  if (std::min(relief.width, relief.height) < k_least_side) return roughness;
+  BestDimension best = best_dimension({relief.width, relief.height, relief.mm, 0, 32});
+  roughness.fractal = std::move(best.estimate);
+  roughness.reason = std::move(best.reason);
   return roughness;
 }
 

@@ -1,126 +1,21 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
-#include <complex>
-#include <mutex>
-#include <numbers>
-#include <utility>
-#include <vector>
 
 #include "checks.hpp"
-#include "fft.hpp"
+#include "linear_shading.hpp"
 #include "papilla/texture/shape_from_shading.hpp"
-#include "pieces.hpp"
-#include "pyramid.hpp"
 #include "reflectance.hpp"
-#include "slopes.hpp"
 
 namespace papilla {
 namespace {
 
-using Field = std::vector<double>;
-
 constexpr const char* k_name = "shape_from_shading_pentland";
+constexpr double k_damping = 0.1;
 
-/// Angular frequency of row or column k of a transform of n; 0 for the highest one, whose derivative is not real.
-double frequency(int k, int n) {
-  if (2 * k == n) return 0;
-  return 2 * std::numbers::pi * (2 * k < n ? k : k - n) / n;
-}
+double damping(double, double) { return k_damping * k_damping; }
 
-/// Turns the spectrum of the brightness into that of the heights.
-void integrate(texture_detail::RealFft2d& fft, int width, int height, Vec3 light) {
-  constexpr double k_damping = 0.1;
-  const double oblique = light.x * light.x + light.y * light.y;
-  const double norm = 1 / (static_cast<double>(width) * height);
-  std::complex<double>* value = fft.spectrum();
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u <= width / 2; ++u, ++value) {
-      const double wx = frequency(u, width), wy = frequency(v, height);
-      const double along = light.x * wx + light.y * wy;
-      const double power = along * along + k_damping * k_damping * oblique * (wx * wx + wy * wy);
-      *value *= power > 0 ? std::complex(0.0, norm * along / power) : std::complex<double>();
-    }
-}
-
-/// Root mean square of the brightness − R over the slopes of the heights.
-double residual(const Field& height, const GreyImage& image, double albedo, Vec3 light, bool periodic) {
-  double squares = 0;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const texture_detail::Stencil across = texture_detail::stencil(x, image.width, periodic);
-      const texture_detail::Stencil down = texture_detail::stencil(y, image.height, periodic);
-      const auto at = [&](int column, int row) {
-        return height[texture_detail::pixel_index(column, row, image.width)];
-      };
-      const double p = (at(across.after, y) - at(across.before, y)) / across.span;
-      const double q = (at(x, down.after) - at(x, down.before)) / down.span;
-      const double error =
-          texture_detail::brightness(image.at(x, y), albedo) - texture_detail::reflectance(light, p, q).value;
-      squares += error * error;
-    }
-  return std::sqrt(squares / static_cast<double>(height.size()));
-}
-
-/// Heights of the brightness after its mean.
-Field linear_heights(Field brightness, int columns, int rows, bool periodic, Vec3 light) {
-  texture_detail::remove_mean(brightness);
-  const auto padded = [&](int side) { return periodic ? side : texture_detail::good_fft_size(side + side / 4); };
-  const int width = padded(columns), height = padded(rows);
-  texture_detail::RealFft2d fft(width, height);
-  std::fill_n(fft.real(), fft.stride() * static_cast<std::size_t>(height), 0.0);
-  for (int y = 0; y < rows; ++y)
-    std::copy_n(brightness.data() + texture_detail::pixel_index(0, y, columns), columns, &fft.real(0, y));
-  fft.forward();
-  integrate(fft, width, height, light);
-  fft.backward();
-  for (int y = 0; y < rows; ++y)
-    std::copy_n(&fft.real(0, y), columns, brightness.data() + texture_detail::pixel_index(0, y, columns));
-  return brightness;
-}
-
-/// The method is linear: the long waves come from the small picture, the others, which reach less far, from pieces.
-/// Its trace holds the root mean square over the pieces of their residuals.
-ShadingResult heights_by_pieces(const SampleRows& image, const ShadingOptions& options, Vec3 light,
-                                const texture_detail::RowWriter& write) {
-  const Stopwatch clock;
-  ShadingResult result;
-  result.stop = StopReason::direct;
-  const GreyImage small = texture_detail::shrunk(image, options.largest_piece_px / 2).image;
-  const auto enlarged = [&](const Field& field, const texture_detail::Piece& piece) {
-    return texture_detail::enlarged({field, small.width, small.height, image.width(), image.height(), options.periodic},
-                                    {static_cast<double>(piece.across.begin), 1, piece.across.length()},
-                                    {static_cast<double>(piece.down.begin), 1, piece.down.length()});
-  };
-  const Field coarse = texture_detail::brightness(small, options.albedo);
-  const Field heights = linear_heights(coarse, small.width, small.height, options.periodic, light);
-  const double scale = texture_detail::enlargement(
-      {coarse, small.width, small.height, image.width(), image.height(), options.periodic}, {0, 1, 0}, {0, 1, 0});
-  texture_detail::PieceLayout layout;
-  layout.core = options.largest_piece_px / 2;
-  layout.overlap = texture_detail::piece_overlap(options.largest_piece_px);
-  layout.suitable = texture_detail::good_fft_size;
-  layout.periodic = options.periodic;
-  std::mutex mutex;
-  std::vector<double> squares;
-  result.pieces = texture_detail::solve_by_pieces(
-      image, layout,
-      [&](const texture_detail::Piece& piece) {
-        Field fine = texture_detail::brightness(piece.image, options.albedo);
-        const Field low = enlarged(coarse, piece);  // As heights, hence times the scale.
-        for (std::size_t i = 0; i < fine.size(); ++i) fine[i] -= low[i] / scale;
-        fine = linear_heights(std::move(fine), piece.image.width, piece.image.height, false, light);
-        const Field common = enlarged(heights, piece);
-        for (std::size_t i = 0; i < fine.size(); ++i) fine[i] += common[i];
-        const double error = residual(fine, piece.image, options.albedo, light, false);
-        const std::scoped_lock lock(mutex);
-        squares.push_back(error * error);
-        return fine;
-      },
-      write, options.progress, "shape from shading");
-  const auto pieces = static_cast<double>(squares.size());
-  result.trace.push_back({clock.seconds(), std::sqrt(texture_detail::ordered_sum(std::move(squares)) / pieces)});
-  return result;
+Vec3 light_of(const ShadingOptions& options) {
+  return texture_detail::oblique(texture_detail::require_light(options.light, k_name));
 }
 
 }  // namespace
@@ -129,23 +24,13 @@ ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingO
   texture_detail::require_shading(image, options, k_name);
   if (std::max(image.width, image.height) > options.largest_piece_px)
     return texture_detail::in_memory(shape_from_shading_pentland_by_rows, image, options);
-  const Vec3 light = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
-  const Stopwatch clock;
-  ShadingResult result;
-  result.height_px = linear_heights(texture_detail::brightness(image, options.albedo), image.width, image.height,
-                                    options.periodic, light);
-  texture_detail::remove_mean(result.height_px);
-  result.stop = StopReason::direct;
-  result.trace.push_back({clock.seconds(), residual(result.height_px, image, options.albedo, light, options.periodic)});
-  report_progress(options.progress, "shape from shading", 1);
-  return result;
+  return texture_detail::linear_shading(image, options, light_of(options), damping);
 }
 
 ShadingResult shape_from_shading_pentland_by_rows(const SampleRows& picture, const ShadingOptions& options,
                                                   const HeightWriter& write) {
   texture_detail::require_shading_options(options, k_name);
-  const Vec3 light = texture_detail::oblique(texture_detail::require_light(options.light, k_name));
-  return heights_by_pieces(picture, options, light, write);
+  return texture_detail::linear_shading_by_rows(picture, options, light_of(options), damping, write);
 }
 
 }  // namespace papilla

@@ -151,17 +151,29 @@ AnalysisPlan plan_analysis(const TextureClass& texture_class, const Suitability&
                   flat   ? "the picture is flat"
                   : weak ? "the grey values follow a direction that may change from place to place"
                          : "the texture has no direction of its own to follow"});
-  plan.push_back({"primitive", ordered || mixed, lattice_reason});
+  const bool repeats = (ordered || mixed) && suitability.symmetric;
+  plan.push_back({"primitive", repeats, lattice_reason});
+  plan.push_back({"generating_region", suitability.symmetric,
+                  suitability.symmetric ? "a lattice has one of 17 groups" : lattice_reason});
+  plan.push_back(
+      {"exact_tile", repeats, repeats ? "what repeats is made once, and repeats to the last bit" : lattice_reason});
   const bool lit = ordered || mixed || striped;
   plan.push_back({"shape_from_shading", lit, lit ? "the repeating elements are relief that is lit" : lattice_reason});
   plan.push_back({"intensity_as_height", rough && !mixed,
                   flat              ? "the picture is flat"
                   : rough && !mixed ? "without repeating elements the grey value is the only reading of height"
                                     : "shape from shading gives the relief"});
-  plan.push_back({"roughness", rough,
+  plan.push_back({"roughness", mixed || weak,
                   flat    ? "the picture is flat"
-                  : rough ? "what the lattice leaves is felt as roughness"
+                  : mixed ? "what the lattice leaves is felt as roughness"
+                  : weak  ? "waves below 1 mm are felt as roughness"
+                  : rough ? "the relief itself is rough"
                           : "little is left of the picture beside the lattice"});
+  const bool surface = rough && !mixed && !weak;
+  plan.push_back({"fractal_synthesis", surface,
+                  flat      ? "the picture is flat"
+                  : surface ? "a surface of the same dimension tiles, where the picture does not"
+                            : "the texture has an order that a surface like it loses"});
   return plan;
 }
 

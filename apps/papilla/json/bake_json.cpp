@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "json/scene_json.hpp"
+#include "json/texture_json.hpp"
 
 namespace papilla::app {
 namespace {
@@ -54,7 +55,9 @@ Json grain_json(const std::string& name, const Grain& grain) {
   json["height"] = height;
   const auto& fractal = grain.roughness.fractal;
   json["roughness"] = {{"rms_mm", grain.roughness.rms_mm},
-                       {"fractal_dimension", fractal ? Json(fractal->dimension) : Json(nullptr)}};
+                       {"fractal_dimension", fractal ? Json(fractal->dimension) : Json(nullptr)},
+                       {"overlay", roughness_model_json(h.overlay)}};
+  json["plan"] = steps_json(grain.plan);
   return json;
 }
 
@@ -88,6 +91,15 @@ Json plan_json(const std::vector<PartSurface>& surfaces) {
                         {"run", surface.plan[i].run},
                         {"reason", surface.plan[i].reason}});
   return stages;
+}
+
+Json grain_plans_json(const std::vector<GrainPlan>& plans) {
+  Json json = Json::array();
+  for (const GrainPlan& plan : plans)
+    json.push_back({{"material", plan.material},
+                    {"steps", steps_json(plan.steps)},
+                    {"problem", plan.problem.empty() ? Json(nullptr) : Json(plan.problem)}});
+  return json;
 }
 
 Json own_uv_json(const std::vector<PartSurface>& surfaces) {

@@ -82,6 +82,8 @@ Json histogram_json(const DistortionReport& report);
 
 /// {part, material, stage, run, reason} a line.
 Json plan_json(const std::vector<PartSurface>& surfaces);
+/// {material, steps[] {step, run, reason}, problem} a grain.
+Json grain_plans_json(const std::vector<GrainPlan>& plans);
 /// {part, material, mm_per_unit, flipped, degenerate, overlapping, note, lost[]} a line, of surfaces with grain.
 Json own_uv_json(const std::vector<PartSurface>& surfaces);
 /// {in_place, reason}.

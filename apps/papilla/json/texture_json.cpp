@@ -2,6 +2,7 @@
 #include "json/texture_json.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "json/scene_json.hpp"
 
@@ -10,15 +11,29 @@ namespace {
 
 Json positive_or_null(double value) { return value > 0 ? Json(value) : Json(nullptr); }
 
-Json curve_json(const FractalEstimate& estimate) {
-  Json json{{"low", estimate.low}, {"high", estimate.high}, {"curve", Json::array()}};
-  for (const ScalePoint& point : estimate.curve)
+/// A number that is a dimension of a surface; null for any other.
+Json dimension_json(double dimension) { return dimension >= 2 && dimension <= 3 ? Json(dimension) : Json(nullptr); }
+
+/// Interval and curve; `slope`, what the method computes of the curve, where that is no dimension of a surface.
+Json details_json(const FractalReading& reading) {
+  Json json{{"low", nullptr}, {"high", nullptr}, {"curve", Json::array()}};
+  if (reading.has_dimension()) {
+    json["low"] = reading.estimate->low;
+    json["high"] = reading.estimate->high;
+  } else if (reading.estimate) {
+    json["slope"] = reading.estimate->dimension;
+  }
+  for (const ScalePoint& point : *reading.curve)
     json["curve"].push_back({{"scale", point.scale}, {"measure", point.measure}});
   return json;
 }
 
 Json signature_json(const FshotSignature& s) {
-  return {{"sta", s.sta}, {"str", s.str}, {"fs_h", s.fs_h}, {"fs_v", s.fs_v}, {"angle_deg", s.angle_deg}};
+  return {{"sta", s.sta},
+          {"str", s.str},
+          {"fs_h", dimension_json(s.fs_h)},
+          {"fs_v", dimension_json(s.fs_v)},
+          {"angle_deg", s.angle_deg}};
 }
 
 Json fshot_json(const FshotSignature& signature) {
@@ -29,28 +44,47 @@ Json fshot_json(const FshotSignature& signature) {
   return json;
 }
 
-Json best_json(const BestDimension& best) {
-  const FractalEstimate& e = best.estimate;
-  Json json{{"dimension", e.dimension}, {"hurst", e.hurst}, {"low", e.low}, {"high", e.high}};
-  json["directional_hurst"] = {{"0", best.directional_hurst[0]},
-                               {"90", best.directional_hurst[1]},
-                               {"45", best.directional_hurst[2]},
-                               {"-45", best.directional_hurst[3]}};
+Json best_json(const BestDimension& best, double pitch_mm) {
+  const auto& e = best.estimate;
+  Json json{{"power_law", best.power_law()}, {"reason", best.reason}};
+  json["dimension"] = e ? Json(e->dimension) : Json(nullptr);
+  json["hurst"] = e ? Json(e->hurst) : Json(nullptr);
+  json["low"] = e ? Json(e->low) : Json(nullptr);
+  json["high"] = e ? Json(e->high) : Json(nullptr);
+  const double unit = pitch_mm > 0 ? pitch_mm : 1;
+  json[pitch_mm > 0 ? "scales_mm" : "scales_px"] =
+      e ? Json{best.least_scale_px * unit, best.most_scale_px * unit} : Json(nullptr);
+  json["psf_sigma_px"] = best.psf_sigma_px;
+  json["noise_rms"] = best.noise_rms;
+  json["fit"] = {{"chi2_per_dof", best.chi2_per_dof}};
+  json["directional_hurst"] = nullptr;
+  if (const auto& hurst = best.directional_hurst)
+    json["directional_hurst"] = {{"0", (*hurst)[0]}, {"90", (*hurst)[1]}, {"45", (*hurst)[2]}, {"-45", (*hurst)[3]}};
   json["quantization_step"] = best.quantization_step;
   return json;
 }
 
-/// Null for methods that need a larger picture.
-Json fractal_json(const FractalReadings& readings) {
+/// Null for methods that need a larger picture, and where what a method finds is no dimension of a surface.
+Json fractal_json(const FractalReadings& readings, double pitch_mm) {
   Json json = Json::object(), details = Json::object();
-  for (const auto& [name, least_side, estimate] : named_readings(readings)) {
-    const std::string key(name);
-    json[key] = estimate ? Json(estimate->dimension) : Json(nullptr);
-    if (estimate) details[key] = curve_json(*estimate);
+  for (const FractalReading& reading : named_readings(readings)) {
+    const std::string key(reading.name);
+    json[key] = reading.has_dimension() ? Json(reading.estimate->dimension) : Json(nullptr);
+    if (reading.curve) details[key] = details_json(reading);
   }
   if (readings.fshot) json["fshot"] = fshot_json(*readings.fshot);
-  if (readings.best) json["best"] = best_json(*readings.best);
+  if (readings.best) json["best"] = best_json(*readings.best, pitch_mm);
   json["details"] = std::move(details);
+  return json;
+}
+
+/// Of a picture whose class needs no dimension.
+Json no_fractal_json(const std::string& reason, double pitch_mm) {
+  Json json = Json::object();
+  for (const FractalReading& reading : named_readings({})) json[std::string(reading.name)] = nullptr;
+  BestDimension none;
+  none.reason = reason;
+  json["best"] = best_json(none, pitch_mm);
   return json;
 }
 
@@ -61,11 +95,21 @@ Json points_json(const Points& points) {
   return json;
 }
 
+/// Zero for an exact lattice, null without one.
+Json deformation_json(const SymmetryAnalysis& analysis) {
+  if (!analysis.lattice.found) return nullptr;
+  const auto& bent = analysis.deformation;
+  return {{"rms_percent_of_cell", bent ? bent->rms_percent_of_cell : 0.0},
+          {"max_percent_of_cell", bent ? bent->max_percent_of_cell : 0.0}};
+}
+
 Json symmetry_json(const TextureSurvey& survey) {
   const SymmetryAnalysis& analysis = *survey.symmetry;
   Json json{{"lattice", analysis.lattice.found}, {"vectors_px", nullptr}, {"vectors_mm", nullptr}, {"group", nullptr}};
   json["explained_variance"] = analysis.explained_variance();
   json["significance"] = analysis.lattice.significance;
+  json["false_alarm_probability"] = analysis.false_alarm_probability;
+  json["deformation"] = deformation_json(analysis);
   json["reason"] = analysis.lattice.reason;
   if (!survey.groups->plane) return json;
   const WallpaperSymmetry& group = *survey.groups->plane;
@@ -109,12 +153,6 @@ Json rosette_json(const RosetteSymmetry& rosette) {
           {"sector_deg", rosette.sector_deg}};
 }
 
-Json steps_json(const AnalysisPlan& steps) {
-  Json json = Json::array();
-  for (const PlanStep& step : steps) json.push_back({{"step", step.step}, {"run", step.run}, {"reason", step.reason}});
-  return json;
-}
-
 void add_order(Json& json, const OrderSurvey& order) {
   const TextureClass& c = order.kind;
   const OrientationField& field = order.orientation;
@@ -150,6 +188,15 @@ Json light_json(const HeightResult& result, Vec3 light) {
   return result.method != HeightMethod::intensity ? Json{light.x, light.y, light.z} : Json(nullptr);
 }
 
+/// Of a pixel: the expected correlation, 0 in shadows and highlights; low below a half.
+Json confidence_json(const HeightResult& result) {
+  if (!result.expected_correlation) return nullptr;
+  constexpr double k_low = 0.5;
+  const double masked = result.shadows_fraction + result.highlights_fraction;
+  return {{"mean", *result.expected_correlation * (1 - masked)},
+          {"low_fraction", *result.expected_correlation < k_low ? 1.0 : masked}};
+}
+
 Json alternative_json(const HeightFiles& files) {
   if (files.opposite.empty()) return nullptr;
   const Vec3 light = files.result.light;
@@ -174,11 +221,28 @@ Json numbers_json(const PictureNumbers& n) {
 
 }  // namespace
 
+Json steps_json(const AnalysisPlan& steps) {
+  Json json = Json::array();
+  for (const PlanStep& step : steps) json.push_back({{"step", step.step}, {"run", step.run}, {"reason", step.reason}});
+  return json;
+}
+
+Json roughness_model_json(const std::optional<RoughnessModel>& roughness) {
+  if (!roughness) return nullptr;
+  constexpr double k_degrees = 180 / std::numbers::pi;
+  return {{"hurst", roughness->hurst},
+          {"rms_mm", roughness->rms_mm},
+          {"rms_slope", roughness->rms_slope},
+          {"wavelength_range_mm", {roughness->shortest_mm, roughness->longest_mm}},
+          {"anisotropy", {{"ratio", roughness->anisotropy}, {"direction_deg", k_degrees * roughness->direction_rad}}}};
+}
+
 Json survey_json(const std::string& image, const TextureSurvey& survey) {
   Json json{{"image", image}, {"size", {survey.width, survey.height}}, {"bits", survey.bits}};
   json["pieces"] = pieces_json(survey);
   json["pitch_mm"] = positive_or_null(survey.pitch_mm);
-  if (survey.fractal) json["fractal"] = fractal_json(*survey.fractal);
+  if (survey.fractal) json["fractal"] = fractal_json(*survey.fractal, survey.pitch_mm);
+  if (!survey.no_fractal.empty()) json["fractal"] = no_fractal_json(survey.no_fractal, survey.pitch_mm);
   if (survey.groups) {
     json["symmetry"] = symmetry_json(survey);
     if (survey.groups->strip) json["strip"] = strip_json(*survey.groups->strip);
@@ -196,6 +260,17 @@ Json height_json(const HeightFiles& files) {
   json["light"] = light_json(result, result.light);
   json["light_estimated"] = result.light_estimated;
   json["light_coherence"] = result.light_estimated ? Json(result.light_coherence) : Json(nullptr);
+  json["lights"] = Json::array();
+  if (result.method != HeightMethod::intensity) json["lights"].push_back(light_json(result, result.light));
+  json["light_uncertainty_deg"] =
+      result.method != HeightMethod::intensity ? Json(result.light_uncertainty_deg) : Json(nullptr);
+  json["expected_correlation"] = result.expected_correlation ? Json(*result.expected_correlation) : Json(nullptr);
+  json["confidence"] = confidence_json(result);
+  json["ambiguity"] = result.ambiguous ? "convex-concave" : "none";
+  json["shadows_fraction"] = result.shadows_fraction;
+  json["highlights_fraction"] = result.highlights_fraction;
+  json["decoded_srgb"] = result.decoded_srgb;
+  json["unevenness"] = result.unevenness;
   json["size"] = {result.map.width, result.map.height};
   json["pitch_mm"] = positive_or_null(result.map.pitch_mm_x);
   json["depth_mm"] = result.depth_mm;
@@ -253,6 +328,22 @@ Json synthesis_json(const std::string& what, const Synthesis& synthesis, const S
                     {"hurst", synthesis.like->hurst},
                     {"hurst_across", synthesis.like->hurst_across}};
   return json;
+}
+
+Json photograph_json(const std::string& relief, const PhotographFile& made, const PhotographFileOptions& options) {
+  const PhotographOptions& photo = options.photograph;
+  return {{"what", "photo"},
+          {"light", {photo.light.x, photo.light.y, photo.light.z}},
+          {"pitch_mm", made.pitch_mm},
+          {"range_mm", made.range_mm},
+          {"blur_px", photo.blur_px},
+          {"noise", photo.noise},
+          {"truth", relief},
+          {"size", {made.photograph.picture.width, made.photograph.picture.height}},
+          {"ambient", photo.ambient},
+          {"shadows_fraction", made.photograph.shadows_fraction},
+          {"clipped_fraction", made.photograph.clipped_fraction},
+          {"seed", photo.seed}};
 }
 
 Json texture_json(const TextureFiles& files) {

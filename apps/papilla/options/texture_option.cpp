@@ -39,10 +39,13 @@ void HeightOption::add_to(CLI::App& verb) {
       ->check(positive())
       ->capture_default_str();
   verb.add_option("--method", method_, "How grey becomes height")
-      ->transform(one_of({"auto", "variational", "pentland", "tsai-shah", "intensity"}))
+      ->transform(one_of({"auto", "wiener", "variational", "pentland", "tsai-shah", "intensity"}))
       ->capture_default_str();
   verb.add_option("--light", light_, "Direction to the light: x right, y down, z to the viewer")
       ->type_name("X,Y,Z|{auto}")
+      ->capture_default_str();
+  verb.add_option("--transfer", transfer_, "Curve of the picture, for shading; auto: sRGB with 8 bits, else linear")
+      ->transform(one_of({"auto", "srgb", "linear"}))
       ->capture_default_str();
   verb.add_option("--periodic", periodic_, "Whether the height shall tile; auto looks whether the picture does")
       ->transform(one_of({"auto", "yes", "no"}))
@@ -89,6 +92,7 @@ HeightFileOptions HeightOption::options(std::uint64_t seed, const ProgressCallba
   HeightFileOptions options = options_;
   options.height.method = height_method(method_);
   if (light_ != "auto") options.height.light = parse_vector("--light", light_);
+  options.height.transfer = transfer(transfer_);
   if (periodic_ != "auto") options.height.periodic = periodic_ == "yes";
   options.height.roughness = height_roughness(roughness_);
   options.height.shortest_wavelength_mm = cut_mm();

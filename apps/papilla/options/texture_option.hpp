@@ -23,8 +23,9 @@ class HeightOption {
 
   HeightFileOptions options_;
   std::string normal_, pictures_;
-  std::string method_ = "auto", light_ = "auto", periodic_ = "auto", roughness_ = "whole", cut_ = "none";
-  double rate_hz_ = 1000, speed_mm_per_s_ = 100;
+  std::string method_ = "auto", light_ = "auto", periodic_ = "auto", roughness_ = "whole", cut_ = "none",
+              transfer_ = "auto";
+  double rate_hz_ = k_device_rate_hz, speed_mm_per_s_ = k_hand_speed_mm_per_s;
 };
 
 /// Options of `texture`, in the order of its help: pictures of a recipe, or a contact sheet, or a list.

@@ -93,6 +93,18 @@ std::string surfaces_without_grain(const std::vector<PartSurface>& surfaces) {
 
 }  // namespace
 
+std::string grains_text(const std::vector<GrainPlan>& grains) {
+  std::string out;
+  for (const GrainPlan& grain : grains) {
+    if (!grain.problem.empty()) out += shown_format("grain {}: can't be made: {}\n", grain.material, grain.problem);
+    if (grain.steps.empty() || !grain.problem.empty()) continue;
+    out += shown_format("\ngrain {}\n", grain.material);
+    for (const PlanStep& step : grain.steps)
+      out += shown_format("  {} {:<20}  {}\n", step.run ? "+" : "-", step.step, step.reason);
+  }
+  return out;
+}
+
 std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules) {
   if (uses.empty()) return "no rules: 'assign' is empty\n";
   std::size_t width = 8;

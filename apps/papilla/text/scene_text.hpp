@@ -51,6 +51,8 @@ std::string way_line(const BakeWay& way);
 std::string changes_line(const std::vector<GltfChange>& changes);
 /// One row a surface, the stages that run, why the others do not, what its own uv are like and what new ones cost.
 std::string plan_table(const std::vector<PartSurface>& surfaces);
+/// What the class of each grain's picture needs, step by step, and why.
+std::string grains_text(const std::vector<GrainPlan>& grains);
 /// One row a rule: how many surfaces it took, and with all instances how many uses of them.
 std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules);
 /// A row a part that is left out or has uses that are; empty when there is none.

@@ -22,13 +22,23 @@ class Lines {
 };
 
 void add_readings(Lines& lines, const FractalReadings& readings) {
-  for (const auto& [name, least_side, estimate] : named_readings(readings)) {
-    if (estimate)
-      lines.add("fractal    {:<12} D = {:.3f}  [{:.3f}, {:.3f}]\n", name, estimate->dimension, estimate->low,
-                estimate->high);
+  for (const FractalReading& reading : named_readings(readings)) {
+    if (reading.has_dimension())
+      lines.add("fractal    {:<12} D = {:.3f}  [{:.3f}, {:.3f}]\n", reading.name, reading.estimate->dimension,
+                reading.estimate->low, reading.estimate->high);
+    else if (reading.estimate)
+      lines.add("fractal    {:<12} no dimension: outside 2 to 3\n", reading.name);
+    else if (!reading.none.empty())
+      lines.add("fractal    {:<12} no dimension: {}\n", reading.name, reading.none);
     else
-      lines.add("fractal    {:<12} needs {} pixels a side\n", name, least_side);
+      lines.add("fractal    {:<12} needs {} pixels a side\n", reading.name, reading.least_side);
   }
+  if (!readings.best || !readings.best->power_law()) return;
+  const BestDimension& best = *readings.best;
+  lines.add(
+      "fractal    {} over wavelengths of {:.1f} to {:.0f} pixels; point spread {:.2f} px, noise {:.4f}, misfit "
+      "{:.2f}\n",
+      best.reason, best.least_scale_px, best.most_scale_px, best.psf_sigma_px, best.noise_rms, best.chi2_per_dof);
 }
 
 void add_groups(Lines& lines, const TextureSurvey& survey) {
@@ -40,6 +50,9 @@ void add_groups(Lines& lines, const TextureSurvey& survey) {
               to_string(group->group), group->order, 100 * group->kept);
     lines.add("symmetry   lattice ({:.2f}, {:.2f}), ({:.2f}, {:.2f}) pixels, significance {:.2f}, explains {:.0f} %\n",
               a.x, a.y, b.x, b.y, lattice.significance, 100 * analysis.explained_variance());
+    if (const auto& bent = analysis.deformation)
+      lines.add("symmetry   the lattice bends: displaced by {:.1f} % of the cell (rms), {:.1f} % at most\n",
+                bent->rms_percent_of_cell, bent->max_percent_of_cell);
   } else {
     lines.add("symmetry   no lattice: {} (significance {:.2f})\n", lattice.reason, lattice.significance);
   }
@@ -88,6 +101,7 @@ std::string survey_text(const std::string& image, const TextureSurvey& survey) {
                 lattice.none);
   }
   if (survey.fractal) add_readings(lines, *survey.fractal);
+  if (!survey.no_fractal.empty()) lines.add("fractal    not measured: {}; --only fractal does\n", survey.no_fractal);
   if (survey.groups) add_groups(lines, survey);
   if (survey.order) add_order(lines, *survey.order);
   for (const SurveyPicture& picture : survey.pictures) {
@@ -104,8 +118,17 @@ std::string height_text(const std::string& image, const std::string& output, con
   Lines lines;
   lines.add("{}: {} ({})\n", image, to_string(result.method), result.reason);
   if (result.light_estimated)
-    lines.add("light      {:.2f}, {:.2f}, {:.2f}: azimuth estimated (coherence {:.2f}), elevation assumed\n",
-              result.light.x, result.light.y, result.light.z, result.light_coherence);
+    lines.add(
+        "light      {:.2f}, {:.2f}, {:.2f}: azimuth estimated to +-{:.0f} degrees (coherence {:.2f}), elevation "
+        "assumed\n",
+        result.light.x, result.light.y, result.light.z, result.light_uncertainty_deg, result.light_coherence);
+  if (result.ambiguous)
+    lines.add("ambiguous  convex or concave: the picture does not tell, --alternative writes both\n");
+  if (result.expected_correlation)
+    lines.add("expected   correlation {:.2f} with the true relief\n", *result.expected_correlation);
+  if (result.shadows_fraction + result.highlights_fraction > 0)
+    lines.add("masked     {:.1f} % in shadow, {:.1f} % in highlights\n", 100 * result.shadows_fraction,
+              100 * result.highlights_fraction);
   lines.add("relief     {} x {} samples, depth {:.3f} mm, rms {:.4f} mm, {}\n", result.map.width, result.map.height,
             result.depth_mm, result.rms_mm, result.map.periodic ? "tiles" : "does not tile");
   if (result.map.pitch_mm_x > 0)
@@ -139,6 +162,39 @@ std::string height_text(const std::string& image, const std::string& output, con
   return lines.take();
 }
 
+std::string stereo_text(const std::string& output, const StereoFiles& files) {
+  const PhotometricStereoResult& stereo = files.stereo;
+  const HeightResult& result = files.files.result;
+  Lines lines;
+  lines.add("photometric stereo of {} photographs, lights {}\n", stereo.lights.size(),
+            stereo.lights_estimated ? "found" : "given");
+  for (std::size_t k = 0; k < stereo.lights.size(); ++k)
+    lines.add("light {:<4} {:.3f}, {:.3f}, {:.3f}; moved by {:.2f}, {:.2f} pixels\n", k + 1, stereo.lights[k].x,
+              stereo.lights[k].y, stereo.lights[k].z, files.shifts_px[k].x, files.shifts_px[k].y);
+  if (stereo.lights_estimated)
+    lines.add("lights     known to about {:.1f} degrees{}\n", stereo.light_uncertainty_deg,
+              stereo.two_sided ? "; convex or concave is not" : "");
+  lines.add("relief     {} x {} samples, depth {:.3f} mm ({}), rms {:.4f} mm\n", result.map.width, result.map.height,
+            result.depth_mm, files.depth_source, result.rms_mm);
+  if (result.map.pitch_mm_x > 0)
+    lines.add("pitch      {:.4f} mm a pixel\n", result.map.pitch_mm_x);
+  else
+    lines.add("pitch      unknown: give --pitch, or a ruler in --reference\n");
+  lines.add("confidence {:.2f}, low in {:.1f} % of the pixels\n", files.mean_confidence,
+            100 * files.low_confidence_fraction);
+  lines.add("seen       {:.1f} % shadows, {:.1f} % highlights, {:.0f} % light from everywhere\n",
+            100 * stereo.shadows_fraction, 100 * stereo.highlights_fraction, 100 * stereo.ambient);
+  for (const ReferenceReading& reading : files.references) {
+    lines.add("reference  {}: {:.5g}", reading.name, reading.value);
+    if (reading.correlation) lines.add(", correlation {:.2f}", *reading.correlation);
+    lines.add("\n");
+  }
+  for (const std::string& what : result.measured) lines.add("measured   {}\n", what);
+  for (const std::string& what : result.assumed) lines.add("assumed    {}\n", what);
+  lines.add("written    {}\n", output);
+  return lines.take();
+}
+
 std::string prepared_text(const std::string& output, const PreparedPicture& prepared) {
   Lines lines;
   add_numbers(lines, "before", prepared.before);
@@ -163,6 +219,14 @@ std::string synthesis_text(const std::string& what, const std::string& output, c
   lines.add("{} {}: {} x {} pixels of {:.4f} mm, heights {:.3f} to {:.3f} mm, {}\nwritten {}{}{}\n", what,
             synthesis.method, map.width, map.height, map.pitch_mm_x, *low, *high,
             map.periodic ? "tiles" : "does not tile", output, relief.empty() ? "" : " and ", relief);
+  return lines.take();
+}
+
+std::string photograph_text(const std::string& relief, const std::string& output, const PhotographFile& made) {
+  Lines lines;
+  lines.add("photo of {}: {} x {} pixels of {:.4f} mm, {:.1f} % in shadow, {:.1f} % at white\nwritten {}\n", relief,
+            made.photograph.picture.width, made.photograph.picture.height, made.pitch_mm,
+            100 * made.photograph.shadows_fraction, 100 * made.photograph.clipped_fraction, output);
   return lines.take();
 }
 

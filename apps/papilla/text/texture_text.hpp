@@ -4,6 +4,8 @@
 #include <string>
 
 #include "papilla/pipeline/height_file.hpp"
+#include "papilla/pipeline/photograph_file.hpp"
+#include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
@@ -16,9 +18,11 @@ namespace papilla::app {
 /// Of `analyze`, `height`, `prepare`, `synthesize` and `texture`.
 std::string survey_text(const std::string& image, const TextureSurvey& survey);
 std::string height_text(const std::string& image, const std::string& output, const HeightFiles& files);
+std::string stereo_text(const std::string& output, const StereoFiles& files);
 std::string prepared_text(const std::string& output, const PreparedPicture& prepared);
 std::string synthesis_text(const std::string& what, const std::string& output, const std::string& relief,
                            const Synthesis& synthesis, const SynthesisOptions& options);
 std::string texture_text(const TextureFiles& files);
+std::string photograph_text(const std::string& relief, const std::string& output, const PhotographFile& made);
 
 }  // namespace papilla::app

@@ -14,23 +14,27 @@ namespace {
 
 struct Options {
   std::string image, pictures, lattice = "best", feature = "squared", pattern = "plane";
-  std::vector<std::string> only = {"fractal", "symmetry", "class"};
+  std::vector<std::string> only;
   bool force_lattice = false;
   SurveyOptions survey;
 };
 
 Json run(const Options& options, VerbContext& context) {
   const auto wanted = [&](const char* part) {
-    return std::find(options.only.begin(), options.only.end(), part) != options.only.end();
+    return options.only.empty() || std::find(options.only.begin(), options.only.end(), part) != options.only.end();
   };
   SurveyOptions survey = options.survey;
   survey.fractal = wanted("fractal");
   survey.symmetry = wanted("symmetry");
   survey.order = wanted("class");
+  survey.by_class = options.only.empty();
   if (options.pattern == "strip") survey.pattern = SymmetryPattern::strip;
   if (options.pattern == "rosette") survey.pattern = SymmetryPattern::rosette;
   if (options.lattice == "projection") survey.lattice.method = LatticeMethod::projection;
-  if (options.force_lattice) survey.lattice.least_significance = 1e-9;  // The best lattice, whatever it explains.
+  if (options.force_lattice) {  // The best lattice, whatever it explains.
+    survey.lattice.least_significance = 1e-9;
+    survey.lattice.false_alarm_rate = 1;
+  }
   if (options.feature == "absolute") survey.feature = FeatureKind::absolute;
   survey.pictures = options.pictures;
   const TextureSurvey result = survey_picture(options.image, survey, context.progress);
@@ -51,10 +55,9 @@ void add_analyze(CLI::App& program) {
   verb->add_option("--pitch", options->survey.pitch_mm, "Millimetres per pixel; default from the file's resolution")
       ->type_name("MM")
       ->check(positive());
-  verb->add_option("--only", options->only, "Parts to analyse")
+  verb->add_option("--only", options->only, "Parts to analyse, whatever the class; default: what the class needs")
       ->delimiter(',')
-      ->transform(one_of({"fractal", "symmetry", "class"}))
-      ->capture_default_str();
+      ->transform(one_of({"fractal", "symmetry", "class"}));
   writes_into(verb->add_option("--pictures", options->pictures,
                                "Write the strip of the symmetry, the log-log plot and the polar Hurst plot into DIR"),
               {"symmetry.png"})

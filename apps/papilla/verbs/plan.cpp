@@ -32,11 +32,13 @@ Json run(const Options& options, VerbContext& context) {
   wanted.bake.plan.keep_copies = options.keep_copies;
   const Materials rules = read_materials(options.materials);
   const PlannedFile plan = plan_file(options.input, rules, wanted, context.progress);
-  context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + rules_table(plan.rules, rules) +
-                        sides_text(plan.sides, true) + left_out_table(plan.scene, plan.perception));
+  context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + grains_text(plan.grains) +
+                        rules_table(plan.rules, rules) + sides_text(plan.sides, true) +
+                        left_out_table(plan.scene, plan.perception));
   print_notes(plan.scene, context.console);
   Json json{{"scene", options.input}, {"materials", options.materials}, {"stages", plan_json(plan.surfaces)}};
   json["way"] = way_json(plan.way);
+  json["grains"] = grain_plans_json(plan.grains);
   json["uv"] = own_uv_json(plan.surfaces);
   json["rules"] = rules_json(plan.rules);
   json["identical_parts"] = shared_parts_json(plan.shared, plan.scene);

@@ -52,6 +52,8 @@ void add_prepare(CLI::App& program) {
                    "Standard deviation of the blur that finds gradients; default from the picture and its lattice")
       ->type_name("PX")
       ->check(positive());
+  verb->add_flag("--straighten", options->prepare.prepare.straighten,
+                 "Straighten a lattice that bends, as cloth and knitwear do");
   verb->add_flag("--keep-gradients", options->keep_gradients, "Leave gradients of brightness and contrast");
   verb->add_flag("--keep-contrast", options->keep_contrast, "Leave the range of the grey values");
   verb->add_option("--size", options->prepare.width_px, "Scale the result to N pixels across")

@@ -162,6 +162,9 @@ class Builder {
     } else if (!field) {
       warnings.push_back({"height_lost", "the height map is lost and there is no roughness, the surface is smooth"});
       return std::nullopt;
+    } else if (tag.roughness && tag.roughness->overlay && options_.overlay) {
+      *field = with_roughness(*field, *tag.roughness, tag.height->metres_per_uv, material + 1);
+      ++result.roughness_overlays;
     }
     *field = coarsened(std::move(*field), tag.height->metres_per_uv);
     if (!displaces(tag)) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "evaluate/extreme_pictures.hpp"
 #include "evaluate/picture_methods.hpp"
@@ -14,11 +15,15 @@ namespace {
 constexpr double k_unusable = 0.5;
 
 void measure_error(const FractalMethod& method, const NamedPicture& input, StabilityCell& cell) {
-  const FractalEstimate found = method.estimate(input.picture);
-  cell.residual = (found.high - found.low) / 2;
-  cell.note = fmt::format("D {:.4f}, 95 % from {:.4f} to {:.4f}", found.dimension, found.low, found.high);
-  if (input.dimension) cell.error = std::abs(found.dimension - *input.dimension);
-  if (!std::isfinite(found.dimension) || (cell.error && *cell.error > k_unusable)) cell.outcome = Outcome::breaks;
+  const std::optional<FractalEstimate> found = method.estimate(input.picture);
+  if (!found) {
+    cell.note = "no dimension";
+    return;
+  }
+  cell.residual = (found->high - found->low) / 2;
+  cell.note = fmt::format("D {:.4f}, 95 % from {:.4f} to {:.4f}", found->dimension, found->low, found->high);
+  if (input.dimension) cell.error = std::abs(found->dimension - *input.dimension);
+  if (!std::isfinite(found->dimension) || (cell.error && *cell.error > k_unusable)) cell.outcome = Outcome::breaks;
 }
 
 }  // namespace

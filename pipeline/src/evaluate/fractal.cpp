@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
@@ -38,11 +39,12 @@ std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input) {
       if (!ladder.next()) break;
       const GreyImage part = middle_part(image, side);
       const Stopwatch clock;
-      const FractalEstimate estimate = method.estimate(part);
-      run.trace.push_back({clock.seconds(), (estimate.high - estimate.low) / 2});
-      run.notes += fmt::format("middle {} pixels: D {:.4f}; ", side, estimate.dimension);
+      const std::optional<FractalEstimate> estimate = method.estimate(part);
+      run.notes += estimate ? fmt::format("middle {} pixels: D {:.4f}; ", side, estimate->dimension)
+                            : fmt::format("middle {} pixels: no dimension; ", side);
+      if (estimate) run.trace.push_back({clock.seconds(), (estimate->high - estimate->low) / 2});
     }
-    if (run.trace.empty()) run.stop = k_time_spent;
+    if (run.notes.empty()) run.stop = k_time_spent;
     runs.push_back(std::move(run));
     report_progress(input.progress, "fractal dimension",
                     static_cast<double>(runs.size()) / static_cast<double>(fractal_methods().size()));

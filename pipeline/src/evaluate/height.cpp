@@ -4,14 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <numeric>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "evaluate/felt_error.hpp"
 #include "evaluate/kinds.hpp"
 #include "evaluate/picture_methods.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/light_direction.hpp"
+#include "papilla/texture/photograph_model.hpp"
 #include "papilla/texture/relief_error.hpp"
 #include "papilla/texture/resample.hpp"
 #include "papilla/texture/shading.hpp"
@@ -113,6 +119,55 @@ void add_depth_runs(const EvaluationInput& input, const GreyImage& image, Vec3 l
   runs.push_back(run_over_sizes(input, k_intensity, image, light, heights_from_grey));
 }
 
+constexpr const char* k_photograph_error = "1 - correlation with the true height";
+
+std::string_view to_string(PhotographCondition condition) {
+  constexpr std::array<std::string_view, 3> k_names = {"clean", "spotted", "glossy"};
+  return k_names[static_cast<std::size_t>(condition)];
+}
+
+/// The whole way from a photograph of growing middle parts of the relief, under a light that is known or not.
+EvaluationRun photograph_run(const EvaluationInput& input, const GreyImage& image, HeightMethod method,
+                             PhotographCondition condition, bool light_known) {
+  constexpr std::uint64_t k_seed = 1;
+  const PhotographOptions photo = photograph_options(condition, k_seed);
+  EvaluationRun run{std::string(to_string(method)),
+                    fmt::format("photograph, {}, light {}", to_string(condition), light_known ? "known" : "unknown"),
+                    input.name,
+                    k_photograph_error,
+                    {},
+                    "direct",
+                    ""};
+  Ladder ladder(input.budget, k_growth_by_side);
+  for (const int side : rising_sides(std::min(image.width, image.height))) {
+    if (!ladder.next()) break;
+    HeightMap truth = relief_of(middle_part(image, side));
+    const GreyImage picture = photograph(truth, photo).picture;
+    const Stopwatch clock;
+    HeightOptions options;
+    options.method = method;
+    if (light_known) options.light = photo.light;
+    const HeightResult found = height_from_image(picture, options);
+    const double seconds = clock.seconds();
+    const ReliefError error = relief_error({found.map.mm.begin(), found.map.mm.end()}, truth);
+    run.trace.push_back({seconds, 1 - error.correlation});
+    run.notes += fmt::format("middle {} pixels: correlation {:.3f}, slopes {:.2f}, felt force {:.1f} % of its range; ",
+                             side, error.correlation, error.slope, felt_error_percent(found.map, truth));
+  }
+  if (run.trace.empty()) run.stop = k_time_spent;
+  return run;
+}
+
+void add_photograph_runs(const EvaluationInput& input, const GreyImage& image, std::vector<EvaluationRun>& runs) {
+  for (const PhotographCondition condition :
+       {PhotographCondition::clean, PhotographCondition::spotted, PhotographCondition::glossy}) {
+    for (const HeightMethod method : {HeightMethod::automatic, HeightMethod::wiener, HeightMethod::pentland,
+                                      HeightMethod::variational, HeightMethod::intensity})
+      runs.push_back(photograph_run(input, image, method, condition, true));
+    runs.push_back(photograph_run(input, image, HeightMethod::automatic, condition, false));
+  }
+}
+
 EvaluationRun residual_run(const EvaluationInput& input, const ShadingMethod& method, const GreyImage& picture) {
   EvaluationRun run{method.name, "height", input.name, "rms of brightness - R, grey over albedo", {}, "", ""};
   const LightEstimate light = estimate_light(picture);
@@ -138,10 +193,11 @@ EvaluationRun residual_run(const EvaluationInput& input, const ShadingMethod& me
 std::vector<EvaluationRun> evaluate_height(const EvaluationInput& input) {
   const GreyImage image = read_grey_image(input.file, k_bytes_per_pixel);
   std::vector<EvaluationRun> runs;
-  if (is_relief(input.file, image))
+  if (is_relief(input.file, image)) {
     for (const Vec3 light : {Vec3{0.3, 0.3, 1}, Vec3{1, 0, 1}, Vec3{1, 1, 1}})
       add_depth_runs(input, image, normalized(light), runs);
-  else
+    add_photograph_runs(input, image, runs);
+  } else
     for (const ShadingMethod& method : shading_methods()) runs.push_back(residual_run(input, method, image));
   return runs;
 }

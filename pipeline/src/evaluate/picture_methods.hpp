@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "papilla/texture/fractal.hpp"
@@ -13,7 +14,8 @@ namespace papilla {
 struct FractalMethod {
   const char* name;
   int least_side;  ///< Of the picture, in pixels.
-  FractalEstimate (*estimate)(const GreyImage&);
+  /// Empty where the method finds no dimension of a surface.
+  std::optional<FractalEstimate> (*estimate)(const GreyImage&);
 };
 
 /// All estimators, those of the literature first.

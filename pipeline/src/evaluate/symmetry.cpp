@@ -45,12 +45,15 @@ std::vector<EvaluationRun> evaluate_symmetry(const EvaluationInput& input) {
       run.trace.push_back({clock.seconds(), 1 - analysis.explained_variance()});
       run.notes += fmt::format("middle {} pixels: ", side);
       if (!analysis.lattice.found) {
-        run.notes += fmt::format("no lattice, significance {:.2f}; ", analysis.lattice.significance);
+        run.notes += fmt::format("no lattice, false alarm {:.3f}; ", analysis.false_alarm_probability);
         continue;
       }
       const auto& [a, b] = analysis.lattice.vectors_px;
-      run.notes += fmt::format("({:.3f}, {:.3f}), ({:.3f}, {:.3f}) {}; ", a.x, a.y, b.x, b.y,
-                               to_string(find_wallpaper_group(*analysis.part, analysis.lattice.vectors_px).group));
+      run.notes += fmt::format("({:.3f}, {:.3f}), ({:.3f}, {:.3f}) {}", a.x, a.y, b.x, b.y,
+                               to_string(find_wallpaper_group(analysis).group));
+      run.notes += analysis.deformation
+                       ? fmt::format(", bent by {:.1f} % of the cell; ", analysis.deformation->rms_percent_of_cell)
+                       : "; ";
     }
     if (run.trace.empty()) run.stop = k_time_spent;
     runs.push_back(std::move(run));

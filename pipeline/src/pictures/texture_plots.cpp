@@ -35,12 +35,15 @@ Plot log_log_plot(std::span<const FractalReading> readings) {
             .log_y = true,
             .log_x_base = 2};
   for (const FractalReading& reading : readings) {
-    if (!reading.estimate) continue;
-    const FractalEstimate& e = *reading.estimate;
-    PlotSeries drawn{fmt::format("{}: D = {:.3f} [{:.3f}, {:.3f}]", reading.name, e.dimension, e.low, e.high), {}};
+    if (!reading.curve) continue;
+    const FractalEstimate* e = reading.estimate;
+    PlotSeries drawn{reading.has_dimension()
+                         ? fmt::format("{}: D = {:.3f} [{:.3f}, {:.3f}]", reading.name, e->dimension, e->low, e->high)
+                         : fmt::format("{}: no dimension", reading.name),
+                     {}};
     drawn.look = static_cast<int>(plot.series.size());
     double first = 0;
-    for (const ScalePoint& point : e.curve) {
+    for (const ScalePoint& point : *reading.curve) {
       if (!(point.scale > 0 && point.measure > 0)) continue;
       if (first == 0) first = point.measure;
       drawn.points.push_back({point.scale, point.measure / first});

@@ -80,6 +80,15 @@ class HeightField {
   /// @throws InvalidInput when a size is odd.
   HeightField halved() const;
 
+  /// The interpolated relief at `factor` times the samples in each direction, plus a height for each of these.
+  /// @param added_m (factor·width) × (factor·height) heights in metres, row by row.
+  /// @throws InvalidInput when factor is not positive, or the number of heights is another.
+  HeightField overlaid(int factor, const std::vector<double>& added_m) const;
+
+  /// Lengths on the surface of a step of one texel along the rows and along the columns, in metres; nothing when the uv
+  /// transform has no area. @param metres_per_uv as for dilated().
+  std::optional<Vec2> pitch_m(Vec2 metres_per_uv) const;
+
   double min_m() const noexcept { return min_m_; }
   double max_m() const noexcept { return max_m_; }
   int width() const noexcept { return width_; }
@@ -99,6 +108,9 @@ class HeightField {
   struct Weighted {
     double value = 0, by_x = 0, by_y = 0;
   };
+
+  /// Height and its derivatives by texel coordinates.
+  HeightSample sample_texels(double x, double y) const noexcept;
 
   /// Bounds of the interpolated samples; slopes per texel.
   struct Extremes {

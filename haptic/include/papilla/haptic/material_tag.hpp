@@ -42,11 +42,15 @@ struct HeightTag {
   friend bool operator==(const HeightTag&, const HeightTag&) = default;
 };
 
-/// Statistics of the relief, from which the player synthesises one when the map is lost.
+/// Statistics of a rough surface: of the relief, from which the player synthesises one when the map is lost, or, with
+/// `overlay`, of what is to be laid over the map.
 struct RoughnessTag {
-  double fractal_dimension = 2.5;  ///< In [2, 3].
+  std::optional<double> fractal_dimension;  ///< In [2, 3]; nothing where no power law holds.
   double rms_height_m = 0;
   Vec2 wavelength_range_m{2e-4, 2e-2};  ///< Shortest, longest.
+  double anisotropy = 1;                ///< Along `direction` waves are that many times as long as across, ≥ 1.
+  double direction = 0;                 ///< Radians, from u towards v, as the map's rows and columns run.
+  bool overlay = false;                 ///< The map does not hold it: version 2.
   friend bool operator==(const RoughnessTag&, const RoughnessTag&) = default;
 };
 
@@ -76,10 +80,11 @@ struct ProvenanceTag {
   friend bool operator==(const ProvenanceTag&, const ProvenanceTag&) = default;
 };
 
-/// materials[i].extras.haptic of a glTF file, version 1, in SI units. docs/haptic-material.md explains it and
+/// materials[i].extras.haptic of a glTF file, version 1 or 2, in SI units. A tag is written as version 2 where it has
+/// what version 1 does not: roughness that is laid over the map. docs/haptic-material.md explains it and
 /// haptic-material.schema.json is its JSON Schema. The values here are the defaults of the tag.
 struct MaterialTag {
-  static constexpr int k_version = 1;
+  static constexpr int k_newest_version = 2;
   double stiffness = 500;           ///< N/m, ≥ 0.
   double damping = 0;               ///< N·s/m, ≥ 0.
   double static_friction = 0;       ///< ≥ 0. Defaults to dynamic_friction when only that is given.
@@ -92,7 +97,7 @@ struct MaterialTag {
   std::optional<ForceModelTag> force_model;
   std::optional<SymmetryTag> symmetry;
   std::optional<ProvenanceTag> provenance;
-  std::string other_json;  ///< A JSON object of the members that version 1 does not define, or empty.
+  std::string other_json;  ///< A JSON object of the members that the versions do not define, or empty.
   friend bool operator==(const MaterialTag&, const MaterialTag&) = default;
 };
 
@@ -113,7 +118,8 @@ HeightTag make_height_tag(const HeightMap& relief, const EncodedRelief& encoded)
 /// or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_force_model,
 /// tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance. Then limit_relief() applies (tag_limits.hpp).
 /// @param json the object itself, not the extras around it.
-/// @throws InvalidInput when it is no JSON object, of another version than 1, or has neither stiffness nor height.
+/// @throws InvalidInput when it is no JSON object, of another version than 1 and 2, or has neither stiffness nor
+/// height.
 MaterialTag parse_material_tag(std::string_view json, std::vector<HapticWarning>& warnings);
 
 /// Moves the tag out of a material's extras, which keep their other members. A tag that parse_material_tag() refuses,

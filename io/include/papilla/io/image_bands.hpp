@@ -20,7 +20,7 @@ class ImageBands {
   /// Opens the file and looks at its size.
   /// @throws IoError, InvalidInput as read_grey_image(); InvalidInput too when the picture is over `most_pixels`, or a
   ///         band and what the reader holds are over picture_memory().
-  /// @param sample_side the longer side of sample(): every n-th pixel of every n-th row, n the least that gives it.
+  /// @param sample_side the longer side of sample(), at most: means over n × n pixels, n the least that gives it.
   explicit ImageBands(const std::filesystem::path& path, std::size_t most_pixels = k_max_streamed_pixels,
                       int sample_side = 1024);
   ~ImageBands();
@@ -33,15 +33,16 @@ class ImageBands {
   double pitch_mm() const noexcept;  ///< As in GreyImage.
 
   /// @throws InvalidInput with the size of the picture when it takes more than picture_memory() at so many bytes a
-  /// pixel.
+  /// pixel, or when that many of its pixels do.
   void require_memory(std::size_t bytes_per_pixel) const;
+  void require_memory(std::size_t bytes_per_pixel, std::size_t pixels) const;
 
   /// The next `rows` rows, fewer at the end of the picture, none after it.
   /// @throws InvalidInput naming the file and row when it is damaged there; file, pixel and value when a float is not
   ///         finite or its magnitude is over a million.
   GreyImage next(int rows);
 
-  /// Every n-th pixel of every n-th row read so far, in colour; n as for sample_side.
+  /// The rows read so far, in colour, as means over n × n pixels; n as for sample_side.
   const ColorImage& sample() const noexcept;
 
  private:

@@ -43,6 +43,14 @@ struct Picture {
 /// @throws IoError, InvalidInput as read_grey_image().
 Picture read_picture(const std::filesystem::path& path, std::size_t bytes_per_pixel = sizeof(float) + 3);
 
+/// read_picture() of one that may be larger than what is wanted of it: where a side is longer than `most_side`, both
+/// are means over n × n pixels, n the least that makes them no longer, and the pitch is n times as large. Memory: the
+/// result and what ImageBands takes, whatever the picture.
+/// @param bytes_per_pixel what the caller is going to take for a pixel of the result, grey value and colour included.
+/// @throws IoError, InvalidInput as ImageBands and read_grey_image().
+Picture read_reduced_picture(const std::filesystem::path& path, int most_side,
+                             std::size_t bytes_per_pixel = sizeof(float) + 3);
+
 /// The same as read_color_image() for a picture in memory, PNG or JPEG; `name` only names it in messages.
 /// @throws InvalidInput as read_color_image().
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);
@@ -68,9 +76,10 @@ EncodedHeight encode_height_png16(const HeightMap& map);
 
 /// Writes a grey picture in the format of the extension; values are clamped to [0, 1] for integer formats.
 /// @param bits  8, 16, or 32 (float; EXR, TIFF).
+/// @param jpeg_quality  1 to 100, of .jpg.
 /// @throws InvalidInput when the extension names no writable format or it has not that depth; IoError when writing
 /// fails.
-void write_grey_image(const std::filesystem::path& path, const GreyImage& image, int bits);
+void write_grey_image(const std::filesystem::path& path, const GreyImage& image, int bits, int jpeg_quality = 98);
 
 /// Writes the heights in millimetres as 32-bit floats to .exr, .tif or .tiff, with the pitch as resolution.
 /// @throws InvalidInput, IoError as write_grey_image().

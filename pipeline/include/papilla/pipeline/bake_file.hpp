@@ -38,6 +38,7 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
 
 struct PlannedFile : BakePlan {
   BakeWay way;
+  std::vector<GrainPlan> grains;  ///< Of the materials whose grain is used.
 };
 
 /// What bake_file() would do. In place no loss is listed, as what the reader leaves out stays in the file.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,9 @@ struct BakePlan {
 /// @throws InvalidInput as measure_perception() and fit_scene_to_budget(), and for strict rules.
 BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& options = {},
                    const ProgressCallback& progress = {});
+
+/// Names of the materials whose grain the surfaces use, in order.
+std::set<std::string> grains_of(const std::vector<PartSurface>& surfaces);
 
 /// The decisions for a scene as it is: nothing is shared, left out or simplified.
 /// @param assignment Of the scene's parts. @param perception Of them; empty when nothing was asked.

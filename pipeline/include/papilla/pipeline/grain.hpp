@@ -19,16 +19,20 @@
 
 namespace papilla {
 
+/// Longer pictures are read at a whole fraction of their size, which is still finer than a relief may be.
+inline constexpr int k_most_grain_side = 2048;
+
 /// How a grain's relief was found.
 struct GrainHeight {
-  std::string method, reason;      ///< A HeightMethod's name, or "recipe".
+  std::string method, reason;      ///< A HeightMethod's name, "synthesis" or "recipe".
   std::optional<Vec3> light = {};  ///< Of shape from shading; nothing for recipes.
   bool light_estimated = false;
   double depth_mm = 0, rms_mm = 0;  ///< Peak to valley; root mean square about the mean; of the relief as it is baked.
   StopReason stop = StopReason::direct;
-  double unlimited_depth_mm = 0;  ///< Peak to valley before its slopes were limited.
-  double max_slope = 0;           ///< The limit of the slopes, mm per mm.
-  SlopeLimitResult slopes = {};   ///< What limiting them changed; its relief is the grain's.
+  double unlimited_depth_mm = 0;               ///< Peak to valley before its slopes were limited.
+  double max_slope = 0;                        ///< The limit of the slopes, mm per mm.
+  SlopeLimitResult slopes = {};                ///< What limiting them changed; its relief is the grain's.
+  std::optional<RoughnessModel> overlay = {};  ///< Roughness that the player lays over the relief.
 };
 
 /// The lattice of a grain that repeats.
@@ -41,10 +45,11 @@ struct GrainLattice {
 struct Grain {
   std::string source;          ///< The picture's file, or the recipe.
   ColorImage photograph;       ///< The source as a picture, whether shown or not.
-  double size_mm[2] = {0, 0};  ///< What one repeat measures.
+  double size_mm[2] = {0, 0};  ///< What one repeat of the relief measures, and of the picture when it is shown.
   bool tiles = false;          ///< The picture's borders match.
   bool monochrome = false;
   TextureClass kind;
+  AnalysisPlan plan;  ///< What the class made of the picture, step by step; empty for recipes.
   std::optional<GrainLattice> lattice;
   GrainHeight height;
   Roughness roughness;                  ///< Of the relief.
@@ -58,12 +63,23 @@ struct Grain {
   double analyze_seconds = 0, height_seconds = 0, normal_map_seconds = 0;
 };
 
+/// What becomes of the picture of a material.
+struct GrainPlan {
+  std::string material;
+  AnalysisPlan steps;   ///< Empty for recipes.
+  std::string problem;  ///< Why make_grain() would fail.
+};
+
+/// What make_grain() would do with the picture of a rule, by its class. Only what the decisions rest on is computed.
+GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin());
+
 /// Largest slope of a relief for a material of static friction μ: 1/(3μ), at most 1. A relief holds a point without
 /// sliding where its slope is 1/μ, and a probe that is pushed up a slope s with friction μ feels
 /// (s + μ)/(1 − s·μ) of the normal force along the surface: at s = 1/(3μ) that is 1.5·μ + 1/(2μ).
 double default_max_slope(double static_friction);
 
-/// Analyses the rule's picture and turns it into relief; a recipe is computed at the rule's time. Heights beyond what a
+/// Analyses the rule's picture and turns it into relief by its class (relief_of_picture()); a recipe is computed at the
+/// rule's time. Heights beyond what a
 /// tag may have (tag_limits.hpp) are shrunk or moved with a warning, slopes beyond the rule's are limited by
 /// limit_slope().
 /// @param library  what recipes may name.

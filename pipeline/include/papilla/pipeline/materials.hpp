@@ -9,13 +9,16 @@
 
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
+#include "papilla/texture/picture_relief.hpp"
 
 namespace papilla {
 
-/// How a material's picture becomes relief.
+/// How a material's picture becomes relief: the options of `papilla height`, and what a material has beside them.
 struct HeightRule {
-  std::string method = "auto";      ///< auto, variational, pentland, tsai-shah, intensity.
+  PictureReliefOptions relief;      ///< Its pitch and depth, `seen` and progress are the grain's.
+  double pitch_mm = 0;              ///< Of a picture without a size; 0: from the file's resolution.
   std::optional<double> depth_mm;   ///< Peak to valley; without it 1 % of the grain's shorter side.
+  bool opposite = false;            ///< The relief that the opposite light would make of the picture.
   double scale = 1;                 ///< Multiplies the heights; 1, 2 and 4 are the tested variants.
   std::optional<double> max_slope;  ///< Of the relief; without it default_max_slope() of the material's friction.
 };

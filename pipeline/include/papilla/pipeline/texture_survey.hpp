@@ -25,6 +25,7 @@ enum class SymmetryPattern { plane, strip, rosette };
 /// Options of survey_picture().
 struct SurveyOptions {
   bool fractal = true, symmetry = true, order = true;  ///< The analyses to run.
+  bool by_class = true;  ///< Leave out what the picture's class makes needless; with all three analyses only.
   SymmetryPattern pattern = SymmetryPattern::plane;
   LatticeOptions lattice;
   FeatureKind feature = FeatureKind::squared;
@@ -67,6 +68,7 @@ struct TextureSurvey {
   GreyImage middle;     ///< What the symmetry is read from: the picture, or its middle.
   std::optional<PieceSurvey> pieces;
   std::optional<FractalReadings> fractal;
+  std::string no_fractal;                    ///< Why there are no fractal readings although they were asked for.
   std::optional<SymmetryAnalysis> symmetry;  ///< For the groups, the class or the pictures.
   std::optional<SymmetryGroups> groups;      ///< With SurveyOptions::symmetry.
   std::optional<OrderSurvey> order;
@@ -85,11 +87,16 @@ struct TextureSurvey {
 TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOptions& options,
                              const ProgressCallback& progress = {});
 
-/// A method's name, the shortest side in pixels that it reads, and its estimate: null in smaller pictures.
+/// A method's name, the shortest side in pixels that it reads, and what it finds: null in smaller pictures.
 struct FractalReading {
   std::string_view name;
   int least_side;
-  const FractalEstimate* estimate;
+  const FractalEstimate* estimate;       ///< Null, too, for `best` without a power law.
+  const std::vector<ScalePoint>* curve;  ///< The log-log plot.
+  std::string_view none = "";            ///< Why `best` has no estimate, empty when it has one.
+
+  /// Says a dimension: what leaves [2, 3] is no dimension of a surface.
+  bool has_dimension() const { return estimate != nullptr && estimate->is_of_surface(); }
 };
 
 /// All readings by name. @param readings must outlive them.

@@ -12,6 +12,7 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/core/vec.hpp"
 #include "papilla/texture/commensurate_tile.hpp"
+#include "papilla/texture/even_light.hpp"
 #include "papilla/texture/height_map.hpp"
 #include "papilla/texture/image.hpp"
 #include "papilla/texture/lattice.hpp"
@@ -19,11 +20,14 @@
 
 namespace papilla {
 
-/// How grey becomes height. `automatic` takes `variational` when the picture has a lattice (lit elements) and
-/// `intensity` (grey = height, bright = high) otherwise.
-enum class HeightMethod { automatic, variational, pentland, tsai_shah, intensity };
+/// How grey becomes height. `automatic` takes `wiener` or `intensity` (grey = height, bright = high), whichever it
+/// expects to correlate more with the true relief: the picture's spectrum and the light's coherence and uncertainty say
+/// that of shape from shading; that of grey is 0.5 for a picture without light direction and 0.15 for a lit one.
+/// `photometric_stereo` takes several photographs: height_from_image() refuses it, see photometric_stereo().
+enum class HeightMethod { automatic, variational, pentland, tsai_shah, intensity, wiener, photometric_stereo };
 
-/// The method's name on the command line: auto, variational, pentland, tsai-shah, intensity.
+/// The method's name on the command line: auto, variational, pentland, tsai-shah, intensity, wiener,
+/// photometric-stereo.
 std::string_view to_string(HeightMethod method) noexcept;
 /// The method of that name. @throws InvalidInput for any other name.
 HeightMethod height_method(std::string_view name);
@@ -39,6 +43,9 @@ std::string_view to_string(HeightRoughness roughness) noexcept;
 /// The roughness of that name. @throws InvalidInput for any other name.
 HeightRoughness height_roughness(std::string_view name);
 
+/// The rate of a device and the speed of a hand where nothing is said of them.
+inline constexpr double k_device_rate_hz = 1000, k_hand_speed_mm_per_s = 100;
+
 /// The shortest wavelength that a device can render at a stroking speed v: two ticks of the haptic loop, 2 v / rate.
 /// @throws InvalidInput when a value is not positive.
 double shortest_playable_wavelength_mm(double speed_mm_per_s, double rate_hz);
@@ -53,6 +60,7 @@ struct HeightOptions {
   std::optional<bool> periodic = {};  ///< Whether the height shall tile; measured from the picture when absent.
   double albedo = 0;   ///< Grey of a surface facing the light; 0: such that the mean grey is that of a level surface.
   int iterations = 0;  ///< Steps of shape from shading; 0: the method's default.
+  Transfer transfer = Transfer::automatic;  ///< How the picture becomes brightness; not used by intensity.
   HeightRoughness roughness = HeightRoughness::whole;
   double shortest_wavelength_mm =
       0;                   ///< Waves shorter than this are left out of the result; 0 keeps all. Needs a pitch.
@@ -63,8 +71,20 @@ struct HeightOptions {
   bool tile = false;
   int largest_piece_px = 2048;          ///< ShadingOptions::largest_piece_px.
   std::optional<Lattice> lattice = {};  ///< Of the picture, when it is known; else analyze_symmetry() finds it.
+  /// The cell to take with that lattice instead of the mean one: the mean over its group, WallpaperSymmetry::primitive.
+  std::optional<GreyImage> primitive = {};
   ProgressCallback progress = {};
 };
+
+/// A method and why it is taken.
+struct HeightChoice {
+  HeightMethod method = HeightMethod::intensity;
+  std::string reason;
+};
+
+/// The method that height_from_image() takes for a picture: that of the options, or the one whose relief is expected to
+/// correlate more with the true one. Cost: O(pixels). @throws InvalidInput as height_from_image().
+HeightChoice choose_height_method(const GreyImage& image, const HeightOptions& options = {});
 
 /// What height_from_image() returns.
 struct HeightResult {
@@ -73,8 +93,16 @@ struct HeightResult {
   std::string reason;                             ///< Why that one.
   Vec3 light{0, 0, 1};                            ///< Used by shape from shading, length 1.
   bool light_estimated = false;
-  double light_coherence = 0;  ///< LightEstimate::coherence when estimated.
-  double depth_mm = 0;         ///< Peak to valley; 0 for a picture without relief, else what was asked.
+  double light_coherence = 0;        ///< LightEstimate::coherence when estimated.
+  double light_uncertainty_deg = 0;  ///< LightEstimate::uncertainty_deg when estimated; 0 for a given light.
+  /// Light was estimated: the opposite relief under the opposite light gives the same picture. See opposite_relief().
+  bool ambiguous = false;
+  std::optional<double> expected_correlation;  ///< With the true relief; estimated by wiener and automatic only.
+  double shadows_fraction = 0;                 ///< Brightness below a quarter of the mean; 0 for intensity.
+  double highlights_fraction = 0;              ///< Brighter than a matt surface that faces the light; 0 for intensity.
+  bool decoded_srgb = false;                   ///< The picture was taken as sRGB.
+  double unevenness = 0;  ///< LightField::unevenness that was divided out; 0 for pictures that tile.
+  double depth_mm = 0;    ///< Peak to valley; 0 for a picture without relief, else what was asked.
   double rms_mm = 0;
   HeightRoughness roughness = HeightRoughness::whole;
   double roughness_rms_mm = 0;        ///< Of the roughness added; 0 for whole and none.
@@ -89,7 +117,8 @@ struct HeightResult {
   StopReason stop = StopReason::direct;
 };
 
-/// Height map in millimetres from one picture of a surface. White or lit is outward.
+/// Height map in millimetres from one picture of a surface. White or lit is outward. Shape from shading works on linear
+/// brightness, over the light_field() unless the picture tiles.
 /// The depth is what is asked for: one picture of unknown albedo and light determines shape, not scale. Shape from one
 /// picture is a guess under the assumptions of the method and of estimate_light().
 /// Periodic pictures give exactly periodic heights. A flat or black picture gives a flat map. Every height is finite.
@@ -110,12 +139,11 @@ struct HeightRows {
 /// wavelength. Shape from shading works in pieces, whose differences to the solve of the whole shape_from_shading.hpp
 /// states; the other results are the same. Memory: see there; with largest_piece_px = 2048 and 20000 columns about half
 /// a gigabyte on two cores.
-/// @param middle a part of the picture, in which a lattice is looked for when the method is automatic.
+/// @param bits of the picture, as GreyImage::bits: pictures of 8 bits are sRGB unless the options say otherwise.
 /// @param relief takes the samples; as large as the picture.
 /// @throws InvalidInput when a sample is not finite, or an option is out of range or needs the picture in memory;
 /// IoError when the disk is full.
-HeightRows height_from_rows(const SampleRows& picture, const GreyImage& middle, const HeightOptions& options,
-                            SampleFile& relief);
+HeightRows height_from_rows(const SampleRows& picture, int bits, const HeightOptions& options, SampleFile& relief);
 
 /// The other relief that the same picture allows: h → highest + lowest − h. Light from the opposite azimuth on the
 /// inverted relief gives the same picture, R(−p, −q; −s_x, −s_y) = R(p, q; s_x, s_y), so that one picture does not

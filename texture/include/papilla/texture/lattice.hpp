@@ -16,11 +16,13 @@ enum class LatticeMethod { best, projection };
 /// Options of find_lattice(). Thresholds are shares of the picture's own variance.
 struct LatticeOptions {
   LatticeMethod method = LatticeMethod::best;
-  double least_significance =
-      0.3;  ///< Below this there is no lattice; leather and gravel reach about 0.1, fabrics 0.5 to 1.
-  double node_tolerance = 0.82;   ///< Correlation, relative to the best, from which a shift counts as a repetition.
+  double least_significance = 0.3;  ///< find_lattice(): below this there is no lattice. It sees only the matrix.
+  double false_alarm_rate = 0.01;   ///< analyze_symmetry(): most noises with the picture's spectrum that may repeat as
+                                    ///< well, in (0, 1]; replaces least_significance. 1 takes the best lattice.
+  double node_tolerance = 0.82;     ///< Correlation, relative to the best, from which a shift counts as a repetition.
   double index_tolerance = 0.95;  ///< Of two lattices, one within the other, the finer one is taken from this share on.
   int most_candidates = 24;       ///< Shortest good minima that are paired to candidate bases.
+  double reach_cells = 0;  ///< Only nodes within so many cells count, for lattices that bend; 0: all of the matrix.
 };
 
 /// The translations under which a picture repeats; see find_lattice().

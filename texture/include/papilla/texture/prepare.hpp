@@ -23,10 +23,11 @@ BorderMatching border_matching(std::string_view name);
 
 /// Options of prepare_picture().
 struct PrepareOptions {
-  bool flatten = true;    ///< Takes gradients of brightness and contrast away.
-  double flatten_px = 0;  ///< Waves longer than about six of these are gradients; 0: a tenth of the shorter side, and
-                          ///< at least the longer lattice vector.
-  double plasticity = 0;  ///< Detail finer than 1 % of the side is raised by this factor, 0 to 4.
+  bool straighten = false;  ///< Straightens a lattice that bends; pictures up to 2048 pixels a side.
+  bool flatten = true;      ///< Takes gradients of brightness and contrast away.
+  double flatten_px = 0;    ///< Waves longer than about six of these are gradients; 0: a tenth of the shorter side, and
+                            ///< at least the longer lattice vector.
+  double plasticity = 0;    ///< Detail finer than 1 % of the side is raised by this factor, 0 to 4.
   BorderMatching borders = BorderMatching::automatic;
   bool contrast = true;  ///< Stretches the 0.5 to 99.5 percentiles to [0, 1].
   ProgressCallback progress = {};
@@ -51,6 +52,7 @@ struct PreparedPicture {
 };
 
 /// Prepares a scanned or photographed surface for analysis and tiling, in the source's order:
+///   straighten  straightened() by the deformation of its lattice; a rim as wide as the largest displacement is cut off
 ///   flatten     I ← mean + (I − low) · deviation / local deviation (factor within [½, 2]), low and local deviation by
 ///   a
 ///               Gaussian of flatten_px

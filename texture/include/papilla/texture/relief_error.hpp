@@ -11,6 +11,8 @@ namespace papilla {
 struct ReliefError {
   double mean = 0;         ///< Mean |difference| over the range of the truth, the best plane taken from the difference.
   double scaled_mean = 0;  ///< The same after the found heights were scaled to fit best.
+  /// Rms difference of the slopes over the rms slope of the truth, heights scaled to fit best.
+  double slope = 0;
   double correlation = 0;  ///< Of the heights, best planes taken from both; 0 when one of them is flat.
 };
 

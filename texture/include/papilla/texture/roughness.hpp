@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "papilla/texture/fractal.hpp"
 #include "papilla/texture/height_map.hpp"
@@ -10,8 +11,10 @@ namespace papilla {
 
 /// Roughness parameters of a relief; see measure_roughness().
 struct Roughness {
-  double rms_mm = 0;                       ///< Root mean square height about the mean.
-  std::optional<FractalEstimate> fractal;  ///< By best_dimension(); absent below 32 samples a side.
+  double rms_mm = 0;  ///< Root mean square height about the mean.
+  std::optional<FractalEstimate>
+      fractal;         ///< By best_dimension(); absent below 32 samples a side and without a power law.
+  std::string reason;  ///< Why there is a power law, or none; empty below 32 samples a side.
   double shortest_wavelength_mm = 0, longest_wavelength_mm = 0;  ///< What the samples can hold: 2 pitches to one side.
 };
 

@@ -85,6 +85,28 @@ ShadingResult shape_from_shading_pentland(const GreyImage& image, const ShadingO
 ShadingResult shape_from_shading_pentland_by_rows(const SampleRows& picture, const ShadingOptions& options,
                                                   const HeightWriter& write);
 
+/// What shape_from_shading_wiener() returns.
+struct WienerShadingResult : ShadingResult {
+  /// Of the heights with the true ones, if the light is right; from the spectrum of the picture, see below.
+  double expected_correlation = 0;
+};
+
+/// Pentland's linear method with the damping that the picture itself asks for:
+///   Z = conj(D) I / (|D|² + (N/S) |ω|² |(s_x, s_y)|²),
+/// Wiener's filter for slopes of power S(ω) under noise of power N(|ω|). Shading of slopes varies with the angle θ
+/// between wave and light as cos²θ, noise and spots of the albedo do not: P(ω) = S cos²θ + N tells them apart in rings
+/// of equal |ω|, from the medians over angles; peaks above that, those of a lattice, are added to S. N/S is at least
+/// 0.01. Brightness beyond what the light can make (highlights) counts as that of a surface that faces it.
+/// The relief is taken as isotropic but for its peaks, the noise as isotropic. The spectrum is that of the middle 1024
+/// pixels at most. Pieces, memory and trace as for pentland; cost: four transforms. Deterministic.
+/// @throws InvalidInput as shape_from_shading_variational().
+/// Pentland 1990; Wiener, Extrapolation, Interpolation and Smoothing of Stationary Time Series, 1949.
+WienerShadingResult shape_from_shading_wiener(const GreyImage& image, const ShadingOptions& options = {});
+/// The same by pieces, of finite samples wherever they lie: the heights go to `write`, their mean as it comes, and not
+/// into the result.
+WienerShadingResult shape_from_shading_wiener_by_rows(const SampleRows& picture, const ShadingOptions& options,
+                                                      const HeightWriter& write);
+
 /// Tsai and Shah's local method: p = Z(x, y) − Z(x−1, y), q = Z(x, y) − Z(x, y−1), and for every pixel
 ///   Z ← Z − K f,  f = I/albedo − max(0, R(p, q)),  K = S f′ / (W + S f′²),  S ← (1 − K f′) S,
 /// f′ = df/dZ with the neighbours held (Jacobi). The published step Z − f/f′ divides by zero at frontal light

@@ -27,6 +27,7 @@ struct HapticSceneOptions {
   double probe_radius_m = k_default_probe_radius_m;
   double felt_depth_m = k_felt_depth_m;  ///< 0: peaks stay as sharp as they are.
   double shortest_wave_m = 0;            ///< Shortest wavelength of a relief, 2·speed/rate; 0 keeps all.
+  bool overlay = true;                   ///< Lay the roughness of tags of version 2 over their maps.
   /// Triangles farther than reach_m from every one of these points are left out. Empty: none.
   std::vector<Vec3> reach_around = {};
   double reach_m = 0;
@@ -40,12 +41,14 @@ struct HapticScene {
   std::vector<HeightField> heights;
   double probe_radius_m = 0;  ///< By which the reliefs are dilated; that of the ContactSurface must be the same.
   int maps_loaded = 0, maps_missing = 0, maps_coarsened = 0;
+  int roughness_overlays = 0;  ///< Maps over which roughness was laid.
   std::size_t triangles_out_of_reach = 0;
   std::vector<MaterialWarning> warnings;
 };
 
-/// Reads the tags and height maps, synthesises reliefs from `roughness` where a map is missing (warning
-/// height_from_roughness; height_lost when there is no roughness), and collects the triangles.
+/// Reads the tags and height maps, lays the roughness of tags of version 2 over their maps, synthesises reliefs from
+/// `roughness` where a map is missing (warning height_from_roughness; height_lost when there is no roughness), and
+/// collects the triangles.
 ///
 /// A relief is felt as a ball of radius r feels it that is pressed as deep as D, the felt depth: its peaks are rounded
 /// to a radius of D − r, and it is dilated by r. So up to that depth there is one closest point, and the force along a
