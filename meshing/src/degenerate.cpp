@@ -231,11 +231,11 @@ bool has_degenerate(const TriangleMesh& mesh, double tolerance_mm) {
   return false;
 }
 
-bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result) {
+bool resolve_degenerate(TriangleMesh& mesh, double sought_mm, double least_mm, DegenerateResult& result) {
   result.repeated = drop_repeated_corners(mesh);
-  const std::vector<Index> degenerate = degenerate_triangles(mesh, tolerance_mm);
+  const std::vector<Index> degenerate = degenerate_triangles(mesh, sought_mm);
   result.found = result.repeated + degenerate.size();
-  if (!degenerate.empty()) DegenerateResolver(mesh, tolerance_mm, result).run(degenerate);
+  if (!degenerate.empty()) DegenerateResolver(mesh, least_mm, result).run(degenerate);
   return result.found > 0;
 }
 
@@ -247,7 +247,8 @@ DegenerateResult remove_degenerate(TriangleMesh mesh, const DegenerateOptions& o
                        " is not in [0, 0.1]");
   check_mesh(mesh, "remove_degenerate");
   DegenerateResult result;
-  resolve_degenerate(mesh, options.relative_altitude * bounds_of(mesh).diagonal(), result);
+  const double tolerance = options.relative_altitude * bounds_of(mesh).diagonal();
+  resolve_degenerate(mesh, tolerance, tolerance, result);
   result.mesh = std::move(mesh);
   return result;
 }

@@ -120,7 +120,8 @@ class Repair {
 
   void drop_degenerate() {
     DegenerateResult step;
-    forget_edges_if(resolve_degenerate(all_.mesh, k_repaired_altitude * scale_.reference_mm, step));
+    forget_edges_if(resolve_degenerate(all_.mesh, k_sought_altitude * scale_.reference_mm,
+                                       k_repaired_altitude * scale_.reference_mm, step));
     all_.counts.repeated_corners += step.repeated;
     all_.counts.collapsed_needles += step.collapsed;
     all_.counts.flipped_caps += step.flipped;
@@ -177,7 +178,7 @@ class Repair {
   bool is_clean() {
     const TriangleMesh& mesh = all_.mesh;
     return !has_bad_edges(mesh.triangles, edges()) && !has_duplicates(mesh.triangles, edges()) &&
-           !has_degenerate(mesh, k_repaired_altitude * scale_.reference_mm) &&
+           !has_degenerate(mesh, k_sought_altitude * scale_.reference_mm) &&
            !has_near_borders(mesh, edges(), scale_.weld) &&
            find_t_junctions(mesh.positions, mesh.triangles, edges(), t_junction_reach_mm(), t_junction_from_ends_mm())
                .empty();

@@ -39,7 +39,8 @@ bool weld_borders(TriangleMesh& mesh, const EdgeTable& edges, const WeldReach& r
 enum class Backs { keep_seen, drop };  ///< As remove_duplicates() has it, or none stays.
 bool drop_duplicates(TriangleMesh& mesh, const EdgeTable& edges, Backs backs, DuplicateResult& result);
 
-bool resolve_degenerate(TriangleMesh& mesh, double tolerance_mm, DegenerateResult& result);
+/// Removes triangles with altitudes below `sought_mm`; those that this makes have at least `least_mm`, not less.
+bool resolve_degenerate(TriangleMesh& mesh, double sought_mm, double least_mm, DegenerateResult& result);
 bool split_borders(TriangleMesh& mesh, const EdgeTable& edges, double reach_mm, double from_ends_mm,
                    TJunctionResult& result);
 bool turn_over(TriangleMesh& mesh, const EdgeTable& edges, OrientResult& result);

@@ -17,7 +17,8 @@ constexpr std::size_t k_rays = 64;
 /// Below it half of the directions or more are free, as outside of everything.
 constexpr double k_least_enclosure = 0.5;
 
-Place look_around(const TriangleBvh& bvh, const Vec3& point, const std::vector<Vec3>& directions, double reach_mm) {
+Place look_around(const TriangleBvh& bvh, std::span<const Facing> facing, const Vec3& point,
+                  const std::vector<Vec3>& directions, double reach_mm) {
   Place place{point, 0, std::sqrt(bvh.closest(point).squared_distance), 0};
   std::size_t hits = 0, fronts = 0;
   for (const Vec3& direction : directions) {
@@ -25,7 +26,8 @@ Place look_around(const TriangleBvh& bvh, const Vec3& point, const std::vector<V
     if (hit == k_no_value) continue;
     const TriangleFrame& frame = bvh.frame(hit);
     ++hits;
-    fronts += dot(cross(frame.ab, frame.ac), direction) < 0;
+    const Facing side = facing.empty() ? Facing::as_is : facing[hit];
+    fronts += side == Facing::unknown || (dot(cross(frame.ab, frame.ac), direction) < 0) == (side == Facing::as_is);
   }
   place.enclosure = static_cast<double>(hits) / static_cast<double>(directions.size());
   if (place.enclosure > k_least_enclosure && 2 * fronts > hits) place.score = place.enclosure * place.clearance_mm;
@@ -46,12 +48,12 @@ std::vector<Vec3> directions_around(std::size_t count) {
   return directions;
 }
 
-std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds) {
+std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds, std::span<const Facing> facing) {
   const std::vector<Vec3> directions = directions_around(k_rays);
   const Volume box = BoxVolume{bounds.low, bounds.high};
   std::vector<Place> places(k_places);
   oneapi::tbb::parallel_for(std::uint64_t{0}, k_places, [&](std::uint64_t i) {
-    places[i] = look_around(bvh, point_in(box, i), directions, bounds.diagonal());
+    places[i] = look_around(bvh, facing, point_in(box, i), directions, bounds.diagonal());
   });
   return places;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "papilla/core/bounds.hpp"
@@ -18,10 +20,14 @@ struct Place {
   double score = 0;
 };
 
-/// Places spread over the scene's box.
+/// Which way a triangle shows its front.
+enum class Facing : std::uint8_t { as_is, turned, unknown };
+
+/// Places spread over the scene's box. Surfaces whose facing is unknown show no back.
 /// Cost: 512 places with 64 rays each, about 1 us a ray. Parallel, deterministic.
 /// @param bvh of triangles that are counter-clockwise seen from their front.
-std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds);
+/// @param facing of each of them; empty: all as they are.
+std::vector<Place> look_for_places(const TriangleBvh& bvh, const Bounds3& bounds, std::span<const Facing> facing);
 
 /// The place with the highest score above 0.
 std::optional<Place> best_place(const std::vector<Place>& places);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "papilla/meshing/visibility.hpp"
@@ -38,7 +40,7 @@ inline Vec3 point_in(const Volume& volume, std::uint64_t i) noexcept {
   return sphere.centre + (sphere.radius_mm * std::cbrt(w)) * Vec3{flat * std::cos(angle), flat * std::sin(angle), z};
 }
 
-/// Points spread evenly over the area of some of a mesh's triangles.
+/// Points spread evenly over the area of some of a mesh's triangles, the same ones when those are turned over.
 class AreaSampler {
  public:
   explicit AreaSampler(const TriangleMesh& mesh) : mesh_(mesh) {
@@ -63,15 +65,23 @@ class AreaSampler {
       u = 1 - u;
       v = 1 - v;
     }
-    const Vec3 a = mesh_.corner(t, 0);
-    return {t, a + u * (mesh_.corner(t, 1) - a) + v * (mesh_.corner(t, 2) - a)};
+    const auto [a, b, c] = corners(t);
+    return {t, a + u * (b - a) + v * (c - a)};
   }
 
  private:
   void add(std::size_t t) {
-    const Vec3 a = mesh_.corner(t, 0);
+    const auto [a, b, c] = corners(t);
     const double before = cumulative_.empty() ? 0 : cumulative_.back();
-    cumulative_.push_back(before + norm(cross(mesh_.corner(t, 1) - a, mesh_.corner(t, 2) - a)));
+    cumulative_.push_back(before + norm(cross(b - a, c - a)));
+  }
+
+  /// In the order of their coordinates.
+  std::array<Vec3, 3> corners(std::size_t t) const {
+    std::array<Vec3, 3> all{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
+    std::sort(all.begin(), all.end(),
+              [](const Vec3& p, const Vec3& q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); });
+    return all;
   }
 
   const TriangleMesh& mesh_;

@@ -29,6 +29,7 @@ constexpr double k_near = 2e-4;       ///< Of the scene's diagonal: gaps that re
 constexpr double k_parallel = 0.8;    ///< |cosine| of borders that run along one another.
 constexpr double k_eye_distance = 2;  ///< Of the scene's diagonal.
 constexpr std::size_t k_room_eyes = 8, k_view_eyes = 16, k_eyes_around = 32;
+constexpr int k_most_rooms = 4;
 constexpr std::size_t k_sight_lines = std::size_t{1} << 21;
 constexpr std::size_t k_least_points = 4, k_most_points = 256, k_border_points = 64;
 
@@ -66,9 +67,9 @@ class SideFinder {
     collect_sheets();
     if (sheets_.empty()) return std::move(result_);
     place_scene();
-    for (const auto& [eyes, reason] : rounds_of_eyes()) {
-      look_from(eyes, reason);
-      continue_neighbours();
+    if (!settle()) {
+      decide_from(rounds_of_eyes(unknown_sheets()));
+      settle();
     }
     finish();
     return std::move(result_);
@@ -78,7 +79,65 @@ class SideFinder {
   struct Round {
     std::vector<Vec3> eyes;
     SideReason reason;
+    bool operator==(const Round&) const = default;
   };
+
+  /// The room is where fronts are seen, and fronts are what is seen from the room: decides again while sheets that turn
+  /// lead to another room. Returns false, with the sides of the start, where that does not end.
+  bool settle() {
+    const std::vector<Sheet> start = sheets_;
+    const SheetSides result_of_start = result_;
+    std::vector<Round> last;
+    for (int i = 0; i < k_most_rooms; ++i) {
+      std::vector<Round> rounds = rounds_of_eyes(facing());
+      if (rounds == last) return true;
+      decide_from(rounds);
+      last = std::move(rounds);
+    }
+    sheets_ = start;
+    result_ = result_of_start;
+    return false;
+  }
+
+  void decide_from(const std::vector<Round>& rounds) {
+    for (Sheet& sheet : sheets_) sheet = undecided(sheet.mesh, sheet.number);
+    for (const auto& [eyes, reason] : rounds) {
+      look_from(eyes, reason);
+      continue_neighbours();
+    }
+  }
+
+  Sheet undecided(std::uint32_t mesh, std::uint32_t number) const {
+    const bool orientable = open_[mesh].sheets[number].orientable;
+    return {mesh, number, orientable, false, orientable ? SideReason::unseen : SideReason::non_orientable};
+  }
+
+  /// Sets the facing of the opaque triangles of sheets that can have a side. @param facing_of of a sheet's triangle.
+  template <typename FacingOf>
+  std::vector<Facing> facing_of_sheets(FacingOf facing_of) const {
+    std::vector<Facing> facing(bvh_->size(), Facing::as_is);
+    for (const PlacedSheet& placed : placed_) {
+      const Sheet& sheet = sheets_[placed.sheet];
+      const Index first = first_opaque_[placed.use];
+      if (first == k_no_value || !open_of(sheet).orientable) continue;
+      for (const Index t : open_of(sheet).triangles) facing[first + t] = facing_of(sheet, t);
+    }
+    return facing;
+  }
+
+  std::vector<Facing> facing() const {
+    return facing_of_sheets(
+        [&](const Sheet& sheet, Index t) { return is_turned(sheet, t) ? Facing::turned : Facing::as_is; });
+  }
+
+  std::vector<Facing> unknown_sheets() const {
+    return facing_of_sheets([](const Sheet&, Index) { return Facing::unknown; });
+  }
+
+  bool is_turned(const Sheet& sheet, Index t) const {
+    return !sheet.is_open_question && sheet.reason < SideReason::both_sides_seen &&
+           (open_[sheet.mesh].against[t] != 0) != sheet.faces_away;
+  }
 
   void collect_sheets() {
     std::map<const TriangleMesh*, std::uint32_t> number_of;
@@ -103,9 +162,8 @@ class SideFinder {
                               [&](std::size_t m) { open_[m] = find_open_sheets(*result_.meshes[m].mesh); });
     for (std::uint32_t m = 0; m < open_.size(); ++m)
       for (std::uint32_t s = 0; s < open_[m].sheets.size(); ++s) {
-        const bool orientable = open_[m].sheets[s].orientable;
         for (const std::uint32_t u : uses_of[m]) placed_.push_back({u, static_cast<std::uint32_t>(sheets_.size())});
-        sheets_.push_back({m, s, orientable, false, orientable ? SideReason::unseen : SideReason::non_orientable});
+        sheets_.push_back(undecided(m, s));
       }
   }
 
@@ -124,20 +182,23 @@ class SideFinder {
     diagonal_ = scene_.bounds.diagonal();
   }
 
-  std::vector<Round> rounds_of_eyes() {
+  std::vector<Round> rounds_of_eyes(const std::vector<Facing>& facing) {
     std::vector<Round> rounds;
+    result_.enclosure = 0;
+    result_.eye = {};
     if (options_.inside) {
       result_.viewpoint = Viewpoint::inside;
       result_.eye = *options_.inside;
       rounds.push_back({{*options_.inside}, SideReason::seen});
-      rounds.push_back({places_around(*bvh_, look_for_places(*bvh_, scene_.bounds), *options_.inside, k_room_eyes),
-                        SideReason::seen});
+      rounds.push_back(
+          {places_around(*bvh_, look_for_places(*bvh_, scene_.bounds, facing), *options_.inside, k_room_eyes),
+           SideReason::seen});
     } else if (!options_.view.empty()) {
       result_.viewpoint = Viewpoint::view;
       rounds.push_back({{}, SideReason::seen});
       for (const Volume& volume : options_.view)
         for (std::uint64_t i = 0; i < k_view_eyes; ++i) rounds.back().eyes.push_back(point_in(volume, i));
-    } else if (const std::vector<Place> places = look_for_places(*bvh_, scene_.bounds);
+    } else if (const std::vector<Place> places = look_for_places(*bvh_, scene_.bounds, facing);
                const std::optional<Place> room = best_place(places)) {
       result_.viewpoint = Viewpoint::room;
       result_.eye = room->point;
@@ -318,9 +379,8 @@ class SideFinder {
       side.reason = sheet.reason;
       side.faces_away = sheet.faces_away;
       side.front_share = sheet.front_share;
-      if (side.is_ambiguous()) continue;
       for (const Index t : side.triangles) {
-        if ((open_[sheet.mesh].against[t] != 0) == side.faces_away) continue;
+        if (!is_turned(sheet, t)) continue;
         mesh.turn.resize(mesh.mesh->triangles.size(), 0);
         mesh.turn[t] = 1;
       }

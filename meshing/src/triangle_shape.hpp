@@ -34,8 +34,11 @@ inline constexpr double k_rounding_distance = 1e-7;
 /// A triangle is degenerate when its smallest altitude is below this fraction of its part's reference length.
 inline constexpr double k_degenerate_altitude = 1e-7;
 
-/// The same in what a repair leaves: rounding both ends of an altitude does not make a triangle degenerate again.
-inline constexpr double k_repaired_altitude = k_degenerate_altitude + 2 * k_rounding_distance;
+/// What a repair looks for: rounding both ends of an altitude does not make a triangle that it leaves degenerate.
+inline constexpr double k_sought_altitude = k_degenerate_altitude + 2 * k_rounding_distance;
+
+/// The same in what a repair makes; the distance to what is looked for keeps a repair of the rounded result idle.
+inline constexpr double k_repaired_altitude = k_sought_altitude + k_rounding_distance;
 
 /// Two boundary features closer than this fraction of the reference length are taken as touching: the noise that
 /// single-precision coordinates and CAD kernels leave on shared edges.

@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/node_places.hpp"
@@ -35,6 +36,22 @@ void add_ambiguous(const Scene& scene, const PartSheets& part, std::set<PartSlot
   for (const SheetSide& sheet : part.sheets)
     if (sheet.is_ambiguous())
       for (const Index t : sheet.triangles) slots.emplace(part.part, slot.empty() ? 0 : slot[t]);
+}
+
+/// A box is turned by quarters, so it stays one.
+Volume turned(const Transform& turn, const Volume& volume) {
+  if (const auto* box = std::get_if<BoxVolume>(&volume)) {
+    Bounds3 bounds;
+    for (const Vec3& corner : {box->low, box->high}) bounds.add(transform_point(turn, corner));
+    return BoxVolume{bounds.low, bounds.high};
+  }
+  const auto& sphere = std::get<SphereVolume>(volume);
+  return SphereVolume{transform_point(turn, sphere.centre), sphere.radius_mm};
+}
+
+/// The rotation back.
+Transform transposed(const Transform& t) {
+  return {t[0], t[4], t[8], 0, t[1], t[5], t[9], 0, t[2], t[6], t[10], 0, 0, 0, 0, 1};
 }
 
 }  // namespace
@@ -100,10 +117,14 @@ SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::
     return found;
   }
   const Stopwatch clock;
-  const std::vector<PlacedMesh> uses = placed_meshes(scene, instances(scene));
+  const Transform turn = to_y_up(scene.up);  // places are looked for along axes: as in the file that is written
+  const std::vector<PlacedMesh> uses = placed_meshes(scene, instances(scene), turn);
+  SheetSideOptions viewpoint;
+  if (options.inside) viewpoint.inside = transform_point(turn, *options.inside);
+  for (const Volume& volume : view) viewpoint.view.push_back(turned(turn, volume));
   SheetSides sides;
   try {
-    sides = find_sheet_sides(uses, {options.inside, {view.begin(), view.end()}});
+    sides = find_sheet_sides(uses, viewpoint);
   } catch (const InvalidInput& error) {
     found.skipped = error.what();
     return found;
@@ -112,7 +133,7 @@ SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::
   for (MeshSheets& mesh : sides.meshes)
     if (!mesh.sheets.empty()) of_mesh.emplace(mesh.mesh, &mesh);
   found.viewpoint = sides.viewpoint;
-  found.eye = sides.eye;
+  found.eye = transform_point(transposed(turn), sides.eye);
   found.enclosure = sides.enclosure;
   for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
     const auto mesh = of_mesh.find(&scene.parts[p].mesh);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "papilla/core/error.hpp"
 #include "papilla/meshing/orient.hpp"
@@ -66,6 +67,26 @@ TEST(SheetSides, WallsOfARoomThatFaceOutAreFound) {
   }
   const SheetSides again = find_sheet_sides(placed(walls));
   for (std::size_t m = 0; m < walls.size(); ++m) EXPECT_FALSE(only_sheet(again, m).faces_away) << m;
+}
+
+TEST(SheetSides, WhatWasTurnedIsNotTurnedAgain) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> at(0, k_side);
+  std::size_t turned = 0;
+  for (int scene = 0; scene < 20; ++scene) {
+    TriangleMesh soup;
+    for (Index t = 0; t < 60; ++t) {
+      for (int corner = 0; corner < 3; ++corner) soup.positions.push_back({at(random), at(random), at(random)});
+      soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    const SheetSides sides = find_sheet_sides({{{&soup}}});
+    if (!sides.meshes[0].turn.empty()) turn_triangles(soup, sides.meshes[0].turn);
+    turned += !sides.meshes[0].turn.empty();
+    const SheetSides again = find_sheet_sides({{{&soup}}});
+    EXPECT_TRUE(again.meshes[0].turn.empty()) << scene;
+    EXPECT_EQ(again.eye, sides.eye) << scene;
+  }
+  EXPECT_GT(turned, 10U);
 }
 
 TEST(SheetSides, AGivenPointCountsWhereverMostWallsFace) {

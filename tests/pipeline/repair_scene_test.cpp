@@ -117,7 +117,7 @@ TEST(RepairScene, HoldsForEveryFile) {
     EXPECT_TRUE(result.total.settled);
     write_scene(result.scene, once);
     const Scene first = read_scene(once);
-    write_scene(repair_scene(first).scene, twice);
+    write_scene(repair_scene(first, options).scene, twice);
     const Scene second = read_scene(twice);
     EXPECT_EQ(double_sided(first), double_sided(second));
     ASSERT_EQ(first.parts.size(), second.parts.size());

@@ -74,8 +74,10 @@ struct SheetSides {
 /// share of 4/5 decides; below, both sides are seen and the sheet has none. A sheet that is not seen takes the side
 /// with which it continues decided neighbours: where at least a tenth of its border lies within 2e-4 of the scene's
 /// diagonal of theirs, four fifths of that running opposite ways. What is still undecided is looked at from the room
-/// around `inside`, then from all around, neighbours after each. Of a mesh that is used several times every use is
-/// looked at, mirrored ones as they are drawn; uses that contradict one another leave it without a side.
+/// around `inside`, then from all around, neighbours after each. Where sheets that are turned lead to another room, all
+/// is decided again from there, up to 4 times; where that does not end, from the room that is found when sheets count
+/// as seen from their front. So a scene that was turned is not turned again. Of a mesh that is used several times every
+/// use is looked at, mirrored ones as they are drawn; uses that contradict one another leave it without a side.
 ///
 /// Good input: files in which most surfaces face the right way. Breaks down where that is not so (a room all of whose
 /// walls face outwards is taken for a box), where the people are in a room that is not the largest, or small beside the
