@@ -40,6 +40,9 @@ constexpr int k_recipe_samples = 512;
 /// Peak to valley of a relief of which nothing is said, as a share of the shorter side of the grain.
 constexpr double k_default_depth = 0.01;
 
+/// For read_texture() and the dimension of the relief, on one slow core.
+constexpr double k_seconds_to_read_a_pixel = 8e-6;
+
 /// Width and height of one repeat, from the rule or from the picture's resolution.
 void find_size(const MaterialRule& rule, const GreyImage& image, double (&size_mm)[2]) {
   const double pixels[2] = {static_cast<double>(image.width), static_cast<double>(image.height)};
@@ -237,8 +240,8 @@ void limit_slopes(const MaterialRule& rule, Grain& grain) {
                     rule.name, height.slopes.iterations, 100 * height.slopes.share_after, height.max_slope));
 }
 
-void describe_relief(Grain& grain) {
-  grain.roughness = measure_roughness(grain.relief);
+void describe_relief(Grain& grain, const RoughnessOptions& options) {
+  grain.roughness = measure_roughness(grain.relief, options);
   RoughnessTag tag;
   if (const auto& overlay = grain.height.overlay) {
     tag = {3 - overlay->hurst,
@@ -303,13 +306,18 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   return plan;
 }
 
-Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
+Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline) {
   Grain grain;
   const Stopwatch analyze_clock;
   Source source = read_source(rule, library);
   find_size(rule, source.grey, grain.size_mm);
   look_at(rule, source, grain);
-  const TextureReading reading = read_texture(source.grey);
+  ReadingOptions in_time;
+  in_time.deadline = deadline.earlier_by(k_seconds_to_read_a_pixel * static_cast<double>(source.grey.pixels.size()));
+  const TextureReading reading = read_texture(source.grey, in_time);
+  if (reading.stop == StopReason::time_limit)
+    grain.warnings.push_back(fmt::format(
+        "material '{}': no lattice and no roughness was looked for: the time limit left no time for it", rule.name));
   describe_picture(reading, {grain.size_mm[0] / source.grey.width, grain.size_mm[1] / source.grey.height}, grain);
   grain.source = source.recipe ? rule.recipe : rule.texture.string();
   if (source.recipe) {
@@ -323,7 +331,7 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, reading, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
-  describe_relief(grain);
+  describe_relief(grain, {.dimension = reading.stop != StopReason::time_limit});
   const EncodedHeight encoded = encode_height_png16(grain.relief);
   grain.tag.height = make_height_tag(grain.relief, {.png = encoded.png,
                                                     .scale_mm = encoded.scale_mm,
