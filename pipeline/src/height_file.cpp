@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "papilla/core/atomic_file.hpp"
@@ -13,6 +14,7 @@
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
+#include "papilla/texture/texture_reading.hpp"
 #include "pictures/relief.hpp"
 #include "pictures/texture_plots.hpp"
 #include "relief_files.hpp"
@@ -59,7 +61,7 @@ std::vector<ReliefPicture> draw_pictures(const fs::path& folder, HeightMap map) 
 }
 
 bool needs_memory(const HeightFileOptions& options) {
-  return options.height.tile || options.height.roughness != HeightRoughness::whole ||
+  return options.by_class || options.height.tile || options.height.roughness != HeightRoughness::whole ||
          options.height.shortest_wavelength_mm > 0 || !options.normal_map.empty() || !options.pictures.empty();
 }
 
@@ -78,7 +80,7 @@ HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const Hei
   if (!(height.pitch_mm > 0)) height.pitch_mm = bands.pitch_mm();
   SampleFile samples(bands.width(), bands.height(), folder);
   const HeightRows rows = height_from_rows(grey, bands.bits(), height, samples);
-  HeightFiles files{rows.result, {}, {}, {}};
+  HeightFiles files{rows.result, {}, {}, {}, {}, {}};
   const auto write = [&](const fs::path& file, double factor, double offset_mm) {
     const ScaledSamples heights(samples, factor * rows.scale, rows.lowest, offset_mm);
     write_height_rows(file, heights, std::abs(factor) * rows.result.depth_mm, rows.result.map.pitch_mm_x);
@@ -90,6 +92,17 @@ HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const Hei
     for (const int factor : {2, 4})
       files.deeper.push_back({factor, write(beside(output, "x" + std::to_string(factor)), factor, 0)});
   return files;
+}
+
+void take_by_class(const GreyImage& image, const HeightFileOptions& options, HeightFiles& files) {
+  ReadingOptions reading;
+  reading.progress = options.height.progress;
+  PictureReliefOptions relief = *options.by_class;
+  relief.height = options.height;
+  PictureRelief made = relief_of_picture(image, read_texture(image, reading), relief);
+  files.result = std::move(made.height);
+  files.plan = std::move(made.plan);
+  files.roughness = made.roughness;
 }
 
 }  // namespace
@@ -108,7 +121,12 @@ HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& outp
   if (std::max(bands.width(), bands.height()) > options.largest_px && !needs_memory(options))
     return height_by_bands(bands, output, options);
   bands.require_memory(k_height_bytes_per_pixel);
-  HeightFiles files{height_from_image(bands.next(bands.height()), options.height), {}, {}, {}};
+  const GreyImage image = bands.next(bands.height());
+  HeightFiles files;
+  if (options.by_class)
+    take_by_class(image, options, files);
+  else
+    files.result = height_from_image(image, options.height);
   write_relief_files(files, output, options);
   return files;
 }

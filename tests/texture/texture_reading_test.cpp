@@ -56,9 +56,7 @@ TEST(ReadTexture, AFlatPictureNeedsNothing) {
   }
 }
 
-TEST(ReadTexture, RefusesWhatIsNoPicture) {
-  EXPECT_THROW(read_texture({}), InvalidInput);
-}
+TEST(ReadTexture, RefusesWhatIsNoPicture) { EXPECT_THROW(read_texture({}), InvalidInput); }
 
 TEST(TextureReading, LooksForNothingAfterTheDeadline) {
   ReadingOptions options;
