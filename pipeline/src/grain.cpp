@@ -63,10 +63,20 @@ EncodedImage png(std::string name, std::vector<std::byte> bytes) {
   return image;
 }
 
+/// The picture of a material, from a file or computed.
+struct Source {
+  GreyImage grey;  ///< Of a recipe: the height channel.
+  ColorImage color;
+  Transfer transfer = Transfer::automatic;
+  bool recipe = false;
+  double friction = 0, stiffness = 1;  ///< Of a recipe: means of the channels.
+};
+
 /// What the class's plan is carried out with.
-PictureReliefOptions relief_options(const MaterialRule& rule, const GreyImage& image, const Grain& grain) {
+PictureReliefOptions relief_options(const MaterialRule& rule, const Source& source, const Grain& grain) {
   PictureReliefOptions options = rule.height.relief;
-  options.height.pitch_mm = grain.size_mm[0] / image.width;
+  options.height.transfer = source.transfer;
+  options.height.pitch_mm = grain.size_mm[0] / source.grey.width;
   options.height.depth_mm =
       rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
   options.seen = grain.picture.has_value();
@@ -93,8 +103,9 @@ void limit_roughness(const MaterialRule& rule, double max_slope, Grain& grain) {
 }
 
 /// The relief of the picture, at most k_most_samples a side, over the grain's size, which becomes that of the relief.
-HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const TextureReading& reading, Grain& grain) {
-  PictureRelief made = relief_of_picture(image, reading, relief_options(rule, image, grain));
+HeightMap make_relief(const MaterialRule& rule, const Source& source, const TextureReading& reading, Grain& grain) {
+  const GreyImage& image = source.grey;
+  PictureRelief made = relief_of_picture(image, reading, relief_options(rule, source, grain));
   HeightMap relief = std::move(made.height.map);
   if (rule.height.opposite) relief = opposite_relief(relief);
   relief.pitch_mm_x = grain.size_mm[0] / image.width;
@@ -119,14 +130,6 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const Te
   grain.plan = std::move(made.plan);
   return relief;
 }
-
-/// The picture of a material, from a file or computed.
-struct Source {
-  GreyImage grey;  ///< Of a recipe: the height channel.
-  ColorImage color;
-  bool recipe = false;
-  double friction = 0, stiffness = 1;  ///< Of a recipe: means of the channels.
-};
 
 double mean_of(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -158,7 +161,8 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
     return computed_source(rule, library);
   try {
     Picture picture = read_reduced_picture(rule.texture, k_most_grain_side, k_height_bytes_per_pixel + 3);
-    return {std::move(picture.grey), std::move(picture.color)};
+    return {std::move(picture.grey), std::move(picture.color),
+            transfer_of_file(rule.height.relief.height.transfer, picture)};
   } catch (const IoError& unread) {
     std::vector<std::string_view> recipes;
     for (const auto& [name, recipe] : library.recipes()) recipes.push_back(name);
@@ -299,7 +303,7 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
     Grain grain;
     find_size(rule, source.grey, grain.size_mm);
     look_at(rule, source, grain);
-    plan.steps = plan_relief(source.grey, read_texture(source.grey), relief_options(rule, source.grey, grain));
+    plan.steps = plan_relief(source.grey, read_texture(source.grey), relief_options(rule, source, grain));
   } catch (const Error& error) {
     plan.problem = error.what();
   }
@@ -328,7 +332,7 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
   grain.analyze_seconds = analyze_clock.seconds();
 
   const Stopwatch height_clock;
-  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, reading, grain);
+  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source, reading, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
   describe_relief(grain, {.dimension = reading.stop != StopReason::time_limit});

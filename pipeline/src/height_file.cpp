@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/height_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -107,6 +109,12 @@ void take_by_class(const GreyImage& image, const HeightFileOptions& options, Hei
 
 }  // namespace
 
+Transfer transfer_of_file(Transfer wanted, const Picture& picture) {
+  const bool is_mean = picture.pixels_a_side > 1;
+  if (wanted != Transfer::automatic || !is_mean) return wanted;
+  return decodes_srgb(Transfer::automatic, picture.file_bits) ? Transfer::srgb : Transfer::linear;
+}
+
 void write_height_file(const fs::path& path, const HeightMap& map) {
   if (path.extension() != ".png") {
     write_height_float(path, map);
@@ -117,16 +125,24 @@ void write_height_file(const fs::path& path, const HeightMap& map) {
 }
 
 HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& output, const HeightFileOptions& options) {
-  ImageBands bands(picture);
-  if (std::max(bands.width(), bands.height()) > options.largest_px && !needs_memory(options))
-    return height_by_bands(bands, output, options);
-  bands.require_memory(k_height_bytes_per_pixel);
-  const GreyImage image = bands.next(bands.height());
+  if (!needs_memory(options)) {
+    ImageBands bands(picture);
+    if (std::max(bands.width(), bands.height()) > options.largest_px) return height_by_bands(bands, output, options);
+  }
+  const Picture read = read_fitting_picture(picture, k_height_bytes_per_pixel);
+  HeightFileOptions own = options;
+  own.height.pitch_mm *= read.pixels_a_side;
+  own.height.transfer = transfer_of_file(options.height.transfer, read);
   HeightFiles files;
   if (options.by_class)
-    take_by_class(image, options, files);
+    take_by_class(read.grey, own, files);
   else
-    files.result = height_from_image(image, options.height);
+    files.result = height_from_image(read.grey, own.height);
+  if (read.pixels_a_side > 1)
+    files.result.assumed.push_back(
+        fmt::format("nothing finer than {0} pixels matters: the picture was read as means over {0} x {0}, for which "
+                    "there is memory (--max-memory)",
+                    read.pixels_a_side));
   write_relief_files(files, output, options);
   return files;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/io/image_file.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/picture_relief.hpp"
 
@@ -19,6 +20,9 @@ void write_height_file(const std::filesystem::path& path, const HeightMap& map);
 
 /// Memory that height_from_image() takes for a pixel, the picture and its results included, at most.
 inline constexpr std::size_t k_height_bytes_per_pixel = 96;
+
+/// The curve of a picture: what is wanted, and for `automatic` that of the file's own samples, where those are means.
+Transfer transfer_of_file(Transfer wanted, const Picture& picture);
 
 /// Options of height_of_picture_file().
 struct HeightFileOptions {
@@ -58,8 +62,8 @@ struct HeightFiles {
 
 /// Reads a picture of a surface and writes its height_from_image(). One longer than `largest_px` passes through two
 /// temporary files of 4 bytes a pixel in the folder of the output (height_from_rows()), unless the class, tile,
-/// roughness, a shortest wavelength, a normal map or pictures are asked for: those take k_height_bytes_per_pixel, for
-/// which picture_memory() must have room.
+/// roughness, a shortest wavelength, a normal map or pictures are asked for: those take k_height_bytes_per_pixel, and
+/// where picture_memory() has no room for that, they get the picture by read_fitting_picture(), which `assumed` says.
 /// @throws InvalidInput, IoError as read_grey_image(), height_from_image() and write_height_file().
 HeightFiles height_of_picture_file(const std::filesystem::path& picture, const std::filesystem::path& output,
                                    const HeightFileOptions& options);
