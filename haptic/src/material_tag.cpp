@@ -235,7 +235,8 @@ std::optional<ForceModelTag> read_force_model(const Json& json, const std::strin
     model.form.clear();
   }
   double level = model.level;
-  if (in.number("level", k_code, 1, GreyGraph::k_finest_level, level)) model.level = static_cast<int>(std::lround(level));
+  if (in.number("level", k_code, 1, GreyGraph::k_finest_level, level))
+    model.level = static_cast<int>(std::lround(level));
   return model;
 }
 

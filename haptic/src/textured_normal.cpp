@@ -20,8 +20,8 @@ constexpr double k_least_gradient = 1e-6;  // Of the distance.
 /// Squared distance from the probe to the textured point above a place of the base.
 struct Textured {
   Vec3 base;
-  Vec3 way;       ///< From the probe.
-  Vec2 gradient;  ///< Of |way|²/2 along the two tangents of the search.
+  Vec3 way;                                               ///< From the probe.
+  Vec2 gradient;                                          ///< Of |way|²/2 along the two tangents of the search.
   double half = std::numeric_limits<double>::infinity();  ///< |way|²/2.
 };
 
@@ -116,9 +116,8 @@ Vec3 way_to_textured_surface(const ContactSurface& surface, const ProxyState& st
   const double farthest = std::sqrt(std::max(0.0, depth * depth - below * below));
   for (int ring = 0, i = 2; ring < k_rings; ++ring)
     for (int k = 0; k < k_around; ++k, ++i)
-      places[static_cast<std::size_t>(i)] =
-          search.at(search.around(foot->point, farthest * (ring + 1) / (k_rings + 1),
-                                  2 * std::numbers::pi * (k + 0.5 * ring) / k_around));
+      places[static_cast<std::size_t>(i)] = search.at(search.around(
+          foot->point, farthest * (ring + 1) / (k_rings + 1), 2 * std::numbers::pi * (k + 0.5 * ring) / k_around));
   std::partial_sort(places.begin(), places.begin() + k_descents, places.end(),
                     [](const Textured& a, const Textured& b) noexcept { return a.half < b.half; });
   Textured best;

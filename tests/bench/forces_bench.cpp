@@ -184,8 +184,9 @@ void press(bench::BenchReport& report) {
   report.table(std::move(table));
   report.target({"textured-normal: no step of the force beyond k times the way of the probe, pressing in",
                  fmt::format("{:.2e} N beyond it", jump), jump < 1e-4});
-  report.target({"textured-normal: k times the distance to the closest textured point within 0.1 mN, above and below the base",
-                 fmt::format("{:.2e} N", error), error < 1e-4});
+  report.target(
+      {"textured-normal: k times the distance to the closest textured point within 0.1 mN, above and below the base",
+       fmt::format("{:.2e} N", error), error < 1e-4});
 }
 
 double variogram_hurst(const GreyGraph& graph) {
@@ -225,8 +226,10 @@ void graphs(bench::BenchReport& report) {
 
 /// Thread CPU time of ticks that wander 0.2 to 1.2 mm deep over a plate with a grain.
 void times(bench::BenchReport& report) {
-  bench::EvidenceTable table{"Time of a tick", "A point over 20 000 triangles with the waves, 0.2 m/s; µs of processor.",
-                             {"model", "median", "99 %"}, {}};
+  bench::EvidenceTable table{"Time of a tick",
+                             "A point over 20 000 triangles with the waves, 0.2 m/s; µs of processor.",
+                             {"model", "median", "99 %"},
+                             {}};
   double plain = 0, textured = 0;
   for (const ForceModel model : {ForceModel::heightfield, ForceModel::textured_normal, ForceModel::orthogonal,
                                  ForceModel::lateral, ForceModel::graph_orthogonal}) {
@@ -257,12 +260,14 @@ void times(bench::BenchReport& report) {
 
 void body(bench::BenchReport& report) {
   std::vector<Curve> all = curves();
-  bench::EvidenceTable errors{"Error against the closed form", "Root mean square over that of the closed form.",
-                              {"model", "closed form", "largest force [N]", "error"}, {}};
+  bench::EvidenceTable errors{"Error against the closed form",
+                              "Root mean square over that of the closed form.",
+                              {"model", "closed form", "largest force [N]", "error"},
+                              {}};
   for (Curve& curve : all) {
     follow(curve);
-    errors.rows.push_back({curve.name, curve.formula, fmt::format("{:.4f}", curve.largest),
-                           fmt::format("{:.3f} %", 100 * curve.error)});
+    errors.rows.push_back(
+        {curve.name, curve.formula, fmt::format("{:.4f}", curve.largest), fmt::format("{:.3f} %", 100 * curve.error)});
     report.target({fmt::format("{}: within 2 % rms of its closed form over a sinusoidal relief", curve.name),
                    fmt::format("{:.3f} %", 100 * curve.error), curve.error <= 0.02});
   }

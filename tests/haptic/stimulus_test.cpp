@@ -103,8 +103,8 @@ HeightField sine() {
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < k_pixels; ++x) {
       const double at = (x + 0.5) / k_pixels * k_size;
-      samples.push_back(static_cast<std::uint16_t>(
-          std::lround(32767.5 * (1 + 0.8 * std::sin(2 * std::numbers::pi * at / k_wave)))));
+      samples.push_back(
+          static_cast<std::uint16_t>(std::lround(32767.5 * (1 + 0.8 * std::sin(2 * std::numbers::pi * at / k_wave)))));
     }
   HeightFieldOptions options;
   options.scale_m = k_scale;
@@ -150,7 +150,8 @@ TEST(Stimulus, LateralFormsFollowTheClosedFormOfASine) {
       for (int i = 0; i < 60; ++i) {
         const double x = from.x + i * step.x;
         EXPECT_NEAR(gradient[static_cast<std::size_t>(i)].x, sign * most * std::cos(turn * x), 0.02 * most);
-        EXPECT_NEAR(displacement[static_cast<std::size_t>(i)].x, sign * a * pixel * (g(x) - g(x - step.x)) / step.x, 0.02 * most);
+        EXPECT_NEAR(displacement[static_cast<std::size_t>(i)].x, sign * a * pixel * (g(x) - g(x - step.x)) / step.x,
+                    0.02 * most);
         EXPECT_NEAR(displacement[static_cast<std::size_t>(i)].y, 0, 1e-12);
       }
     }
@@ -223,7 +224,8 @@ TEST(Stimulus, GraphOverPlaceIsTheSameBackwards) {
       const double sign = model == ForceModel::graph_orthogonal ? -1 : 1;
       double differs = 0;
       for (int i = 1; i < ticks - 1; ++i) {
-        const Vec3 forward = there[static_cast<std::size_t>(i)], backward = back[static_cast<std::size_t>(ticks - 1 - i)];
+        const Vec3 forward = there[static_cast<std::size_t>(i)],
+                   backward = back[static_cast<std::size_t>(ticks - 1 - i)];
         differs = std::max(differs, norm(backward - sign * forward));
       }
       if (form == StimulusForm::place) {

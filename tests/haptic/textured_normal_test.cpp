@@ -27,8 +27,8 @@ struct Sine {
     std::vector<std::uint16_t> samples;
     for (int j = 0; j < rows; ++j)
       for (int i = 0; i < columns; ++i)
-        samples.push_back(static_cast<std::uint16_t>(
-            std::lround(32767.5 * (1 + std::sin(k_turn * (i + 0.5) / columns * k_width)))));
+        samples.push_back(
+            static_cast<std::uint16_t>(std::lround(32767.5 * (1 + std::sin(k_turn * (i + 0.5) / columns * k_width)))));
     HeightFieldOptions options;
     options.scale_m = range;
     options.offset_m = offset;
@@ -90,11 +90,11 @@ std::vector<Vec3> line(Vec3 from, Vec3 to, int ticks) {
 }
 
 const std::vector<Sine> k_reliefs = {
-    {1e-4, 0},       // Stands out.
-    {1e-4, -1e-4},   // Goes in.
-    {2e-4, -1e-4},   // Both.
-    {1e-4, 5e-5},    // Stands out with a gap above the base.
-    {4e-4, -1e-4},   // Steep: slopes up to 0.63.
+    {1e-4, 0},      // Stands out.
+    {1e-4, -1e-4},  // Goes in.
+    {2e-4, -1e-4},  // Both.
+    {1e-4, 5e-5},   // Stands out with a gap above the base.
+    {4e-4, -1e-4},  // Steep: slopes up to 0.63.
 };
 
 TEST(TexturedNormal, IsTheDistanceToTheClosestTexturedPointInsideTheRelief) {
@@ -145,7 +145,8 @@ void expect_continuous(const std::vector<Vec3>& path, const std::vector<Vec3>& f
                        double slack_m = 2e-7) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double moved = norm(path[i] - path[i - 1]);
-    EXPECT_LE(std::abs(norm(forces[i]) - norm(forces[i - 1])), k_stiffness * (1.001 * moved + slack_m)) << what << ' ' << i;
+    EXPECT_LE(std::abs(norm(forces[i]) - norm(forces[i - 1])), k_stiffness * (1.001 * moved + slack_m))
+        << what << ' ' << i;
   }
 }
 
@@ -245,7 +246,8 @@ ContactMesh sheets(const std::vector<std::pair<double, bool>>& at) {
     for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
       const auto& c = sheet.triangles[t];
       mesh.triangles.push_back({first + c[0], first + c[up ? 1 : 2], first + c[up ? 2 : 1]});
-      for (const std::size_t k : {std::size_t{0}, std::size_t{up ? 1U : 2U}, std::size_t{up ? 2U : 1U}}) mesh.corner_uv.push_back(sheet.corner_uv[3 * t + k]);
+      for (const std::size_t k : {std::size_t{0}, std::size_t{up ? 1U : 2U}, std::size_t{up ? 2U : 1U}})
+        mesh.corner_uv.push_back(sheet.corner_uv[3 * t + k]);
     }
   }
   return mesh;
@@ -254,12 +256,15 @@ ContactMesh sheets(const std::vector<std::pair<double, bool>>& at) {
 TEST(TexturedNormal, NothingTunnelsThroughThinSheets) {
   const Sine sine{1e-4, 0};
   // A panel 0.6 mm thick, a single sheet, and two sheets that face the same way.
-  for (const ContactMesh& mesh : {sheets({{0, true}, {-6e-4, false}}), sheets({{0, true}}), sheets({{0, true}, {-6e-4, true}})}) {
+  for (const ContactMesh& mesh :
+       {sheets({{0, true}, {-6e-4, false}}), sheets({{0, true}}), sheets({{0, true}, {-6e-4, true}})}) {
     const ContactSurface surface(mesh, {textured()}, {sine.field()}, 0);
     const std::vector<Vec3> path = line({0.0201, 0.013, 1e-3}, {0.0203, 0.0131, -3e-3}, 2000);
     const std::vector<Vec3> forces = felt(surface, path);
     for (std::size_t i = 0; i < path.size(); ++i)
-      if (path[i].z < -1e-5) { EXPECT_GT(forces[i].z, 0.95 * k_stiffness * -path[i].z) << path[i].z; }
+      if (path[i].z < -1e-5) {
+        EXPECT_GT(forces[i].z, 0.95 * k_stiffness * -path[i].z) << path[i].z;
+      }
     // The proxy rests within the tolerance of 1.25 µm.
     expect_continuous(path, forces, "panel", 2.5e-6);
     // As fast as 4 mm in a tick.

@@ -29,8 +29,8 @@ class ForceModelFile : public testing::Test {
 
   MaterialTag bake(const std::string& members) {
     std::ofstream(folder_ / "m.json") << R"({"materials": {"grain": {"texture": "fbm|h=.8", "size_mm": [40, 30],
-        "stiffness": 400, "height": {"depth_mm": 0.2}, )" + members +
-                                             R"(}}, "assign": [{"part": "*", "material": "grain"}]})";
+        "stiffness": 400, "height": {"depth_mm": 0.2}, )" +
+                                             members + R"(}}, "assign": [{"part": "*", "material": "grain"}]})";
     std::string words;
     BakeFileOptions options;
     bake_file(folder_ / "plate.obj", glb(), read_materials(folder_ / "m.json"), options, {});
@@ -95,14 +95,22 @@ TEST_F(ForceModelFile, ReachesTheHandThroughTheBakedFile) {
   };
   for (const auto& [members, tag, model, form] :
        {Case{R"("forceModel": {"name": "lateral", "amplitude": 0.012, "sign": "literal", "form": "displacement"})",
-             {"lateral", 0.012, true, "displacement", 8}, ForceModel::lateral, StimulusForm::displacement},
+             {"lateral", 0.012, true, "displacement", 8},
+             ForceModel::lateral,
+             StimulusForm::displacement},
         Case{R"("forceModel": {"name": "graph", "sign": "physical", "form": "place", "level": 6})",
-             {"graph-orthogonal", 0.01, false, "place", 6}, ForceModel::graph_orthogonal, StimulusForm::place},
+             {"graph-orthogonal", 0.01, false, "place", 6},
+             ForceModel::graph_orthogonal,
+             StimulusForm::place},
         Case{R"("forceModel": {"name": "orthogonal", "amplitude": 0.02})",
-             {"orthogonal", 0.02, false, "", 8}, ForceModel::orthogonal, StimulusForm::usual},
+             {"orthogonal", 0.02, false, "", 8},
+             ForceModel::orthogonal,
+             StimulusForm::usual},
         Case{R"("staticFriction": 0.4, "frictionModel": {"name": "bristle", "stiffness": 200},
                 "forceModel": {"name": "textured-normal"})",
-             {"textured-normal", 0.01, false, "", 8}, ForceModel::textured_normal, StimulusForm::usual}}) {
+             {"textured-normal", 0.01, false, "", 8},
+             ForceModel::textured_normal,
+             StimulusForm::usual}}) {
     const MaterialTag found = bake(members);
     ASSERT_TRUE(found.force_model) << members;
     EXPECT_EQ(*found.force_model, tag) << members;
@@ -136,7 +144,8 @@ TEST_F(ForceModelFile, WrongModelsAreRefused) {
   };
   expect(R"({"name": "laterel"})", "did you mean 'lateral'");
   expect(R"({"amplitud": 1})", "did you mean 'amplitude'");
-  expect(R"({"name": "lateral", "form": "place"})", "/materials/grain/forceModel/form: 'place' is no form of 'lateral'");
+  expect(R"({"name": "lateral", "form": "place"})",
+         "/materials/grain/forceModel/form: 'place' is no form of 'lateral'");
   expect(R"({"name": "graph", "form": "gradient"})", "is no form of 'graph-orthogonal'");
   expect(R"({"name": "graph", "level": 9})", "/materials/grain/forceModel/level");
   expect(R"({"name": "graph", "level": 2.5})", "must be a whole number");

@@ -67,7 +67,8 @@ class MaterialsSchemaTest : public testing::Test {
     const std::string where = object + "/" + key;
     if (rule.contains("enum")) {
       for (const Json& word : rule["enum"])
-        EXPECT_TRUE(of(word).empty() || of(word).find("is no form of") != std::string::npos) << where << ": " << of(word);
+        EXPECT_TRUE(of(word).empty() || of(word).find("is no form of") != std::string::npos)
+            << where << ": " << of(word);
       EXPECT_NE(of("spoon"), "") << where;
     } else if (rule.value("type", Json()) == "boolean") {
       EXPECT_EQ(of(true), "") << where;
@@ -79,7 +80,9 @@ class MaterialsSchemaTest : public testing::Test {
       EXPECT_NE(of(least - 1), "") << where;
       EXPECT_NE(of(1.001 * most + 1), "") << where;
       EXPECT_NE(of("1"), "") << where;
-      if (rule["type"] == "integer") { EXPECT_NE(of(least + 0.5), "") << where; }
+      if (rule["type"] == "integer") {
+        EXPECT_NE(of(least + 0.5), "") << where;
+      }
     }
   }
 

@@ -205,8 +205,7 @@ class Builder {
   HeightField felt(HeightField field, ForceModel model, Vec2 metres_per_uv,
                    std::vector<HapticWarning>& warnings) const {
     const double peak = options_.felt_depth_m - options_.probe_radius_m;
-    if (peak > 0 && model == ForceModel::heightfield)
-      field = field.rounded(peak, metres_per_uv);
+    if (peak > 0 && model == ForceModel::heightfield) field = field.rounded(peak, metres_per_uv);
     if (options_.probe_radius_m > 0) try {
         field = field.dilated(options_.probe_radius_m, metres_per_uv);
       } catch (const InvalidInput& error) {

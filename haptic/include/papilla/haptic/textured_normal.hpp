@@ -19,8 +19,9 @@ namespace papilla {
 /// what is nearest is another side, or another sheet before or behind it, the way leads to the proxy instead: nothing
 /// is tunnelled through.
 ///
-/// noexcept, no allocation, deterministic; finite for finite input. Cost: 14 to 70 closest points, mostly 25.
-/// Limits: on grains much finer than the depth, a nearer place between the samples can be missed.
+/// noexcept, no allocation, deterministic; finite for finite input. Cost: at most 65 closest points and a segment; in
+/// the median 21 on waves of 2.5 mm, 36 on waves of 0.3 mm, up to 1.2 mm deep. Limits: on grains much finer than the
+/// depth, a nearer place between the samples can be missed.
 Vec3 way_to_textured_surface(const ContactSurface& surface, const ProxyState& state, Vec3 probe) noexcept;
 
 /// The force of the model `textured-normal` without its friction [Cho 2017], newtons. With w the way to the textured
