@@ -37,10 +37,11 @@ class Search {
   Textured at(Vec3 place) const noexcept {
     Textured result;
     result.base = place;
-    const auto near = surface_->closest_point(place, depth_ + surface_->tallest_relief_m());
+    const auto near =
+        surface_->closest_point(place, depth_ + surface_->contact_radius_m() + surface_->tallest_relief_m());
     if (!near || dot(near->face_normal, normal_) <= 0) return result;
     result.base = near->point;
-    result.way = near->point + near->height_m * near->face_normal - probe_;
+    result.way = near->point + (near->height_m + surface_->probe_radius_m()) * near->face_normal - probe_;
     result.half = 0.5 * dot(result.way, result.way);
     const Vec3 rise = dot(result.way, near->face_normal) * near->slope;
     const Vec3 flat = result.way - dot(result.way, near->face_normal) * near->face_normal;
@@ -102,17 +103,19 @@ Vec3 way_to_textured_surface(const ContactSurface& surface, const ProxyState& st
 
   const double above = dot(probe - foot->point, foot->face_normal);
   const bool in_front = above >= 0;
-  const Vec3 outside = foot->point + (foot->height_m + surface.skin_m()) * foot->face_normal;
+  const double radius = surface.probe_radius_m();
+  const Vec3 outside = foot->point + (foot->height_m + surface.contact_radius_m()) * foot->face_normal;
   if (surface.crossings(state.proxy, outside) != 0) return to_proxy;
   const double cosine = foot->on_border && foot->distance_m > 0 ? above / foot->distance_m : 1;
-  const double depth = in_front ? cosine * foot->height_m - foot->distance_m : foot->height_m + foot->distance_m;
+  const double depth =
+      radius + (in_front ? cosine * foot->height_m - foot->distance_m : foot->height_m + foot->distance_m);
   if (!(depth > 0)) return {};
 
   const Search search(surface, probe, *foot, depth);
   std::array<Textured, 2 + k_rings * k_around> places;
   places[0] = search.at(foot->point);
   places[1] = search.at(state.proxy - dot(state.proxy - foot->point, foot->face_normal) * foot->face_normal);
-  const double below = std::max(0.0, -above);
+  const double below = std::max(0.0, radius - above);
   const double farthest = std::sqrt(std::max(0.0, depth * depth - below * below));
   for (int ring = 0, i = 2; ring < k_rings; ++ring)
     for (int k = 0; k < k_around; ++k, ++i)

@@ -63,6 +63,19 @@ ContactMaterial textured(double friction = 0, FrictionModel model = FrictionMode
   return material;
 }
 
+/// The same of the dilated sine: of a ball's centre.
+Vec3 way_of_ball(const Sine& sine, double radius, double x, double z) {
+  // The closest place of the centre lies on the normal of a point of the sine.
+  Vec3 best{0, 0, 1};
+  for (int i = -20000; i <= 20000; ++i) {
+    const double a = x + 1e-7 * i, slope = 0.5 * sine.range * k_turn * std::cos(k_turn * a),
+                 length = std::hypot(1, slope);
+    const Vec3 way{a - radius * slope / length - x, 0, sine.height(a) + radius / length - z};
+    if (norm(way) < norm(best)) best = way;
+  }
+  return best;
+}
+
 ContactSurface plate_of(const Sine& sine, const ContactMaterial& material = textured()) {
   return ContactSurface(testing::plate(24, 18, k_width, k_depth), {material}, {sine.field()}, 0);
 }
@@ -125,6 +138,21 @@ TEST(TexturedNormal, PointsToTheClosestTexturedPoint) {
     const double x = 0.02 + k_wave * step / 40, z = sine.height(x) - 1.5e-4;
     const Vec3 force = felt(surface, {{x, 0.013, z}}).back(), expected = k_stiffness * sine.way(x, z);
     EXPECT_NEAR(norm(force - expected), 0, 2e-3 * norm(expected)) << x;
+  }
+}
+
+TEST(TexturedNormal, ABallFeelsTheSurfaceOfItsCentre) {
+  const Sine sine{1e-4, -5e-5};  // Valleys rounder than the ball: a radius of 2 mm.
+  constexpr double radius = 5e-4;
+  const ContactSurface surface(testing::plate(24, 18, k_width, k_depth), {textured()},
+                               {sine.field().dilated(radius, {k_width, k_depth})}, radius);
+  for (int step = 0; step <= 20; ++step) {
+    const double x = 0.02 + k_wave * step / 20;
+    for (const double depth : {-2e-5, 2e-5, 1e-4, 3e-4, 7e-4}) {
+      const double z = sine.height(x) + radius - depth;
+      const Vec3 force = felt(surface, {{x, 0.013, z}}).back(), way = way_of_ball(sine, radius, x, z);
+      EXPECT_NEAR(norm(force), way.z > 0 ? k_stiffness * norm(way) : 0, k_stiffness * 1e-6) << x << ' ' << depth;
+    }
   }
 }
 

@@ -8,12 +8,12 @@ namespace papilla {
 
 /// From a probe x below the textured surface to the closest point c of that surface, metres; zero above it.
 ///
-/// The textured surface is the relief over the base, c = b + h(b)·n, dilated by the probe's radius as the height map
-/// is; the skin is no part of it. The closest point can't be farther from the foot of the probe than
-/// √(d² − z²), d the depth below the surface along the normal and z that below the lowest relief; there the distance is
-/// sampled at two rings of six places, and descended [BFGS with Armijo's rule] from the two nearest of these, of the
-/// foot and of the proxy. It depends on the place of the probe only, so a spring along it gives back what was put in.
-/// The direction turns at once where two places are equally near.
+/// The textured surface is the relief over the base, c = b + (h(b) + r)·n: where the centre of a ball of radius r is
+/// when it touches the relief, of which h is the dilation. The skin is no part of it. The closest point can't be
+/// farther from the foot of the probe than √(d² − z²), d the depth below the surface along the normal and z that below
+/// the lowest relief; there the distance is sampled at two rings of six places, and descended [BFGS with Armijo's rule]
+/// from the two nearest of these, of the foot and of the proxy. It depends on the place of the probe only, so a spring
+/// along it gives back what was put in. The direction turns at once where two places are equally near.
 ///
 /// The proxy, which is swept and held by the same relief without friction, says which side the probe came from. When
 /// what is nearest is another side, or another sheet before or behind it, the way leads to the proxy instead: nothing
