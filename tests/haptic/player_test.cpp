@@ -261,7 +261,7 @@ Number at(const std::string& file, std::size_t place) {
 
 TEST_F(Player, VibrationIsWrittenAsSound) {
   const std::string wav = (folder_ / "v.wav").string();
-  const Outcome outcome = play_glb(tag(), testing::sine_png(), "--vibration '" + wav + "'");
+  const Outcome outcome = play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration '" + wav + "'");
   ASSERT_EQ(outcome.code, 0) << outcome.error;
   const Json told = outcome.json()["vibration"];
   EXPECT_NEAR(told["samples"].get<double>(), 0.6 * 48000, 48);
@@ -282,9 +282,9 @@ TEST_F(Player, VibrationIsWrittenAsSound) {
   // Full scale is 50 m/s2.
   EXPECT_NEAR(50 * std::sqrt(squares / told["samples"].get<double>()), told["rms_m_per_s2"].get<double>(), 0.05);
 
-  expect_refusal(play_glb(tag(), testing::sine_png(), "--vibration x.mp3"), 2);
-  expect_refusal(play_glb(tag(), testing::sine_png(), "--vibration /nowhere/v.wav"), 3);
-  expect_refusal(play_glb(tag(), testing::sine_png(), "--vibration alsa:none-such"), 5);
+  expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration x.mp3"), 2);
+  expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration /nowhere/v.wav"), 3);
+  expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration alsa:none-such"), 5);
 }
 
 TEST_F(Player, WritesOverNothingThatItReads) {
