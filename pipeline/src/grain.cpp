@@ -122,7 +122,7 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const Te
 struct Source {
   GreyImage grey;  ///< Of a recipe or test grain: heights.
   ColorImage color;
-  bool computed = false;               ///< Of a recipe or a test grain: heights, not a photograph.
+  bool computed = false;                ///< Of a recipe or a test grain: heights, not a photograph.
   std::optional<double> friction = {};  ///< Of a recipe: mean of the channel.
   double stiffness = 1;                 ///< The same.
 };
@@ -341,7 +341,8 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   grain.analyze_seconds = analyze_clock.seconds();
 
   const Stopwatch height_clock;
-  grain.relief = source.computed ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, reading, grain);
+  grain.relief =
+      source.computed ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, reading, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
   describe_relief(grain);

@@ -90,7 +90,10 @@ LibraryRelief read_relief(const JsonValue& value, const std::filesystem::path& f
   if (grain) {
     grain->expect_keys({"kind", "seed"});
     relief.grain = grain_kind(grain->require("kind").one_of(grain_names()));
-    if (const auto seed = grain->get("seed")) relief.seed = static_cast<std::uint64_t>(seed->number(0, 1e9));
+    if (const auto seed = grain->get("seed")) {
+      if (!seed->json().is_number_integer()) seed->fail("must be a whole number");
+      relief.seed = static_cast<std::uint64_t>(seed->number(0, 1e9));
+    }
   }
   if (picture) {
     const auto found = resolve_reference({file.parent_path(), file.string() + ": at /relief/picture", picture->text()});
@@ -180,7 +183,8 @@ LibraryMaterial read_library_material(const std::filesystem::path& folder, const
   if (const auto v = root.get("youngsModulus")) material.youngs_modulus = reader.number(*v, 1, 2e12);
   if (const auto v = root.get("backing")) {
     v->expect_keys({"stiffness", "depth_mm"});
-    material.backing = {reader.number(v->require("stiffness"), 1e-3, 1e6), reader.number(v->require("depth_mm"), 0, 100)};
+    material.backing = {reader.number(v->require("stiffness"), 1e-3, 1e6),
+                        reader.number(v->require("depth_mm"), 0, 100)};
   }
   if (const auto v = root.get("relief")) material.relief = read_relief(*v, file, reader);
   if (const auto v = root.get("roughness")) material.roughness = read_roughness(*v, reader);
@@ -239,7 +243,7 @@ MaterialRule rule_of(const LibraryMaterial& material, const std::string& name) {
   rule.roughness = material.appearance.roughness.value;
   rule.metallic = material.appearance.metallic.value;
   if (const auto& relief = material.relief) {
-    rule.recipe = relief->grain                ? std::string(k_grain_prefix) + std::string(to_string(*relief->grain))
+    rule.recipe = relief->grain              ? std::string(k_grain_prefix) + std::string(to_string(*relief->grain))
                   : !relief->picture.empty() ? relief->picture.string()
                                              : relief->recipe;
     rule.texture = relief->picture.empty() ? material.file.parent_path() / rule.recipe : relief->picture;

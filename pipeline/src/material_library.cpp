@@ -31,10 +31,11 @@ std::vector<std::string> ids_in(const fs::path& folder) {
 
 /// UTF-8 of letters with accents, in lower and upper case, and what they are compared as.
 constexpr std::array<std::pair<std::string_view, char>, 40> k_letters{{
-    {"ä", 'a'}, {"Ä", 'a'}, {"ö", 'o'}, {"Ö", 'o'}, {"ü", 'u'}, {"Ü", 'u'}, {"à", 'a'}, {"À", 'a'}, {"á", 'a'}, {"Á", 'a'},
-    {"â", 'a'}, {"Â", 'a'}, {"å", 'a'}, {"Å", 'a'}, {"ç", 'c'}, {"Ç", 'c'}, {"è", 'e'}, {"È", 'e'}, {"é", 'e'}, {"É", 'e'},
-    {"ê", 'e'}, {"Ê", 'e'}, {"ë", 'e'}, {"Ë", 'e'}, {"î", 'i'}, {"Î", 'i'}, {"ï", 'i'}, {"Ï", 'i'}, {"ñ", 'n'}, {"Ñ", 'n'},
-    {"ô", 'o'}, {"Ô", 'o'}, {"ó", 'o'}, {"Ó", 'o'}, {"ù", 'u'}, {"Ù", 'u'}, {"û", 'u'}, {"Û", 'u'}, {"ú", 'u'}, {"Ú", 'u'},
+    {"ä", 'a'}, {"Ä", 'a'}, {"ö", 'o'}, {"Ö", 'o'}, {"ü", 'u'}, {"Ü", 'u'}, {"à", 'a'}, {"À", 'a'},
+    {"á", 'a'}, {"Á", 'a'}, {"â", 'a'}, {"Â", 'a'}, {"å", 'a'}, {"Å", 'a'}, {"ç", 'c'}, {"Ç", 'c'},
+    {"è", 'e'}, {"È", 'e'}, {"é", 'e'}, {"É", 'e'}, {"ê", 'e'}, {"Ê", 'e'}, {"ë", 'e'}, {"Ë", 'e'},
+    {"î", 'i'}, {"Î", 'i'}, {"ï", 'i'}, {"Ï", 'i'}, {"ñ", 'n'}, {"Ñ", 'n'}, {"ô", 'o'}, {"Ô", 'o'},
+    {"ó", 'o'}, {"Ó", 'o'}, {"ù", 'u'}, {"Ù", 'u'}, {"û", 'u'}, {"Û", 'u'}, {"ú", 'u'}, {"Ú", 'u'},
 }};
 
 std::vector<std::string> words_of(std::string_view text) {
@@ -64,7 +65,9 @@ struct FoldedTerms {
   /// @param has  whether a term has the word.
   template <class Has>
   int score(const Has& has) const {
-    const auto any = [&](const std::vector<std::string>& terms) { return std::any_of(terms.begin(), terms.end(), has); };
+    const auto any = [&](const std::vector<std::string>& terms) {
+      return std::any_of(terms.begin(), terms.end(), has);
+    };
     return any(names) || any(ids) ? 3 : any(categories) ? 2 : any(uses) ? 1 : 0;
   }
 };
@@ -76,8 +79,7 @@ int score_of(const FoldedTerms& terms, const std::vector<std::string>& words) {
   if (std::find(terms.names.begin(), terms.names.end(), all) != terms.names.end()) return 4;
   int least = std::numeric_limits<int>::max();
   for (const std::string& word : words)
-    least = std::min(least,
-                     terms.score([&](const std::string& term) { return term.find(word) != std::string::npos; }));
+    least = std::min(least, terms.score([&](const std::string& term) { return term.find(word) != std::string::npos; }));
   return words.empty() ? 0 : least;
 }
 
@@ -98,8 +100,7 @@ int near_score(const FoldedTerms& terms, const std::vector<std::string>& words) 
 
 fs::path find_material_library() {
   std::vector<fs::path> places;
-  if (const char* named = std::getenv("PAPILLA_MATERIAL_LIBRARY"); named != nullptr && *named != '\0')
-    return named;
+  if (const char* named = std::getenv("PAPILLA_MATERIAL_LIBRARY"); named != nullptr && *named != '\0') return named;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) places.push_back(program.parent_path().parent_path() / "share/papilla/materials");
@@ -144,7 +145,8 @@ std::string folded(std::string_view text) {
       i += starts("ß") ? 2 : 3;
     } else {
       const char c = text[i++];
-      const bool is_letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || (static_cast<unsigned char>(c) & 0x80U);
+      const bool is_letter =
+          (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || (static_cast<unsigned char>(c) & 0x80U);
       plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : is_letter ? c : ' ';
     }
   }
@@ -194,7 +196,8 @@ LibraryCheck check_materials(const fs::path& path) {
             !is_new && other->second != material.id)
           throw InvalidInput(file.string() + ": at /names: '" + name + "' is a name of " + other->second + ", too");
       ++check.materials;
-      for (const LibraryNumber& number : numbers_of(material)) ++(number.source.empty() ? check.estimated : check.cited);
+      for (const LibraryNumber& number : numbers_of(material))
+        ++(number.source.empty() ? check.estimated : check.cited);
     } catch (const Error& problem) {
       check.problems.push_back({file.string(), problem.what()});
     }

@@ -18,6 +18,7 @@ namespace papilla {
 namespace {
 
 constexpr double k_near_colour = 10;         ///< ΔE*ab.
+constexpr double k_least_chroma = 10;        ///< C*ab; what is greyer may be anything.
 constexpr std::size_t k_letters_inside = 4;  ///< A shorter word within a longer one is chance.
 
 using Words = std::vector<std::string>;
@@ -70,20 +71,17 @@ Vec3 lab_of(const std::string& hex) {
 struct Candidate {
   const LibraryMaterial* material;
   std::vector<Term> terms;
-  Words names;  ///< All words of its names and aliases.
   Vec3 lab;
 
   explicit Candidate(const LibraryMaterial& of) : material(&of), lab(lab_of(of.appearance.color.value)) {
     for (const std::string& name : {of.name_en, of.name_de}) add(name, 3);
-    for (const auto& [words, weight] : {std::pair{&of.aliases, 3}, std::pair{&of.categories, 2}, std::pair{&of.uses, 1}})
+    for (const auto& [words, weight] :
+         {std::pair{&of.aliases, 3}, std::pair{&of.categories, 2}, std::pair{&of.uses, 1}})
       for (const auto* list : {&words->en, &words->de})
         for (const std::string& term : *list) add(term, weight);
   }
 
-  void add(const std::string& text, int weight) {
-    terms.push_back({split(text), text, weight});
-    if (weight == 3) names.insert(names.end(), terms.back().words.begin(), terms.back().words.end());
-  }
+  void add(const std::string& text, int weight) { terms.push_back({split(text), text, weight}); }
 };
 
 /// A name that a surface goes by.
@@ -119,9 +117,7 @@ Rating rate(const std::vector<Label>& labels, const Candidate& candidate) {
       const bool has_all = std::all_of(term.words.begin(), term.words.end(),
                                        [&](const std::string& word) { return has(label.words, word); });
       if (!has_all || term.words.empty()) continue;
-      const auto more = std::count_if(candidate.names.begin(), candidate.names.end(),
-                                      [&](const std::string& word) { return has(label.words, word); });
-      const int score = 100 * label.weight + 10 * term.weight + static_cast<int>(more);
+      const int score = 100 * label.weight + 10 * term.weight + static_cast<int>(term.words.size());
       if (score > best.score) best = {score, fmt::format("{} '{}' has '{}'", label.what, label.name, term.text)};
     }
   return best;
@@ -160,19 +156,19 @@ std::vector<MaterialSuggestion> suggest_materials(const Scene& scene, const std:
     std::vector<Rated> rated;
     for (const Candidate& candidate : candidates)
       rated.push_back({rate(labels, candidate), colour ? norm(lab_of(*colour) - candidate.lab) : 0, &candidate});
+    const bool has_hue = colour && std::hypot(lab_of(*colour).y, lab_of(*colour).z) >= k_least_chroma;
     const bool by_name = std::any_of(rated.begin(), rated.end(), [](const Rated& r) { return r.rating.score > 0; });
-    std::erase_if(rated, [&](const Rated& r) {
-      return by_name ? r.rating.score == 0 : !colour || r.distance >= k_near_colour;
-    });
+    std::erase_if(
+        rated, [&](const Rated& r) { return by_name ? r.rating.score == 0 : !has_hue || r.distance >= k_near_colour; });
     std::stable_sort(rated.begin(), rated.end(), [](const Rated& a, const Rated& b) {
       return std::pair{-a.rating.score, a.distance} < std::pair{-b.rating.score, b.distance};
     });
     rated.resize(std::min(rated.size(), most));
     for (const Rated& r : rated)
-      suggestions.push_back(
-          {surface.label, r.candidate->material->id,
-           by_name ? r.rating.reason
-                   : fmt::format("only its colour {} is near {}", *colour, r.candidate->material->appearance.color.value)});
+      suggestions.push_back({surface.label, r.candidate->material->id,
+                             by_name ? r.rating.reason
+                                     : fmt::format("only its colour {} is near {}", *colour,
+                                                   r.candidate->material->appearance.color.value)});
   }
   return suggestions;
 }

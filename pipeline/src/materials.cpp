@@ -79,8 +79,9 @@ void check_grain(const JsonValue& value, const std::string& name) {
 /// The rule of the library's material that "library:ID" names.
 MaterialRule library_rule(const JsonValue& value, const std::string& name, const std::filesystem::path& library) {
   const std::string text = value.text();
-  if (!text.starts_with(k_library_prefix)) value.fail("must be \"library:\" and the id of a material of the library");
-  const std::string id = text.substr(k_library_prefix.size());
+  const std::string id = text.substr(std::min(text.size(), k_library_prefix.size()));
+  if (!text.starts_with(k_library_prefix) || !is_library_id(id))
+    value.fail("must be \"library:\" and the id of a material of the library");
   try {
     const MaterialLibrary all(library.empty() ? find_material_library() : library);
     MaterialRule rule = rule_of(all.material(id), name);
@@ -93,9 +94,9 @@ MaterialRule library_rule(const JsonValue& value, const std::string& name, const
 
 MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& folder,
                            const std::filesystem::path& library) {
-  value.expect_keys({"material", "texture", "time", "size_mm", "stiffness", "damping", "staticFriction", "dynamicFriction",
-                     "stribeckVelocity", "frictionModel", "forceShading", "height", "unwrap", "show", "color",
-                     "roughness", "metallic", "$comment"});
+  value.expect_keys({"material", "texture", "time", "size_mm", "stiffness", "damping", "staticFriction",
+                     "dynamicFriction", "stribeckVelocity", "frictionModel", "forceShading", "height", "unwrap", "show",
+                     "color", "roughness", "metallic", "$comment"});
   MaterialRule rule;
   if (const auto v = value.get("material")) rule = library_rule(*v, name, library);
   rule.name = name;

@@ -51,9 +51,9 @@ ColorImage relief_picture(const HeightMap& relief, int side_px) {
     return std::max(1, static_cast<int>(std::lround(n * pitch_mm / pitch)));
   };
   double exaggeration = 1;
-  ColorImage picture = draw_relief(
-      resample(relief, samples(relief.width, relief.pitch_mm_x), samples(relief.height, relief.pitch_mm_y)),
-      exaggeration);
+  ColorImage picture =
+      draw_relief(resample(relief, samples(relief.width, relief.pitch_mm_x), samples(relief.height, relief.pitch_mm_y)),
+                  exaggeration);
   draw_scale_bar(picture, pitch);
   return picture;
 }

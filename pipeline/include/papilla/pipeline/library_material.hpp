@@ -51,8 +51,8 @@ struct LibraryRelief {
 
 /// What is finer than the grain, under the names of the haptic tag's version 2.
 struct LibraryRoughness {
-  SourcedNumber hurst;                ///< In (0, 1).
-  SourcedNumber rms_m;                ///< Root mean square height.
+  SourcedNumber hurst;                  ///< In (0, 1).
+  SourcedNumber rms_m;                  ///< Root mean square height.
   SourcedNumber wavelength_range_m[2];  ///< Shortest, longest.
 };
 

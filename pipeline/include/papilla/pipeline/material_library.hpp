@@ -68,7 +68,7 @@ struct LibraryProblem {
 
 /// What a check of files found.
 struct LibraryCheck {
-  std::size_t materials = 0;            ///< Files without a problem.
+  std::size_t materials = 0;             ///< Files without a problem.
   std::size_t cited = 0, estimated = 0;  ///< Their numbers.
   std::vector<LibraryProblem> problems;
 };

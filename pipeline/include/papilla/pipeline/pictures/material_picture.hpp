@@ -8,8 +8,8 @@
 namespace papilla {
 
 struct MaterialPictureOptions {
-  int side_px = 320;    ///< Of each of the two pictures; 64 to 2048.
-  double ball_mm = 60;  ///< Diameter of the ball: grain on it has its real size.
+  int side_px = 320;                                 ///< Of each of the two pictures; 64 to 2048.
+  double ball_mm = 60;                               ///< Diameter of the ball: grain on it has its real size.
   RecipeLibrary library = RecipeLibrary::builtin();  ///< What the rule's recipe may name.
 };
 
