@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <utility>
 
 namespace papilla::test {
 
@@ -35,7 +38,8 @@ class JsonSchema {
     for (const Json& key : schema.value("required", Json::array()))
       if (!value.contains(key.get<std::string>())) return false;
     if (value.size() < schema.value("minProperties", std::size_t{0})) return false;
-    for (const auto& [key, others] : schema.value("dependentRequired", none).items())
+    const Json& dependent = schema.contains("dependentRequired") ? schema["dependentRequired"] : none;
+    for (const auto& [key, others] : dependent.items())
       for (const Json& other : others)
         if (value.contains(key) && !value.contains(other.get<std::string>())) return false;
     for (const auto& [key, member] : value.items()) {
