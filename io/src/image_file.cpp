@@ -21,6 +21,7 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/image_bands.hpp"
+#include "papilla/io/picture_memory.hpp"
 #include "papilla/io/scene.hpp"
 #include "picture_input.hpp"
 
@@ -176,7 +177,7 @@ Picture read_picture(const fs::path& path, std::size_t bytes_per_pixel) {
   ImageBands bands(path, k_max_image_pixels, std::numeric_limits<int>::max());
   bands.require_memory(bytes_per_pixel);
   GreyImage grey = bands.next(bands.height());
-  return {std::move(grey), bands.sample()};
+  return {std::move(grey), bands.sample(), bands.bits(), 1};
 }
 
 Picture read_reduced_picture(const fs::path& path, int most_side, std::size_t bytes_per_pixel) {
@@ -195,7 +196,23 @@ Picture read_reduced_picture(const fs::path& path, int most_side, std::size_t by
       grey.pixels.push_back(static_cast<float>(sum / ((right - left) * band.height)));
     }
   }
-  return {std::move(grey), bands.sample()};
+  return {std::move(grey), bands.sample(), bands.bits(), n};
+}
+
+Picture read_fitting_picture(const fs::path& path, std::size_t bytes_per_pixel) {
+  ImageBands bands(path);
+  const double width = bands.width(), height = bands.height();
+  const double bytes = static_cast<double>(bytes_per_pixel) * width * height;
+  const double n = std::ceil(std::sqrt(bytes / static_cast<double>(picture_memory())));
+  if (n > 1) {
+    // One less a side than would just fit: picture_memory() is also for what the reader holds.
+    const int most_side = std::max(1, static_cast<int>(std::max(width, height) / n) - 1);
+    Picture reduced = read_reduced_picture(path, most_side, bytes_per_pixel);
+    reduced.color = {};
+    return reduced;
+  }
+  bands.require_memory(bytes_per_pixel);
+  return {bands.next(bands.height()), {}, bands.bits(), 1};
 }
 
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name) {

@@ -360,12 +360,12 @@ void drop_unused_textures(Scene& scene) {
 
 /// Makes the grains that the surfaces use.
 std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& rules, const RecipeLibrary& library,
-                                         const ProgressCallback& progress) {
+                                         const Deadline& deadline, const ProgressCallback& progress) {
   const std::set<std::string> names = grains_of(plan.surfaces);
   std::map<std::string, Grain> grains;
   for (const std::string& name : names) {
     report_progress(progress, "grain " + name, static_cast<double>(grains.size()) / static_cast<double>(names.size()));
-    grains.emplace(name, make_grain(rules.materials.at(name), library));
+    grains.emplace(name, make_grain(rules.materials.at(name), library, deadline));
   }
   return grains;
 }
@@ -454,8 +454,9 @@ RepairResult repair_of(const std::vector<BakedSurface>& surfaces) {
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
                       const ProgressCallback& progress) {
   BakeResult result;
+  const double to_finish = k_seconds_to_finish * triangles_of_parts(scene);
   BakePlanOptions plan = options.plan;
-  plan.sides.deadline = options.plan.sides.deadline.earlier_by(k_seconds_to_finish * triangles_of_parts(scene));
+  plan.sides.deadline = options.plan.sides.deadline.earlier_by(to_finish);
   result.plan = plan_bake(std::move(scene), rules, plan, progress);
   const std::vector<PartSurface>& surfaces = result.plan.surfaces;
   result.scene = std::move(result.plan.scene);
@@ -464,7 +465,8 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
                     {"simplify", result.plan.simplify_seconds}};
   const PartContext context = unwrap_context(result.scene, {});
   leave_out(result.scene, result.plan.perception);
-  result.grains = make_grains(result.plan, rules, options.library, progress);
+  result.grains =
+      make_grains(result.plan, rules, options.library, options.unwrap.method.deadline.earlier_by(to_finish), progress);
   for (const auto& [name, grain] : result.grains) {
     for (const std::string& warning : grain.warnings) result.scene.warnings.push_back(warning);
     result.seconds["analyze"] += grain.analyze_seconds;

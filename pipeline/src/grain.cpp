@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,6 +42,9 @@ constexpr int k_recipe_samples = 512;
 /// Peak to valley of a relief of which nothing is said, as a share of the shorter side of the grain.
 constexpr double k_default_depth = 0.01;
 
+/// For read_texture() and the dimension of the relief, on one slow core.
+constexpr double k_seconds_to_read_a_pixel = 8e-6;
+
 /// Width and height of one repeat, from the rule or from the picture's resolution.
 void find_size(const MaterialRule& rule, const GreyImage& image, double (&size_mm)[2]) {
   const double pixels[2] = {static_cast<double>(image.width), static_cast<double>(image.height)};
@@ -61,10 +65,21 @@ EncodedImage png(std::string name, std::vector<std::byte> bytes) {
   return image;
 }
 
+/// The picture of a material, from a file or computed.
+struct Source {
+  GreyImage grey;  ///< Of a recipe or test grain: heights.
+  ColorImage color;
+  Transfer transfer = Transfer::automatic;
+  bool computed = false;                ///< Of a recipe or a test grain: heights, not a photograph.
+  std::optional<double> friction = {};  ///< Of a recipe: mean of the channel.
+  double stiffness = 1;                 ///< The same.
+};
+
 /// What the class's plan is carried out with.
-PictureReliefOptions relief_options(const MaterialRule& rule, const GreyImage& image, const Grain& grain) {
+PictureReliefOptions relief_options(const MaterialRule& rule, const Source& source, const Grain& grain) {
   PictureReliefOptions options = rule.height.relief;
-  options.height.pitch_mm = grain.size_mm[0] / image.width;
+  options.height.transfer = source.transfer;
+  options.height.pitch_mm = grain.size_mm[0] / source.grey.width;
   options.height.depth_mm =
       rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
   options.seen = grain.picture.has_value();
@@ -91,8 +106,9 @@ void limit_roughness(const MaterialRule& rule, double max_slope, Grain& grain) {
 }
 
 /// The relief of the picture, at most k_most_samples a side, over the grain's size, which becomes that of the relief.
-HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const TextureReading& reading, Grain& grain) {
-  PictureRelief made = relief_of_picture(image, reading, relief_options(rule, image, grain));
+HeightMap make_relief(const MaterialRule& rule, const Source& source, const TextureReading& reading, Grain& grain) {
+  const GreyImage& image = source.grey;
+  PictureRelief made = relief_of_picture(image, reading, relief_options(rule, source, grain));
   HeightMap relief = std::move(made.height.map);
   if (rule.height.opposite) relief = opposite_relief(relief);
   relief.pitch_mm_x = grain.size_mm[0] / image.width;
@@ -117,15 +133,6 @@ HeightMap make_relief(const MaterialRule& rule, const GreyImage& image, const Te
   grain.plan = std::move(made.plan);
   return relief;
 }
-
-/// The picture of a material, from a file or computed.
-struct Source {
-  GreyImage grey;  ///< Of a recipe or test grain: heights.
-  ColorImage color;
-  bool computed = false;                ///< Of a recipe or a test grain: heights, not a photograph.
-  std::optional<double> friction = {};  ///< Of a recipe: mean of the channel.
-  double stiffness = 1;                 ///< The same.
-};
 
 double mean_of(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -174,7 +181,8 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
     return computed_source(rule, library);
   try {
     Picture picture = read_reduced_picture(rule.texture, k_most_grain_side, k_height_bytes_per_pixel + 3);
-    return {std::move(picture.grey), std::move(picture.color)};
+    return {std::move(picture.grey), std::move(picture.color),
+            transfer_of_file(rule.height.relief.height.transfer, picture)};
   } catch (const IoError& unread) {
     std::vector<std::string_view> recipes;
     for (const auto& [name, recipe] : library.recipes()) recipes.push_back(name);
@@ -258,8 +266,8 @@ void limit_slopes(const MaterialRule& rule, Grain& grain) {
                     rule.name, height.slopes.iterations, 100 * height.slopes.share_after, height.max_slope));
 }
 
-void describe_relief(Grain& grain) {
-  grain.roughness = measure_roughness(grain.relief);
+void describe_relief(Grain& grain, const RoughnessOptions& options) {
+  grain.roughness = measure_roughness(grain.relief, options);
   RoughnessTag tag;
   if (const auto& overlay = grain.height.overlay) {
     tag = {3 - overlay->hurst,
@@ -317,20 +325,25 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
     Grain grain;
     find_size(rule, source.grey, grain.size_mm);
     look_at(rule, source, grain);
-    plan.steps = plan_relief(source.grey, read_texture(source.grey), relief_options(rule, source.grey, grain));
+    plan.steps = plan_relief(source.grey, read_texture(source.grey), relief_options(rule, source, grain));
   } catch (const Error& error) {
     plan.problem = error.what();
   }
   return plan;
 }
 
-Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
+Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline) {
   Grain grain;
   const Stopwatch analyze_clock;
   Source source = read_source(rule, library);
   find_size(rule, source.grey, grain.size_mm);
   look_at(rule, source, grain);
-  const TextureReading reading = read_texture(source.grey);
+  ReadingOptions in_time;
+  in_time.deadline = deadline.earlier_by(k_seconds_to_read_a_pixel * static_cast<double>(source.grey.pixels.size()));
+  const TextureReading reading = read_texture(source.grey, in_time);
+  if (reading.stop == StopReason::time_limit)
+    grain.warnings.push_back(fmt::format(
+        "material '{}': no lattice and no roughness was looked for: the time limit left no time for it", rule.name));
   describe_picture(reading, {grain.size_mm[0] / source.grey.width, grain.size_mm[1] / source.grey.height}, grain);
   grain.source = source.computed ? rule.recipe : rule.texture.string();
   if (source.computed) {
@@ -341,11 +354,10 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   grain.analyze_seconds = analyze_clock.seconds();
 
   const Stopwatch height_clock;
-  grain.relief =
-      source.computed ? computed_relief(rule, source, grain) : make_relief(rule, source.grey, reading, grain);
+  grain.relief = source.computed ? computed_relief(rule, source, grain) : make_relief(rule, source, reading, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
-  describe_relief(grain);
+  describe_relief(grain, {.dimension = reading.stop != StopReason::time_limit});
   const EncodedHeight encoded = encode_height_png16(grain.relief);
   grain.tag.height = make_height_tag(grain.relief, {.png = encoded.png,
                                                     .scale_mm = encoded.scale_mm,

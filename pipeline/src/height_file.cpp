@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/height_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "papilla/core/atomic_file.hpp"
@@ -13,6 +16,7 @@
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/texture/normal_map.hpp"
+#include "papilla/texture/texture_reading.hpp"
 #include "pictures/relief.hpp"
 #include "pictures/texture_plots.hpp"
 #include "relief_files.hpp"
@@ -59,7 +63,7 @@ std::vector<ReliefPicture> draw_pictures(const fs::path& folder, HeightMap map) 
 }
 
 bool needs_memory(const HeightFileOptions& options) {
-  return options.height.tile || options.height.roughness != HeightRoughness::whole ||
+  return options.by_class || options.height.tile || options.height.roughness != HeightRoughness::whole ||
          options.height.shortest_wavelength_mm > 0 || !options.normal_map.empty() || !options.pictures.empty();
 }
 
@@ -78,7 +82,7 @@ HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const Hei
   if (!(height.pitch_mm > 0)) height.pitch_mm = bands.pitch_mm();
   SampleFile samples(bands.width(), bands.height(), folder);
   const HeightRows rows = height_from_rows(grey, bands.bits(), height, samples);
-  HeightFiles files{rows.result, {}, {}, {}};
+  HeightFiles files{rows.result, {}, {}, {}, {}, {}};
   const auto write = [&](const fs::path& file, double factor, double offset_mm) {
     const ScaledSamples heights(samples, factor * rows.scale, rows.lowest, offset_mm);
     write_height_rows(file, heights, std::abs(factor) * rows.result.depth_mm, rows.result.map.pitch_mm_x);
@@ -92,7 +96,24 @@ HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const Hei
   return files;
 }
 
+void take_by_class(const GreyImage& image, const HeightFileOptions& options, HeightFiles& files) {
+  ReadingOptions reading;
+  reading.progress = options.height.progress;
+  PictureReliefOptions relief = *options.by_class;
+  relief.height = options.height;
+  PictureRelief made = relief_of_picture(image, read_texture(image, reading), relief);
+  files.result = std::move(made.height);
+  files.plan = std::move(made.plan);
+  files.roughness = made.roughness;
+}
+
 }  // namespace
+
+Transfer transfer_of_file(Transfer wanted, const Picture& picture) {
+  const bool is_mean = picture.pixels_a_side > 1;
+  if (wanted != Transfer::automatic || !is_mean) return wanted;
+  return decodes_srgb(Transfer::automatic, picture.file_bits) ? Transfer::srgb : Transfer::linear;
+}
 
 void write_height_file(const fs::path& path, const HeightMap& map) {
   if (path.extension() != ".png") {
@@ -104,11 +125,24 @@ void write_height_file(const fs::path& path, const HeightMap& map) {
 }
 
 HeightFiles height_of_picture_file(const fs::path& picture, const fs::path& output, const HeightFileOptions& options) {
-  ImageBands bands(picture);
-  if (std::max(bands.width(), bands.height()) > options.largest_px && !needs_memory(options))
-    return height_by_bands(bands, output, options);
-  bands.require_memory(k_height_bytes_per_pixel);
-  HeightFiles files{height_from_image(bands.next(bands.height()), options.height), {}, {}, {}};
+  if (!needs_memory(options)) {
+    ImageBands bands(picture);
+    if (std::max(bands.width(), bands.height()) > options.largest_px) return height_by_bands(bands, output, options);
+  }
+  const Picture read = read_fitting_picture(picture, k_height_bytes_per_pixel);
+  HeightFileOptions own = options;
+  own.height.pitch_mm *= read.pixels_a_side;
+  own.height.transfer = transfer_of_file(options.height.transfer, read);
+  HeightFiles files;
+  if (options.by_class)
+    take_by_class(read.grey, own, files);
+  else
+    files.result = height_from_image(read.grey, own.height);
+  if (read.pixels_a_side > 1)
+    files.result.assumed.push_back(
+        fmt::format("nothing finer than {0} pixels matters: the picture was read as means over {0} x {0}, for which "
+                    "there is memory (--max-memory)",
+                    read.pixels_a_side));
   write_relief_files(files, output, options);
   return files;
 }

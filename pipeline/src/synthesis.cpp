@@ -82,7 +82,7 @@ Synthesis graph(const SynthesisOptions& options, double hurst) {
 
 Synthesis like_picture(const SynthesisOptions& options) {
   SurfaceLike like =
-      surface_like(read_grey_image(options.like, k_like_bytes_per_pixel),
+      surface_like(read_fitting_picture(options.like, k_like_bytes_per_pixel).grey,
                    {.size = options.size_px.value_or(256), .seed = options.seed, .progress = options.progress});
   Synthesis result = from_surface(options, "like", std::exchange(like.surface, {}));
   result.like = std::move(like);

@@ -82,7 +82,7 @@ void survey_whole(const ImageBands& bands, const SurveyOptions& options, const P
                   TextureSurvey& survey) {
   std::optional<TextureReading> reading;
   if (needs_lattice(options)) {
-    reading = read_texture(survey.middle, {options.lattice, options.feature, false, progress});
+    reading = read_texture(survey.middle, {options.lattice, options.feature, false, {}, progress});
     if (options.order)
       survey.order = OrderSurvey{reading->kind, orientation_field(survey.middle), reading->suitability,
                                  is_monochrome(bands.sample()), reading->plan};

@@ -113,7 +113,7 @@ void count_edges(const TriangleMesh& mesh, UnwrappedPart& part) {
                                                            [](const Side& side) { return side.up; }));
     part.shared_edges += end - begin > 1;
     part.nonmanifold_edges += end - begin > 2;
-    part.opposed_edges += (up > 1) + (end - begin - up > 1);
+    part.opposed_edges += std::size_t{up > 1} + std::size_t{end - begin - up > 1};
     part.opposed_pairs += end - begin == 2 && up != 1;
   }
 }

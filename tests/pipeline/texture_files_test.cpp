@@ -9,6 +9,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/contact_sheet.hpp"
+#include "papilla/pipeline/grain.hpp"
 #include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/prepare_file.hpp"
 #include "papilla/pipeline/synthesis.hpp"
@@ -36,6 +37,31 @@ TEST(HeightFile, WritesWhatWasAskedForBesideTheOutput) {
   ASSERT_EQ(files.pictures.size(), 3U);
   EXPECT_EQ(files.pictures[0].name, "relief");
   EXPECT_TRUE(std::filesystem::exists(files.pictures[1].file));
+}
+
+TEST(HeightFile, ByClassIsWhatBakeMakesOfThePicture) {
+  const test::TemporaryFolder folder;
+  const Synthesis made = synthesize_texture({.grain = GrainKind::spheres8, .size_px = 256});
+  write_grey_image(folder / "grain.png", made.picture, 8);
+  HeightFileOptions options;
+  options.height.pitch_mm = 0.1;
+  options.height.depth_mm = 0.25;
+  options.by_class.emplace();
+  const HeightFiles files = height_of_picture_file(folder / "grain.png", folder / "tile.exr", options);
+  EXPECT_TRUE(step_of(files.plan, "exact_tile").run);
+  EXPECT_LT(files.result.map.width, 256);
+
+  MaterialRule rule;
+  rule.name = "spheres";
+  rule.texture = folder / "grain.png";
+  rule.height.pitch_mm = 0.1;
+  rule.height.relief = {.height = options.height};
+  rule.height.depth_mm = 0.25;
+  rule.height.max_slope = 100;
+  const Grain grain = make_grain(rule);
+  EXPECT_EQ(grain.relief.width, files.result.map.width);
+  EXPECT_EQ(grain.relief.height, files.result.map.height);
+  EXPECT_EQ(grain.relief.mm, files.result.map.mm);
 }
 
 TEST(HeightFile, InBandsWritesTheSameFiles) {

@@ -56,8 +56,17 @@ TEST(ReadTexture, AFlatPictureNeedsNothing) {
   }
 }
 
-TEST(ReadTexture, RefusesWhatIsNoPicture) {
-  EXPECT_THROW(read_texture({}), InvalidInput);
+TEST(ReadTexture, RefusesWhatIsNoPicture) { EXPECT_THROW(read_texture({}), InvalidInput); }
+
+TEST(TextureReading, LooksForNothingAfterTheDeadline) {
+  ReadingOptions options;
+  options.deadline = Deadline(-1);
+  const TextureReading reading = read_texture(synthesize_grain(GrainKind::spheres8, {192}).picture, options);
+  EXPECT_EQ(reading.stop, StopReason::time_limit);
+  EXPECT_FALSE(reading.symmetry.lattice.found);
+  EXPECT_FALSE(reading.group);
+  EXPECT_FALSE(reading.roughness);
+  EXPECT_FALSE(step_of(reading.plan, "generating_region").run);
   EXPECT_THROW(step_of({}, "primitive"), InvalidInput);
 }
 

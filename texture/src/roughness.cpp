@@ -20,14 +20,14 @@ double rms_height_mm(const HeightMap& relief) {
   return std::sqrt(squares / static_cast<double>(relief.mm.size()));
 }
 
-Roughness measure_roughness(const HeightMap& relief) {
+Roughness measure_roughness(const HeightMap& relief, const RoughnessOptions& options) {
   texture_detail::require_height_map(relief, "measure_roughness", true);
   Roughness roughness;
   roughness.rms_mm = rms_height_mm(relief);
   roughness.shortest_wavelength_mm = 2 * std::max(relief.pitch_mm_x, relief.pitch_mm_y);
   roughness.longest_wavelength_mm = std::min(relief.width * relief.pitch_mm_x, relief.height * relief.pitch_mm_y);
   constexpr int k_least_side = 32;
-  if (std::min(relief.width, relief.height) < k_least_side) return roughness;
+  if (!options.dimension || std::min(relief.width, relief.height) < k_least_side) return roughness;
   BestDimension best = best_dimension({relief.width, relief.height, relief.mm, 0, 32});
   roughness.fractal = std::move(best.estimate);
   roughness.reason = std::move(best.reason);

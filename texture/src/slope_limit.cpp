@@ -69,6 +69,9 @@ class Grid {
   double per_x_, per_y_;
 };
 
+/// Without the care for overflow that makes norm() five times as slow: slopes are far from 1e150.
+double length_of(Vec2 slope) { return std::sqrt(dot(slope, slope)); }
+
 struct Steepness {
   double largest = 0;
   std::size_t above = 0;  ///< Samples that are steeper than the limit.
@@ -79,7 +82,7 @@ Steepness steepness(const Grid& grid, const std::vector<double>& u, double limit
   grid.each_row([&](int y) {
     Steepness& row = rows[static_cast<std::size_t>(y)];
     for (int x = 0; x < grid.columns(); ++x) {
-      const double slope = norm(grid.slope(u, x, y));
+      const double slope = length_of(grid.slope(u, x, y));
       row.largest = std::max(row.largest, slope);
       row.above += slope > limit;
     }
@@ -105,7 +108,7 @@ class Shrinkage {
       for (int x = 0; x < grid_.columns(); ++x) {
         const std::size_t i = grid_.at(x, y);
         const Vec2 wanted = q_[i] + rate * grid_.slope(u_, x, y);
-        const double length = norm(wanted);
+        const double length = length_of(wanted);
         const Vec2 next = length > threshold ? (1 - threshold / length) * wanted : Vec2{};
         beyond += dot(q_[i] - next, next - p_[i]);
         q_[i] = next + ahead * (next - p_[i]);

@@ -20,7 +20,10 @@ TextureReading read_texture(const GreyImage& image, const ReadingOptions& option
   texture_detail::require_image(image, "read_texture");
   TextureReading reading;
   report_progress(options.progress, "symmetry", 0);
-  reading.symmetry = analyze_symmetry(image, options.lattice, options.feature, options.progress);
+  if (options.deadline.passed())
+    reading.stop = StopReason::time_limit;
+  else
+    reading.symmetry = analyze_symmetry(image, options.lattice, options.feature, options.progress);
   report_progress(options.progress, "symmetry", 1);
   const Lattice& lattice = reading.symmetry.lattice;
   reading.kind = classify(image, reading.symmetry.explained_variance(), lattice.stripes);
@@ -29,7 +32,10 @@ TextureReading read_texture(const GreyImage& image, const ReadingOptions& option
   if (step_of(reading.plan, "generating_region").run) reading.group = find_wallpaper_group(reading.symmetry);
   if (options.roughness && step_of(reading.plan, "fractal_dimension").run) {
     const GreyImage& rough = step_of(reading.plan, "primitive").run ? reading.symmetry.part->residual : image;
-    if (std::min(rough.width, rough.height) >= k_least_fractal_side) reading.roughness = best_dimension(rough);
+    if (options.deadline.passed())
+      reading.stop = StopReason::time_limit;
+    else if (std::min(rough.width, rough.height) >= k_least_fractal_side)
+      reading.roughness = best_dimension(rough);
   }
   return reading;
 }

@@ -289,6 +289,10 @@ Json height_json(const HeightFiles& files) {
   json["assumed"] = result.assumed;
   json["stop"] = to_string(result.stop);
   json["trace"] = trace_json(result.trace);
+  if (!files.plan.empty()) {
+    json["plan"] = steps_json(files.plan);
+    json["overlay"] = roughness_model_json(files.roughness);
+  }
   json["alternative"] = alternative_json(files);
   for (const auto& [factor, file] : files.deeper) json["variants"].push_back({{"factor", factor}, {"file", file}});
   for (const ReliefPicture& picture : files.pictures) {

@@ -50,11 +50,12 @@ void HeightOption::add_to(CLI::App& verb) {
   verb.add_option("--periodic", periodic_, "Whether the height shall tile; auto looks whether the picture does")
       ->transform(one_of({"auto", "yes", "no"}))
       ->capture_default_str();
-  verb.add_option("--roughness", roughness_,
-                  "With a lattice: relief and roughness as one (whole), or the relief of the symmetric part with no "
-                  "roughness, the residual, or a synthesized surface like it")
-      ->transform(one_of({"whole", "none", "residual", "synthesized"}))
-      ->capture_default_str();
+  roughness_given_ =
+      verb.add_option("--roughness", roughness_,
+                      "With a lattice: relief and roughness as one (whole), or the relief of the symmetric part with "
+                      "no roughness, the residual, or a synthesized surface like it")
+          ->transform(one_of({"whole", "none", "residual", "synthesized"}))
+          ->capture_default_str();
   verb.add_option("--cut", cut_, "Leave out shorter waves; auto: two ticks of the device at --speed")
       ->type_name("MM|{auto,none}")
       ->capture_default_str();
@@ -68,6 +69,14 @@ void HeightOption::add_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_flag("--tile", options_.height.tile,
                 "One tile of the lattice, exactly periodic whatever its angle; its roughness is synthesized");
+  CLI::Option* by_class = verb.add_flag(
+      "--by-class", by_class_,
+      "Carry out the plan of the picture's class as bake does: an exact tile of a lattice, roughness apart, or a "
+      "synthesized surface; --tile and --roughness overrule it");
+  verb.add_option("--source", source_, "With --by-class, the relief of a disordered picture")
+      ->transform(one_of({"auto", "picture", "synthesis"}))
+      ->capture_default_str()
+      ->needs(by_class);
   verb.add_flag("--alternative", options_.opposite,
                 "Write the relief that the opposite light would make of the same picture too");
   verb.add_flag("--variants", options_.deeper, "Write the relief twice and four times as deep too");
@@ -96,6 +105,12 @@ HeightFileOptions HeightOption::options(std::uint64_t seed, const ProgressCallba
   if (periodic_ != "auto") options.height.periodic = periodic_ == "yes";
   options.height.roughness = height_roughness(roughness_);
   options.height.shortest_wavelength_mm = cut_mm();
+  if (by_class_) {
+    PictureReliefOptions& relief = options.by_class.emplace();
+    if (options.height.tile) relief.tile = true;
+    if (roughness_given_->count() > 0) relief.roughness = options.height.roughness;
+    relief.source = relief_source(source_);
+  }
   options.height.seed = seed;
   options.height.progress = progress;
   options.normal_map = normal_;

@@ -24,7 +24,9 @@ class HeightOption {
   HeightFileOptions options_;
   std::string normal_, pictures_;
   std::string method_ = "auto", light_ = "auto", periodic_ = "auto", roughness_ = "whole", cut_ = "none",
-              transfer_ = "auto";
+              transfer_ = "auto", source_ = "auto";
+  bool by_class_ = false;
+  const CLI::Option* roughness_given_ = nullptr;
   double rate_hz_ = k_device_rate_hz, speed_mm_per_s_ = k_hand_speed_mm_per_s;
 };
 

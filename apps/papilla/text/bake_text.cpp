@@ -23,7 +23,7 @@ std::string changes_line(const std::vector<GltfChange>& changes) {
 std::string plan_table(const std::vector<PartSurface>& surfaces) {
   std::size_t width = 4, material_width = 8;
   for (const PartSurface& surface : surfaces) {
-    width = std::clamp(surface.label.size(), width, std::size_t{40});
+    width = std::clamp(surface.label.size(), width, std::size_t{64});
     material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
   }
   std::string out =
@@ -121,7 +121,7 @@ std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules
 std::string bake_table(const BakeResult& result) {
   std::size_t width = 4, material_width = 8;
   for (const BakedSurface& surface : result.surfaces) {
-    width = std::clamp(surface.label.size(), width, std::size_t{40});
+    width = std::clamp(surface.label.size(), width, std::size_t{64});
     material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
   }
   std::string out =

@@ -150,6 +150,11 @@ std::string height_text(const std::string& image, const std::string& output, con
     lines.add("guessed    {:.0f} % of the slopes run across the light\n", 100 * result.guessed_share);
   for (const std::string& what : result.measured) lines.add("measured   {}\n", what);
   for (const std::string& what : result.assumed) lines.add("assumed    {}\n", what);
+  for (const PlanStep& step : files.plan)
+    lines.add("{}          {:<20}  {}\n", step.run ? '+' : '-', step.step, step.reason);
+  if (files.roughness)
+    lines.add("apart      roughness of H {:.2f}, rms {:.4f} mm, waves of {:.3f} to {:.3f} mm\n", files.roughness->hurst,
+              files.roughness->rms_mm, files.roughness->shortest_mm, files.roughness->longest_mm);
   lines.add("written    {}\n", output);
   if (!files.opposite.empty()) lines.add("written    {}: the same picture under the opposite light\n", files.opposite);
   for (const DeeperRelief& deeper : files.deeper) lines.add("written    {}\n", deeper.file);

@@ -35,7 +35,7 @@ void require_options_that_fit(const CLI::App& verb, std::size_t images) {
   const auto given = [&](const char* name) { return verb.get_option(name)->count() > 0; };
   for (const char* name : {"--lights", "--reference"})
     if (images == 1 && given(name)) throw UsageError(std::string(name) + " needs several photographs");
-  for (const char* name : {"--method", "--light", "--periodic", "--roughness", "--cut", "--tile"})
+  for (const char* name : {"--method", "--light", "--periodic", "--roughness", "--cut", "--tile", "--by-class"})
     if (images > 1 && given(name)) throw UsageError(std::string(name) + " is for one picture");
 }
 

@@ -36,6 +36,8 @@ ColorImage read_color_image(const std::filesystem::path& path, std::size_t bytes
 struct Picture {
   GreyImage grey;
   ColorImage color;
+  int file_bits = 8;      ///< A sample in the file, where `grey` is of means.
+  int pixels_a_side = 1;  ///< So many pixels of the file a side make one.
 };
 
 /// read_grey_image() and read_color_image() of one file.
@@ -50,6 +52,11 @@ Picture read_picture(const std::filesystem::path& path, std::size_t bytes_per_pi
 /// @throws IoError, InvalidInput as ImageBands and read_grey_image().
 Picture read_reduced_picture(const std::filesystem::path& path, int most_side,
                              std::size_t bytes_per_pixel = sizeof(float) + 3);
+
+/// read_grey_image() of one for which picture_memory() may have no room at so many bytes a pixel: it is reduced as by
+/// read_reduced_picture() until it has. Without its colours.
+/// @throws IoError, InvalidInput as read_reduced_picture().
+Picture read_fitting_picture(const std::filesystem::path& path, std::size_t bytes_per_pixel);
 
 /// The same as read_color_image() for a picture in memory, PNG or JPEG; `name` only names it in messages.
 /// @throws InvalidInput as read_color_image().

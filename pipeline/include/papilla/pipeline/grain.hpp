@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/scene.hpp"
@@ -79,12 +80,12 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library = Re
 double default_max_slope(double static_friction);
 
 /// Analyses the rule's picture and turns it into relief by its class (relief_of_picture()); a recipe is computed at the
-/// rule's time. Heights beyond what a
-/// tag may have (tag_limits.hpp) are shrunk or moved with a warning, slopes beyond the rule's are limited by
-/// limit_slope().
-/// @param library  what recipes may name.
+/// rule's time. Heights beyond what a tag may have (tag_limits.hpp) are shrunk or moved with a warning, slopes beyond
+/// the rule's are limited by limit_slope().
+/// @param library  what recipes may name. @param deadline of searches in the picture: what they leave out is a warning.
 /// @throws IoError, InvalidInput naming the picture or the place in the recipe.
-Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin());
+Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin(),
+                 const Deadline& deadline = {});
 
 /// The tag of a surface: of its grain, which may be null, and the rule's constants.
 /// @param kept_mm_per_unit  of uv that stay, on which a transform brings the grain to its scale; 0: the uv are repeats.

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "papilla/io/image_file.hpp"
 #include "papilla/texture/height_from_image.hpp"
+#include "papilla/texture/picture_relief.hpp"
 
 namespace papilla {
 
@@ -19,9 +21,14 @@ void write_height_file(const std::filesystem::path& path, const HeightMap& map);
 /// Memory that height_from_image() takes for a pixel, the picture and its results included, at most.
 inline constexpr std::size_t k_height_bytes_per_pixel = 96;
 
+/// The curve of a picture: what is wanted, and for `automatic` that of the file's own samples, where those are means.
+Transfer transfer_of_file(Transfer wanted, const Picture& picture);
+
 /// Options of height_of_picture_file().
 struct HeightFileOptions {
   HeightOptions height;
+  /// Carry out the plan of the picture's class, as bake does [relief_of_picture()]: these, with `height` for theirs.
+  std::optional<PictureReliefOptions> by_class = {};
   std::filesystem::path normal_map;  ///< File for the glTF normal map of the relief; empty: none.
   std::filesystem::path pictures;    ///< Folder for HeightFiles::pictures; empty: none are drawn.
   bool opposite = false;             ///< Write opposite_relief() too, as NAME-opposite.EXT beside the output.
@@ -48,13 +55,15 @@ struct HeightFiles {
   HeightResult result;
   std::string opposite;  ///< Empty: not asked for.
   std::vector<DeeperRelief> deeper;
-  std::vector<ReliefPicture> pictures;  ///< relief.png and relief-opposite.png, lit; section.svg.
+  std::vector<ReliefPicture> pictures;      ///< relief.png and relief-opposite.png, lit; section.svg.
+  AnalysisPlan plan;                        ///< What was done by the class, and what was not; empty: not by class.
+  std::optional<RoughnessModel> roughness;  ///< To be laid over the relief, which does not hold it; by class.
 };
 
 /// Reads a picture of a surface and writes its height_from_image(). One longer than `largest_px` passes through two
-/// temporary files of 4 bytes a pixel in the folder of the output (height_from_rows()), unless tile, roughness, a
-/// shortest wavelength, a normal map or pictures are asked for: those take k_height_bytes_per_pixel, for which
-/// picture_memory() must have room.
+/// temporary files of 4 bytes a pixel in the folder of the output (height_from_rows()), unless the class, tile,
+/// roughness, a shortest wavelength, a normal map or pictures are asked for: those take k_height_bytes_per_pixel, and
+/// where picture_memory() has no room for that, they get the picture by read_fitting_picture(), which `assumed` says.
 /// @throws InvalidInput, IoError as read_grey_image(), height_from_image() and write_height_file().
 HeightFiles height_of_picture_file(const std::filesystem::path& picture, const std::filesystem::path& output,
                                    const HeightFileOptions& options);

@@ -18,9 +18,14 @@ struct Roughness {
   double shortest_wavelength_mm = 0, longest_wavelength_mm = 0;  ///< What the samples can hold: 2 pitches to one side.
 };
 
+/// Options of measure_roughness().
+struct RoughnessOptions {
+  bool dimension = true;  ///< Fit the fractal dimension, which is nearly all of the cost.
+};
+
 /// The roughness that the haptic tag carries. Cost: O(samples). Deterministic.
 /// @throws InvalidInput when the relief is empty, not finite or without pitch.
-Roughness measure_roughness(const HeightMap& relief);
+Roughness measure_roughness(const HeightMap& relief, const RoughnessOptions& options = {});
 
 /// Root mean square height about the mean, in millimetres. @throws InvalidInput when the relief is empty or not finite.
 double rms_height_mm(const HeightMap& relief);

@@ -4,7 +4,9 @@
 #include <optional>
 #include <string_view>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
+#include "papilla/core/trace.hpp"
 #include "papilla/texture/best_dimension.hpp"
 #include "papilla/texture/image.hpp"
 #include "papilla/texture/symmetry.hpp"
@@ -17,7 +19,8 @@ namespace papilla {
 struct ReadingOptions {
   LatticeOptions lattice;
   FeatureKind feature = FeatureKind::squared;
-  bool roughness = true;  ///< Measure the dimension where the class asks for it.
+  bool roughness = true;   ///< Measure the dimension where the class asks for it.
+  Deadline deadline = {};  ///< Of searches, which are not begun after it; those that have begun take 2 us a pixel.
   ProgressCallback progress = {};
 };
 
@@ -28,6 +31,7 @@ struct TextureReading {
   TextureClass kind;
   Suitability suitability;
   std::optional<BestDimension> roughness;  ///< Of what is disordered: the picture, or what its lattice leaves.
+  StopReason stop = StopReason::direct;    ///< `time_limit` when something was not looked for.
   AnalysisPlan plan;                       ///< Of plan_analysis(); its steps are those that were or shall be run.
 };
 
