@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/texture.hpp"
+#include "papilla/texture/grain.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/picture_relief.hpp"
@@ -65,11 +67,12 @@ EncodedImage png(std::string name, std::vector<std::byte> bytes) {
 
 /// The picture of a material, from a file or computed.
 struct Source {
-  GreyImage grey;  ///< Of a recipe: the height channel.
+  GreyImage grey;  ///< Of a recipe or test grain: heights.
   ColorImage color;
   Transfer transfer = Transfer::automatic;
-  bool recipe = false;
-  double friction = 0, stiffness = 1;  ///< Of a recipe: means of the channels.
+  bool computed = false;                ///< Of a recipe or a test grain: heights, not a photograph.
+  std::optional<double> friction = {};  ///< Of a recipe: mean of the channel.
+  double stiffness = 1;                 ///< The same.
 };
 
 /// What the class's plan is carried out with.
@@ -146,7 +149,7 @@ Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
     render.channels |= 1U << static_cast<unsigned>(c);
   RenderedTexture texture = render_texture(compile_texture(rule.recipe, library, options), render);
   Source source;
-  source.recipe = true;
+  source.computed = true;
   source.friction = mean_of(texture.values[Channel::friction]);
   source.stiffness = mean_of(texture.values[Channel::stiffness]);
   source.color = to_color_image(texture.values[Channel::color], texture.width, texture.height);
@@ -154,8 +157,25 @@ Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
   return source;
 }
 
+/// A test grain as heights of [0, 1]; its picture is the lit relief.
+Source synthesized_source(const MaterialRule& rule) {
+  const GrainOptions options{.size_px = k_recipe_samples, .seed = rule.height.relief.height.seed};
+  const GrainResult made = synthesize_grain(grain_kind(rule.recipe.substr(k_grain_prefix.size())), options);
+  Source source;
+  source.computed = true;
+  source.grey = {made.relief.width, made.relief.height, made.relief.mm, 0, 32};
+  for (float& h : source.grey.pixels) h /= static_cast<float>(options.height_mm);
+  for (const float g : made.picture.pixels)
+    source.color.pixels.insert(source.color.pixels.end(), 3,
+                               static_cast<unsigned char>(std::lround(255 * std::clamp(g, 0.0F, 1.0F))));
+  source.color.width = made.picture.width;
+  source.color.height = made.picture.height;
+  return source;
+}
+
 /// A file of that name wins over a recipe of that name.
 Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
+  if (rule.recipe.starts_with(k_grain_prefix)) return synthesized_source(rule);
   std::error_code error;
   if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
     return computed_source(rule, library);
@@ -182,7 +202,9 @@ HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain&
                    grain.size_mm[1] / source.grey.height,
                    true};
   for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
-  grain.height = {.method = "recipe", .reason = "the height channel of the recipe"};
+  grain.height = rule.recipe.starts_with(k_grain_prefix)
+                     ? GrainHeight{.method = "grain", .reason = "the grain is computed"}
+                     : GrainHeight{.method = "recipe", .reason = "the height channel of the recipe"};
   return relief;
 }
 
@@ -299,7 +321,7 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   GrainPlan plan{rule.name, {}, {}};
   try {
     const Source source = read_source(rule, library);
-    if (source.recipe) return plan;
+    if (source.computed) return plan;
     Grain grain;
     find_size(rule, source.grey, grain.size_mm);
     look_at(rule, source, grain);
@@ -323,16 +345,16 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
     grain.warnings.push_back(fmt::format(
         "material '{}': no lattice and no roughness was looked for: the time limit left no time for it", rule.name));
   describe_picture(reading, {grain.size_mm[0] / source.grey.width, grain.size_mm[1] / source.grey.height}, grain);
-  grain.source = source.recipe ? rule.recipe : rule.texture.string();
-  if (source.recipe) {
-    grain.tag.static_friction = grain.tag.dynamic_friction = source.friction;
+  grain.source = source.computed ? rule.recipe : rule.texture.string();
+  if (source.computed) {
+    if (source.friction) grain.tag.static_friction = grain.tag.dynamic_friction = *source.friction;
     grain.stiffness_factor = source.stiffness;
   }
   grain.photograph = std::move(source.color);
   grain.analyze_seconds = analyze_clock.seconds();
 
   const Stopwatch height_clock;
-  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source, reading, grain);
+  grain.relief = source.computed ? computed_relief(rule, source, grain) : make_relief(rule, source, reading, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
   describe_relief(grain, {.dimension = reading.stop != StopReason::time_limit});

@@ -6,10 +6,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/grain.hpp"
+#include "papilla_test/json_schema.hpp"
 
 namespace papilla {
 namespace {
@@ -185,6 +188,22 @@ TEST_F(MaterialsTest, NamesTheJsonPointerOfWhatIsWrong) {
   EXPECT_NE(complaint(R"({"version": 2, "materials": {}})").find("/version"), std::string::npos);
   EXPECT_NE(complaint("[1, 2").find("is no valid JSON"), std::string::npos);
   EXPECT_NE(complaint("[]").find("must be an object"), std::string::npos);
+}
+
+TEST_F(MaterialsTest, TheSchemaKnowsMaterialsOfTheLibrary) {
+  const test::JsonSchema schema(
+      nlohmann::ordered_json::parse(read_file(fs::path(PAPILLA_SCHEMAS) / "materials.schema.json")));
+  const auto agree = [&](const std::string& material) {
+    const std::string text = R"({"materials": {"m": )" + material + "}}";
+    EXPECT_EQ(schema.accepts(nlohmann::ordered_json::parse(text)), complaint(text).empty()) << text;
+    return complaint(text).empty();
+  };
+  EXPECT_TRUE(agree(R"({"material": "library:leather/nappa-fine"})"));
+  EXPECT_TRUE(agree(R"({"material": "library:wood/cork", "stiffness": 900, "height": {"scale": 2}})"));
+  for (const char* wrong : {"\"wood/cork\"", "\"library:\"", "\"library:Wood\"", "\"library:a/\"", "null", "3"})
+    EXPECT_FALSE(agree("{\"material\": " + std::string(wrong) + "}"));
+  EXPECT_TRUE(
+      schema.accepts(nlohmann::ordered_json::parse(read_file(fs::path(PAPILLA_DATA) / "cockpit.materials.json"))));
 }
 
 TEST_F(MaterialsTest, DeepNestingIsRefusedBeforeItIsRead) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "papilla/haptic/material_tag.hpp"
@@ -12,6 +13,9 @@
 #include "papilla/texture/picture_relief.hpp"
 
 namespace papilla {
+
+/// A texture "grain:leather" is the test grain of that name (grain.hpp), of which nothing has to be read.
+inline constexpr std::string_view k_grain_prefix = "grain:";
 
 /// How a material's picture becomes relief: the options of `papilla height`, and what a material has beside them.
 struct HeightRule {
@@ -26,9 +30,10 @@ struct HeightRule {
 /// One entry of "materials": what a surface looks and feels like. SI units as in the haptic tag.
 struct MaterialRule {
   std::string name;
+  std::string library;  ///< Id of the library's material that the rule rests on; empty: none.
   std::filesystem::path
       texture;                 ///< Picture of the grain; empty: no grain. Absolute or relative to the working folder.
-  std::string recipe;          ///< What the file has as texture, in case it is a recipe.
+  std::string recipe;          ///< What the file has as texture, in case it is a recipe or a grain.
   double time = 0;             ///< Of a recipe: 0 new to 1 worn.
   double size_mm[2] = {0, 0};  ///< Width and height that the picture shows; 0: from the picture's own resolution.
   std::optional<double> stiffness;  ///< N/m
@@ -54,8 +59,10 @@ struct Materials {
   std::string source = "materials";  ///< The file's name in messages.
 };
 
-/// Reads MATERIALS.json; relative picture names are taken from the file's own folder.
+/// Reads MATERIALS.json; relative picture names are taken from the file's own folder. A material that names one of the
+/// library, "library:leather/nappa-fine", gets all that rule_of() gives, and then what the file says beside it.
+/// @param library  folder of the library; empty: the one that find_material_library() finds.
 /// @throws IoError, InvalidInput naming the file and the JSON pointer of the offending value.
-Materials read_materials(const std::filesystem::path& path);
+Materials read_materials(const std::filesystem::path& path, const std::filesystem::path& library = {});
 
 }  // namespace papilla
