@@ -14,7 +14,7 @@ const lines = (text) => text.match(/.{1,38}(?: |$)/g).map((line) => quote(line.t
 /**
  * @param series [{title, points: [[x, y]], quiet}]; quiet ones are grey and unnamed
  */
-function draw(file, { x, y, log, series }) {
+export function draw(file, { x, y, log, series }) {
   const loud = series.filter((s) => !s.quiet), all = [...series.filter((s) => s.quiet), ...loud];
   const points = (type, size) => log ? `pt ${type} ps ${size}` : '';
   const style = (s, at = loud.indexOf(s)) => s.quiet ? `lc rgb '#b5bcc4' lw 1 ${points(7, 0.3)} notitle`

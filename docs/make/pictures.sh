@@ -44,5 +44,6 @@ oiiotool --pattern constant:color=1,1,1 800x200 3 \
   --compression jpeg:90 -d uint8 -o "$out/four-photographs.jpg"
 oiiotool "$grain/report/relief.png" --compression jpeg:90 -o "$out/four-photographs-relief.jpg"
 
+node "$make/force_models.mjs" "$make/../evidence/forces.md" "$out/force-models.svg"
 node "$make/texture_gallery.mjs" "$bin" docs
 node "$make/screenshot.mjs" "$report/index.html" "$out/report-page.png"

@@ -49,7 +49,7 @@ std::optional<SurfacePoint> closest_base_point(const ContactTriangles& s, Vec3 p
   point.point = near->foot.point + s.origin();
   point.face_normal = normalized(cross(t.b - t.a, t.c - t.a));
   point.distance_m = near->distance;
-  point.height_m = s.has_relief(near->place) ? s.relief_height(s.face(near->place), near->foot, nullptr) : 0;
+  if (s.has_relief(near->place)) point.height_m = s.relief_height(s.face(near->place), near->foot, &point.slope);
   point.on_border = near->foot.on != ContactTriangles::Foot::On::face;
   point.triangle = s.source_of(near->place);
   point.material = s.material_of(near->place);
@@ -95,14 +95,14 @@ std::optional<StimulusSample> ContactSurface::stimulus(Vec3 p, double radius_m) 
     return Vec2{static_cast<double>(s.relief(found, k).u), static_cast<double>(s.relief(found, k).v)};
   };
   const Vec2 by_v = uv(1) - uv(0), by_w = uv(2) - uv(0);
-  const HeightSample height = field.sample(uv(0) + at.v * by_v + at.w * by_w);
+  const Vec2 here = uv(0) + at.v * by_v + at.w * by_w;
+  const HeightSample height = field.sample(here);
   const auto texels = field.texels_per_uv();
   const double texel_area =
       std::abs(cross(by_v.x * texels[0] + by_v.y * texels[1], by_w.x * texels[0] + by_w.y * texels[1]));
   StimulusSample sample;
-  sample.point = at.point + s.origin();
   sample.normal = f.normal;
-  sample.height_m = height.height_m;
+  sample.column = here.x * texels[0].x + here.y * texels[1].x;
   sample.grey = field.greys_per_m() * height.height_m;
   sample.slope = field.greys_per_m() * f.in_plane(dot(height.gradient_m, by_v), dot(height.gradient_m, by_w));
   sample.along_u = normalized(f.in_plane(by_v.x, by_w.x));

@@ -33,17 +33,29 @@ double friction_memory_share(double period_s) noexcept { return -std::expm1(-per
 
 Vec3 BristleFriction::force(const ContactMaterial& material, Vec3 normal, double load_n, Vec3 moved,
                             double period_s) noexcept {
-  const double stiffness =
-      material.bristle_stiffness > 0 ? std::min(material.bristle_stiffness, material.stiffness) : material.stiffness;
+  const bool rigid = material.friction == FrictionModel::coulomb;
+  const double stiffness = material.bristle_stiffness > 0 && !rigid
+                               ? std::min(material.bristle_stiffness, material.stiffness)
+                               : material.stiffness;
   const Vec3 way = tangential(moved, normal);
   const double length = norm(way);
-  if (period_s > 0) speed_ += friction_memory_share(period_s) * (length / period_s - speed_);
+  const auto follow = [&](double slipped) {
+    if (period_s > 0) speed_ += friction_memory_share(period_s) * (slipped / period_s - speed_);
+  };
+  if (!rigid) follow(length);
   const double most = material.static_friction * load_n;
   if (!(stiffness > 0) || !(most > 0)) {
     deflection_ = {};
     return {};
   }
   deflection_ = tangential(deflection_, normal);
+  if (rigid) {
+    deflection_ = deflection_ + way;
+    const double held = friction_coefficient(material, speed_) * load_n / stiffness, deflected = norm(deflection_);
+    if (deflected > held) deflection_ = (held / deflected) * deflection_;
+    follow(std::max(0.0, deflected - held));
+    return -stiffness * deflection_;
+  }
   if (length > 0) {
     const double steady = friction_coefficient(material, speed_) * load_n / stiffness;
     const double left = steady > 0 ? std::exp(-length / steady) : 0;

@@ -226,8 +226,17 @@ std::optional<ForceModelTag> read_force_model(const Json& json, const std::strin
   in.number("amplitude", k_code, 0, 100, model.amplitude);
   std::string sign = "downhill";
   in.text("sign", k_code, sign);
-  if (sign != "downhill" && sign != "literal") in.warn(k_code, "sign", "is neither downhill nor literal");
+  if (sign != "downhill" && sign != "physical" && sign != "literal")
+    in.warn(k_code, "sign", "is neither downhill nor literal");
   model.literal = sign == "literal";
+  in.text("form", k_code, model.form);
+  if (!model.form.empty() && !stimulus_form(*force_model(model.name), model.form)) {
+    in.warn(k_code, "form", "is no form of " + model.name + ", its first one is used");
+    model.form.clear();
+  }
+  double level = model.level;
+  if (in.number("level", k_code, 1, GreyGraph::k_finest_level, level))
+    model.level = static_cast<int>(std::lround(level));
   return model;
 }
 
@@ -379,6 +388,9 @@ Json tag_json(const MaterialTag& tag) {
     json["forceModel"] = {{"name", tag.force_model->name},
                           {"amplitude", tag.force_model->amplitude},
                           {"sign", tag.force_model->literal ? "literal" : "downhill"}};
+  if (tag.force_model && !tag.force_model->form.empty()) json["forceModel"]["form"] = tag.force_model->form;
+  if (tag.force_model && tag.force_model->level != ForceModelTag().level)
+    json["forceModel"]["level"] = tag.force_model->level;
   if (tag.symmetry)
     json["symmetry"] = {
         {"group", tag.symmetry->group},

@@ -410,7 +410,8 @@ const ProxyState& Proxy::Descent::end_tick(Tick& tick, double period_s) noexcept
 /// μ at the present sliding speed; 0 for other models than Coulomb's, which leave the proxy free.
 double Proxy::Descent::friction_of(std::uint32_t material) const noexcept {
   const ContactMaterial& m = surface_->material(material);
-  return m.friction == FrictionModel::coulomb ? friction_coefficient(m, slide_speed_) : 0;
+  const bool holds = m.friction == FrictionModel::coulomb && m.model != ForceModel::textured_normal;
+  return holds ? friction_coefficient(m, slide_speed_) : 0;
 }
 
 /// Keeps the active planes for the next tick, if all of them were found at x.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace papilla {
 namespace {
@@ -11,7 +10,7 @@ namespace {
 constexpr double k_reference_s = 1e-3;   // Time of the displacement w.
 constexpr double k_least_pixels = 0.01;  // Shorter displacements have no defined direction.
 constexpr double k_default_pixel_m = 1e-4;
-constexpr int k_descent_steps = 12;
+constexpr double k_steepest = 256;  // Grey levels a pixel.
 
 struct Named {
   ForceModel model;
@@ -25,23 +24,8 @@ constexpr Named k_names[] = {
     {ForceModel::graph_orthogonal, "graph-orthogonal"},
     {ForceModel::graph_lateral, "graph-lateral"},
     {ForceModel::textured_normal, "textured-normal"},
+    {ForceModel::graph_orthogonal, "graph"},
 };
-
-/// A random walk of steps ±1, scaled to the 256 grey levels.
-std::array<double, Stimulus::k_graph> brownian_graph() noexcept {
-  std::array<double, Stimulus::k_graph> graph{};
-  std::uint64_t random = 0x9E3779B97F4A7C15U;
-  for (std::size_t i = 1; i < graph.size(); ++i) {
-    random ^= random << 13;
-    random ^= random >> 7;
-    random ^= random << 17;
-    graph[i] = graph[i - 1] + ((random >> 32 & 1U) != 0 ? 1.0 : -1.0);
-  }
-  const auto [low, high] = std::minmax_element(graph.begin(), graph.end());
-  const double least = *low, scale = 256 / (*high - *low);
-  for (double& value : graph) value = scale * (value - least);
-  return graph;
-}
 
 }  // namespace
 
@@ -57,73 +41,71 @@ std::optional<ForceModel> force_model(std::string_view name) noexcept {
   return std::nullopt;
 }
 
-Stimulus::Stimulus(const ContactSurface& surface) noexcept : surface_(&surface), graph_(brownian_graph()) {}
-
-/// The graph, mirrored at its ends and linear between samples.
-double Stimulus::graph_at(double distance_m, double pixel_m) const noexcept {
-  constexpr double last = k_graph - 1;
-  double at = std::fmod(std::abs(distance_m) / pixel_m, 2 * last);
-  if (at > last) at = 2 * last - at;
-  const auto i = static_cast<std::size_t>(std::min(at, last - 1));
-  const double f = at - static_cast<double>(i);
-  return (1 - f) * graph_[i] + f * graph_[i + 1];
+std::string_view name_of(ForceModel model, StimulusForm form) noexcept {
+  if (model == ForceModel::lateral) return form == StimulusForm::displacement ? "displacement" : "gradient";
+  if (is_graph(model)) return form == StimulusForm::place ? "place" : "path";
+  return {};
 }
 
-/// Gauss-Newton descent of the distance over the surface, from the foot of the probe.
-Vec3 Stimulus::textured_normal(const StimulusSample& here, Vec3 probe) const noexcept {
-  const ContactMaterial& material = surface_->material(here.material);
-  const double greys_per_m = here.height_m != 0 ? here.grey / here.height_m : 0;
-  const auto top = [](const StimulusSample& s) { return s.point + s.height_m * s.normal; };
-  if (dot(top(here) - probe, here.normal) <= 0) return {};
-  StimulusSample best = here, now = here;
-  double least = norm(top(here) - probe);
-  for (int i = 0; i < k_descent_steps; ++i) {
-    const Vec3 slope = greys_per_m != 0 ? (1 / greys_per_m) * now.slope : Vec3{};
-    const Vec3 d = top(now) - probe;
-    const Vec3 flat = d - dot(d, now.normal) * now.normal;
-    const Vec3 step = -0.5 / (1 + dot(slope, slope)) * (flat + dot(d, now.normal) * slope);
-    const auto next = surface_->stimulus(now.point + step, norm(step) + surface_->contact_radius_m());
-    if (!next) break;
-    now = *next;
-    if (const double distance = norm(top(now) - probe); distance < least) {
-      least = distance;
-      best = now;
-    }
+std::optional<StimulusForm> stimulus_form(ForceModel model, std::string_view name) noexcept {
+  for (const StimulusForm form : {StimulusForm::usual, StimulusForm::displacement, StimulusForm::place})
+    if (!name.empty() && name_of(model, form) == name) return form;
+  return std::nullopt;
+}
+
+Stimulus::Stimulus(const ContactSurface& surface) : surface_(&surface), graph_of_(surface.material_count()) {
+  for (std::uint32_t i = 0; i < surface.material_count(); ++i) {
+    const ContactMaterial& material = surface.material(i);
+    if (!is_graph(material.model)) continue;
+    graph_of_[i] = static_cast<std::uint32_t>(graphs_.size());
+    graphs_.emplace_back(material.hurst, material.level);
   }
-  return material.stiffness * (top(best) - probe);
 }
 
 Vec3 Stimulus::force(const ProxyState& state, Vec3 probe, Vec3 velocity, double period_s, Vec3 contact) noexcept {
   const double near = 2 * surface_->contact_radius_m() + norm(state.proxy - probe);
-  const auto here = surface_->stimulus(state.proxy, near);
-  if (!here) return contact;
-  const ContactMaterial& material = surface_->material(here->material);
-  if (material.model == ForceModel::textured_normal) return textured_normal(*here, probe);
+  const ContactMaterial& material = surface_->material(state.material);
+  const auto here = material.stimulus ? surface_->stimulus(state.proxy, near) : std::nullopt;
+  if (!here && !is_graph(material.model)) return contact;
 
   const Vec3 n = state.normal, along = velocity - dot(velocity, n) * n, way = k_reference_s * along;
   const double length = norm(way), sign = material.literal_sign ? 1 : -1, a = material.amplitude;
-  const double pixel = here->pixel_m > 0 ? here->pixel_m : k_default_pixel_m;
-  travelled_m_ += norm(along) * period_s;
-  const auto before = [&] {
-    const auto there = surface_->stimulus(state.proxy - way, near + length);
-    return there ? there->grey : here->grey;
-  };
-  const auto graph_change = [&] {
-    return graph_at(travelled_m_, pixel) - graph_at(std::max(0.0, travelled_m_ - length), pixel);
-  };
-  const Vec3 v = cross(here->normal, here->along_u);
+  const double pixel = here && here->pixel_m > 0 ? here->pixel_m : k_default_pixel_m;
   const bool moves = length > k_least_pixels * pixel;
-  switch (material.model) {
-    case ForceModel::orthogonal: return contact + a * (here->grey - before()) * n;
-    case ForceModel::lateral: return contact + sign * a * pixel * here->slope;
-    case ForceModel::lateral_isotropic: return contact + sign * a * (here->grey - before()) * (here->along_u + v);
-    case ForceModel::graph_orthogonal: return contact + a * graph_change() * n;
-    case ForceModel::graph_lateral:
-      return moves ? contact + sign * a * graph_change() * pixel / (length * length) * way : contact;
-    case ForceModel::textured_normal:
-    case ForceModel::heightfield: break;
+  if (is_graph(material.model)) {
+    travelled_m_ += norm(along) * period_s;
+    const GreyGraph& graph = graphs_[graph_of_[state.material]];
+    double now = travelled_m_ / pixel, before = std::max(0.0, travelled_m_ - length) / pixel;
+    if (material.form == StimulusForm::place && here) {
+      const auto there = surface_->stimulus(state.proxy - way, near + length);
+      now = here->column, before = there ? there->column : now;
+    }
+    const double change = graph.at(now) - graph.at(before);
+    if (material.model == ForceModel::graph_orthogonal) return contact + a * change * n;
+    return moves ? contact + sign * a * change * pixel / (length * length) * way : contact;
   }
-  return contact;
+
+  const StimulusSample now = *here;
+  const auto change = [&] {
+    const auto there = surface_->stimulus(state.proxy - way, near + length);
+    return there ? now.grey - there->grey : 0;
+  };
+  const Vec3 u = now.along_u, v = cross(now.normal, u);
+  switch (material.model) {
+    case ForceModel::orthogonal: return contact + a * change() * n;
+    case ForceModel::lateral_isotropic: return contact + sign * a * change() * (u + v);
+    case ForceModel::lateral: break;
+    default: return contact;
+  }
+  if (material.form != StimulusForm::displacement) return contact + sign * a * pixel * now.slope;
+  if (!moves) return contact;
+  const double difference = change();
+  const auto quotient = [&](Vec3 axis) {
+    const double pixels = dot(way, axis) / pixel;
+    return std::abs(pixels) > k_least_pixels ? difference / pixels : 0;
+  };
+  const Vec3 slope = quotient(u) * u + quotient(v) * v;
+  return contact + sign * a * std::min(1.0, k_steepest / std::max(norm(slope), k_steepest)) * slope;
 }
 
 }  // namespace papilla

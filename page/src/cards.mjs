@@ -97,6 +97,9 @@ function constants(material, about) {
   add('stiffness', tag && `${number(tag.stiffness ?? 500)} N/m`);
   add('damping', tag && `${number(tag.damping ?? 0)} N·s/m`);
   add('friction', tag && `${number(tag.staticFriction ?? tag.dynamicFriction ?? 0)} static, ${number(tag.dynamicFriction ?? tag.staticFriction ?? 0)} dynamic`);
+  const { forceModel: force, frictionModel: hold } = tag ?? {};
+  add('force model', force && [force.name ?? 'heightfield', force.form, force.sign === 'literal' && 'uphill', !['heightfield', 'textured-normal'].includes(force.name ?? 'heightfield') && `${number(force.amplitude ?? 0.01)} N per grey level`, force.level && `level ${force.level}`].filter(Boolean).join(', '));
+  add('friction model', hold && [hold.name ?? 'coulomb', hold.stiffness > 0 && `${number(hold.stiffness)} N/m`].filter(Boolean).join(', '));
   add('relief', tag?.height && `rms ${number(1000 * tag.height.rms)} mm, range ${number(1000 * tag.height.scale)} mm`);
   const slope = about?.height?.slope;
   add('slope', slope && `at most ${number(slope.steepest.after)}${slope.steeper_share.before > 0 ? `, limited: ${number(100 * slope.steeper_share.before)} % was steeper than ${number(slope.max_slope)}` : ''}`);

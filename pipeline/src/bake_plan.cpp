@@ -244,8 +244,8 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& ass
     surface.uv_mm_per_unit = uv.mm_per_unit;
     surface.uv_defects = uv.defects;
     surface.uv_note = uv.note;
-    const bool feel =
-        grain || (rule && (rule->stiffness || rule->static_friction || rule->dynamic_friction || rule->damping));
+    const bool feel = grain || (rule && (rule->stiffness || rule->static_friction || rule->dynamic_friction ||
+                                         rule->damping || rule->friction_model || rule->force_model));
     Given given{cad, uv.state};
     given.in_place = in_place;
     if (!perception.empty()) {

@@ -382,6 +382,7 @@ void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffnes
   tag.dynamic_friction = rule.dynamic_friction.value_or(rule.static_friction.value_or(tag.dynamic_friction));
   if (rule.stribeck_velocity) tag.stribeck_velocity = *rule.stribeck_velocity;
   if (rule.friction_model) tag.friction_model = *rule.friction_model;
+  if (rule.force_model) tag.force_model = *rule.force_model;
   if (rule.force_shading) tag.force_shading = *rule.force_shading;
 }
 

@@ -2,11 +2,13 @@
 #include "papilla/pipeline/materials.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "json_value.hpp"
 #include "papilla/core/near_name.hpp"
+#include "papilla/haptic/stimulus.hpp"
 #include "papilla/pipeline/library_material.hpp"
 #include "papilla/pipeline/material_library.hpp"
 
@@ -70,6 +72,27 @@ FrictionTag read_friction_model(const JsonValue& value) {
   return tag;
 }
 
+ForceModelTag read_force_model(const JsonValue& value) {
+  value.expect_keys({"name", "amplitude", "sign", "form", "level"});
+  ForceModelTag tag;
+  if (const auto v = value.get("name"))
+    tag.name = name_of(*force_model(v->one_of({"heightfield", "orthogonal", "lateral", "lateral-isotropic", "graph",
+                                               "graph-orthogonal", "graph-lateral", "textured-normal"})));
+  if (const auto v = value.get("amplitude")) tag.amplitude = v->number(0, 100);
+  if (const auto v = value.get("sign")) tag.literal = v->one_of({"downhill", "physical", "literal"}) == "literal";
+  if (const auto v = value.get("form")) {
+    const std::string form = v->one_of({"gradient", "displacement", "path", "place"});
+    if (!stimulus_form(*force_model(tag.name), form)) v->fail("'" + form + "' is no form of '" + tag.name + "'");
+    tag.form = form;
+  }
+  if (const auto v = value.get("level")) {
+    const double level = v->number(1, GreyGraph::k_finest_level);
+    if (level != std::floor(level)) v->fail("must be a whole number");
+    tag.level = static_cast<int>(level);
+  }
+  return tag;
+}
+
 void check_grain(const JsonValue& value, const std::string& name) {
   const std::vector<std::string_view> known = grain_names();
   if (std::find(known.begin(), known.end(), name) == known.end())
@@ -95,8 +118,8 @@ MaterialRule library_rule(const JsonValue& value, const std::string& name, const
 MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& folder,
                            const std::filesystem::path& library) {
   value.expect_keys({"material", "texture", "time", "size_mm", "stiffness", "damping", "staticFriction",
-                     "dynamicFriction", "stribeckVelocity", "frictionModel", "forceShading", "height", "unwrap", "show",
-                     "color", "roughness", "metallic", "$comment"});
+                     "dynamicFriction", "stribeckVelocity", "frictionModel", "forceModel", "forceShading", "height",
+                     "unwrap", "show", "color", "roughness", "metallic", "$comment"});
   MaterialRule rule;
   if (const auto v = value.get("material")) rule = library_rule(*v, name, library);
   rule.name = name;
@@ -121,6 +144,7 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
   number("dynamicFriction", rule.dynamic_friction, 0, 10);
   number("stribeckVelocity", rule.stribeck_velocity, 1e-6, 10);
   if (const auto v = value.get("frictionModel")) rule.friction_model = read_friction_model(*v);
+  if (const auto v = value.get("forceModel")) rule.force_model = read_force_model(*v);
   if (const auto v = value.get("forceShading")) rule.force_shading = v->yes_or_no();
   number("roughness", rule.roughness, 0, 1);
   number("metallic", rule.metallic, 0, 1);

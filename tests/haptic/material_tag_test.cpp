@@ -177,8 +177,31 @@ INSTANTIATE_TEST_SUITE_P(
         Odd{R"({"version":1,"stiffness":1,"frictionModel":{"name":"bristle","stiffness":-1}})", "tag_friction_model"},
         Odd{R"({"version":1,"stiffness":1,"forceShading":1})", "tag_force_shading"},
         Odd{R"({"version":1,"stiffness":1,"forceModel":{"name":"lateral","amplitude":-1}})", "tag_force_model"},
+        Odd{R"({"version":1,"stiffness":1,"forceModel":{"name":"lateral","form":"place"}})", "tag_force_model"},
+        Odd{R"({"version":1,"stiffness":1,"forceModel":{"name":"graph","level":9}})", "tag_force_model"},
         Odd{R"({"version":1,"stiffness":1,"symmetry":{"period":[1,2]}})", "tag_symmetry"},
         Odd{R"({"version":1,"stiffness":1,"provenance":{"tool":3}})", "tag_provenance"}));
+
+TEST(MaterialTag, ForceModelsKeepTheirMembers) {
+  for (const ForceModelTag& model : {ForceModelTag{"lateral", 0.02, true, "displacement", 8},
+                                     ForceModelTag{"graph-lateral", 0.01, false, "place", 5},
+                                     ForceModelTag{"textured-normal", 0.01, false, "", 8}}) {
+    std::vector<HapticWarning> warnings;
+    MaterialTag tag;
+    tag.force_model = model;
+    EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
+    EXPECT_TRUE(warnings.empty());
+  }
+  std::vector<HapticWarning> warnings;
+  const auto read = [&](const std::string& model) {
+    return parse_material_tag(R"({"version":1,"stiffness":1,"forceModel":)" + model + "}", warnings).force_model;
+  };
+  EXPECT_EQ(read(R"({"name":"graph","sign":"physical"})")->literal, false);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(read(R"({"name":"lateral","form":"place"})")->form, "");
+  EXPECT_EQ(read(R"({"name":"graph","level":0})")->level, 8);
+  EXPECT_EQ(warnings.size(), 2U);
+}
 
 TEST(MaterialTag, HeightWithoutScaleIsDropped) {
   std::vector<HapticWarning> warnings;

@@ -117,6 +117,23 @@ Json own_uv_json(const std::vector<PartSurface>& surfaces) {
   return json;
 }
 
+Json contact_models_json(const Materials& rules) {
+  Json json = Json::array();
+  for (const auto& [name, rule] : rules.materials) {
+    if (!rule.force_model && !rule.friction_model) continue;
+    Json line = {{"material", name}, {"force_model", nullptr}, {"friction_model", nullptr}};
+    if (const auto& m = rule.force_model)
+      line["force_model"] = {{"name", m->name},
+                             {"form", m->form.empty() ? Json() : Json(m->form)},
+                             {"amplitude", m->amplitude},
+                             {"sign", m->literal ? "literal" : "downhill"},
+                             {"level", m->level}};
+    if (const auto& m = rule.friction_model) line["friction_model"] = {{"name", m->name}, {"stiffness", m->stiffness}};
+    json.push_back(std::move(line));
+  }
+  return json;
+}
+
 Json way_json(const BakeWay& way) { return {{"in_place", way.in_place}, {"reason", way.reason}}; }
 
 Json changes_json(const std::vector<GltfChange>& changes) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "papilla/haptic/stimulus.hpp"
 #include "papilla/io/node_places.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
@@ -101,6 +102,27 @@ std::string grains_text(const std::vector<GrainPlan>& grains) {
     out += shown_format("\ngrain {}\n", grain.material);
     for (const PlanStep& step : grain.steps)
       out += shown_format("  {} {:<20}  {}\n", step.run ? "+" : "-", step.step, step.reason);
+  }
+  return out;
+}
+
+std::string contact_models_text(const Materials& rules) {
+  std::string out;
+  for (const auto& [name, rule] : rules.materials) {
+    std::string models;
+    if (const auto& m = rule.force_model) {
+      const ForceModel model = force_model(m->name).value_or(ForceModel::heightfield);
+      models = "force model " + m->name;
+      if (!m->form.empty()) models += ", " + m->form;
+      if (is_stimulus(model)) models += shown_format(", {:g} N per grey level", m->amplitude);
+      if (m->literal) models += ", uphill";
+      if (is_graph(model)) models += shown_format(", level {}", m->level);
+    }
+    if (const auto& m = rule.friction_model) {
+      models += (models.empty() ? "friction model " : "; friction model ") + m->name;
+      if (m->stiffness > 0) models += shown_format(", {:g} N/m", m->stiffness);
+    }
+    if (!models.empty()) out += shown_format("{}: {}\n", name, models);
   }
   return out;
 }

@@ -85,6 +85,7 @@ Json run(const Options& options, VerbContext& context) {
   json["way"] = way_json(result.way);
   json["changes"] = changes_json(result.changes);
   json["rules"] = rules_json(result.plan.rules);
+  json["contact"] = contact_models_json(rules);
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
   context.console.print(way_line(result.way) + sides_text(result.plan.sides, true) +
                         left_out_table(result.scene, result.plan.perception));
@@ -94,7 +95,7 @@ Json run(const Options& options, VerbContext& context) {
                                        budget->reached                          ? ""
                                        : budget->stop == StopReason::time_limit ? ", not reached in time"
                                                                                 : "; more deviation saves hardly any"));
-  context.console.print(bake_table(result));
+  context.console.print(bake_table(result) + contact_models_text(rules));
   print_notes(result.scene, context.console);
   context.console.print(changes_line(result.changes));
   context.console.print(

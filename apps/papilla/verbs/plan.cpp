@@ -58,12 +58,13 @@ Json run(const Options& options, VerbContext& context) {
   const Materials rules = read_materials(options.materials, options.library);
   const PlannedFile plan = plan_file(options.input, rules, wanted, context.progress);
   context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + grains_text(plan.grains) +
-                        rules_table(plan.rules, rules) + sides_text(plan.sides, true) +
+                        contact_models_text(rules) + rules_table(plan.rules, rules) + sides_text(plan.sides, true) +
                         left_out_table(plan.scene, plan.perception));
   print_notes(plan.scene, context.console);
   Json json{{"scene", options.input}, {"materials", options.materials}, {"stages", plan_json(plan.surfaces)}};
   json["way"] = way_json(plan.way);
   json["grains"] = grain_plans_json(plan.grains);
+  json["contact"] = contact_models_json(rules);
   json["uv"] = own_uv_json(plan.surfaces);
   json["rules"] = rules_json(plan.rules);
   json["suggestions"] = suggest(plan, options, context.console);

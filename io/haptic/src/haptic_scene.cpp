@@ -144,10 +144,13 @@ class Builder {
     made.shading = tag.force_shading;
     made.height = add_relief(tag, material, warnings);
     if (!tag.force_model) return made;
-    made.model = force_model(tag.force_model->name).value_or(ForceModel::heightfield);
+    made.model = model_of(tag);
     made.amplitude = tag.force_model->amplitude;
     made.literal_sign = tag.force_model->literal;
-    if (made.model != ForceModel::heightfield) std::swap(made.height, made.stimulus);
+    made.form = stimulus_form(made.model, tag.force_model->form).value_or(StimulusForm::usual);
+    made.level = tag.force_model->level;
+    if (tag.roughness && tag.roughness->fractal_dimension) made.hurst = 3 - *tag.roughness->fractal_dimension;
+    if (is_stimulus(made.model)) std::swap(made.height, made.stimulus);
     return made;
   }
 
@@ -167,20 +170,20 @@ class Builder {
       ++result.roughness_overlays;
     }
     *field = coarsened(std::move(*field), tag.height->metres_per_uv);
-    if (!displaces(tag)) {
+    if (is_stimulus(model_of(tag))) {
       result.heights.push_back(std::move(*field));
       return static_cast<std::uint32_t>(result.heights.size() - 1);
     }
     const double steep = steep_share(*field, tag);
-    *field = felt(std::move(*field), tag.height->metres_per_uv, warnings);
+    *field = felt(std::move(*field), model_of(tag), tag.height->metres_per_uv, warnings);
     if (steep > 0) warnings.push_back(steep_warning(tag, steep, steep_share(*field, tag)));
     result.heights.push_back(std::move(*field));
     return static_cast<std::uint32_t>(result.heights.size() - 1);
   }
 
-  static bool displaces(const MaterialTag& tag) {
-    return !tag.force_model ||
-           force_model(tag.force_model->name).value_or(ForceModel::heightfield) == ForceModel::heightfield;
+  static ForceModel model_of(const MaterialTag& tag) {
+    if (!tag.force_model) return ForceModel::heightfield;
+    return force_model(tag.force_model->name).value_or(ForceModel::heightfield);
   }
 
   /// Share of the map that is steeper than the cone of friction.
@@ -198,10 +201,11 @@ class Builder {
     return {"relief_steep", text};
   }
 
-  /// The relief as the probe feels it.
-  HeightField felt(HeightField field, Vec2 metres_per_uv, std::vector<HapticWarning>& warnings) const {
-    if (const double peak = options_.felt_depth_m - options_.probe_radius_m; peak > 0)
-      field = field.rounded(peak, metres_per_uv);
+  /// The relief as the probe feels it. The closest point of `textured-normal` is that of the relief as it is.
+  HeightField felt(HeightField field, ForceModel model, Vec2 metres_per_uv,
+                   std::vector<HapticWarning>& warnings) const {
+    const double peak = options_.felt_depth_m - options_.probe_radius_m;
+    if (peak > 0 && model == ForceModel::heightfield) field = field.rounded(peak, metres_per_uv);
     if (options_.probe_radius_m > 0) try {
         field = field.dilated(options_.probe_radius_m, metres_per_uv);
       } catch (const InvalidInput& error) {

@@ -10,8 +10,9 @@
 
 namespace papilla {
 
-/// How a material's relief becomes a force. `heightfield` is a contact with the displaced surface; the others are
-/// stimuli on the smooth base, after Schulze 2005 and Cho 2017, and promise no passivity. See stimulus.hpp.
+/// How a material's relief becomes a force. `heightfield` and `textured_normal` are contacts with the displaced
+/// surface (force_model.hpp, textured_normal.hpp); the others are stimuli on the smooth base, after Schulze 2005, and
+/// promise no passivity. See stimulus.hpp.
 enum class ForceModel {
   heightfield,
   orthogonal,
@@ -20,6 +21,13 @@ enum class ForceModel {
   graph_orthogonal,
   graph_lateral,
   textured_normal,
+};
+
+/// What a stimulus takes its differences from, where there is a choice; see stimulus.hpp.
+enum class StimulusForm {
+  usual,         ///< The gradient of the relief, or the distance travelled on the graph.
+  displacement,  ///< lateral: the displacement of the proxy.
+  place,         ///< graph: the place on the surface.
 };
 
 /// Friction between surface and probe; see friction.hpp.
@@ -40,6 +48,9 @@ struct ContactMaterial {
   std::optional<std::uint32_t> stimulus;  ///< Index of the relief of a stimulus, which displaces nothing.
   double amplitude = 0.01;                ///< A of a stimulus: N per grey level, or per grey level and pixel.
   bool literal_sign = false;              ///< Lateral stimuli push uphill, as in the source.
+  StimulusForm form = StimulusForm::usual;
+  double hurst = 0.5;  ///< H of the graph of a stimulus.
+  int level = 8;       ///< Its level of detail; see GreyGraph.
 };
 
 /// Triangles of a haptic scene: metres, in the frame of the scene, counter-clockwise seen from outside.

@@ -39,6 +39,7 @@ struct SurfacePoint {
   Vec3 face_normal;  ///< Unit normal of the triangle, on its front.
   double distance_m = 0;
   double height_m = 0;     ///< Relief above `point` on the front side, dilated by the probe, ≥ 0.
+  Vec3 slope;              ///< Its gradient in the triangle's plane, metres per metre.
   bool on_border = false;  ///< On an edge or corner of its triangle, where the face normal does not tell the side.
   std::uint32_t triangle = 0;
   std::uint32_t material = 0;
@@ -49,8 +50,8 @@ struct StimulusSample {
   double grey = 0;  ///< Grey levels above that of height 0.
   Vec3 slope;       ///< Gradient of `grey` along the surface, grey levels per metre.
   Vec3 along_u;     ///< Unit tangent along which u grows.
-  Vec3 point, normal;
-  double height_m = 0;
+  Vec3 normal;
+  double column = 0;   ///< Place along the rows of the picture in pixels, growing through its repeats.
   double pixel_m = 0;  ///< Length of a pixel on the surface.
   std::uint32_t material = 0;
 };

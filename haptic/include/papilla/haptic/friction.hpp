@@ -27,7 +27,10 @@ double friction_memory_share(double period_s) noexcept;
 /// slides at μ(v)·N; a slow pull through a spring sticks and slips. The equation is integrated exactly over a tick with
 /// a straight path, so it is stable for every rate and σ. |z| ≤ μs·N/σ for every load.
 ///
-/// σ is bristle_stiffness, at most the material's stiffness, which is known to be stable. noexcept, no allocation,
+/// σ is bristle_stiffness, at most the material's stiffness, which is known to be stable. For a material with Coulomb's
+/// friction, where no proxy has it, σ is the stiffness and z = dx until it breaks away at once,
+///     z ← z + dx,   |z| ≤ μ(v)·N/σ,   v the speed at which it slips
+/// which is the friction of a proxy on a plane. noexcept, no allocation,
 /// deterministic; finite for finite input.
 class BristleFriction {
  public:

@@ -14,6 +14,7 @@
 #include "papilla/haptic/safety.hpp"
 #include "papilla/haptic/stability.hpp"
 #include "papilla/haptic/stimulus.hpp"
+#include "papilla/haptic/textured_normal.hpp"
 
 namespace papilla {
 
@@ -45,7 +46,7 @@ class HapticTick {
     started_ = true;
     const ProxyState& state = proxy_.update(probe, period_);
     lost_ = audit_.update(probe, state, proxy_.waypoints());
-    Vec3 force = heightfield_force(*surface_, state, probe, velocity_) + bristle_force(state, moved);
+    Vec3 force = contact_force(state, probe, moved);
     if (stimulus_.acts(state)) force = stimulus_.force(state, probe, velocity_, period_, force);
     if (passivity_) force = passivity_->apply(force, moved, period_);
     return guard_.apply(force, period_, device.age_s, contact_step(state, moved));
@@ -74,14 +75,20 @@ class HapticTick {
     return {true, stiffness * std::abs(dot(state.normal, moved)), stiffness, moved};
   }
 
-  /// Bristle friction where the material has it; Coulomb's is in the proxy.
-  Vec3 bristle_force(const ProxyState& state, Vec3 moved) noexcept {
-    if (!state.in_contact || surface_->material(state.material).friction != FrictionModel::bristle) {
-      bristles_.release();
-      return {};
-    }
+  /// Springs, damping and friction. Coulomb's friction of `heightfield` is in the proxy.
+  Vec3 contact_force(const ProxyState& state, Vec3 probe, Vec3 moved) noexcept {
     const ContactMaterial& material = surface_->material(state.material);
-    return bristles_.force(material, state.normal, material.stiffness * state.load_m, moved, period_);
+    const bool textured = material.model == ForceModel::textured_normal;
+    const Vec3 way = textured ? way_to_textured_surface(*surface_, state, probe) : Vec3{};
+    const Vec3 force = textured ? textured_normal_force(material, way, velocity_)
+                                : heightfield_force(*surface_, state, probe, velocity_);
+    if (!state.in_contact || (!textured && material.friction != FrictionModel::bristle)) {
+      bristles_.release();
+      return force;
+    }
+    const Vec3 normal = textured ? normalized(way) : state.normal;
+    const double load = textured ? norm(force) : material.stiffness * state.load_m;
+    return force + bristles_.force(material, normal, load, moved, period_);
   }
 
   static constexpr double k_smoothing_s = 1e-3;  // Of the velocity.

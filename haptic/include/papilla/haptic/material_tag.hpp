@@ -59,6 +59,8 @@ struct ForceModelTag {
   std::string name = "heightfield";  ///< A name of force_model().
   double amplitude = 0.01;           ///< A: N per grey level, or per grey level and pixel.
   bool literal = false;              ///< "sign": "literal": lateral forces push uphill.
+  std::string form;                  ///< A name of stimulus_form(); empty: the first one of the model.
+  int level = 8;                     ///< Of a graph's detail, 1 to 8: 2^level pieces.
   friend bool operator==(const ForceModelTag&, const ForceModelTag&) = default;
 };
 

@@ -40,6 +40,7 @@ struct MaterialRule {
   std::optional<double> damping;    ///< N·s/m
   std::optional<double> static_friction, dynamic_friction, stribeck_velocity;
   std::optional<FrictionTag> friction_model;
+  std::optional<ForceModelTag> force_model;
   std::optional<bool> force_shading;
   HeightRule height;
   std::string unwrap = "auto";  ///< auto, keep, new, or a method of unwrap_methods(), which gives new uv.
