@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "papilla/core/error.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
@@ -31,7 +31,6 @@ class ForceModelFile : public testing::Test {
     std::ofstream(folder_ / "m.json") << R"({"materials": {"grain": {"texture": "fbm|h=.8", "size_mm": [40, 30],
         "stiffness": 400, "height": {"depth_mm": 0.2}, )" +
                                              members + R"(}}, "assign": [{"part": "*", "material": "grain"}]})";
-    std::string words;
     BakeFileOptions options;
     bake_file(folder_ / "plate.obj", glb(), read_materials(folder_ / "m.json"), options, {});
     for (const Material& material : read_gltf(glb(), {.tag_channel = true}).materials)
@@ -124,9 +123,22 @@ TEST_F(ForceModelFile, ReachesTheHandThroughTheBakedFile) {
     EXPECT_EQ(material.level, tag.level);
     EXPECT_EQ(material.stimulus.has_value(), is_stimulus(model));
     EXPECT_EQ(material.height.has_value(), !is_stimulus(model));
-    ASSERT_TRUE(found.roughness && found.roughness->fractal_dimension);
-    EXPECT_NEAR(material.hurst, 3 - *found.roughness->fractal_dimension, 1e-12);
     expect_stimulus(scene);
+  }
+}
+
+TEST_F(ForceModelFile, TheGraphHasTheExponentOfTheTag) {
+  bake(R"("forceModel": {"name": "graph"})");
+  Scene scene = read_gltf(glb(), {.tag_channel = true});
+  for (const std::optional<double> dimension : {std::optional<double>(), std::optional(2.2), std::optional(2.9)}) {
+    for (Material& material : scene.materials)
+      if (material.haptic) {
+        material.haptic->roughness = RoughnessTag{};
+        material.haptic->roughness->fractal_dimension = dimension;
+      }
+    const HapticScene haptic = haptic_scene(scene, glb());
+    EXPECT_NEAR(haptic.materials.front().hurst, dimension ? 3 - *dimension : 0.5, 1e-12);
+    expect_stimulus(haptic);
   }
 }
 
