@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "json_value.hpp"
+#include "lights_value.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/pipeline/library_material.hpp"
@@ -35,10 +36,52 @@ double read_cut(const JsonValue& height, const JsonValue& value) {
                                          rate ? rate->number(1, 1e6) : k_device_rate_hz);
 }
 
+/// The photographs of one place, what lit them, and what is known of their scale. Lights and references are a file
+/// beside MATERIALS.json, or stand in it.
+void read_photographs(const JsonValue& value, const std::filesystem::path& source, HeightRule& rule) {
+  const auto images = value.get("images"), lights = value.get("lights"), reference = value.get("reference");
+  if (!images) {
+    for (const auto& key : {lights, reference})
+      if (key) key->fail("needs 'images', three or more photographs");
+    return;
+  }
+  for (const char* key : {"method", "light", "periodic", "roughness", "cut", "rate", "speed", "tile", "source", "seed"})
+    if (const auto v = value.get(key)) v->fail("is for one picture, not for 'images'");
+  const std::filesystem::path folder = source.parent_path();
+  for (const JsonValue& image : images->list()) {
+    if (image.text().empty()) image.fail("must not be empty");
+    rule.images.push_back(folder / image.text());
+  }
+  constexpr std::size_t k_least = 3;
+  if (rule.images.size() < k_least) images->fail("must be three photographs or more");
+  const auto is_file = [](const JsonValue& v) { return v.json().is_string() && v.json() != "unknown"; };
+  const auto read = [](const JsonValue& key, const auto& work) {
+    try {
+      return work();
+    } catch (const IoError& error) {
+      key.fail(error.what());
+    } catch (const InvalidInput& error) {
+      key.fail(error.what());
+    }
+  };
+  if (lights) {
+    rule.lights = is_file(*lights)
+                      ? read(*lights, [&] { return read_lights(folder / lights->text(), rule.images.size()); })
+                      : lights_of_value(*lights, rule.images.size());
+    if (rule.lights.source.empty()) rule.lights.source = "lights";
+  }
+  if (reference)
+    rule.references = is_file(*reference)
+                          ? read(*reference, [&] { return read_references(folder / reference->text()); })
+                          : references_of_value(*reference, source);
+}
+
 /// @param rule  gets what the file says.
-void read_height(const JsonValue& value, HeightRule& rule) {
-  value.expect_keys({"method", "depth_mm", "depth", "scale", "max_slope", "pitch", "light", "periodic", "roughness",
-                     "transfer", "cut", "rate", "speed", "tile", "alternative", "source", "seed"});
+void read_height(const JsonValue& value, const std::filesystem::path& source, HeightRule& rule) {
+  value.expect_keys({"method",      "depth_mm",  "depth",    "scale",  "max_slope", "pitch",    "light",
+                     "periodic",    "roughness", "transfer", "cut",    "rate",      "speed",    "tile",
+                     "alternative", "source",    "seed",     "images", "lights",    "reference"});
+  read_photographs(value, source, rule);
   HeightOptions& height = rule.relief.height;
   if (const auto v = value.get("method"))
     height.method = height_method(v->one_of({"auto", "wiener", "variational", "pentland", "tsai-shah", "intensity"}));
@@ -115,7 +158,7 @@ MaterialRule library_rule(const JsonValue& value, const std::string& name, const
   }
 }
 
-MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& folder,
+MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& source,
                            const std::filesystem::path& library) {
   value.expect_keys({"material", "texture", "time", "size_mm", "stiffness", "damping", "staticFriction",
                      "dynamicFriction", "stribeckVelocity", "frictionModel", "forceModel", "forceShading", "height",
@@ -127,7 +170,7 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
     const std::string texture = v->text();
     if (texture.empty()) v->fail("must not be empty");
     if (texture.starts_with(k_grain_prefix)) check_grain(*v, texture.substr(k_grain_prefix.size()));
-    rule.texture = folder / texture;
+    rule.texture = source.parent_path() / texture;
     rule.recipe = texture;
   }
   if (const auto v = value.get("time")) rule.time = v->number(0, 1);
@@ -151,7 +194,11 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
   if (rule.static_friction && rule.dynamic_friction && *rule.dynamic_friction > *rule.static_friction)
     value.fail(rule.library.empty() ? "dynamicFriction must not exceed staticFriction"
                                     : "dynamicFriction must not exceed staticFriction; one of them is the library's");
-  if (const auto v = value.get("height")) read_height(*v, rule.height);
+  if (const auto v = value.get("height")) read_height(*v, source, rule.height);
+  if (!rule.height.images.empty() && (rule.texture.empty() || !value.get("texture"))) {
+    rule.texture = rule.height.images.front();
+    rule.recipe.clear();
+  }
   if (const auto v = value.get("unwrap"))
     rule.unwrap = v->one_of({"auto", "keep", "new", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
@@ -189,7 +236,7 @@ Materials read_materials(const std::filesystem::path& path, const std::filesyste
   const JsonValue materials = root.require("materials");
   materials.expect_object();
   for (const auto& [name, unused] : materials.json().items())
-    file.materials.emplace(name, read_material(*materials.get(name), name, path.parent_path(), library));
+    file.materials.emplace(name, read_material(*materials.get(name), name, path, library));
   if (const auto assign = root.get("assign"))
     for (const JsonValue& rule : assign->list()) file.assign.push_back(read_assign(rule, file));
   return file;

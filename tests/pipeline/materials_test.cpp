@@ -95,6 +95,44 @@ TEST_F(MaterialsTest, HeightTakesTheOptionsOfTheVerb) {
       std::string::npos);
 }
 
+TEST_F(MaterialsTest, HeightTakesSeveralPhotographs) {
+  std::ofstream(folder_ / "LIGHTS.json") << R"({"lights": [[1, 0, 1], [0, 1, 1], [-1, 0, 1]]})";
+  std::ofstream(folder_ / "REF.json") << R"({"ruler_mm": 5, "from_px": [1, 2], "to_px": [3, 4]})";
+  const Materials file = read(R"({"materials": {
+      "files": {"height": {"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": "LIGHTS.json", "reference": "REF.json"}},
+      "here": {"texture": "t.png", "height": {"images": ["a.jpg", "b.jpg", "c.jpg"],
+               "lights": [[1, 0, 1], [0, 1, 1], [-1, 0, 2]], "reference": [{"grid_mm": 2}], "alternative": true}},
+      "ball": {"height": {"images": ["a.jpg", "b.jpg", "c.jpg"],
+               "lights": {"sphere": {"centre_px": [30, 20], "radius_px": 9, "kind": "matte"}}}},
+      "open": {"height": {"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": "unknown"}}}})");
+  const MaterialRule& files = file.materials.at("files");
+  EXPECT_EQ(files.texture, folder_ / "a.jpg");
+  ASSERT_EQ(files.height.images.size(), 3U);
+  EXPECT_EQ(files.height.images[2], folder_ / "c.jpg");
+  EXPECT_EQ(files.height.lights.directions.size(), 3U);
+  EXPECT_EQ(files.height.references.size(), 1U);
+  const MaterialRule& here = file.materials.at("here");
+  EXPECT_EQ(here.texture, folder_ / "t.png");
+  EXPECT_EQ(here.height.lights.directions.at(2).z, 2);
+  EXPECT_EQ(here.height.references.at(0).kind, HeightReference::Kind::grid);
+  EXPECT_TRUE(here.height.opposite);
+  EXPECT_TRUE(file.materials.at("ball").height.lights.sphere);
+  EXPECT_TRUE(file.materials.at("open").height.lights.directions.empty());
+
+  const auto refused = [&](const std::string& height, const std::string& reason) {
+    const std::string said = complaint(R"({"materials": {"a": {"height": )" + height + "}}}");
+    EXPECT_NE(said.find("/materials/a/height" + reason), std::string::npos) << said;
+  };
+  refused(R"({"images": ["a.jpg", "b.jpg"]})", "/images: must be three photographs or more");
+  refused(R"({"images": ["a.jpg", "b.jpg", ""]})", "/images/2: must not be empty");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "method": "pentland"})", "/method: is for one picture");
+  refused(R"({"lights": "LIGHTS.json"})", "/lights: needs 'images'");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg", "d.jpg"], "lights": "LIGHTS.json"})", "/lights: ");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": [[1, 0, 1]]})", "/lights: 1 lights for 3 photographs");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": "NONE.json"})", "/lights: ");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "reference": {"ruler": 5}})", "/reference");
+}
+
 TEST_F(MaterialsTest, ReadsHowASurfaceHoldsAndShades) {
   const Materials file = read(R"({"materials": {
       "cloth": {"frictionModel": {"name": "bristle", "stiffness": 400}, "forceShading": true}, "plain": {}}})");

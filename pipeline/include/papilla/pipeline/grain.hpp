@@ -33,6 +33,8 @@ struct GrainHeight {
   double unlimited_depth_mm = 0;               ///< Peak to valley before its slopes were limited.
   double max_slope = 0;                        ///< The limit of the slopes, mm per mm.
   SlopeLimitResult slopes = {};                ///< What limiting them changed; its relief is the grain's.
+  std::vector<std::string> photographs = {};   ///< Of one place, when it is the relief of several.
+  std::optional<StereoFiles> stereo = {};      ///< Of those, without map and confidence.
   std::optional<RoughnessModel> overlay = {};  ///< Roughness that the player lays over the relief.
 };
 
