@@ -267,7 +267,7 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
 
 /// A recipe has its own height.
 void require_picture(const MaterialRule& rule, const Source& source) {
-  if (source.recipe)
+  if (source.computed)
     throw InvalidInput("material '" + rule.name +
                        "', height.images: the texture is a recipe, which has its own height");
 }
