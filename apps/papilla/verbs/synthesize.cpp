@@ -67,8 +67,9 @@ void add_synthesize(CLI::App& program) {
   reads(verb->add_option("relief_file", options->relief_file,
                          "Photo: height map of the surface, a picture or millimetres"))
       ->type_name("RELIEF");
-  writes(verb->add_option("-o,--output", options->output,
-                          "Picture: the lit grain, the fractal surface as grey values, or the photograph"))
+  writes(verb->add_option(
+             "-o,--output", options->output,
+             "Picture: the lit grain, the fractal surface as grey values, or the photograph (.exr: linear floats)"))
       ->required()
       ->type_name("FILE");
   writes(verb->add_option("--relief", options->relief, "True relief: 16-bit .png, or .exr or .tif in millimetres"))
