@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   add_height(program);
   add_texture(program);
   add_weather(program);
+  add_materials(program);
   add_plan(program);
   add_bake(program);
   add_view(program);

@@ -36,6 +36,7 @@
 #include "papilla/io/gltf_reader.hpp"
 #include "report.hpp"
 #include "standard_output.hpp"
+#include "vibration_output.hpp"
 
 namespace {
 
@@ -52,6 +53,8 @@ struct Options {
   double rate_hz = 1000, seconds = 0, watchdog_ms = 10;
   std::optional<double> probe_radius_mm;
   double reach_mm = 0, speed = 0.1;
+  std::string vibration;
+  double full_scale_m_per_s2 = 50;
   std::string motion = "stroke";
   std::uint64_t seed = 1;
   std::vector<double> origin;
@@ -198,6 +201,7 @@ void check_end(const RunReport& report, bool file_changed, const std::string& fi
 }
 
 int run(const Options& options) {
+  if (!options.vibration.empty()) require_sound_target(options.vibration);
   const DeviceChoice choice = parse_device(options.device);
   const double period = 1 / options.rate_hz;
   RunReport report;
@@ -274,12 +278,16 @@ int run(const Options& options) {
     std::optional<LivePublisher> publisher;
     if (options.live) publisher.emplace(*options.live, live_greeting(report, options));
     if (publisher) loop.latest = &publisher->slot();
+    std::optional<VibrationOutput> vibration;
+    if (!options.vibration.empty())
+      vibration.emplace(options.vibration, surface, options.rate_hz, options.full_scale_m_per_s2).follow(loop);
     std::optional<std::jthread> view;
     const bool shown = !options.quiet && ::isatty(STDERR_FILENO) != 0;
     if (shown) view = repeat_every(std::chrono::milliseconds(200), [&] { return print_status(status), true; });
     report.loop = run_haptic_loop(device, surface, loop);
     view.reset();
     if (shown) print_status(status), std::fputc('\n', stderr);
+    if (vibration) report.vibration = vibration->finish();
   }
 
   std::optional<app::Failure> failure;
@@ -369,6 +377,15 @@ int main(int argc, char** argv) {
                                  "Write hand, probe, proxy and force of every tick; can be played again as T.csv"))
       ->type_name("R.csv");
   program
+      .add_option("--vibration", options.vibration,
+                  "Write the acceleration of the stroke as sound, 20 to 1000 Hz: a .wav file, or play it on an ALSA "
+                  "device, for voice coils, controllers with audio haptics and headphones")
+      ->type_name("FILE.wav|{alsa}[:DEVICE]");
+  program.add_option("--full-scale", options.full_scale_m_per_s2, "Acceleration that is 1 in the sound")
+      ->type_name("M/S2")
+      ->check(app::in_range(0.01, 1e4))
+      ->capture_default_str();
+  program
       .add_option("--probe-radius", options.probe_radius_mm,
                   "Radius of the probe, default: the device's, 0.5; 0: a point")
       ->type_name("MM")
@@ -412,6 +429,8 @@ int main(int argc, char** argv) {
     if (options.list) return list_devices(options);
     if (!live->empty() && options.live.value_or("").empty()) options.live = app::default_live_socket();
     if (file->empty()) throw app::UsageError("a FILE is required");
+    if (!options.vibration.empty() && !is_sound_target(options.vibration))
+      throw app::UsageError("--vibration '" + options.vibration + "': is neither FILE.wav nor alsa or alsa:DEVICE");
     return run(options);
   } catch (...) {
     return app::report_exception("papilla-player", as_json);

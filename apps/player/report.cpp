@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report.hpp"
+#include "audio_sink.hpp"
 
 #include <sys/resource.h>
 
@@ -43,6 +44,24 @@ std::string pause_line(const LoopResult& loop) {
                            loop.pauses, loop.longest_pause_s);
 }
 
+Json vibration_json(const std::optional<VibrationReport>& vibration) {
+  if (!vibration) return nullptr;
+  return {{"target", vibration->target},
+          {"samples", vibration->samples},
+          {"sample_rate_hz", k_audio_rate_hz},
+          {"peak_m_per_s2", vibration->peak_m_per_s2},
+          {"rms_m_per_s2", vibration->rms_m_per_s2},
+          {"beyond_full_scale", vibration->limited},
+          {"missed_ticks", vibration->missed_ticks}};
+}
+
+std::string vibration_line(const std::optional<VibrationReport>& vibration) {
+  if (!vibration) return "";
+  return app::shown_format("  vibration on {}: rms {:.3g} m/s2, peak {:.3g}{}\n", vibration->target,
+                           vibration->rms_m_per_s2, vibration->peak_m_per_s2,
+                           vibration->limited ? ", rounded off beyond --full-scale" : "");
+}
+
 }  // namespace
 
 Json to_json(const RunReport& r) {
@@ -83,6 +102,7 @@ Json to_json(const RunReport& r) {
           {"fixed_priority", loop.fixed_priority},
           {"memory_locked", loop.memory_locked},
           {"warnings", warnings},
+          {"vibration", vibration_json(r.vibration)},
           {"triangles", r.triangles},
           {"contact_bytes", r.contact_bytes},
           {"load_seconds", r.load_seconds},
@@ -105,7 +125,7 @@ std::string summary(const RunReport& r) {
   text += quantile_line("tick", loop.tick_us) + quantile_line("wake-up", loop.wakeup_us);
   text += app::shown_format("  contact on {} ticks, lost on {}, largest force {:.2f} N, stiffness limit {:.0f} N/m\n",
                             loop.contact_ticks, loop.lost_contact_ticks, loop.max_force_n, r.stiffness_limit);
-  return text;
+  return text + vibration_line(r.vibration);
 }
 
 }  // namespace papilla::player

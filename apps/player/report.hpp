@@ -2,12 +2,14 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "papilla/haptic/haptic_loop.hpp"
 #include "papilla/haptic/stability.hpp"
 #include "papilla/io/haptic_scene.hpp"
+#include "vibration_output.hpp"
 
 namespace papilla::player {
 
@@ -23,6 +25,7 @@ struct RunReport {
   TagSurvival tags;
   std::vector<MaterialWarning> warnings;
   LoopResult loop;
+  std::optional<VibrationReport> vibration;
 };
 
 nlohmann::ordered_json to_json(const RunReport& report);

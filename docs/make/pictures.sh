@@ -28,9 +28,11 @@ done
 grain=$runs/photographs
 mkdir -p "$grain"
 "$bin/papilla" synthesize grain --kind quads8 --size 400 -o "$grain/grain.png" --relief "$grain/truth.exr" --quiet
+seed=0
 while read -r name light; do
+  seed=$((seed + 1))
   "$bin/papilla" synthesize photo "$grain/truth.exr" -o "$grain/$name.jpg" "--light=$light" --albedo-noise 0.08 --uneven-light 0.15 \
-    --vignette 0.1 --blur-px 0.7 --noise 0.01 --quiet
+    --vignette 0.1 --blur-px 0.7 --noise 0.01 --seed $seed --quiet
 done <<<"right 0.77,0,0.64
 below 0,0.77,0.64
 left -0.77,0,0.64

@@ -211,7 +211,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
       if (tick.proxy().in_contact) ++result.contact_ticks;
       if (tick.lost()) ++result.lost_contact_ticks;
       result.max_force_n = std::max(result.max_force_n, norm(force));
-      if (options.record || options.latest) {
+      if (options.record || options.latest || !options.recent.empty()) {
         const double t = start_s + static_cast<double>(i) * period;
         const RecordRow row = {t,
                                options.hand ? options.hand->position(t) : state.position,
@@ -220,6 +220,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
                                force,
                                tick.proxy().in_contact};
         if (options.record) (*options.record)[i] = row;
+        if (!options.recent.empty()) options.recent[i % options.recent.size()] = row;
         if (options.latest) options.latest->store(row);
       }
       if (options.status) publish_status(*options.status, result, norm(force), tick_us, late_us.value_or(0));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,7 +20,9 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/procedural/texture.hpp"
+#include "papilla/texture/grain.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/picture_relief.hpp"
@@ -65,12 +68,63 @@ EncodedImage png(std::string name, std::vector<std::byte> bytes) {
 
 /// The picture of a material, from a file or computed.
 struct Source {
-  GreyImage grey;  ///< Of a recipe: the height channel.
+  GreyImage grey;  ///< Of a recipe or test grain: heights.
   ColorImage color;
   Transfer transfer = Transfer::automatic;
-  bool recipe = false;
-  double friction = 0, stiffness = 1;  ///< Of a recipe: means of the channels.
+  bool computed = false;                ///< Of a recipe or a test grain: heights, not a photograph.
+  std::optional<double> friction = {};  ///< Of a recipe: mean of the channel.
+  double stiffness = 1;                 ///< The same.
 };
+
+bool measures_pitch(const MaterialRule& rule) {
+  using Kind = HeightReference::Kind;
+  return std::any_of(rule.height.references.begin(), rule.height.references.end(),
+                     [](const HeightReference& r) { return r.kind == Kind::ruler || r.kind == Kind::grid; });
+}
+
+/// Errors of the rule's photographs name the place.
+template <class Work>
+auto about_images(const MaterialRule& rule, const Work& work) try {
+  return work();
+} catch (const IoError& error) {
+  throw IoError("material '" + rule.name + "', height.images: " + error.what());
+} catch (const InvalidInput& error) {
+  throw InvalidInput("material '" + rule.name + "', height.images: " + error.what());
+}
+
+/// The relief of the rule's photographs, and the size that a ruler in them says.
+StereoFiles make_stereo(const MaterialRule& rule, double (&size_mm)[2], std::vector<std::string>& warnings) {
+  const int width = width_of_picture_files(rule.height.images);
+  StereoFileOptions options{.files = {}, .lights = rule.height.lights, .references = rule.height.references};
+  options.files.height = rule.height.relief.height;
+  options.files.height.pitch_mm = rule.height.pitch_mm > 0 ? rule.height.pitch_mm : rule.size_mm[0] / width;
+  options.is_depth_given = rule.height.depth_mm.has_value();
+  options.files.height.depth_mm = rule.height.depth_mm.value_or(0);
+  StereoFiles made = relief_of_picture_files(rule.height.images, options);
+  const HeightMap& map = made.files.result.map;
+  if (!(map.pitch_mm_x > 0))
+    throw InvalidInput("no resolution; size_mm, height.pitch or a ruler must say how many millimetres they show");
+  if (!measures_pitch(rule)) return made;
+  const double measured[2] = {map.pitch_mm_x * map.width, map.pitch_mm_y * map.height};
+  constexpr double k_same = 0.02;
+  for (int k = 0; k < 2; ++k) {
+    if (rule.size_mm[k] > 0 && std::abs(measured[k] - rule.size_mm[k]) > k_same * measured[k])
+      warnings.push_back(fmt::format("material '{}': size_mm/{}: {:.4g} mm are {:.4g} mm by the ruler in height.images",
+                                     rule.name, k, rule.size_mm[k], measured[k]));
+    size_mm[k] = measured[k];
+  }
+  return made;
+}
+
+/// What is done with the photographs of one place.
+AnalysisPlan stereo_plan(const HeightRule& rule) {
+  return {{"registration", true, "photographs of one place may be moved by pixels"},
+          {"photometric_stereo", true,
+           fmt::format("{} photographs under different light, lights {}", rule.images.size(),
+                       rule.lights.sphere               ? "by a ball"
+                       : rule.lights.directions.empty() ? "unknown"
+                                                        : "given")}};
+}
 
 /// What the class's plan is carried out with.
 PictureReliefOptions relief_options(const MaterialRule& rule, const Source& source, const Grain& grain) {
@@ -102,19 +156,41 @@ void limit_roughness(const MaterialRule& rule, double max_slope, Grain& grain) {
   grain.height.max_slope = max_slope - k_peaks * overlay.rms_slope;
 }
 
-/// The relief of the picture, at most k_most_samples a side, over the grain's size, which becomes that of the relief.
+/// What the rule makes of a relief, at most k_most_samples a side.
+HeightMap fitted(const MaterialRule& rule, HeightMap relief) {
+  if (rule.height.opposite) relief = opposite_relief(relief);
+  if (relief.width > k_most_samples || relief.height > k_most_samples)
+    relief = resample(relief, std::min(relief.width, k_most_samples), std::min(relief.height, k_most_samples));
+  for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
+  return relief;
+}
+
+/// The relief of several photographs over the grain's size.
+HeightMap several_relief(const MaterialRule& rule, StereoFiles made, Grain& grain) {
+  HeightMap relief = std::exchange(made.files.result.map, {});
+  relief.pitch_mm_x = grain.size_mm[0] / relief.width;
+  relief.pitch_mm_y = grain.size_mm[1] / relief.height;
+  grain.height = {.method = std::string(to_string(made.files.result.method)),
+                  .reason = made.files.result.reason,
+                  .light_estimated = made.stereo.lights_estimated,
+                  .stop = made.stereo.stop};
+  grain.plan = stereo_plan(rule.height);
+  made.stereo.confidence = {};
+  for (const auto& image : rule.height.images) grain.height.photographs.push_back(image.string());
+  grain.height.stereo = std::move(made);
+  return fitted(rule, std::move(relief));
+}
+
+/// The relief of the picture over the grain's size, which becomes that of the relief.
 HeightMap make_relief(const MaterialRule& rule, const Source& source, const TextureReading& reading, Grain& grain) {
   const GreyImage& image = source.grey;
   PictureRelief made = relief_of_picture(image, reading, relief_options(rule, source, grain));
   HeightMap relief = std::move(made.height.map);
-  if (rule.height.opposite) relief = opposite_relief(relief);
   relief.pitch_mm_x = grain.size_mm[0] / image.width;
   relief.pitch_mm_y = grain.size_mm[1] / image.height;
   grain.size_mm[0] = relief.pitch_mm_x * relief.width;
   grain.size_mm[1] = relief.pitch_mm_y * relief.height;
-  if (relief.width > k_most_samples || relief.height > k_most_samples)
-    relief = resample(relief, std::min(relief.width, k_most_samples), std::min(relief.height, k_most_samples));
-  for (float& h : relief.mm) h = static_cast<float>(rule.height.scale * static_cast<double>(h));
+  relief = fitted(rule, std::move(relief));
   grain.height = {.method = made.like ? "synthesis" : std::string(to_string(made.height.method)),
                   .reason = made.height.reason,
                   .light = made.like || made.height.method == HeightMethod::intensity
@@ -146,7 +222,7 @@ Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
     render.channels |= 1U << static_cast<unsigned>(c);
   RenderedTexture texture = render_texture(compile_texture(rule.recipe, library, options), render);
   Source source;
-  source.recipe = true;
+  source.computed = true;
   source.friction = mean_of(texture.values[Channel::friction]);
   source.stiffness = mean_of(texture.values[Channel::stiffness]);
   source.color = to_color_image(texture.values[Channel::color], texture.width, texture.height);
@@ -154,8 +230,25 @@ Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
   return source;
 }
 
+/// A test grain as heights of [0, 1]; its picture is the lit relief.
+Source synthesized_source(const MaterialRule& rule) {
+  const GrainOptions options{.size_px = k_recipe_samples, .seed = rule.height.relief.height.seed};
+  const GrainResult made = synthesize_grain(grain_kind(rule.recipe.substr(k_grain_prefix.size())), options);
+  Source source;
+  source.computed = true;
+  source.grey = {made.relief.width, made.relief.height, made.relief.mm, 0, 32};
+  for (float& h : source.grey.pixels) h /= static_cast<float>(options.height_mm);
+  for (const float g : made.picture.pixels)
+    source.color.pixels.insert(source.color.pixels.end(), 3,
+                               static_cast<unsigned char>(std::lround(255 * std::clamp(g, 0.0F, 1.0F))));
+  source.color.width = made.picture.width;
+  source.color.height = made.picture.height;
+  return source;
+}
+
 /// A file of that name wins over a recipe of that name.
 Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
+  if (rule.recipe.starts_with(k_grain_prefix)) return synthesized_source(rule);
   std::error_code error;
   if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
     return computed_source(rule, library);
@@ -172,6 +265,13 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   }
 }
 
+/// A recipe has its own height.
+void require_picture(const MaterialRule& rule, const Source& source) {
+  if (source.computed)
+    throw InvalidInput("material '" + rule.name +
+                       "', height.images: the texture is a recipe, which has its own height");
+}
+
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.
 HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain& grain) {
   const double depth = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
@@ -182,7 +282,9 @@ HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain&
                    grain.size_mm[1] / source.grey.height,
                    true};
   for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
-  grain.height = {.method = "recipe", .reason = "the height channel of the recipe"};
+  grain.height = rule.recipe.starts_with(k_grain_prefix)
+                     ? GrainHeight{.method = "grain", .reason = "the grain is computed"}
+                     : GrainHeight{.method = "recipe", .reason = "the height channel of the recipe"};
   return relief;
 }
 
@@ -299,7 +401,13 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   GrainPlan plan{rule.name, {}, {}};
   try {
     const Source source = read_source(rule, library);
-    if (source.recipe) return plan;
+    if (!rule.height.images.empty()) {
+      require_picture(rule, source);
+      about_images(rule, [&] { return width_of_picture_files(rule.height.images); });
+      plan.steps = stereo_plan(rule.height);
+      return plan;
+    }
+    if (source.computed) return plan;
     Grain grain;
     find_size(rule, source.grey, grain.size_mm);
     look_at(rule, source, grain);
@@ -314,7 +422,14 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
   Grain grain;
   const Stopwatch analyze_clock;
   Source source = read_source(rule, library);
-  find_size(rule, source.grey, grain.size_mm);
+  std::optional<StereoFiles> several;
+  const Stopwatch stereo_clock;
+  if (!rule.height.images.empty()) {
+    require_picture(rule, source);
+    several = about_images(rule, [&] { return make_stereo(rule, grain.size_mm, grain.warnings); });
+    grain.height_seconds = stereo_clock.seconds();
+  }
+  if (!several || !measures_pitch(rule)) find_size(rule, source.grey, grain.size_mm);
   look_at(rule, source, grain);
   ReadingOptions in_time;
   in_time.deadline = deadline.earlier_by(k_seconds_to_read_a_pixel * static_cast<double>(source.grey.pixels.size()));
@@ -323,16 +438,18 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
     grain.warnings.push_back(fmt::format(
         "material '{}': no lattice and no roughness was looked for: the time limit left no time for it", rule.name));
   describe_picture(reading, {grain.size_mm[0] / source.grey.width, grain.size_mm[1] / source.grey.height}, grain);
-  grain.source = source.recipe ? rule.recipe : rule.texture.string();
-  if (source.recipe) {
-    grain.tag.static_friction = grain.tag.dynamic_friction = source.friction;
+  grain.source = source.computed ? rule.recipe : rule.texture.string();
+  if (source.computed) {
+    if (source.friction) grain.tag.static_friction = grain.tag.dynamic_friction = *source.friction;
     grain.stiffness_factor = source.stiffness;
   }
   grain.photograph = std::move(source.color);
-  grain.analyze_seconds = analyze_clock.seconds();
+  grain.analyze_seconds = analyze_clock.seconds() - grain.height_seconds;
 
   const Stopwatch height_clock;
-  grain.relief = source.recipe ? computed_relief(rule, source, grain) : make_relief(rule, source, reading, grain);
+  grain.relief = several           ? several_relief(rule, std::move(*several), grain)
+                 : source.computed ? computed_relief(rule, source, grain)
+                                   : make_relief(rule, source, reading, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
   describe_relief(grain, {.dimension = reading.stop != StopReason::time_limit});
@@ -342,7 +459,7 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
                                                     .offset_mm = encoded.offset_mm,
                                                     .rms_mm = rms_height_mm(grain.relief)});
   grain.tag.height->metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
-  grain.height_seconds = height_clock.seconds();
+  grain.height_seconds += height_clock.seconds();
 
   const Stopwatch normal_clock;
   grain.normal_png = png("normal." + rule.name, encode_png(normal_map(grain.relief)));

@@ -67,7 +67,7 @@ bool JsonValue::yes_or_no() const {
   return json_.get<bool>();
 }
 
-std::string JsonValue::one_of(std::initializer_list<std::string_view> choices) const {
+std::string JsonValue::one_of(const std::vector<std::string_view>& choices) const {
   const std::string value = text();
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
   fail("'" + value + "' must be one of " + joined(choices) + did_you_mean(value, choices));

@@ -36,7 +36,7 @@ class JsonValue {
   void expect_keys(std::initializer_list<std::string_view> known) const;
   std::string text() const;
   bool yes_or_no() const;
-  std::string one_of(std::initializer_list<std::string_view> choices) const;
+  std::string one_of(const std::vector<std::string_view>& choices) const;
   double number(double low, double high) const;
   /// In lower case.
   std::string hex_colour() const;

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json_value.hpp"
+#include "lights_value.hpp"
 #include "papilla/core/referenced_file.hpp"
 #include "papilla/pipeline/stereo_file.hpp"
 
@@ -65,16 +66,15 @@ void read_object(const JsonValue& value, const std::filesystem::path& source,
 
 }  // namespace
 
-LightsFile read_lights(const std::filesystem::path& path, std::size_t photographs) {
-  const JsonValue::Json json = read_json(path);
-  const JsonValue root(json, path.string(), "");
-  LightsFile file;
-  if (json.is_string()) {
+StereoLights lights_of_value(const JsonValue& root, std::size_t photographs) {
+  StereoLights file;
+  if (root.json().is_string()) {
     root.one_of({"unknown"});
     return file;
   }
-  root.expect_keys({"lights", "sphere", "$comment"});
-  if (const auto sphere = root.get("sphere")) {
+  const bool is_list = root.json().is_array();
+  if (!is_list) root.expect_keys({"lights", "sphere", "$comment"});
+  if (const auto sphere = is_list ? std::nullopt : root.get("sphere")) {
     if (root.get("lights")) root.fail("either lights or a sphere");
     sphere->expect_keys({"centre_px", "radius_px", "kind"});
     file.sphere =
@@ -82,7 +82,7 @@ LightsFile read_lights(const std::filesystem::path& path, std::size_t photograph
                     sphere->require("kind").one_of({"mirror", "matte"}) == "mirror"};
     return file;
   }
-  const JsonValue lights = root.require("lights");
+  const JsonValue lights = is_list ? root : root.require("lights");
   if (lights.json().is_string()) {
     lights.one_of({"unknown"});
     return file;
@@ -93,16 +93,26 @@ LightsFile read_lights(const std::filesystem::path& path, std::size_t photograph
   return file;
 }
 
-std::vector<HeightReference> read_references(const std::filesystem::path& path) {
+StereoLights read_lights(const std::filesystem::path& path, std::size_t photographs) {
   const JsonValue::Json json = read_json(path);
-  const JsonValue root(json, path.string(), "");
+  StereoLights lights = lights_of_value(JsonValue(json, path.string(), ""), photographs);
+  lights.source = path.string();
+  return lights;
+}
+
+std::vector<HeightReference> references_of_value(const JsonValue& root, const std::filesystem::path& source) {
   std::vector<HeightReference> references;
-  if (json.is_array())
-    for (const JsonValue& value : root.list()) read_object(value, path, references);
+  if (root.json().is_array())
+    for (const JsonValue& value : root.list()) read_object(value, source, references);
   else
-    read_object(root, path, references);
+    read_object(root, source, references);
   if (references.empty()) root.fail("at least one reference is needed");
   return references;
+}
+
+std::vector<HeightReference> read_references(const std::filesystem::path& path) {
+  const JsonValue::Json json = read_json(path);
+  return references_of_value(JsonValue(json, path.string(), ""), path);
 }
 
 }  // namespace papilla

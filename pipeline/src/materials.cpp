@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/materials.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "json_value.hpp"
+#include "lights_value.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/haptic/stimulus.hpp"
+#include "papilla/pipeline/library_material.hpp"
+#include "papilla/pipeline/material_library.hpp"
 
 namespace papilla {
 namespace {
@@ -32,10 +36,52 @@ double read_cut(const JsonValue& height, const JsonValue& value) {
                                          rate ? rate->number(1, 1e6) : k_device_rate_hz);
 }
 
-HeightRule read_height(const JsonValue& value) {
-  value.expect_keys({"method", "depth_mm", "depth", "scale", "max_slope", "pitch", "light", "periodic", "roughness",
-                     "transfer", "cut", "rate", "speed", "tile", "alternative", "source", "seed"});
-  HeightRule rule;
+/// The photographs of one place, what lit them, and what is known of their scale. Lights and references are a file
+/// beside MATERIALS.json, or stand in it.
+void read_photographs(const JsonValue& value, const std::filesystem::path& source, HeightRule& rule) {
+  const auto images = value.get("images"), lights = value.get("lights"), reference = value.get("reference");
+  if (!images) {
+    for (const auto& key : {lights, reference})
+      if (key) key->fail("needs 'images', three or more photographs");
+    return;
+  }
+  for (const char* key : {"method", "light", "periodic", "roughness", "cut", "rate", "speed", "tile", "source", "seed"})
+    if (const auto v = value.get(key)) v->fail("is for one picture, not for 'images'");
+  const std::filesystem::path folder = source.parent_path();
+  for (const JsonValue& image : images->list()) {
+    if (image.text().empty()) image.fail("must not be empty");
+    rule.images.push_back(folder / image.text());
+  }
+  constexpr std::size_t k_least = 3;
+  if (rule.images.size() < k_least) images->fail("must be three photographs or more");
+  const auto is_file = [](const JsonValue& v) { return v.json().is_string() && v.json() != "unknown"; };
+  const auto read = [](const JsonValue& key, const auto& work) {
+    try {
+      return work();
+    } catch (const IoError& error) {
+      key.fail(error.what());
+    } catch (const InvalidInput& error) {
+      key.fail(error.what());
+    }
+  };
+  if (lights) {
+    rule.lights = is_file(*lights)
+                      ? read(*lights, [&] { return read_lights(folder / lights->text(), rule.images.size()); })
+                      : lights_of_value(*lights, rule.images.size());
+    if (rule.lights.source.empty()) rule.lights.source = "lights";
+  }
+  if (reference)
+    rule.references = is_file(*reference)
+                          ? read(*reference, [&] { return read_references(folder / reference->text()); })
+                          : references_of_value(*reference, source);
+}
+
+/// @param rule  gets what the file says.
+void read_height(const JsonValue& value, const std::filesystem::path& source, HeightRule& rule) {
+  value.expect_keys({"method",      "depth_mm",  "depth",    "scale",  "max_slope", "pitch",    "light",
+                     "periodic",    "roughness", "transfer", "cut",    "rate",      "speed",    "tile",
+                     "alternative", "source",    "seed",     "images", "lights",    "reference"});
+  read_photographs(value, source, rule);
   HeightOptions& height = rule.relief.height;
   if (const auto v = value.get("method"))
     height.method = height_method(v->one_of({"auto", "wiener", "variational", "pentland", "tsai-shah", "intensity"}));
@@ -59,7 +105,6 @@ HeightRule read_height(const JsonValue& value) {
   if (const auto v = value.get("seed")) height.seed = static_cast<std::uint64_t>(v->number(0, 1e9));
   if (const auto v = value.get("scale")) rule.scale = v->number(0, 100);
   if (const auto v = value.get("max_slope")) rule.max_slope = v->number(0.01, 1000);
-  return rule;
 }
 
 FrictionTag read_friction_model(const JsonValue& value) {
@@ -91,16 +136,41 @@ ForceModelTag read_force_model(const JsonValue& value) {
   return tag;
 }
 
-MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& folder) {
-  value.expect_keys({"texture", "time", "size_mm", "stiffness", "damping", "staticFriction", "dynamicFriction",
-                     "stribeckVelocity", "frictionModel", "forceModel", "forceShading", "height", "unwrap", "show",
-                     "color", "roughness", "metallic", "$comment"});
+void check_grain(const JsonValue& value, const std::string& name) {
+  const std::vector<std::string_view> known = grain_names();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    value.fail("there is no grain '" + name + "'" + did_you_mean(name, known));
+}
+
+/// The rule of the library's material that "library:ID" names.
+MaterialRule library_rule(const JsonValue& value, const std::string& name, const std::filesystem::path& library) {
+  const std::string text = value.text();
+  const std::string id = text.substr(std::min(text.size(), k_library_prefix.size()));
+  if (!text.starts_with(k_library_prefix) || !is_library_id(id))
+    value.fail("must be \"library:\" and the id of a material of the library");
+  try {
+    const MaterialLibrary all(library.empty() ? find_material_library() : library);
+    MaterialRule rule = rule_of(all.material(id), name);
+    rule.library = id;
+    return rule;
+  } catch (const UnknownMaterial& unknown) {
+    value.fail(unknown.what());
+  }
+}
+
+MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& source,
+                           const std::filesystem::path& library) {
+  value.expect_keys({"material", "texture", "time", "size_mm", "stiffness", "damping", "staticFriction",
+                     "dynamicFriction", "stribeckVelocity", "frictionModel", "forceModel", "forceShading", "height",
+                     "unwrap", "show", "color", "roughness", "metallic", "$comment"});
   MaterialRule rule;
+  if (const auto v = value.get("material")) rule = library_rule(*v, name, library);
   rule.name = name;
   if (const auto v = value.get("texture")) {
     const std::string texture = v->text();
     if (texture.empty()) v->fail("must not be empty");
-    rule.texture = folder / texture;
+    if (texture.starts_with(k_grain_prefix)) check_grain(*v, texture.substr(k_grain_prefix.size()));
+    rule.texture = source.parent_path() / texture;
     rule.recipe = texture;
   }
   if (const auto v = value.get("time")) rule.time = v->number(0, 1);
@@ -122,8 +192,13 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
   number("roughness", rule.roughness, 0, 1);
   number("metallic", rule.metallic, 0, 1);
   if (rule.static_friction && rule.dynamic_friction && *rule.dynamic_friction > *rule.static_friction)
-    value.fail("dynamicFriction must not exceed staticFriction");
-  if (const auto v = value.get("height")) rule.height = read_height(*v);
+    value.fail(rule.library.empty() ? "dynamicFriction must not exceed staticFriction"
+                                    : "dynamicFriction must not exceed staticFriction; one of them is the library's");
+  if (const auto v = value.get("height")) read_height(*v, source, rule.height);
+  if (!rule.height.images.empty() && (rule.texture.empty() || !value.get("texture"))) {
+    rule.texture = rule.height.images.front();
+    rule.recipe.clear();
+  }
   if (const auto v = value.get("unwrap"))
     rule.unwrap = v->one_of({"auto", "keep", "new", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
@@ -149,7 +224,7 @@ AssignRule read_assign(const JsonValue& value, const Materials& file) {
 
 }  // namespace
 
-Materials read_materials(const std::filesystem::path& path) {
+Materials read_materials(const std::filesystem::path& path, const std::filesystem::path& library) {
   const JsonValue::Json json = read_json(path);
   const JsonValue root(json, path.string(), "");
   root.expect_keys({"$schema", "version", "materials", "assign", "$comment"});
@@ -161,7 +236,7 @@ Materials read_materials(const std::filesystem::path& path) {
   const JsonValue materials = root.require("materials");
   materials.expect_object();
   for (const auto& [name, unused] : materials.json().items())
-    file.materials.emplace(name, read_material(*materials.get(name), name, path.parent_path()));
+    file.materials.emplace(name, read_material(*materials.get(name), name, path, library));
   if (const auto assign = root.get("assign"))
     for (const JsonValue& rule : assign->list()) file.assign.push_back(read_assign(rule, file));
   return file;

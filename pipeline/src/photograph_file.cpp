@@ -25,8 +25,11 @@ PhotographFile photograph_of_relief_file(const std::filesystem::path& relief, co
     for (float& height : map.mm) height *= static_cast<float>(options.height_mm);
   const auto [low, high] = std::minmax_element(map.mm.begin(), map.mm.end());
   result.range_mm = static_cast<double>(*high) - static_cast<double>(*low);
-  result.photograph = photograph(map, options.photograph);
-  write_grey_image(output, result.photograph.picture, k_picture_bits, options.jpeg_quality);
+  const bool linear = output.extension() == ".exr";
+  PhotographOptions photograph_options = options.photograph;
+  if (linear) photograph_options.srgb = false, photograph_options.bits = k_float_bits;
+  result.photograph = photograph(map, photograph_options);
+  write_grey_image(output, result.photograph.picture, linear ? k_float_bits : k_picture_bits, options.jpeg_quality);
   return result;
 }
 

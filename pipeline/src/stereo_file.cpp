@@ -28,8 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = HeightReference::Kind;
 
-/// Sizes first, so that nothing is decoded in vain.
-void require_sizes(const std::vector<fs::path>& files) {
+}  // namespace
+
+int width_of_picture_files(const std::vector<fs::path>& files) {
   if (files.size() < 3)
     throw InvalidInput(fmt::format("{}: {} photographs of one place are {}, at least 3 are needed",
                                    files.empty() ? "height" : files.back().string(), files.size(),
@@ -44,7 +45,10 @@ void require_sizes(const std::vector<fs::path>& files) {
                                      file.string(), bands.width(), bands.height(), files.front().string(), width,
                                      height));
   }
+  return width;
 }
+
+namespace {
 
 std::vector<GreyImage> read_linear(const std::vector<fs::path>& files, Transfer transfer) {
   std::vector<GreyImage> photographs;
@@ -64,8 +68,7 @@ std::vector<GreyImage> read_linear(const std::vector<fs::path>& files, Transfer 
 
 std::vector<Vec3> lights_of(const StereoFileOptions& options, const std::vector<fs::path>& files,
                             const std::vector<GreyImage>& photographs) {
-  if (options.lights.empty()) return {};
-  LightsFile lights = read_lights(options.lights, files.size());
+  StereoLights lights = options.lights;
   for (std::size_t k = 0; lights.sphere && k < photographs.size(); ++k) try {
       lights.directions.push_back(light_of_sphere(photographs[k], *lights.sphere));
     } catch (const InvalidInput& error) {
@@ -158,25 +161,22 @@ void list_measured_and_assumed(const StereoFiles& stereo, HeightResult& result) 
 
 }  // namespace
 
-StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs::path& output,
-                                    const StereoFileOptions& options) {
-  require_sizes(files);
+StereoFiles relief_of_picture_files(const std::vector<fs::path>& files, const StereoFileOptions& options) {
+  width_of_picture_files(files);  // Nothing is decoded in vain.
   const HeightOptions& height = options.files.height;
-  const std::vector<HeightReference> references =
-      options.references.empty() ? std::vector<HeightReference>{} : read_references(options.references);
   std::vector<GreyImage> photographs = read_linear(files, height.transfer);
   StereoFiles result;
   result.files.result.decoded_srgb = decodes_srgb(height.transfer, photographs.front().bits);
   PhotometricStereoOptions stereo{lights_of(options, files, photographs), height.progress};
   double pitch = height.pitch_mm > 0 ? height.pitch_mm : std::max(0.0, photographs.front().pitch_mm);
-  measure_pitch(references, photographs.front(), pitch, result);
+  measure_pitch(options.references, photographs.front(), pitch, result);
   Registration registration = register_photographs(photographs);
   photographs = std::move(registration.photographs);
   result.shifts_px = std::move(registration.shifts_px);
   try {
     result.stereo = photometric_stereo(photographs, stereo);
   } catch (const InvalidInput& error) {
-    throw InvalidInput((stereo.lights.empty() ? files.front() : options.lights).string() + ": " + error.what());
+    throw InvalidInput((stereo.lights.empty() ? files.front().string() : options.lights.source) + ": " + error.what());
   }
 
   HeightResult& relief = result.files.result;
@@ -194,7 +194,7 @@ StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs
   map = {result.stereo.width, result.stereo.height, {}, pitch, pitch, false};
   const std::vector<double>& px = result.stereo.height_px;
   result.depth_source = "measured";
-  double scale = measure_scale(references, {map.width, map.height, px}, pitch, result);
+  double scale = measure_scale(options.references, {map.width, map.height, px}, pitch, result);
   if (!(scale != 0)) scale = pitch;
   const auto [low, high] = std::minmax_element(px.begin(), px.end());
   const double range = *high - *low;
@@ -214,12 +214,18 @@ StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs
   result.low_confidence_fraction =
       static_cast<double>(std::count_if(confidence.begin(), confidence.end(), [](float c) { return c < 0.5F; })) /
       count;
+  result.stereo.height_px = {};
+  return result;
+}
+
+StereoFiles height_of_picture_files(const std::vector<fs::path>& files, const fs::path& output,
+                                    const StereoFileOptions& options) {
+  StereoFiles result = relief_of_picture_files(files, options);
   write_relief_files(result.files, output, options.files);
   if (!options.files.pictures.empty()) {
     result.confidence_picture = (options.files.pictures / "confidence.png").string();
     write_grey_image(result.confidence_picture, confidence_picture(result.stereo), 8);
   }
-  result.stereo.height_px = {};
   return result;
 }
 

@@ -65,6 +65,46 @@ JSON
 says "material 'hide', texture: " 3 "$papilla" bake "$data/exchange/slider.stl" -m "$out/materials.json" -o "$out/a.glb"
 says "did you mean 'leather'?" 3 "$papilla" bake "$data/exchange/slider.stl" -m "$out/materials.json" -o "$out/a.glb"
 
+# The material library.
+"$papilla" materials list --json "$out/list.json" -q || fail "materials list: exit code $?"
+[[ $(grep -c '"dynamic_friction"' "$out/list.json") -ge 60 ]] || fail "materials list: fewer than 60"
+"$papilla" materials search gebuerstetes aluminium | grep -q '^metal/aluminium-brushed ' || fail "materials search: umlauts"
+"$papilla" materials search velurs | grep -qF "nothing is called 'velurs'; near are" || fail "materials search: near names"
+"$papilla" materials check >"$out/check.txt" || fail "materials check: $(cat "$out/check.txt")"
+"$papilla" materials show wood/cork --picture "$out/cork.png" --picture-px 64 -q || fail "materials show: exit code $?"
+[[ -s $out/cork.png ]] || fail "materials show: no picture"
+says "the library has no material 'wood/crok'; did you mean 'wood/cork'?" 3 "$papilla" materials show wood/crok
+says "materials show needs the id of one material" 2 "$papilla" materials show
+says "materials search needs words" 2 "$papilla" materials search
+says "materials page needs -o" 2 "$papilla" materials page
+says "what: 'serach' is none of list,show,search,check,page; did you mean 'search'?" 2 "$papilla" materials serach leather
+says "$out/nowhere" 3 "$papilla" materials list --library "$out/nowhere"
+mkdir -p "$out/own/wood"
+sed 's/"estimated": true/"estimate": true/' "$data/materials/wood/cork.json" >"$out/own/wood/cork.json"
+"$papilla" materials check "$out/own" >"$out/check.txt"
+[[ $? -eq 3 ]] || fail "materials check: a wrong file is no input error"
+grep -qF "unknown key 'estimate'; did you mean 'estimated'?" "$out/check.txt" || fail "materials check: $(cat "$out/check.txt")"
+cp "$data/materials/wood/cork.json" "$out/own/wood/cork.json"
+"$papilla" materials page --library "$out/own" -o "$out/page.html" --picture-px 64 -q || fail "materials page: exit code $?"
+grep -q 'src="data:image/png' "$out/page.html" || fail "materials page: no picture within"
+"$papilla" materials page --library "$out/own" -o "$out/page" --picture-px 64 -q || fail "materials page: exit code $?"
+[[ -s $out/page/index.html && -s $out/page/wood_cork.png ]] || fail "materials page: no folder"
+cat >"$out/library.json" <<'JSON'
+{"materials": {"m": {"material": "library:wood/crok"}}, "assign": [{"part": "*", "material": "m"}]}
+JSON
+says "at /materials/m/material: the library has no material 'wood/crok'; did you mean 'wood/cork'?" 3 \
+  "$papilla" plan "$data/exchange/slider.stl" -m "$out/library.json"
+sed -i 's/crok/cork/' "$out/library.json"
+"$papilla" plan "$data/exchange/slider.stl" -m "$out/library.json" --material-library "$out/own" -q || fail "plan: $?"
+says "the library has no material" 3 "$papilla" bake "$data/exchange/slider.stl" -m "$out/library.json" \
+  --material-library "$data/exchange" -o "$out/a.glb"
+# Suggested, and not applied.
+echo '{"materials": {}}' >"$out/none.json"
+"$papilla" plan "$data/cockpit.step" -m "$out/none.json" --chord 1 --json "$out/plan.json" >"$out/plan.txt" || fail "plan: $?"
+grep -qF "nothing of it is applied" "$out/plan.txt" || fail "plan suggests nothing"
+grep -qF '"library:carpet/' "$out/plan.json" || fail "plan: no carpet for floor_carpet"
+grep -A1 '"stage": "tag"' "$out/plan.json" | grep -q '"run": true' && fail "plan: something suggested is applied"
+
 # Rules that take nothing: a warning, or with --strict an error.
 cat >"$out/rules.json" <<'JSON'
 {"materials": {"hard": {"stiffness": 2000}}, "assign": [{"part": "vent_salt*", "material": "hard"}]}

@@ -42,12 +42,12 @@ Scene photographed(std::string_view name, std::uint64_t seed, int largest_px) {
   Scene scene{part_of(relief), {}, {}};
   const double first = 2 * std::numbers::pi * random.uniform();
   for (int k = 0; k < 4; ++k) {
-    PhotographOptions options = photograph_options(PhotographCondition::spotted, 100 * seed + static_cast<unsigned>(k));
+    PhotographOptions options =
+        photograph_options(PhotographCondition::spotted, 100 * seed + static_cast<unsigned>(k), seed);
     const double azimuth = first + 2 * std::numbers::pi * (k + 0.6 * (random.uniform() - 0.5)) / 4,
                  elevation = (25 + 30 * random.uniform()) * k_radians_per_degree;
     options.light = {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
                      std::sin(elevation)};
-    options.surface_seed = seed;
     const auto move = [&] {
       return k == 0 ? 0 : static_cast<int>(std::lround((2 * random.uniform() - 1) * largest_px));
     };

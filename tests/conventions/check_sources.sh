@@ -147,6 +147,8 @@ readonly library_uses='
 <meshoptimizer\.h> meshoptimizer libmeshoptimizer-dev meshoptimizer::meshoptimizer
 <hidapi hidapi-hidraw libhidapi-dev PkgConfig::HIDAPI
 <sha2\.h> libmd libmd-dev PkgConfig::MD
+<sndfile\.h> sndfile libsndfile1-dev
+<alsa/ alsa libasound2-dev
 <gtest/ GTest libgtest-dev GTest::gtest_main
 <benchmark/ benchmark libbenchmark-dev benchmark::benchmark
 <Eigen/ Eigen3 libeigen3-dev Eigen3::Eigen

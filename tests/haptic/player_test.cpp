@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -248,6 +249,42 @@ TEST_F(Player, RecordingPlayedAgainGivesTheSameFile) {
             0);
   EXPECT_GT(slurp(first).size(), 100000U);
   EXPECT_EQ(slurp(first), slurp(second));
+}
+
+/// A number of a WAV file.
+template <typename Number>
+Number at(const std::string& file, std::size_t place) {
+  Number value{};
+  std::memcpy(&value, file.data() + place, sizeof value);
+  return value;
+}
+
+TEST_F(Player, VibrationIsWrittenAsSound) {
+  const std::string wav = (folder_ / "v.wav").string();
+  const Outcome outcome = play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration '" + wav + "'");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  const Json told = outcome.json()["vibration"];
+  EXPECT_NEAR(told["samples"].get<double>(), 0.6 * 48000, 48);
+  EXPECT_EQ(told["missed_ticks"], 0);
+  EXPECT_GT(told["rms_m_per_s2"], 0.1);
+  const std::string sound = slurp(wav);
+  ASSERT_GT(sound.size(), 1000U);
+  EXPECT_EQ(sound.substr(0, 4) + sound.substr(8, 4), "RIFFWAVE");
+  EXPECT_EQ(at<std::uint32_t>(sound, sound.find("fmt ") + 12), 48000U);
+  const std::size_t data = sound.find("data");
+  ASSERT_EQ(at<std::uint32_t>(sound, data + 4), 4 * told["samples"].get<std::uint32_t>());
+  double squares = 0;
+  for (std::size_t i = 0; i < told["samples"]; ++i) {
+    const auto sample = static_cast<double>(at<float>(sound, data + 8 + 4 * i));
+    ASSERT_LE(std::abs(sample), 1);
+    squares += sample * sample;
+  }
+  // Full scale is 50 m/s2.
+  EXPECT_NEAR(50 * std::sqrt(squares / told["samples"].get<double>()), told["rms_m_per_s2"].get<double>(), 0.05);
+
+  expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration x.mp3"), 2);
+  expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration /nowhere/v.wav"), 3);
+  expect_refusal(play_glb({{"haptic", tag()}}, testing::sine_png(), "--vibration alsa:none-such"), 5);
 }
 
 TEST_F(Player, WritesOverNothingThatItReads) {

@@ -4,6 +4,19 @@
 file(REMOVE_RECURSE ${WORK_DIR})
 list(TRANSFORM HIDDEN REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON")
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix COMMAND_ERROR_IS_FATAL ANY)
+# What the program needs beside it is installed, too.
+if(EXISTS ${WORK_DIR}/prefix/bin/papilla)
+  execute_process(COMMAND ${WORK_DIR}/prefix/bin/papilla materials list --json - OUTPUT_VARIABLE library
+    COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT library MATCHES "${WORK_DIR}/prefix/share/papilla/materials")
+    message(FATAL_ERROR "the installed program does not find the installed material library")
+  endif()
+  foreach(schema materials library-material)
+    if(NOT EXISTS ${WORK_DIR}/prefix/share/papilla/schema/${schema}.schema.json)
+      message(FATAL_ERROR "${schema}.schema.json is not installed")
+    endif()
+  endforeach()
+endif()
 # Quoted, a list is one argument.
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${WORK_DIR}/build -G Ninja -Wno-dev
     -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}

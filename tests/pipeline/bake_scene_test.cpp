@@ -16,7 +16,9 @@
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/texture/grain.hpp"
+#include "papilla/texture/shading.hpp"
 #include "papilla_test/shapes.hpp"
 
 namespace papilla {
@@ -153,6 +155,49 @@ TEST_F(BakeTest, WhatRepeatsIsBakedOnceOnAnExactTile) {
   EXPECT_DOUBLE_EQ(grain.tag.height->metres_per_uv.x, 0.02);
   EXPECT_DOUBLE_EQ(grain.tag.height->metres_per_uv.y, 0.01);
   EXPECT_FALSE(grain.height.overlay);
+}
+
+/// The relief of several photographs is that of `papilla height`.
+TEST_F(BakeTest, SeveralPhotographsGiveTheReliefOfTheVerb) {
+  HeightMap relief{96, 72, {}, 0.1, 0.1, false};
+  for (int y = 0; y < 72; ++y)
+    for (int x = 0; x < 96; ++x)
+      relief.mm.push_back(static_cast<float>(0.2 * std::sin(0.21 * x + 0.1 * y) * std::cos(0.17 * y)));
+  MaterialRule& rule = rules_.materials.at("grain");
+  HeightRule height;
+  height.lights = {{{0.6, 0.1, 0.8}, {-0.5, 0.4, 0.8}, {-0.1, -0.7, 0.7}, {0.3, 0.6, 0.7}}, {}, "lights"};
+  for (const Vec3 light : height.lights.directions) {
+    height.images.push_back(folder_ / ("light" + std::to_string(height.images.size()) + ".tif"));
+    write_grey_image(height.images.back(), render_lambert(relief, light), 32);
+  }
+  height.references = {{HeightReference::Kind::ruler, 5, {10, 10}, {60, 10}, {}}};
+  height.max_slope = 1000;
+  rule.height = height;
+  rule.texture = height.images.front();
+  rule.size_mm[0] = 20, rule.size_mm[1] = 7.2;
+  const GrainPlan plan = plan_grain(rule);
+  EXPECT_EQ(plan.problem, "");
+  EXPECT_TRUE(step_of(plan.steps, "photometric_stereo").run);
+  const BakeResult result = run(scene_of({square("dash")}));
+  const Grain& grain = result.grains.at("grain");
+  EXPECT_EQ(grain.height.method, "photometric-stereo");
+  EXPECT_EQ(grain.height.photographs.size(), 4U);
+  EXPECT_EQ(grain.height.stereo.value().depth_source, "measured");
+  EXPECT_NEAR(grain.size_mm[0], 9.6, 1e-9) << "the ruler's";
+  ASSERT_EQ(grain.warnings.size(), 1U);
+  EXPECT_EQ(grain.warnings[0], "material 'grain': size_mm/0: 20 mm are 9.6 mm by the ruler in height.images");
+  const StereoFiles verb =
+      height_of_picture_files(height.images, folder_ / "verb.tif", {{}, height.lights, height.references});
+  const HeightMap& map = verb.files.result.map;
+  ASSERT_EQ(map.mm.size(), grain.relief.mm.size());
+  for (std::size_t i = 0; i < map.mm.size(); ++i)
+    ASSERT_NEAR(static_cast<double>(map.mm[i] - map.mm[0]),
+                static_cast<double>(grain.relief.mm[i] - grain.relief.mm[0]), 1e-5);
+
+  rule.height.images[2] = folder_ / "none.tif";
+  EXPECT_NE(plan_grain(rule).problem.find("material 'grain', height.images: "), std::string::npos)
+      << plan_grain(rule).problem;
+  EXPECT_NE(plan_grain(rule).problem.find("none.tif"), std::string::npos);
 }
 
 TEST_F(BakeTest, TheTagDecodesToTheReliefThatTheNormalMapShows) {

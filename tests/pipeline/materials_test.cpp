@@ -6,10 +6,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/grain.hpp"
+#include "papilla_test/json_schema.hpp"
 
 namespace papilla {
 namespace {
@@ -90,6 +93,44 @@ TEST_F(MaterialsTest, HeightTakesTheOptionsOfTheVerb) {
   EXPECT_NE(
       complaint(R"({"materials": {"a": {"height": {"depth": 1, "depth_mm": 1}}}})").find("/materials/a/height/depth"),
       std::string::npos);
+}
+
+TEST_F(MaterialsTest, HeightTakesSeveralPhotographs) {
+  std::ofstream(folder_ / "LIGHTS.json") << R"({"lights": [[1, 0, 1], [0, 1, 1], [-1, 0, 1]]})";
+  std::ofstream(folder_ / "REF.json") << R"({"ruler_mm": 5, "from_px": [1, 2], "to_px": [3, 4]})";
+  const Materials file = read(R"({"materials": {
+      "files": {"height": {"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": "LIGHTS.json", "reference": "REF.json"}},
+      "here": {"texture": "t.png", "height": {"images": ["a.jpg", "b.jpg", "c.jpg"],
+               "lights": [[1, 0, 1], [0, 1, 1], [-1, 0, 2]], "reference": [{"grid_mm": 2}], "alternative": true}},
+      "ball": {"height": {"images": ["a.jpg", "b.jpg", "c.jpg"],
+               "lights": {"sphere": {"centre_px": [30, 20], "radius_px": 9, "kind": "matte"}}}},
+      "open": {"height": {"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": "unknown"}}}})");
+  const MaterialRule& files = file.materials.at("files");
+  EXPECT_EQ(files.texture, folder_ / "a.jpg");
+  ASSERT_EQ(files.height.images.size(), 3U);
+  EXPECT_EQ(files.height.images[2], folder_ / "c.jpg");
+  EXPECT_EQ(files.height.lights.directions.size(), 3U);
+  EXPECT_EQ(files.height.references.size(), 1U);
+  const MaterialRule& here = file.materials.at("here");
+  EXPECT_EQ(here.texture, folder_ / "t.png");
+  EXPECT_EQ(here.height.lights.directions.at(2).z, 2);
+  EXPECT_EQ(here.height.references.at(0).kind, HeightReference::Kind::grid);
+  EXPECT_TRUE(here.height.opposite);
+  EXPECT_TRUE(file.materials.at("ball").height.lights.sphere);
+  EXPECT_TRUE(file.materials.at("open").height.lights.directions.empty());
+
+  const auto refused = [&](const std::string& height, const std::string& reason) {
+    const std::string said = complaint(R"({"materials": {"a": {"height": )" + height + "}}}");
+    EXPECT_NE(said.find("/materials/a/height" + reason), std::string::npos) << said;
+  };
+  refused(R"({"images": ["a.jpg", "b.jpg"]})", "/images: must be three photographs or more");
+  refused(R"({"images": ["a.jpg", "b.jpg", ""]})", "/images/2: must not be empty");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "method": "pentland"})", "/method: is for one picture");
+  refused(R"({"lights": "LIGHTS.json"})", "/lights: needs 'images'");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg", "d.jpg"], "lights": "LIGHTS.json"})", "/lights: ");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": [[1, 0, 1]]})", "/lights: 1 lights for 3 photographs");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "lights": "NONE.json"})", "/lights: ");
+  refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "reference": {"ruler": 5}})", "/reference");
 }
 
 TEST_F(MaterialsTest, ReadsHowASurfaceHoldsAndShades) {
@@ -185,6 +226,22 @@ TEST_F(MaterialsTest, NamesTheJsonPointerOfWhatIsWrong) {
   EXPECT_NE(complaint(R"({"version": 2, "materials": {}})").find("/version"), std::string::npos);
   EXPECT_NE(complaint("[1, 2").find("is no valid JSON"), std::string::npos);
   EXPECT_NE(complaint("[]").find("must be an object"), std::string::npos);
+}
+
+TEST_F(MaterialsTest, TheSchemaKnowsMaterialsOfTheLibrary) {
+  const test::JsonSchema schema(
+      nlohmann::ordered_json::parse(read_file(fs::path(PAPILLA_SCHEMAS) / "materials.schema.json")));
+  const auto agree = [&](const std::string& material) {
+    const std::string text = R"({"materials": {"m": )" + material + "}}";
+    EXPECT_EQ(schema.accepts(nlohmann::ordered_json::parse(text)), complaint(text).empty()) << text;
+    return complaint(text).empty();
+  };
+  EXPECT_TRUE(agree(R"({"material": "library:leather/nappa-fine"})"));
+  EXPECT_TRUE(agree(R"({"material": "library:wood/cork", "stiffness": 900, "height": {"scale": 2}})"));
+  for (const char* wrong : {"\"wood/cork\"", "\"library:\"", "\"library:Wood\"", "\"library:a/\"", "null", "3"})
+    EXPECT_FALSE(agree("{\"material\": " + std::string(wrong) + "}"));
+  EXPECT_TRUE(
+      schema.accepts(nlohmann::ordered_json::parse(read_file(fs::path(PAPILLA_DATA) / "cockpit.materials.json"))));
 }
 
 TEST_F(MaterialsTest, DeepNestingIsRefusedBeforeItIsRead) {

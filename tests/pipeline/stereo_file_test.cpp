@@ -61,7 +61,7 @@ class StereoFile : public ::testing::Test {
 
 TEST_F(StereoFile, MeasuresDepth) {
   StereoFileOptions options;
-  options.lights = lights();
+  options.lights = read_lights(lights(), 4);
   options.files.height.pitch_mm = 0.1;
   options.files.pictures = folder_.path() / "report";
   const fs::path output = folder_.path() / "relief.tif";
@@ -78,13 +78,13 @@ TEST_F(StereoFile, MeasuresDepth) {
 
 TEST_F(StereoFile, RulerAndProfileScaleIt) {
   StereoFileOptions options;
-  options.lights = lights();
+  options.lights = read_lights(lights(), 4);
   std::string csv = "mm_along,mm_height\n";
   for (int x = 0; x < 90; ++x)
     csv += std::to_string(0.1 * x) + "," + std::to_string(0.2 * std::sin(0.21 * x + 3) * std::cos(0.17 * 30)) + "\n";
   write("line.csv", csv);
-  options.references = write("REF.json", R"([{"ruler_mm": 5, "from_px": [10, 10], "to_px": [60, 10]},
-                                             {"profile_csv": "line.csv", "from_px": [0, 30], "to_px": [89, 30]}])");
+  options.references = read_references(write("REF.json", R"([{"ruler_mm": 5, "from_px": [10, 10], "to_px": [60, 10]},
+                                             {"profile_csv": "line.csv", "from_px": [0, 30], "to_px": [89, 30]}])"));
   const StereoFiles found = height_of_picture_files(photographs(), folder_.path() / "relief.tif", options);
   ASSERT_EQ(found.references.size(), 2U);
   EXPECT_DOUBLE_EQ(found.files.result.map.pitch_mm_x, 0.1);
@@ -100,7 +100,7 @@ TEST_F(StereoFile, LightsSayWhatIsWrongWhere) {
   refused([&] { read_lights(write("a.json", R"({"lights": "unkown"})"), 1); }, "unknown");
   EXPECT_TRUE(read_lights(write("a.json", R"({"lights": "unknown"})"), 4).directions.empty());
   EXPECT_TRUE(read_lights(write("a.json", R"("unknown")"), 4).directions.empty());
-  const LightsFile ball =
+  const StereoLights ball =
       read_lights(write("a.json", R"({"sphere": {"centre_px": [30, 20], "radius_px": 9, "kind": "mirror"}})"), 4);
   ASSERT_TRUE(ball.sphere);
   EXPECT_TRUE(ball.sphere->mirror);

@@ -10,6 +10,7 @@
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/shading.hpp"
 #include "papilla/texture/spectral_surface.hpp"
+#include "papilla/texture/test_relief.hpp"
 #include "texture/fixtures.hpp"
 
 namespace papilla {
@@ -25,6 +26,35 @@ TEST(LightDirection, AzimuthOfAnIsotropicRelief) {
     EXPECT_NEAR(std::atan2(estimate.direction.y, estimate.direction.x), azimuth, 0.12) << k;
     EXPECT_NEAR(estimate.coherence, 0.5, 0.12);
     EXPECT_NEAR(norm(estimate.direction), 1, 1e-12);
+  }
+}
+
+double off_axis_deg(const LightEstimate& estimate, double azimuth) {
+  const double off = std::atan2(estimate.direction.y, estimate.direction.x) - azimuth;
+  return std::abs(std::remainder(off, std::numbers::pi)) * 180 / std::numbers::pi;
+}
+
+// Their waves run within 20 degrees of one direction: the strongest gradient is up to 55 degrees off.
+TEST(LightDirection, AxisByTheBendsOfRibs) {
+  const HeightMap relief = test_relief("ribs", {.width = 320, .height = 240, .seed = 5});
+  double sum = 0;
+  for (const int k : {0, 1, 2, 3, 5}) {  // The fourth runs along the ribs: they hardly shade.
+    const double azimuth = std::numbers::pi * k / 6;
+    const Vec3 light = {0.8 * std::cos(azimuth), 0.8 * std::sin(azimuth), 0.6};
+    const LightEstimate estimate = estimate_light(render_lambert(relief, light));
+    sum += off_axis_deg(estimate, azimuth) / 5;
+    EXPECT_LT(off_axis_deg(estimate, azimuth), 2 * estimate.uncertainty_deg) << k;
+  }
+  EXPECT_LT(sum, 12);
+}
+
+TEST(LightDirection, StraightRibsSayThatTheyTellNothing) {
+  const HeightMap relief = test::make_relief(240, 180, 1, [](int x, int y) { return std::sin(0.3 * x + 0.14 * y); });
+  for (const double azimuth : {0.1, 0.9, -0.6}) {
+    const Vec3 light = {0.8 * std::cos(azimuth), 0.8 * std::sin(azimuth), 0.6};
+    const LightEstimate estimate = estimate_light(render_lambert(relief, light));
+    EXPECT_GT(estimate.uncertainty_deg, 20);
+    EXPECT_LT(off_axis_deg(estimate, azimuth), 2 * estimate.uncertainty_deg);
   }
 }
 

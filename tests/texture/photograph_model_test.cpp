@@ -207,6 +207,12 @@ TEST(Photograph, ConditionsHaveLightFrom25To55DegreesAndDependOnTheSeed) {
     azimuths.insert(std::atan2(options.light.y, options.light.x));
   }
   EXPECT_EQ(azimuths.size(), 40U);
+  const auto spot = [](std::uint64_t seed, std::uint64_t surface_seed) {
+    return photograph_options(PhotographCondition::spotted, seed, surface_seed).albedo_spot_px;
+  };
+  EXPECT_EQ(spot(1, 7), spot(2, 7)) << "one surface, whoever takes the photograph";
+  EXPECT_EQ(photograph_options(PhotographCondition::spotted, 2, 7).surface_seed, 7U);
+  EXPECT_NE(spot(1, 7), spot(1, 8));
   const HeightMap relief = test_relief("leather");
   const PhotographOptions glossy = photograph_options(PhotographCondition::glossy, 3);
   EXPECT_EQ(photograph(relief, glossy).picture.pixels, photograph(relief, glossy).picture.pixels);

@@ -149,12 +149,13 @@ void choose_by_expectation(const SampleRows& brightness, const HeightOptions& op
                                    texture_detail::ShadingSpectrum(texture_detail::middle_of(brightness), result.light)
                                        .expected_correlation()
                              : 0;
-  constexpr double k_grey_of_heights = 0.5, k_grey_of_lit = 0.15;
+  constexpr double k_grey_of_heights = 0.5, k_grey_of_lit = 0.10;  // Means; see wiener.md.
   const double grey = (1 - lit) * k_grey_of_heights + lit * k_grey_of_lit;
   result.method = shading >= grey ? HeightMethod::wiener : HeightMethod::intensity;
   result.expected_correlation = std::max(shading, grey);
   result.reason = std::string(lit > 0 ? "" : "no direction of light is seen: ") + "expected correlation " +
-                  rounded(shading) + " from shading, " + rounded(grey) + " with grey read as height";
+                  rounded(shading) + " +- 0.2 from shading, " + rounded(grey) + (lit > 0 ? " +- 0.2" : " +- 0.4") +
+                  " with grey read as height";
   if (result.method == HeightMethod::intensity) {
     result.light = HeightResult{}.light;
     result.light_estimated = result.ambiguous = false;

@@ -2,9 +2,11 @@
 #include "papilla/texture/light_direction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "checks.hpp"
@@ -12,6 +14,7 @@
 #include "papilla/texture/resample.hpp"
 #include "papilla/texture/stored_samples.hpp"
 #include "shading_spectrum.hpp"
+#include "shaped_noise.hpp"
 
 namespace papilla {
 namespace {
@@ -109,19 +112,124 @@ double jackknife(const GreyImage& image, double angle) {
   return std::sqrt((count - 1) / count * squares);
 }
 
+/// Gradients of a picture by their direction, over neighbourhoods of a few pixels.
+struct LocalGradients {
+  static constexpr std::size_t k_directions = 36;       ///< Over half a turn.
+  std::array<double, k_directions> pixels{}, energy{};  ///< Of neighbourhoods with a direction; energy: their sum.
+  double common = 0;  ///< Share of one direction in [0, 1], see LightEstimate; an isotropic relief has less than ½.
+};
+
+std::vector<double> blurred(std::vector<double> field, int width, int height, double deviation_px) {
+  const double rate = 2 * k_pi * k_pi * deviation_px * deviation_px;
+  filter(field, width, height, false, [=](double x, double y) { return std::exp(-rate * (x * x + y * y)); });
+  return field;
+}
+
+LocalGradients local_gradients(const GreyImage& image) {
+  constexpr double k_picture_px = 1.5, k_tensor_px = 2.5, k_directed = 0.3;
+  const int width = image.width, height = image.height;
+  const std::vector<double> grey = blurred({image.pixels.begin(), image.pixels.end()}, width, height, k_picture_px);
+  std::array<std::vector<double>, 3> tensor;  // xx, xy, yy
+  for (std::vector<double>& part : tensor) part.assign(grey.size(), 0.0);
+  for (int y = 1; y + 1 < height; ++y)
+    for (int x = 1; x + 1 < width; ++x) {
+      const std::size_t i = pixel_index(x, y, width);
+      const double gx = grey[i + 1] - grey[i - 1];
+      const double gy = grey[pixel_index(x, y + 1, width)] - grey[pixel_index(x, y - 1, width)];
+      tensor[0][i] = gx * gx;
+      tensor[1][i] = gx * gy;
+      tensor[2][i] = gy * gy;
+    }
+  for (std::vector<double>& part : tensor) part = blurred(std::move(part), width, height, k_tensor_px);
+  LocalGradients result;
+  std::complex<double> sum;
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    const double trace = tensor[0][i] + tensor[2][i];
+    const std::complex<double> directed(tensor[0][i] - tensor[2][i], 2 * tensor[1][i]);
+    const double size = std::abs(directed);
+    if (!(trace > 0)) continue;
+    sum += directed / trace;
+    if (size < k_directed * trace) continue;
+    const double turns = std::arg(directed) / (2 * k_pi);  // Of half a turn.
+    const auto direction = static_cast<std::size_t>((turns - std::floor(turns)) * LocalGradients::k_directions) %
+                           LocalGradients::k_directions;
+    result.pixels[direction] += 1;
+    result.energy[direction] += (trace + size) / 2;
+  }
+  result.common = std::abs(sum) / static_cast<double>(grey.size());
+  return result;
+}
+
+/// The axis at which the mean energy of a direction θ follows cos²(θ − φ) best (Itakura and Saito's divergence, over
+/// the pixels that have that direction), and its standard deviation, radians.
+struct LocalAxis {
+  double angle = 0, deviation = 0;
+};
+
+LocalAxis local_axis(const LocalGradients& local, double strongest) {
+  constexpr double k_across = 0.05;  // Second order and noise leave this much across the light.
+  constexpr double k_nearer = 0.1;   // Weight of the strongest gradient, which decides where the directions are few.
+  constexpr double k_evidence = 16;  // Independent values in the divergence; makes the deviation cover.
+  constexpr std::size_t k_steps = 360;
+  double pixels = 0;
+  for (const double count : local.pixels) pixels += count;
+  std::array<double, k_steps> cost{};
+  for (std::size_t step = 0; step < k_steps; ++step) {
+    const double angle = k_pi * static_cast<double>(step) / k_steps;
+    std::array<double, LocalGradients::k_directions> ratio{};
+    double mean = 0;
+    for (std::size_t k = 0; k < ratio.size(); ++k) {
+      if (!(local.pixels[k] > 0)) continue;
+      const double along = std::cos(k_pi * (static_cast<double>(k) + 0.5) / LocalGradients::k_directions - angle);
+      ratio[k] = local.energy[k] / local.pixels[k] / (along * along + k_across);
+      mean += local.pixels[k] / pixels * ratio[k];
+    }
+    const double off = std::sin(angle - strongest);
+    cost[step] = k_nearer * off * off;
+    for (std::size_t k = 0; k < ratio.size(); ++k)
+      if (ratio[k] > 0) cost[step] += local.pixels[k] / pixels * (ratio[k] / mean - std::log(ratio[k] / mean) - 1);
+  }
+  const auto best = static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+  LocalAxis axis{k_pi * static_cast<double>(best) / k_steps, 0};
+  double sum = 0, squares = 0;
+  for (std::size_t step = 0; step < k_steps; ++step) {
+    const double likelihood = std::exp(-k_evidence * (cost[step] - cost[best]));
+    const double off = std::remainder(k_pi * static_cast<double>(step) / k_steps - axis.angle, k_pi);
+    sum += likelihood;
+    squares += likelihood * off * off;
+  }
+  axis.deviation = std::sqrt(squares / sum);
+  return axis;
+}
+
+/// Whether the relief has a direction of its own: one of its waves, or more of them along one direction than light
+/// makes of an isotropic relief, while there are no four equal ones.
+bool has_direction(const LocalGradients& local, const Harmonics& harmonics) {
+  constexpr double k_one = 0.75, k_isotropic = 0.5, k_four = 0.55;
+  return local.common > k_one || (local.common > k_isotropic && std::abs(harmonics.fourth) < k_four);
+}
+
 LightEstimate estimate(const GreyImage& image) {
   LightEstimate result;
   constexpr int k_least_px = 8;
   if (std::min(image.width, image.height) < k_least_px) return result;
   const Harmonics harmonics = harmonics_of(image);
-  const Axis axis = axis_of(harmonics);
+  Axis axis = axis_of(harmonics);
   result.coherence = axis.coherence;
   if (!(result.coherence > 0)) return result;
-  // What the relief's own directions add: four of them leave two angles, other ones are taken for the light's.
-  constexpr double k_isotropic_deg = 3, k_directed_deg = 30, k_least_deg = 1, k_unknown_deg = 52;
-  const double own = k_isotropic_deg + k_directed_deg * std::norm(harmonics.fourth);
-  const double spread = jackknife(image, axis.angle) * k_degrees_per_radian;
-  result.uncertainty_deg = std::clamp(std::hypot(spread, own), k_least_deg, k_unknown_deg);
+  constexpr double k_isotropic_deg = 2, k_directed_deg = 30, k_least_deg = 1, k_unknown_deg = 52;
+  const LocalGradients local = local_gradients(image);
+  double spread = 0;
+  if (has_direction(local, harmonics)) {
+    const LocalAxis found = local_axis(local, std::arg(std::conj(harmonics.second)) / 2);
+    axis.angle = found.angle;
+    spread = found.deviation * k_degrees_per_radian;
+  } else {
+    // What the relief's own directions add: four of them leave two angles, other ones are taken for the light's.
+    const double own = k_isotropic_deg + k_directed_deg * std::abs(harmonics.fourth);
+    spread = std::hypot(jackknife(image, axis.angle) * k_degrees_per_radian, own);
+  }
+  result.uncertainty_deg = std::clamp(spread, k_least_deg, k_unknown_deg);
   Vec2 azimuth{std::cos(axis.angle), std::sin(axis.angle)};
   constexpr double k_horizontal = 1e-6;
   if (azimuth.y > k_horizontal || (std::abs(azimuth.y) <= k_horizontal && azimuth.x > 0)) azimuth = -1.0 * azimuth;

@@ -20,7 +20,8 @@ struct Slopes {
   Field across, down;
 };
 
-/// The relief whose slopes come closest, with free borders: ΔZ = div(slopes) by the cosine transform. Mean 0.
+/// The relief whose slopes come closest, with free borders: ΔZ = div(slopes) by the cosine transform. Waves near the
+/// pixel are raised by what half a pixel of blur takes from them, by 1.4 at most. Mean 0.
 /// Frankot and Chellappa 1988.
 Field integrate(const Slopes& slopes, int width, int height);
 
@@ -28,21 +29,19 @@ Field integrate(const Slopes& slopes, int width, int height);
 /// mean surface.
 void flatten(Photographs& photographs);
 
-/// flatten() that leaves of the quadrics what belongs to the relief, and scales to the means light.z.
-/// A quadratic and a cubic relief change the quadrics c_k of all photographs in proportion to their lights,
-/// c_k = v + R_k θ + g_k, v the vignette, which is the same in all, and g_k the light of each, which is not. θ is the
-/// mean of its posterior with a variance continued from the spectrum of the finer relief, g_k normal with a variance
-/// found with it; a near lamp, which looks like a dome, is part of g_k.
-void even_out(Photographs& photographs, const std::vector<Vec3>& lights);
+/// Divides every photograph by its gain, a polynomial of third degree of log brightness, and adds the light from
+/// everywhere, (0, 0, ambient), to the lights. What is the same in all photographs, as a vignette, is left in them: it
+/// is albedo. The gains are those of the greatest posterior of
+/// - what photographs disagree by, with four or more: Σ_k w_k e^(−g_k) I_k = 0 at every pixel for w ⊥ the lights, which
+///   fixes the gains wherever the relief has slopes of all directions; noise is the same in all pixels and photographs,
+///   counts less where neighbours have it in common, and outliers count nothing;
+/// - the relief's waves of less than 2¼ periods along the longer side, whose variance is that to which the spectrum of
+///   the shorter ones continues, and its mean slope, about 0;
+/// - gains of a usual size.
+/// @return ambient, relative to a lamp that faces the surface; 0 for three photographs.
+double even_out(Photographs& photographs, std::vector<Vec3>& lights);
 
-/// How well four or more photographs agree.
-struct Agreement {
-  double ambient = 0;   ///< Light from everywhere, relative to a lamp that faces the surface; to 0.3, in steps.
-  double residual = 0;  ///< Robust deviation of a photograph from what the others say, relative to the albedo.
-};
-
-/// Light from everywhere, (0, 0, ambient), with which photographs agree best, and which is added to `lights`: with
-/// w ⊥ the lights, Σ w_k I_k = 0 at every pixel. 0 for three photographs.
-Agreement agreement(const Photographs& photographs, std::vector<Vec3>& lights);
+/// Robust deviation of a photograph from what the others say, relative to the albedo; 0 for three photographs.
+double disagreement(const Photographs& photographs, const std::vector<Vec3>& lights);
 
 }  // namespace papilla::texture_detail

@@ -52,6 +52,14 @@ void require_options(const HeightMap& relief, const PhotographOptions& options) 
     throw InvalidInput("photograph: " + std::to_string(options.bits) + " bits are neither 8 nor 32");
 }
 
+/// Radius of a surface's spots, 1 to 8 pixels.
+double spot_px(std::uint64_t surface_seed) {
+  constexpr double k_largest_px = 8;
+  Random random(surface_seed);
+  random.uniform(), random.uniform();  // Where seed and surface_seed are the same, these are the light's.
+  return std::pow(k_largest_px, random.uniform());
+}
+
 /// Keep the random choices of one seed apart.
 constexpr std::uint64_t k_noise_stream = 0x9e3779b97f4a7c15, k_uneven_stream = 0xbf58476d1ce4e5b9;
 
@@ -199,6 +207,10 @@ Photograph photograph(const HeightMap& relief, const PhotographOptions& options)
 }
 
 PhotographOptions photograph_options(PhotographCondition condition, std::uint64_t seed) {
+  return photograph_options(condition, seed, seed);
+}
+
+PhotographOptions photograph_options(PhotographCondition condition, std::uint64_t seed, std::uint64_t surface_seed) {
   Random random(seed);
   const double azimuth = 2 * std::numbers::pi * random.uniform();
   constexpr double k_lowest_deg = 25, k_highest_deg = 55;
@@ -209,11 +221,10 @@ PhotographOptions photograph_options(PhotographCondition condition, std::uint64_
   options.vignette = 0.1;
   options.blur_px = 0.7;
   options.noise = 0.01;
-  options.surface_seed = options.seed = seed;
+  options.surface_seed = surface_seed, options.seed = seed;
   if (condition == PhotographCondition::spotted) {
-    constexpr double k_largest_spot_px = 8;
     options.albedo_noise = 0.08;
-    options.albedo_spot_px = std::pow(k_largest_spot_px, random.uniform());
+    options.albedo_spot_px = spot_px(surface_seed);
     options.uneven_light = 0.15;
   }
   if (condition == PhotographCondition::glossy) {

@@ -131,13 +131,11 @@ PhotometricStereoResult photometric_stereo(const std::vector<GreyImage>& images,
   }
   report_progress(options.progress, "photometric stereo", 0.3);
   Photographs photographs = given;
-  even_out(photographs, result.lights);
-  report_progress(options.progress, "photometric stereo", 0.6);
   std::vector<Vec3> lights = result.lights;
-  const Agreement agreed = agreement(photographs, lights);
-  result.ambient = agreed.ambient;
-  result.residual = agreed.residual;
-  RobustNormals surface = robust_normals(photographs, lights, agreed.residual);
+  result.ambient = even_out(photographs, lights);
+  report_progress(options.progress, "photometric stereo", 0.6);
+  result.residual = disagreement(photographs, lights);
+  RobustNormals surface = robust_normals(photographs, lights, result.residual);
   result.height_px = integrate(slopes_of(surface.normals), result.width, result.height);
   report_progress(options.progress, "photometric stereo", 0.9);
   result.shadows_fraction = surface.shadows_fraction;

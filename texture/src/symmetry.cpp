@@ -2,6 +2,7 @@
 #include "papilla/texture/symmetry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/texture/lattice_agreement.hpp"
 #include "papilla/texture/resample.hpp"
+#include "pyramid.hpp"
 
 namespace papilla {
 namespace {
@@ -54,6 +56,12 @@ std::optional<BentLattice> straightened_lattice(const GreyImage& picture, Lattic
     const bool same = is_same_lattice(start, bent.lattice);
     const Lattice other = bent.lattice;
     bent.quality = bent.deformation.explained_after;
+    // Vectors from near nodes add up to a drift over a hundred cells.
+    const auto explained = [&](const std::array<Vec2, 2>& vectors) {
+      return symmetric_part(bent.straight, vectors).explained_variance;
+    };
+    if (same && explained(bent.deformation.vectors_px) > explained(bent.lattice.vectors_px))
+      bent.lattice.vectors_px = bent.deformation.vectors_px;
     if (!same) {
       bent.lattice = start;
       bent.lattice.vectors_px = bent.deformation.vectors_px;
@@ -81,6 +89,42 @@ double false_alarm_probability(const GreyImage& even, const Lattice& near, const
   if (p <= rate || !whole.found) return p;
   const double all = texture_detail::false_alarm_probability(even, whole, nearby(options, 0), rate / k_tries);
   return near.found ? std::min(1.0, k_tries * std::min(p, all)) : all;
+}
+
+/// The best lattices of a picture under even light, by near nodes and by all, and how likely chance makes such.
+struct Candidates {
+  Lattice near, whole;
+  double false_alarm_probability = 1;
+
+  bool holds(double rate) const { return (near.found || whole.found) && false_alarm_probability <= rate; }
+};
+
+Candidates candidates(const GreyImage& even, const LatticeOptions& options) {
+  const FeatureMatrix matrix = feature_matrix(even);
+  Candidates result{find_lattice(matrix, nearby(options, k_near_cells)), find_lattice(matrix, nearby(options, 0)), 1};
+  result.false_alarm_probability = false_alarm_probability(even, result.near, result.whole, options);
+  return result;
+}
+
+/// The same of the picture at half and a quarter of its size, where structure within the cells that repeats by itself
+/// (threads within checks) or noise hides the cells; in pixels of the picture. Every try may add a false alarm, so that
+/// each has a share of the rate only.
+std::optional<Candidates> coarse_candidates(const GreyImage& even, LatticeOptions options) {
+  constexpr int k_halvings = 2, k_least_side = 96;
+  constexpr double k_share = 0.1;
+  options.false_alarm_rate *= k_share;
+  GreyImage coarse = even;
+  for (int k = 0; k < k_halvings; ++k) {
+    coarse = texture_detail::halved(coarse);
+    if (std::min(coarse.width, coarse.height) < k_least_side) break;
+    Candidates found = candidates(coarse, options);
+    if (!found.holds(options.false_alarm_rate)) continue;
+    const Vec2 grown{static_cast<double>(even.width) / coarse.width, static_cast<double>(even.height) / coarse.height};
+    for (Lattice* lattice : {&found.near, &found.whole})
+      for (Vec2& v : lattice->vectors_px) v = {grown.x * v.x, grown.y * v.y};
+    return found;
+  }
+  return std::nullopt;
 }
 
 /// Drops the lattice when chance explains it.
@@ -139,17 +183,20 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
   analysis.lattice = find_lattice(analysis.matrix, options);
   const bool bends = feature == FeatureKind::squared && options.method == LatticeMethod::best;
   const GreyImage even = texture_detail::with_even_light(analysis.picture);
-  Lattice near, whole = analysis.lattice;
+  Candidates best;
   if (bends) {
-    const FeatureMatrix matrix = feature_matrix(even);
-    near = find_lattice(matrix, nearby(options, k_near_cells));
-    whole = find_lattice(matrix, nearby(options, 0));
+    best = candidates(even, options);
+    if (!best.holds(options.false_alarm_rate))
+      if (std::optional<Candidates> coarse = coarse_candidates(even, options)) best = std::move(*coarse);
+  } else {
+    best.whole = analysis.lattice;
+    best.false_alarm_probability = false_alarm_probability(even, best.near, best.whole, options);
   }
-  analysis.false_alarm_probability = false_alarm_probability(even, near, whole, options);
-  if ((!near.found && !whole.found) || analysis.false_alarm_probability > options.false_alarm_rate) {
+  analysis.false_alarm_probability = best.false_alarm_probability;
+  if (!best.holds(options.false_alarm_rate)) {
     reject(analysis);
   } else if (bends) {
-    follow(analysis, even, near, whole, options);
+    follow(analysis, even, best.near, best.whole, options);
   } else {
     analysis.part = symmetric_part(analysis.picture, analysis.lattice.vectors_px);
   }

@@ -31,6 +31,11 @@ Json grain_json(const std::string& name, const Grain& grain) {
   }
   height.update({{"depth_mm", h.depth_mm}, {"rms_mm", h.rms_mm}, {"periodic", grain.relief.periodic}});
   if (h.light) height["stop"] = to_string(h.stop);
+  if (h.stereo) {
+    height["photographs"] = h.photographs;
+    height["light_estimated"] = h.light_estimated;
+    height.update(stereo_readings_json(*h.stereo));
+  }
   height["slope"] = slope_json(h);
   Json json = {{"name", name},
                {"picture",

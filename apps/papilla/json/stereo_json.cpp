@@ -3,11 +3,9 @@
 
 namespace papilla::app {
 
-Json stereo_json(const StereoFiles& files) {
+Json stereo_readings_json(const StereoFiles& files) {
   const PhotometricStereoResult& stereo = files.stereo;
-  Json json = height_json(files.files);
-  json["light_coherence"] = nullptr;
-  json["lights"] = Json::array();
+  Json json = {{"lights", Json::array()}};
   for (const Vec3 light : stereo.lights) json["lights"].push_back({light.x, light.y, light.z});
   json["ambient"] = stereo.ambient;
   json["confidence"] = {{"mean", files.mean_confidence}, {"low_fraction", files.low_confidence_fraction}};
@@ -20,6 +18,13 @@ Json stereo_json(const StereoFiles& files) {
     json["references"].push_back({{"name", reading.name},
                                   {"value", reading.value},
                                   {"correlation", reading.correlation ? Json(*reading.correlation) : Json(nullptr)}});
+  return json;
+}
+
+Json stereo_json(const StereoFiles& files) {
+  Json json = height_json(files.files);
+  json["light_coherence"] = nullptr;
+  json.update(stereo_readings_json(files));
   if (!files.confidence_picture.empty())
     json["pictures"].push_back({{"name", "confidence"}, {"file", files.confidence_picture}});
   return json;

@@ -347,7 +347,8 @@ Json photograph_json(const std::string& relief, const PhotographFile& made, cons
           {"ambient", photo.ambient},
           {"shadows_fraction", made.photograph.shadows_fraction},
           {"clipped_fraction", made.photograph.clipped_fraction},
-          {"seed", photo.seed}};
+          {"seed", photo.seed},
+          {"surface_seed", photo.surface_seed}};
 }
 
 Json texture_json(const TextureFiles& files) {

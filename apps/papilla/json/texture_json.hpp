@@ -29,6 +29,8 @@ Json survey_json(const std::string& image, const TextureSurvey& survey);
 Json height_json(const HeightFiles& files);
 /// Of `height` with several photographs: all of height_json(), and more.
 Json stereo_json(const StereoFiles& files);
+/// What photometric stereo found beside the relief.
+Json stereo_readings_json(const StereoFiles& files);
 Json prepared_json(const std::string& image, const PreparedPicture& prepared);
 Json synthesis_json(const std::string& what, const Synthesis& synthesis, const SynthesisOptions& options);
 Json texture_json(const TextureFiles& files);

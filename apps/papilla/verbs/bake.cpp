@@ -7,6 +7,7 @@
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "option_checks.hpp"
+#include "options/material_library_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char *k_mpeg = "MPEG_material_haptic", *k_khr = "KHR_physics_rigid_bodies";
 
 struct Options {
-  std::string input, materials, output, report;
+  std::string input, materials, material_library, output, report;
   std::vector<std::string> libraries, mirrors;
   bool pictures = false;
   BakeFileOptions bake;
@@ -75,7 +76,7 @@ Json run(const Options& options, VerbContext& context) {
   wanted.for_pictures = options.pictures;
   if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
   const Stopwatch total;
-  const Materials rules = read_materials(options.materials);
+  const Materials rules = read_materials(options.materials, options.material_library);
   wanted.bake.library = load_recipes(options.libraries);
   const BakeFileResult result = bake_file(options.input, options.output, rules, wanted, context.progress);
 
@@ -122,6 +123,7 @@ void add_bake(CLI::App& program) {
       ->required();
   reads(verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
+  add_material_library(*verb, options->material_library);
   verb->add_flag("--keep-copies", options->bake.bake.plan.keep_copies, "Do not make identical parts instances of one");
   add_effort(*verb, options->bake.bake.unwrap.method.effort);
   verb->add_option("--budget", options->bake.bake.plan.budget,

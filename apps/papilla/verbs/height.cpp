@@ -22,8 +22,9 @@ struct Options {
 };
 
 Json run_several(const Options& options, VerbContext& context) {
-  StereoFileOptions stereo{options.height.options(context.seed, context.progress), options.lights, options.references,
-                           options.is_depth_given};
+  StereoFileOptions stereo{options.height.options(context.seed, context.progress), {}, {}, options.is_depth_given};
+  if (!options.lights.empty()) stereo.lights = read_lights(options.lights, options.images.size());
+  if (!options.references.empty()) stereo.references = read_references(options.references);
   const StereoFiles files =
       height_of_picture_files({options.images.begin(), options.images.end()}, options.output, stereo);
   context.console.print(stereo_text(options.output, files));

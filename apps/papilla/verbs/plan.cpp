@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "exit_code.hpp"
 #include "file_options.hpp"
+#include "json/materials_json.hpp"
 #include "json/scene_json.hpp"
+#include "options/material_library_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
+#include "papilla/core/error.hpp"
+#include "papilla/pipeline/material_library.hpp"
+#include "papilla/pipeline/material_suggestion.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
+#include "text/materials_text.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
 
@@ -16,7 +24,7 @@ namespace papilla::app {
 namespace {
 
 struct Options {
-  std::string input, materials;
+  std::string input, materials, library;
   bool strict = false;
   PerceptionOption perception;
   SideOption sides;
@@ -24,13 +32,30 @@ struct Options {
   bool keep_copies = false;
 };
 
+/// What of the library may suit the surfaces that get no material; says why where the library can't be read.
+Json suggest(const PlannedFile& plan, const Options& options, const Console& console) {
+  const auto has_none = [](const PartSurface& surface) { return surface.material.empty(); };
+  if (std::none_of(plan.surfaces.begin(), plan.surfaces.end(), has_none)) return Json::array();
+  try {
+    const MaterialLibrary library(options.library.empty() ? find_material_library()
+                                                          : std::filesystem::path(options.library));
+    const std::vector<MaterialSuggestion> suggestions =
+        suggest_materials(plan.scene, plan.surfaces, library.materials());
+    console.print(suggestions_text(suggestions));
+    return suggestions_json(suggestions);
+  } catch (const Error& error) {
+    console.print(shown_format("\nno material is suggested: {}\n", error.what()));
+    return nullptr;
+  }
+}
+
 Json run(const Options& options, VerbContext& context) {
   BakeFileOptions wanted;
   wanted.read = options.scene.read_options();
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options();
   wanted.bake.plan.keep_copies = options.keep_copies;
-  const Materials rules = read_materials(options.materials);
+  const Materials rules = read_materials(options.materials, options.library);
   const PlannedFile plan = plan_file(options.input, rules, wanted, context.progress);
   context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + grains_text(plan.grains) +
                         contact_models_text(rules) + rules_table(plan.rules, rules) + sides_text(plan.sides, true) +
@@ -42,6 +67,7 @@ Json run(const Options& options, VerbContext& context) {
   json["contact"] = contact_models_json(rules);
   json["uv"] = own_uv_json(plan.surfaces);
   json["rules"] = rules_json(plan.rules);
+  json["suggestions"] = suggest(plan, options, context.console);
   json["identical_parts"] = shared_parts_json(plan.shared, plan.scene);
   json["sides"] = sides_json(plan.sides, wanted.bake.plan.sides);
   json["losses"] = plan.scene.losses;
@@ -65,6 +91,7 @@ void add_plan(CLI::App& program) {
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json"))->type_name("FILE")->required();
+  add_material_library(*verb, options->library);
   verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   verb->add_flag("--strict", options->strict, "Exit with 3 when a rule takes no surface");
   options->perception.add_to(*verb);

@@ -27,7 +27,7 @@ Json run_photo(const Options& options, VerbContext& context) {
   PhotographFileOptions photo = options.photo;
   if (!options.light.empty()) photo.photograph.light = parse_vector("--light", options.light);
   photo.photograph.cast_shadows = !options.no_shadows;
-  photo.photograph.surface_seed = photo.photograph.seed = context.seed;
+  photo.photograph.seed = context.seed;
   photo.height_mm = options.synthesis.height_mm;
   const PhotographFile result = photograph_of_relief_file(options.relief_file, options.output, photo);
   context.console.print(photograph_text(options.relief_file, options.output, result));
@@ -67,8 +67,9 @@ void add_synthesize(CLI::App& program) {
   reads(verb->add_option("relief_file", options->relief_file,
                          "Photo: height map of the surface, a picture or millimetres"))
       ->type_name("RELIEF");
-  writes(verb->add_option("-o,--output", options->output,
-                          "Picture: the lit grain, the fractal surface as grey values, or the photograph"))
+  writes(verb->add_option(
+             "-o,--output", options->output,
+             "Picture: the lit grain, the fractal surface as grey values, or the photograph (.exr: linear floats)"))
       ->required()
       ->type_name("FILE");
   writes(verb->add_option("--relief", options->relief, "True relief: 16-bit .png, or .exr or .tif in millimetres"))
@@ -100,6 +101,11 @@ void add_synthesize(CLI::App& program) {
   verb->add_option("--albedo-noise", photo.albedo_noise, "Photo: rms of the albedo's spots, of 1")
       ->capture_default_str();
   verb->add_option("--spot-px", photo.albedo_spot_px, "Photo: radius of the spots")->capture_default_str();
+  verb->add_option("--surface-seed", photo.surface_seed,
+                   "Photo: seed of the spots, the same for all photographs of one surface; --seed is that of noise and "
+                   "uneven light")
+      ->type_name("N")
+      ->capture_default_str();
   verb->add_option("--valley-darkening", photo.valley_darkening, "Photo: share by which the lowest point is darker")
       ->capture_default_str();
   verb->add_option("--vignette", photo.vignette, "Photo: loss of light at the corners, of 1")->capture_default_str();

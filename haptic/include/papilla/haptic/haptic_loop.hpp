@@ -39,6 +39,7 @@ struct LoopOptions {
   LoopClock* clock = nullptr;                ///< Paces the loop; nullptr: the system's.
   const Trajectory* hand = nullptr;          ///< Hand columns of the recording; without it those of the probe.
   std::vector<RecordRow>* record = nullptr;  ///< One row per tick, allocated before the loop.
+  std::span<RecordRow> recent = {};          ///< Tick i goes to place i % size, for who follows `status`.
   LoopStatus* status = nullptr;              ///< Updated every tick, lock-free.
   LatestSlot<RecordRow>* latest = nullptr;   ///< Receives every tick.
   const std::atomic<bool>* stop = nullptr;   ///< The loop ends at the next tick when it is true.

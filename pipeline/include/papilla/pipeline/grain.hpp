@@ -25,7 +25,7 @@ inline constexpr int k_most_grain_side = 2048;
 
 /// How a grain's relief was found.
 struct GrainHeight {
-  std::string method, reason;      ///< A HeightMethod's name, "synthesis" or "recipe".
+  std::string method, reason;      ///< A HeightMethod's name, "synthesis", "recipe" or "grain".
   std::optional<Vec3> light = {};  ///< Of shape from shading; nothing for recipes.
   bool light_estimated = false;
   double depth_mm = 0, rms_mm = 0;  ///< Peak to valley; root mean square about the mean; of the relief as it is baked.
@@ -33,6 +33,8 @@ struct GrainHeight {
   double unlimited_depth_mm = 0;               ///< Peak to valley before its slopes were limited.
   double max_slope = 0;                        ///< The limit of the slopes, mm per mm.
   SlopeLimitResult slopes = {};                ///< What limiting them changed; its relief is the grain's.
+  std::vector<std::string> photographs = {};   ///< Of one place, when it is the relief of several.
+  std::optional<StereoFiles> stereo = {};      ///< Of those, without map and confidence.
   std::optional<RoughnessModel> overlay = {};  ///< Roughness that the player lays over the relief.
 };
 

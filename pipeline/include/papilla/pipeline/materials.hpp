@@ -5,32 +5,42 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
 #include "papilla/texture/picture_relief.hpp"
 
 namespace papilla {
 
+/// A texture "grain:leather" is the test grain of that name (grain.hpp), of which nothing has to be read.
+inline constexpr std::string_view k_grain_prefix = "grain:";
+
 /// How a material's picture becomes relief: the options of `papilla height`, and what a material has beside them.
 struct HeightRule {
-  PictureReliefOptions relief;      ///< Its pitch and depth, `seen` and progress are the grain's.
-  double pitch_mm = 0;              ///< Of a picture without a size; 0: from the file's resolution.
-  std::optional<double> depth_mm;   ///< Peak to valley; without it 1 % of the grain's shorter side.
-  bool opposite = false;            ///< The relief that the opposite light would make of the picture.
-  double scale = 1;                 ///< Multiplies the heights; 1, 2 and 4 are the tested variants.
+  PictureReliefOptions relief;  ///< Its pitch and depth, `seen` and progress are the grain's.
+  /// Three or more photographs of one place under different light, whose relief it is; empty: that of the texture.
+  std::vector<std::filesystem::path> images;
+  StereoLights lights;                      ///< Of the images.
+  std::vector<HeightReference> references;  ///< In the images.
+  double pitch_mm = 0;                      ///< Of a picture without a size; 0: from the file's resolution.
+  std::optional<double> depth_mm;           ///< Peak to valley; without it 1 % of the grain's shorter side.
+  bool opposite = false;                    ///< The relief that the opposite light would make of the picture.
+  double scale = 1;                         ///< Multiplies the heights; 1, 2 and 4 are the tested variants.
   std::optional<double> max_slope;  ///< Of the relief; without it default_max_slope() of the material's friction.
 };
 
 /// One entry of "materials": what a surface looks and feels like. SI units as in the haptic tag.
 struct MaterialRule {
   std::string name;
-  std::filesystem::path
-      texture;                 ///< Picture of the grain; empty: no grain. Absolute or relative to the working folder.
-  std::string recipe;          ///< What the file has as texture, in case it is a recipe.
-  double time = 0;             ///< Of a recipe: 0 new to 1 worn.
-  double size_mm[2] = {0, 0};  ///< Width and height that the picture shows; 0: from the picture's own resolution.
+  std::string library;            ///< Id of the library's material that the rule rests on; empty: none.
+  std::filesystem::path texture;  ///< Picture of the grain, or the first of height.images; empty: no grain. Absolute or
+                                  ///< relative to the working folder.
+  std::string recipe;             ///< What the file has as texture, in case it is a recipe or a grain.
+  double time = 0;                ///< Of a recipe: 0 new to 1 worn.
+  double size_mm[2] = {0, 0};     ///< Width and height that the picture shows; 0: from the picture's own resolution.
   std::optional<double> stiffness;  ///< N/m
   std::optional<double> damping;    ///< N·s/m
   std::optional<double> static_friction, dynamic_friction, stribeck_velocity;
@@ -55,8 +65,10 @@ struct Materials {
   std::string source = "materials";  ///< The file's name in messages.
 };
 
-/// Reads MATERIALS.json; relative picture names are taken from the file's own folder.
+/// Reads MATERIALS.json; relative picture names are taken from the file's own folder. A material that names one of the
+/// library, "library:leather/nappa-fine", gets all that rule_of() gives, and then what the file says beside it.
+/// @param library  folder of the library; empty: the one that find_material_library() finds.
 /// @throws IoError, InvalidInput naming the file and the JSON pointer of the offending value.
-Materials read_materials(const std::filesystem::path& path);
+Materials read_materials(const std::filesystem::path& path, const std::filesystem::path& library = {});
 
 }  // namespace papilla

@@ -22,7 +22,8 @@ struct PhotographFile {
   double range_mm = 0;  ///< Highest less lowest point of the relief.
 };
 
-/// Reads a relief, takes its photograph() and writes that in the format of the extension, .jpg included.
+/// Reads a relief, takes its photograph() and writes that in the format of the extension, .jpg included; .exr takes
+/// linear brightness that is not rounded.
 /// @throws InvalidInput, IoError as read_grey_image(), photograph() and write_grey_image().
 PhotographFile photograph_of_relief_file(const std::filesystem::path& relief, const std::filesystem::path& output,
                                          const PhotographFileOptions& options);

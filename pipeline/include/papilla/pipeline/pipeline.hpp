@@ -17,6 +17,8 @@
 ///   height_of_picture_file() picture -> height map in millimetres             height_file.hpp
 ///   prepare_picture_file() even light, borders that match                     prepare_file.hpp
 ///   read_materials()      MATERIALS.json                                      materials.hpp
+///   MaterialLibrary       materials of interiors by name                      material_library.hpp
+///   suggest_materials()   of the library, for surfaces without one            material_suggestion.hpp
 ///   plan_bake()           which stages a scene needs, and why                 bake_plan.hpp, bake_stages.hpp
 ///   bake_scene()          grain and touch onto a scene                        bake_scene.hpp, grain.hpp
 ///   synthesize_texture()  fractal surfaces and grains by formula             synthesis.hpp
@@ -34,6 +36,8 @@
 #include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
 #include "papilla/pipeline/height_file.hpp"
+#include "papilla/pipeline/material_library.hpp"
+#include "papilla/pipeline/material_suggestion.hpp"
 #include "papilla/pipeline/measure_scene.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
 #include "papilla/pipeline/perception.hpp"

@@ -15,16 +15,17 @@
 namespace papilla {
 
 /// Lights of photographs: directions, or a ball in every photograph, or neither: unknown.
-struct LightsFile {
+struct StereoLights {
   std::vector<Vec3> directions;
   std::optional<LightSphere> sphere;
+  std::string source = {};  ///< Where they stand, for messages.
 };
 
 /// Reads LIGHTS.json: {"lights": [[x, y, z], …]}, one a photograph in order, to the light, x right, y down, z to the
-/// camera, any length; {"lights": "unknown"} or "unknown"; or {"sphere": {"centre_px": [x, y], "radius_px": r, "kind":
-/// "mirror" or "matte"}}, where the ball lies in all photographs.
+/// camera, any length, or the list alone; {"lights": "unknown"} or "unknown"; or {"sphere": {"centre_px": [x, y],
+/// "radius_px": r, "kind": "mirror" or "matte"}}, where the ball lies in all photographs.
 /// @throws IoError; InvalidInput naming file and JSON pointer, also when there are not `photographs` lights.
-LightsFile read_lights(const std::filesystem::path& path, std::size_t photographs);
+StereoLights read_lights(const std::filesystem::path& path, std::size_t photographs);
 
 /// A reference in the picture for its scale along the surface or in height.
 struct HeightReference {
@@ -46,10 +47,10 @@ inline constexpr std::size_t k_stereo_bytes_per_pixel = 220, k_photograph_bytes_
 
 /// Options of height_of_picture_files().
 struct StereoFileOptions {
-  HeightFileOptions files;           ///< Of `height`: pitch_mm, and depth_mm where `keeps_depth` is false.
-  std::filesystem::path lights;      ///< LIGHTS.json; empty: unknown.
-  std::filesystem::path references;  ///< REF.json; empty: none.
-  bool is_depth_given = false;       ///< The result gets files.height.depth_mm, not the depth that was measured.
+  HeightFileOptions files;  ///< Of `height`: pitch_mm, and depth_mm where `keeps_depth` is false.
+  StereoLights lights;
+  std::vector<HeightReference> references;
+  bool is_depth_given = false;  ///< The result gets files.height.depth_mm, not the depth that was measured.
 };
 
 /// What a reference in the picture says.
@@ -59,7 +60,7 @@ struct ReferenceReading {
   std::optional<double> correlation;  ///< Of a profile.
 };
 
-/// What height_of_picture_files() computed and wrote.
+/// What relief_of_picture_files() computed, and height_of_picture_files() wrote.
 struct StereoFiles {
   HeightFiles files;               ///< `result` has the map, its depth, what was measured and assumed, and the trace.
   PhotometricStereoResult stereo;  ///< Without heights.
@@ -70,12 +71,19 @@ struct StereoFiles {
   std::string confidence_picture;  ///< confidence.png in the folder of pictures; empty: none was asked for.
 };
 
-/// Reads photographs of one place from one point under different light, moves them onto each other, and writes the
-/// relief of photometric_stereo(). They are decoded as `files.height.transfer`
-/// says. The depth is measured where the
-/// lights are known; of several references of height their mean is taken.
-/// @throws InvalidInput naming the file when there are fewer than three photographs, their sizes differ, they take more
-///         than picture_memory() (before they are decoded), or lights and references do not fit; IoError.
+/// Width of photographs of one place, of which only the sizes are read.
+/// @throws InvalidInput naming the file when there are fewer than three, their sizes differ, or they take more than
+///         picture_memory(); IoError.
+int width_of_picture_files(const std::vector<std::filesystem::path>& photographs);
+
+/// Reads photographs of one place from one point under different light, moves them onto each other, and makes the
+/// relief of photometric_stereo(). They are decoded as `files.height.transfer` says. The depth is measured where the
+/// lights are known; of several references of height their mean is taken. Nothing is written.
+/// @throws as width_of_picture_files(); InvalidInput when lights and references do not fit.
+StereoFiles relief_of_picture_files(const std::vector<std::filesystem::path>& photographs,
+                                    const StereoFileOptions& options);
+
+/// Writes relief_of_picture_files(). @throws as that; IoError.
 StereoFiles height_of_picture_files(const std::vector<std::filesystem::path>& photographs,
                                     const std::filesystem::path& output, const StereoFileOptions& options);
 

@@ -22,7 +22,8 @@ namespace papilla {
 
 /// How grey becomes height. `automatic` takes `wiener` or `intensity` (grey = height, bright = high), whichever it
 /// expects to correlate more with the true relief: the picture's spectrum and the light's coherence and uncertainty say
-/// that of shape from shading; that of grey is 0.5 for a picture without light direction and 0.15 for a lit one.
+/// that of shape from shading; that of grey is 0.5 for a picture without light direction and 0.10 for a lit one,
+/// see wiener.md.
 /// `photometric_stereo` takes several photographs: height_from_image() refuses it, see photometric_stereo().
 enum class HeightMethod { automatic, variational, pentland, tsai_shah, intensity, wiener, photometric_stereo };
 

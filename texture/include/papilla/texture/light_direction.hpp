@@ -15,7 +15,8 @@ struct LightEstimate {
   /// picture).
   double coherence = 0;
   /// Standard deviation of the axis, 1 to 52 degrees (52: not known at all): that over parts of the picture
-  /// (jackknife), and what a relief with directions of its own adds, measured on the model of photographs.
+  /// (jackknife) with what directions of the relief add; of a relief with one direction how sharply its local gradients
+  /// tell the axis. On the model of photographs 86 % of the errors are within it, 98 % within twice that.
   double uncertainty_deg = 52;
   double elevation_deg = 45;  ///< Assumed, not measured: one picture of unknown albedo does not determine it.
   double elevation_uncertainty_deg = 15;  ///< Of that assumption.
@@ -27,9 +28,14 @@ struct LightEstimate {
 /// azimuth φ has
 ///   g_2 = (g_0 e^(−2iφ) + g_4 e^(2iφ)) / 2;
 /// φ is where that is met best, and of two such angles the one nearer to the strongest gradient.
-/// Assumed, because a picture does not determine it: that the relief has no direction of its own; the light comes from
-/// above the picture (of the two opposite azimuths the one with y < 0, from the left when horizontal); its elevation is
-/// 45°. The spectrum is that of the middle 1024 pixels at most. Cost: one transform, and those of nine parts.
+/// A relief with one direction (ribs, brushed metal) is told by the local structure tensors J (Gaussians of 1.5 and 2.5
+/// pixels): |⟨e^(2iθ) coherence⟩| over ¾, or over ½ while |g_4| < 0.55 g_0. There the slopes are taken to be alike for
+/// all local directions θ, so that the larger eigenvalue of J follows
+///   E(θ) ∝ cos²(θ − φ) + 0.05;
+/// φ is where that is met best. Straight ribs tell nothing: the light is then taken across them, and uncertain.
+/// Assumed, because a picture does not determine it: the relief as said; the light comes from above the picture (of the
+/// two opposite azimuths the one with y < 0, from the left when horizontal); its elevation is 45°. All is measured in
+/// the middle 1024 pixels at most. Cost: nine transforms, and those of nine parts.
 /// Deterministic. A flat picture gives light from above with coherence 0.
 /// @throws InvalidInput when the picture is empty or not finite.
 /// Koenderink and Pont, Irradiation direction from texture, J. Opt. Soc. Am. A 20(10), 2003.

@@ -65,5 +65,7 @@ enum class PhotographCondition { clean, spotted, glossy };
 /// The options of a condition, under a light of random azimuth, 25 to 55 degrees above the surface. Every seed gives
 /// other light, noise and spots, whose radius lies within 1 to 8 pixels.
 PhotographOptions photograph_options(PhotographCondition condition, std::uint64_t seed);
+/// One of several photographs of a surface: all of the same `surface_seed` show the same spots.
+PhotographOptions photograph_options(PhotographCondition condition, std::uint64_t seed, std::uint64_t surface_seed);
 
 }  // namespace papilla

@@ -41,11 +41,12 @@ struct PhotometricStereoResult {
 /// the slopes are p = −b_x/b_z, q = −b_y/b_z, and the heights are the relief whose slopes come closest, with free
 /// borders [Frankot and Chellappa 1988]. The albedo may vary as it likes.
 ///
-/// Before that every photograph is made even. Its light and the vignette are taken as quadrics of the logarithm, but
-/// for the part that a bent surface explains in all photographs, as far as the spectrum of the relief makes that
-/// probable. With four photographs or more any three predict the fourth: light from everywhere is that with which they
-/// agree best. Shadows and highlights are left out where four or more photographs show them
-/// in one.
+/// Before that every photograph is divided by its gain, a polynomial of third degree of the logarithm. With four
+/// photographs or more any three predict the fourth at every pixel, which only the true gains fulfil where slopes of
+/// all directions are near each other; elsewhere the spectrum of the relief says how long waves are probable. Light
+/// from everywhere is that with which the mean surface is level. Shadows and highlights are left out where four or
+/// more photographs show them in one. What is the same in all photographs, as a vignette, is taken for
+/// albedo.
 ///
 /// Unknown lights: the mean surface faces the camera; the two strongest directions of the photographs' differences are
 /// the slopes up to a linear transformation, which follows from integrability, ∂p/∂y = ∂q/∂x [Yuille and Snow 1997],
@@ -57,7 +58,7 @@ struct PhotometricStereoResult {
 /// Not modelled: light from one facet to another, perspective, lamps so near that their direction changes over the
 /// picture by more than a dome would. Three photographs can't tell shadows from slopes.
 /// A good input: four or more photographs from a tripod, lamp 25 to 55 degrees above the surface, azimuths spread all
-/// around. Cost: about 1.3 s of processor time at 288 × 224 with four lights given. Memory: 8 bytes a pixel and
+/// around. Cost: about 0.7 s of processor time at 272 × 208 with four lights given. Memory: 8 bytes a pixel and
 /// photograph twice, and 150 bytes a pixel. Deterministic.
 /// @param photographs  the same size, at least 16 pixels a side, linear brightness (see linear_from_srgb()).
 /// @throws InvalidInput when there are fewer than three, their sizes differ, one is black or not finite, or the lights

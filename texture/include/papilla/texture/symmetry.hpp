@@ -38,6 +38,7 @@ enum class FeatureKind { squared, absolute };
 /// spectrum reach its significance [Theiler et al., surrogate data]. Then its deformation is found
 /// (find_lattice_deformation()), and, where that explains more than chance, lattice and mean cell are those of the
 /// straightened picture. Exact lattices keep the vectors that find_lattice() gives for the whole matrix.
+/// Where none counts, the picture at half and at a quarter of its size is tried, each at a tenth of the rate.
 /// LatticeMethod::projection and FeatureKind::absolute know neither even light nor bending.
 ///
 /// Good input: three cells a side or more, of 4 pixels or more, neighbours of which differ by less than a quarter of a
