@@ -142,7 +142,7 @@ std::string folded(std::string_view text) {
       i += accented->first.size();
     } else if (starts("ß") || starts("ẞ")) {
       plain += "ss";
-      i += starts("ß") ? 2 : 3;
+      i += starts("ß") ? std::size_t{2} : std::size_t{3};
     } else {
       const char c = text[i++];
       const bool is_letter =

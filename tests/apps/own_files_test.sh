@@ -45,6 +45,7 @@ printf '{"centre": [0, 0, 0], "radius": 100}' >volume.json
 printf 't,x,y,z\n0,0,0,0.01\n0.01,0,0,0.01\n' >hand.csv
 "$papilla" bake scene.glb -m rules.json -o tagged.glb -q || fail "nothing baked"
 printf 'ISO-10303-21;\n' >part.step
+printf '{}' >own.json
 
 # What each verb reads and writes: VERB | arguments | inputs among them | option of each output.
 table='inspect    | one.obj --reach volume.json --view volume2.json  | one.obj volume.json volume2.json | --picture --json
@@ -61,6 +62,7 @@ texture    | dots --library lib.recipes -o made --size 8     | lib.recipes      
 weather    | scene.glb -c config.json                        | scene.glb config.json            | --output --json
 plan       | scene.glb -m rules.json --reach volume.json --view volume2.json | scene.glb rules.json volume.json volume2.json | --json
 bake       | scene.glb -m rules.json --library lib.recipes --reach volume.json --view volume2.json | scene.glb rules.json lib.recipes volume.json volume2.json | --output --json
+materials  | check own.json                                  | own.json                         | --output --picture --json
 view       | scene.glb --tags scene2.glb --no-open           | scene.glb scene2.glb             | --output --json
 evaluate   | param one.obj  -o made                          | one.obj                          | --json'
 cp volume.json volume2.json

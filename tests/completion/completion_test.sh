@@ -130,7 +130,7 @@ for program in "$@"; do
     expect 'lscm,best' "$program" evaluate param --method lscm,be
     expect 'grain fractal photo' "$program" synthesize ''
     expect 'list show search check page' "$program" materials ''
-    expect 'search show' "$program" materials s
+    expect 'show search' "$program" materials s
   fi
   expect '--help' "$program" --hel
   for verb in $(completed "$program" ''); do

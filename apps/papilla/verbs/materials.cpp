@@ -159,15 +159,17 @@ void add_materials(CLI::App& program) {
   verb->add_option("what", options->what, "list, show, search, check or page")
       ->required()
       ->transform(one_of({"list", "show", "search", "check", "page"}));
-  verb->add_option("words", options->words,
-                   "Show: an id. Search: words in English or German. Check: files or folders; default the library")
+  reads(
+      verb->add_option("words", options->words,
+                       "Show: an id. Search: words in English or German. Check: files or folders; default the library"))
       ->type_name("WORD");
   reads(verb->add_option("--library", options->library,
                          "Folder of the library; default $PAPILLA_MATERIAL_LIBRARY, or that of the program"))
       ->type_name("DIR");
   writes(verb->add_option("--picture", options->picture, "Show: picture of a lit ball and the relief"))
       ->type_name("FILE");
-  verb->add_option("-o,--output", options->output, "Page: an .html file with all in it, or a folder")->type_name("OUT");
+  writes(verb->add_option("-o,--output", options->output, "Page: an .html file with all in it, or a folder"))
+      ->type_name("OUT");
   verb->add_option("--picture-px", options->side_px, "Side of each of the two pictures, 64 to 2048")
       ->type_name("N")
       ->check(in_range(64, 2048))
