@@ -16,7 +16,7 @@
 namespace papilla::app {
 
 struct FileOption {
-  enum class Use { input, output, folder } use;
+  enum class Use { input, output, folder, file_or_folder } use;
   std::vector<std::string> names;  ///< Of the files that are always written into a folder.
 };
 
@@ -43,6 +43,19 @@ inline CLI::Option* writes_into(CLI::Option* option, std::vector<std::string> na
   return option;
 }
 
+/// An option that names a file to write, by its extension, or else a folder to write into. @returns the option.
+inline CLI::Option* writes_or_into(CLI::Option* option) {
+  file_options()[option] = {FileOption::Use::file_or_folder, {}};
+  return option;
+}
+
+/// Whether a value of an option names a file to write.
+inline bool names_output(FileOption::Use use, const std::string& value) {
+  if (use == FileOption::Use::file_or_folder)
+    return std::filesystem::path(value).has_extension() && !std::filesystem::is_directory(value);
+  return use == FileOption::Use::output;
+}
+
 /// Declares what the command's options name.
 /// @throws OverwriteRefused.
 inline void declare_files(const CLI::App& command) {
@@ -53,7 +66,7 @@ inline void declare_files(const CLI::App& command) {
       for (const std::string& value : option->results()) {
         if (value.empty() || value == "-") continue;
         if (inputs) declare_input(value, option->get_name());
-        if (known->second.use == FileOption::Use::output) declare_output(value, option->get_name());
+        if (names_output(known->second.use, value)) declare_output(value, option->get_name());
         for (const std::string& name : known->second.names)
           declare_output(std::filesystem::path(value) / name, option->get_name());
       }
@@ -65,9 +78,9 @@ inline void declare_files(const CLI::App& command) {
 inline void require_outputs(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const auto known = file_options().find(option);
-    if (known == file_options().end() || known->second.use != FileOption::Use::output) continue;
+    if (known == file_options().end()) continue;
     for (const std::string& value : option->results())
-      if (!value.empty() && value != "-") require_writable(value);
+      if (!value.empty() && value != "-" && names_output(known->second.use, value)) require_writable(value);
   }
 }
 
