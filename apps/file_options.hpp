@@ -16,7 +16,7 @@
 namespace papilla::app {
 
 struct FileOption {
-  enum class Use { input, output, folder, file_or_folder } use;
+  enum class Use { input, output, folder, perhaps_output } use;
   std::vector<std::string> names;  ///< Of the files that are always written into a folder.
 };
 
@@ -43,15 +43,16 @@ inline CLI::Option* writes_into(CLI::Option* option, std::vector<std::string> na
   return option;
 }
 
-/// An option that names a file to write, by its extension, or else a folder to write into. @returns the option.
-inline CLI::Option* writes_or_into(CLI::Option* option) {
-  file_options()[option] = {FileOption::Use::file_or_folder, {}};
+/// An option that names a file to write, if it has an extension, or something else: a folder, a device. @returns the
+/// option.
+inline CLI::Option* writes_if_file(CLI::Option* option) {
+  file_options()[option] = {FileOption::Use::perhaps_output, {}};
   return option;
 }
 
 /// Whether a value of an option names a file to write.
 inline bool names_output(FileOption::Use use, const std::string& value) {
-  if (use == FileOption::Use::file_or_folder)
+  if (use == FileOption::Use::perhaps_output)
     return std::filesystem::path(value).has_extension() && !std::filesystem::is_directory(value);
   return use == FileOption::Use::output;
 }

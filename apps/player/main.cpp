@@ -376,10 +376,10 @@ int main(int argc, char** argv) {
   app::writes(program.add_option("--record", options.record,
                                  "Write hand, probe, proxy and force of every tick; can be played again as T.csv"))
       ->type_name("R.csv");
-  program
-      .add_option("--vibration", options.vibration,
-                  "Write the acceleration of the stroke as sound, 20 to 1000 Hz: a .wav file, or play it on an ALSA "
-                  "device, for voice coils, controllers with audio haptics and headphones")
+  app::writes_if_file(
+      program.add_option("--vibration", options.vibration,
+                         "Write the acceleration of the stroke as sound, 20 to 1000 Hz: a .wav file, or play it on an "
+                         "ALSA device, for voice coils, controllers with audio haptics and headphones"))
       ->type_name("FILE.wav|{alsa}[:DEVICE]");
   program.add_option("--full-scale", options.full_scale_m_per_s2, "Acceleration that is 1 in the sound")
       ->type_name("M/S2")

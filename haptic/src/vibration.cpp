@@ -155,9 +155,4 @@ void Vibration::tick(const VibrationTick& now, std::vector<float>& samples) {
   s.phase -= per_tick;
 }
 
-double Vibration::latency_s() const noexcept {
-  // The path is two ticks old; a Chebyshev filter of order 8 delays the middle of its band by about 0.8 of a period.
-  return 2 / state_->options.rate_hz + 0.8 / state_->options.high_hz;
-}
-
 }  // namespace papilla

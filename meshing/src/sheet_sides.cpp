@@ -29,7 +29,7 @@ constexpr double k_near = 2e-4;       ///< Of the scene's diagonal: gaps that re
 constexpr double k_parallel = 0.8;    ///< |cosine| of borders that run along one another.
 constexpr double k_eye_distance = 2;  ///< Of the scene's diagonal.
 constexpr std::size_t k_room_eyes = 8, k_view_eyes = 16, k_eyes_around = 32;
-constexpr int k_most_rooms = 4;
+constexpr int k_most_rooms = 4;  ///< So often sheets that were turned lead to another room.
 constexpr std::size_t k_sight_lines = std::size_t{1} << 21;
 constexpr std::size_t k_least_points = 4, k_most_points = 256, k_border_points = 64;
 

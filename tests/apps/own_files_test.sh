@@ -128,6 +128,7 @@ for output in --record --json; do
 done
 refused --json "$player" tagged.glb --record same.csv --json same.csv
 refused --json "$player" tagged.glb --live same.sock --json same.sock
+refused --vibration "$player" tagged.glb --record same.wav --vibration same.wav
 
 # What is no file may be named as often as one likes, and results may be written again.
 for _ in 1 2; do

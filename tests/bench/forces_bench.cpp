@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/bench_json.hpp"
+#include "haptic/closest_on_curve.hpp"
 #include "haptic/contact_shapes.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
 #include "papilla/haptic/histogram.hpp"
@@ -46,23 +47,8 @@ ContactSurface plate(ContactMaterial material) {
   return ContactSurface(testing::plate(40, 1, k_width, 4 * k_pixel), {material}, {waves()}, 0);
 }
 
-/// From (x, z) to the closest point of the waves, by a scan and golden sections.
-Vec3 way_to_waves(double x, double z) {
-  const auto square = [&](double a) { return (a - x) * (a - x) + std::pow(height(a) - z, 2); };
-  const double far = std::abs(height(x) - z) + 1e-9;
-  constexpr int steps = 2000;
-  const auto at = [&](int i) { return x + far * (2.0 * i / steps - 1); };
-  int best = 0;
-  for (int i = 0; i <= steps; ++i)
-    if (square(at(i)) < square(at(best))) best = i;
-  double low = at(best - 1), high = at(best + 1);
-  for (int i = 0; i < 80; ++i) {
-    const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
-    (square(a) < square(b) ? high : low) = square(a) < square(b) ? b : a;
-  }
-  const double a = 0.5 * (low + high);
-  return {a - x, 0, height(a) - z};
-}
+/// From (x, z) to the closest point of the waves.
+Vec3 way_to_waves(double x, double z) { return testing::way_to_curve(height, x, z); }
 
 struct Curve {
   std::string name, formula;

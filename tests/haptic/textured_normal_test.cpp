@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "haptic/closest_on_curve.hpp"
 #include "haptic/contact_shapes.hpp"
 #include "papilla/haptic/haptic_tick.hpp"
 
@@ -34,22 +35,9 @@ struct Sine {
     options.offset_m = offset;
     return HeightField(columns, rows, samples, options);
   }
-  /// From (x, z) to the closest point of the sine, by a scan and golden sections.
+  /// From (x, z) to the closest point of the sine.
   Vec3 way(double x, double z) const {
-    const auto square = [&](double a) { return (a - x) * (a - x) + std::pow(height(a) - z, 2); };
-    const double far = std::abs(height(x) - z) + 1e-6;
-    constexpr int steps = 4000;
-    int best = 0;
-    const auto at = [&](double i) { return x + far * (2 * i / steps - 1); };
-    for (int i = 0; i <= steps; ++i)
-      if (square(at(i)) < square(at(best))) best = i;
-    double low = at(best - 1), high = at(best + 1);
-    for (int i = 0; i < 80; ++i) {
-      const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
-      (square(a) < square(b) ? high : low) = square(a) < square(b) ? b : a;
-    }
-    const double a = 0.5 * (low + high);
-    return {a - x, 0, height(a) - z};
+    return testing::way_to_curve([this](double a) { return height(a); }, x, z);
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/material_suggestion.hpp"
+#include "one_material_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +21,7 @@ const std::vector<LibraryMaterial>& library() {
 /// A plan of one part that no rule takes, but for `assigned`.
 std::vector<MaterialSuggestion> suggest(const std::string& part, const std::string& material, const std::string& colour,
                                         const std::string& assigned = "", std::size_t most = 3) {
-  Part square;
-  square.name = part;
-  square.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  square.mesh.triangles = {{0, 1, 2}};
-  square.materials = {0};
-  Scene scene = single_part_scene(std::move(square), "test");
-  scene.materials.resize(1);
-  scene.materials[0].name = material;
-  scene.materials[0].base_color = linear_colour(colour);
+  const Scene scene = test::one_material_scene(part, material, linear_colour(colour));
   PartSurface surface;
   surface.label = part;
   surface.material = assigned;

@@ -21,7 +21,10 @@ class MaterialsSchemaTest : public testing::Test {
  protected:
   MaterialsSchemaTest() {
     fs::create_directories(folder_);
-    schema_ = Json::parse(std::ifstream(PAPILLA_MATERIALS_SCHEMA)).at("$defs").at("material").at("properties");
+    schema_ = Json::parse(std::ifstream(PAPILLA_SCHEMAS "/materials.schema.json"))
+                  .at("$defs")
+                  .at("material")
+                  .at("properties");
   }
   ~MaterialsSchemaTest() override { fs::remove_all(folder_); }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/materials.hpp"
+#include "one_material_scene.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -165,15 +166,7 @@ TEST_F(MaterialsTest, TheFirstMatchingRuleWinsAndAllItsFieldsMustMatch) {
       {"part": "dash*", "cad_colour": "#000000", "material": "a"}, {"part": "dash_?", "material": "b"},
       {"gltf_material": "Lea*", "material": "c"}]})");
   const auto material_of = [&](const char* part, double grey, const char* material) -> std::string {
-    Part square;
-    square.name = part;
-    square.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    square.mesh.triangles = {{0, 1, 2}};
-    square.materials = {0};
-    Scene scene = single_part_scene(std::move(square), "test");
-    scene.materials.resize(1);
-    scene.materials[0].name = material;
-    scene.materials[0].base_color = {grey, grey, grey, 1};
+    Scene scene = test::one_material_scene(part, material, {grey, grey, grey, 1});
     const MaterialRule* rule = assign_materials(scene, file).parts.at(0).rule_of(0);
     return rule != nullptr ? rule->name : "none";
   };

@@ -154,8 +154,7 @@ void choose_by_expectation(const SampleRows& brightness, const HeightOptions& op
   result.method = shading >= grey ? HeightMethod::wiener : HeightMethod::intensity;
   result.expected_correlation = std::max(shading, grey);
   result.reason = std::string(lit > 0 ? "" : "no direction of light is seen: ") + "expected correlation " +
-                  rounded(shading) + " +- 0.2 from shading, " + rounded(grey) + (lit > 0 ? " +- 0.2" : " +- 0.4") +
-                  " with grey read as height";
+                  rounded(shading) + " from shading, " + rounded(grey) + " with grey read as height";
   if (result.method == HeightMethod::intensity) {
     result.light = HeightResult{}.light;
     result.light_estimated = result.ambiguous = false;

@@ -168,7 +168,7 @@ void add_materials(CLI::App& program) {
       ->type_name("DIR");
   writes(verb->add_option("--picture", options->picture, "Show: picture of a lit ball and the relief"))
       ->type_name("FILE");
-  writes_or_into(verb->add_option("-o,--output", options->output, "Page: an .html file with all in it, or a folder"))
+  writes_if_file(verb->add_option("-o,--output", options->output, "Page: an .html file with all in it, or a folder"))
       ->type_name("OUT");
   verb->add_option("--picture-px", options->side_px, "Side of each of the two pictures, 64 to 2048")
       ->type_name("N")

@@ -40,8 +40,8 @@ struct VibrationTick {
 /// Contact that begins or ends fades within 5 ms and moves nothing: heights count from where contact began. A height
 /// that jumps by more than three times the way, as from chart to chart, counts as continued.
 ///
-/// Cost: a closest point a sample, about 1 to 2 us, so some 5 to 10 % of a core; not for the haptic thread. The signal
-/// comes two ticks and about 1 ms after the contact. Deterministic; never NaN for finite input.
+/// Cost: a closest point a sample, about 3 % of a core on 230 thousand triangles; not for the haptic thread. The signal
+/// comes two ticks and 1 to 2 periods of `high` after the contact. Deterministic; never NaN for finite input.
 /// Breaks down for loads near 0, where every amplitude saturates, and for stimuli, which displace nothing.
 /// Source: Okamura, Dennerlein and Howe 1998 (vibration from contact); band of the Pacinian receptors.
 class Vibration {
@@ -55,8 +55,6 @@ class Vibration {
 
   /// Appends the samples of one tick, in m/s².
   void tick(const VibrationTick& now, std::vector<float>& samples);
-
-  double latency_s() const noexcept;
 
  private:
   struct State;

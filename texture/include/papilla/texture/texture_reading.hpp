@@ -20,7 +20,7 @@ struct ReadingOptions {
   LatticeOptions lattice;
   FeatureKind feature = FeatureKind::squared;
   bool roughness = true;   ///< Measure the dimension where the class asks for it.
-  Deadline deadline = {};  ///< Of searches, which are not begun after it; those that have begun take 2 us a pixel.
+  Deadline deadline = {};  ///< Of searches, which are not begun after it; those that have begun take 5 us a pixel.
   ProgressCallback progress = {};
 };
 
