@@ -152,9 +152,14 @@ void choose_by_expectation(const SampleRows& brightness, const HeightOptions& op
   constexpr double k_grey_of_heights = 0.5, k_grey_of_lit = 0.10;  // Means; see wiener.md.
   const double grey = (1 - lit) * k_grey_of_heights + lit * k_grey_of_lit;
   result.method = shading >= grey ? HeightMethod::wiener : HeightMethod::intensity;
-  result.expected_correlation = std::max(shading, grey);
+  // What is assumed of pictures without a direction of light decides, but is no expectation to be told.
+  if (result.method == HeightMethod::wiener)
+    result.expected_correlation = shading;
+  else if (lit == 1)
+    result.expected_correlation = grey;
   result.reason = std::string(lit > 0 ? "" : "no direction of light is seen: ") + "expected correlation " +
-                  rounded(shading) + " from shading, " + rounded(grey) + " with grey read as height";
+                  rounded(shading) + " from shading, " + rounded(grey) + (lit < 1 ? ", an assumption," : "") +
+                  " with grey read as height";
   if (result.method == HeightMethod::intensity) {
     result.light = HeightResult{}.light;
     result.light_estimated = result.ambiguous = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/io/node_places.hpp"
@@ -106,9 +108,12 @@ std::string grains_text(const std::vector<GrainPlan>& grains) {
   return out;
 }
 
-std::string contact_models_text(const Materials& rules) {
+std::string contact_models_text(const Materials& rules, const std::vector<PartSurface>& surfaces) {
+  std::set<std::string> used;
+  for (const PartSurface& surface : surfaces) used.insert(surface.material);
   std::string out;
   for (const auto& [name, rule] : rules.materials) {
+    if (!used.contains(name)) continue;
     std::string models;
     if (const auto& m = rule.force_model) {
       const ForceModel model = force_model(m->name).value_or(ForceModel::heightfield);

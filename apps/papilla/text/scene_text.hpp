@@ -53,8 +53,8 @@ std::string changes_line(const std::vector<GltfChange>& changes);
 std::string plan_table(const std::vector<PartSurface>& surfaces);
 /// What the class of each grain's picture needs, step by step, and why.
 std::string grains_text(const std::vector<GrainPlan>& grains);
-/// A line a material that states a force or friction model; empty without.
-std::string contact_models_text(const Materials& rules);
+/// A line a material of these surfaces that states a force or friction model; empty without.
+std::string contact_models_text(const Materials& rules, const std::vector<PartSurface>& surfaces);
 /// One row a rule: how many surfaces it took, and with all instances how many uses of them.
 std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules);
 /// A row a part that is left out or has uses that are; empty when there is none.

@@ -95,7 +95,7 @@ Json run(const Options& options, VerbContext& context) {
                                        budget->reached                          ? ""
                                        : budget->stop == StopReason::time_limit ? ", not reached in time"
                                                                                 : "; more deviation saves hardly any"));
-  context.console.print(bake_table(result) + contact_models_text(rules));
+  context.console.print(bake_table(result) + contact_models_text(rules, result.plan.surfaces));
   print_notes(result.scene, context.console);
   context.console.print(changes_line(result.changes));
   context.console.print(

@@ -58,8 +58,8 @@ Json run(const Options& options, VerbContext& context) {
   const Materials rules = read_materials(options.materials, options.library);
   const PlannedFile plan = plan_file(options.input, rules, wanted, context.progress);
   context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + grains_text(plan.grains) +
-                        contact_models_text(rules) + rules_table(plan.rules, rules) + sides_text(plan.sides, true) +
-                        left_out_table(plan.scene, plan.perception));
+                        contact_models_text(rules, plan.surfaces) + rules_table(plan.rules, rules) +
+                        sides_text(plan.sides, true) + left_out_table(plan.scene, plan.perception));
   print_notes(plan.scene, context.console);
   Json json{{"scene", options.input}, {"materials", options.materials}, {"stages", plan_json(plan.surfaces)}};
   json["way"] = way_json(plan.way);

@@ -98,12 +98,13 @@ struct HeightResult {
   double light_uncertainty_deg = 0;  ///< LightEstimate::uncertainty_deg when estimated; 0 for a given light.
   /// Light was estimated: the opposite relief under the opposite light gives the same picture. See opposite_relief().
   bool ambiguous = false;
-  std::optional<double> expected_correlation;  ///< With the true relief; estimated by wiener and automatic only.
-  double shadows_fraction = 0;                 ///< Brightness below a quarter of the mean; 0 for intensity.
-  double highlights_fraction = 0;              ///< Brighter than a matt surface that faces the light; 0 for intensity.
-  bool decoded_srgb = false;                   ///< The picture was taken as sRGB.
-  double unevenness = 0;  ///< LightField::unevenness that was divided out; 0 for pictures that tile.
-  double depth_mm = 0;    ///< Peak to valley; 0 for a picture without relief, else what was asked.
+  /// With the true relief; by wiener and automatic only, where it rests on no assumption about grey.
+  std::optional<double> expected_correlation;
+  double shadows_fraction = 0;     ///< Brightness below a quarter of the mean; 0 for intensity.
+  double highlights_fraction = 0;  ///< Brighter than a matt surface that faces the light; 0 for intensity.
+  bool decoded_srgb = false;       ///< The picture was taken as sRGB.
+  double unevenness = 0;           ///< LightField::unevenness that was divided out; 0 for pictures that tile.
+  double depth_mm = 0;             ///< Peak to valley; 0 for a picture without relief, else what was asked.
   double rms_mm = 0;
   HeightRoughness roughness = HeightRoughness::whole;
   double roughness_rms_mm = 0;        ///< Of the roughness added; 0 for whole and none.
