@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The force as sound: what changes of it along the way that the probe went, in the time that it took.
-import { forceAt } from './force.mjs';
+// The vibration of the stroke under the mouse as sound, in the time that it took.
+import { FULL_SCALE, Vibration, roundedOff } from './vibration.mjs';
 
 const MOST_SECONDS = 0.12;
 
@@ -8,9 +8,9 @@ export class Sound {
   async start() {
     this.context ??= new AudioContext();
     await this.context.resume();
+    this.vibration = new Vibration(this.context.sampleRate);
     this.end = 0;
     this.on = true;
-    this.slow = 0;
   }
 
   stop() {
@@ -18,26 +18,24 @@ export class Sound {
     return this.context?.suspend();
   }
 
-  /** The probe went from a to b (mm) in `seconds`. */
-  play(surface, a, b, seconds, depth) {
+  /** The probe was lifted. */
+  lift() { this.vibration?.lift(); }
+
+  /** The probe is at `at` (mm) at a time (s). */
+  play(surface, at, time, depth) {
     if (!this.on) return;
-    const rate = this.context.sampleRate, count = Math.floor(Math.min(seconds, MOST_SECONDS) * rate);
-    if (count < 32) return;
-    const buffer = this.context.createBuffer(1, count, rate), out = buffer.getChannelData(0);
-    const vx = (b[0] - a[0]) / seconds, vy = (b[1] - a[1]) / seconds;
-    for (let i = 0; i < count; ++i) {
-      const t = i / count;
-      const { total } = forceAt(surface, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), depth, vx, vy);
-      if (!this.primed) { this.slow = total; this.primed = true; }
-      this.slow += (total - this.slow) * 125 / rate;  // what is below about 20 Hz is felt, not heard
-      out[i] = Math.tanh(4 * (total - this.slow));
-    }
+    if (time - this.last > MOST_SECONDS) this.lift();
+    this.last = time;
+    const samples = this.vibration.move(surface, at, time, depth);
+    if (!samples.length) return;
+    const rate = this.context.sampleRate, buffer = this.context.createBuffer(1, samples.length, rate);
+    buffer.copyToChannel(samples.map((a) => roundedOff(a / FULL_SCALE)), 0);
     const source = this.context.createBufferSource();
     source.buffer = buffer;
     source.connect(this.context.destination);
     const now = this.context.currentTime;
     if (this.end < now || this.end > now + 0.15) this.end = now + 0.01;
     source.start(this.end);
-    this.end += count / rate;
+    this.end += samples.length / rate;
   }
 }

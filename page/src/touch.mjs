@@ -30,7 +30,7 @@ export class Touch {
     $('listen').addEventListener('click', () => this.listen());
     const canvas = $('relief');
     canvas.addEventListener('pointermove', (e) => this.move(e.offsetX / canvas.clientWidth, e.offsetY / canvas.clientHeight));
-    canvas.addEventListener('pointerleave', () => { this.last = null; });
+    canvas.addEventListener('pointerleave', () => this.lift());
     canvas.addEventListener('keydown', (e) => this.key(e));
     new ResizeObserver(() => this.plot.setSize({ width: $('force-plot').clientWidth, height: 260 })).observe($('force-plot'));
     this.choose(0);
@@ -55,7 +55,7 @@ export class Touch {
   choose(index) {
     const material = this.chosen = this.materials[index];
     this.surface = surfaceOf(material);
-    this.last = null;
+    this.lift();
     const { relief, size } = this.surface;
     this.image = document.createElement('canvas');
     this.image.width = this.image.height = 448;
@@ -70,6 +70,11 @@ export class Touch {
     $('touch-note').textContent = `${material.name}: one repeat of ${number(size[0])} x ${number(size[1])} mm, ${relief.width} x ${relief.height} samples of ${relief.depth} bits (${relief.levels} different values), ${number(high - low)} mm from valley to peak. `
       + 'The probe is a point at a fixed depth below the mean of the relief: F = n max(0, k d - b v.n), with friction against its way. The player adds the ball of the finger and a proxy that sticks.';
     this.show();
+  }
+
+  lift() {
+    this.last = null;
+    this.sound.lift();
   }
 
   /** After a change of colours. */
@@ -92,7 +97,9 @@ export class Touch {
     if (!way) return;
     event.preventDefault();
     const step = event.shiftKey ? 0.02 : 0.004;
-    this.move(...this.position.map((p, i) => (p + way[i] * step + 1) % 1));
+    const next = this.position.map((p, i) => p + way[i] * step), wrapped = next.map((p) => (p + 1) % 1);
+    if (next.some((p) => p < 0 || p >= 1)) this.lift();
+    this.move(...wrapped);
   }
 
   /** @param x, y shares of the picture */
@@ -102,7 +109,8 @@ export class Touch {
     const seconds = this.last ? Math.max(now - this.last.time, 1e-3) : 0;
     const fresh = !this.last || seconds > 0.5;
     const v = fresh ? [0, 0] : at.map((p, i) => (p - this.last.at[i]) / seconds);
-    if (!fresh) this.sound.play(this.surface, this.last.at, at, seconds, this.depth);
+    if (fresh) this.sound.lift();
+    this.sound.play(this.surface, at, now, this.depth);
     const result = forceAt(this.surface, ...at, this.depth, ...v);
     this.last = { at, time: now };
     this.start ??= now;
