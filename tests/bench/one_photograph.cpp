@@ -58,14 +58,15 @@ void report_one_photograph(BenchReport& report) {
   };
   EvidenceTable table{
       "Relief from one photograph",
-      "Mean correlation of `auto` with the true relief over all test reliefs, four seeds each; lights 25 to 55 degrees "
+      "Mean correlation of `auto` with the true relief over all test reliefs, eight seeds each; lights 25 to 55 "
+      "degrees "
       "high, point spread of 0.7 pixels, noise of 1 %, vignette of 10 %, sRGB, JPEG 92. Light unknown: either side "
       "counts, because a picture does not tell it; `axis` is the mean error of the light's axis; `grey` is what grey "
       "read as height reaches.",
       {"condition", "photographs", "light given", "light unknown", "axis", "grey"},
       {}};
   const TemporaryFolder folder("papilla-bench");
-  const std::uint64_t seeds = report.options().quick ? 1 : 4;
+  const std::uint64_t seeds = report.options().quick ? 1 : 8;
   Means all;
   for (const auto& [condition, name, least] :
        {Condition{PhotographCondition::clean, "clean", 0.80},

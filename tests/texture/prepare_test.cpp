@@ -90,7 +90,7 @@ TEST(Prepare, StraightensALatticeThatBends) {
   options.straighten = true;
   const PreparedPicture prepared = prepare_picture(bent, options);
   ASSERT_FALSE(prepared.steps.empty());
-  EXPECT_EQ(prepared.steps.front().name, "straighten");
+  EXPECT_EQ(prepared.steps.front().step, "straighten");
   EXPECT_TRUE(prepared.steps.front().run);
   EXPECT_LT(prepared.image.width, bent.width);  // Without the rim that came from beyond the borders.
   EXPECT_LT(test::irregularity(prepared.image), 0.5 * test::irregularity(bent));
