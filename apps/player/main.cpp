@@ -218,7 +218,7 @@ int run(const Options& options) {
   }
   ContactSurface surface = [&] {
     try {
-      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m);
+      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m, std::move(scene.channels));
     } catch (const InvalidInput& error) {
       throw InvalidInput(options.file + ": " + error.what());
     }
@@ -235,6 +235,8 @@ int run(const Options& options) {
   report.maps_missing = scene.maps_missing;
   report.maps_coarsened = scene.maps_coarsened;
   report.roughness_overlays = scene.roughness_overlays;
+  report.channels_loaded = scene.channels_loaded;
+  report.channels_missing = scene.channels_missing;
   report.triangles_out_of_reach = scene.triangles_out_of_reach;
   report.warnings = std::move(scene.warnings);
   report.material_names = std::move(scene.names);

@@ -96,6 +96,7 @@ Json to_json(const RunReport& r) {
           {"clamps", clamps},
           {"height_maps",
            {{"loaded", r.maps_loaded}, {"missing", r.maps_missing}, {"roughness_overlays", r.roughness_overlays}}},
+          {"channel_maps", {{"loaded", r.channels_loaded}, {"missing", r.channels_missing}}},
           {"materials", r.material_names},
           {"tags", app::tags_json(r.tags)},
           {"left_out", {{"triangles", r.triangles_out_of_reach}, {"maps_made_coarser", r.maps_coarsened}}},
@@ -114,6 +115,9 @@ std::string summary(const RunReport& r) {
   std::string text = app::shown_format("{} on {} at {:.0f} Hz\n", r.file, r.device, r.rate_hz);
   text += app::shown_format("  {} triangles to feel, {} height maps ({} missing), loaded in {:.2f} s\n", r.triangles,
                             r.maps_loaded, r.maps_missing, r.load_seconds);
+  if (r.channels_loaded + r.channels_missing > 0)
+    text += app::shown_format("  {} maps of stiffness, friction and damping ({} missing)\n", r.channels_loaded,
+                              r.channels_missing);
   for (const StabilityClamp& clamp : r.clamps) text += clamp_line(clamp, r.material_names[clamp.material]);
   for (const MaterialWarning& w : r.warnings)
     text += app::shown_format("  warning {}: {}{}{}\n", w.warning.code, w.material, w.material.empty() ? "" : ": ",

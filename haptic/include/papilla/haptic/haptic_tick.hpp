@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -71,13 +72,17 @@ class HapticTick {
  private:
   ContactStep contact_step(const ProxyState& state, Vec3 moved) const noexcept {
     if (!state.in_contact) return {};
-    const double stiffness = surface_->material(state.material).stiffness;
-    return {true, stiffness * std::abs(dot(state.normal, moved)), stiffness, moved};
+    const ContactMaterial& material = surface_->material(state.material);
+    const double skin = state.constants.stiffness;
+    const double backing = std::isfinite(material.backing_depth_m) ? material.backing_stiffness : skin;
+    // The stiffest bounds how the force changes, the softest what it stores.
+    return {true, std::max(skin, backing) * std::abs(dot(state.normal, moved)), std::min(skin, backing), moved};
   }
 
   /// Springs, damping and friction. Coulomb's friction of `heightfield` is in the proxy.
   Vec3 contact_force(const ProxyState& state, Vec3 probe, Vec3 moved) noexcept {
-    const ContactMaterial& material = surface_->material(state.material);
+    ContactMaterial material = surface_->material(state.material);
+    if (state.in_contact) static_cast<ContactConstants&>(material) = state.constants;
     const bool textured = material.model == ForceModel::textured_normal;
     const Vec3 way = textured ? way_to_textured_surface(*surface_, state, probe) : Vec3{};
     const Vec3 force = textured ? textured_normal_force(material, way, velocity_)
@@ -87,7 +92,7 @@ class HapticTick {
       return force;
     }
     const Vec3 normal = textured ? normalized(way) : state.normal;
-    const double load = textured ? norm(force) : material.stiffness * state.load_m;
+    const double load = textured ? norm(force) : spring_force(material, material.stiffness, state.load_m);
     return force + bristles_.force(material, normal, load, moved, period_);
   }
 
