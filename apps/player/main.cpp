@@ -218,7 +218,8 @@ int run(const Options& options) {
   }
   ContactSurface surface = [&] {
     try {
-      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m, std::move(scene.channels));
+      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m,
+                            std::move(scene.channels));
     } catch (const InvalidInput& error) {
       throw InvalidInput(options.file + ": " + error.what());
     }

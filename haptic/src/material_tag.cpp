@@ -520,6 +520,19 @@ std::optional<int> tex_coord_of(const MaterialTag& tag) noexcept {
   return std::nullopt;
 }
 
+double largest_static_friction(const MaterialTag& tag) noexcept {
+  double largest = tag.static_friction;
+  if (!tag.maps) return largest;
+  for (const auto& channel : tag.maps->channels) {
+    if (!channel) continue;
+    if (channel->quantity == Quantity::static_friction) return channel->most();
+    if (channel->quantity == Quantity::dynamic_friction)
+      largest =
+          tag.dynamic_friction > 0 ? tag.static_friction * channel->most() / tag.dynamic_friction : channel->most();
+  }
+  return largest;
+}
+
 MapsTag make_maps_tag(const EncodedMaps& encoded) {
   MapsTag tag;
   tag.uri = data_uri_of(encoded.png);

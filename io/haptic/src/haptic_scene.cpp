@@ -207,16 +207,18 @@ class Builder {
 
   /// Share of the map that is steeper than the cone of friction.
   static double steep_share(const HeightField& field, const MaterialTag& tag) {
-    return tag.static_friction > 0 ? field.share_steeper(1 / tag.static_friction, tag.height->metres_per_uv) : 0;
+    const double friction = largest_static_friction(tag);
+    return friction > 0 ? field.share_steeper(1 / friction, tag.height->metres_per_uv) : 0;
   }
 
   HapticWarning steep_warning(const MaterialTag& tag, double share, double felt_share) const {
+    const double friction = largest_static_friction(tag);
     char text[256];
     std::snprintf(
         text, sizeof text,
         "haptic.height: %.3g %% of the map is steeper than %.3g, the limit of friction %.3g: a point does not "
         "slide there; as a ball of %.3g mm feels it, %.3g %% is",
-        100 * share, 1 / tag.static_friction, tag.static_friction, 1e3 * options_.probe_radius_m, 100 * felt_share);
+        100 * share, 1 / friction, friction, 1e3 * options_.probe_radius_m, 100 * felt_share);
     return {"relief_steep", text};
   }
 
@@ -248,7 +250,8 @@ class Builder {
     }
     for (PlacedPicture* picture : pictures)
       if (picture->uv_transform == known) picture->uv_transform = found;
-    warnings.push_back({"uv_transform", "the tag's pictures follow the texture's KHR_texture_transform, not the tag's"});
+    warnings.push_back(
+        {"uv_transform", "the tag's pictures follow the texture's KHR_texture_transform, not the tag's"});
   }
 
   HeightField coarsened(HeightField field, Vec2 metres_per_uv) {

@@ -52,8 +52,8 @@ class Finder {
 
   void check(int width, int height, bool is_fine, int bits) const {
     if (!is_fine)
-      warn("_bits", std::string("the ") + kind_.what + " has " + std::to_string(bits) +
-                        " bits a sample, steps can be felt");
+      warn("_bits",
+           std::string("the ") + kind_.what + " has " + std::to_string(bits) + " bits a sample, steps can be felt");
     if (tag_.size[0] > 0 && (tag_.size[0] != width || tag_.size[1] != height))
       warn("_size", std::string("the ") + kind_.what + " is " + std::to_string(width) + " x " + std::to_string(height) +
                         ", the tag says otherwise");
@@ -77,10 +77,10 @@ class Finder {
       if (!bytes) warn("_data_uri", std::string("the data: URI of the ") + kind_.what + " is not base64");
       return bytes && matches(bytes_of(*bytes), "data: URI") ? bytes : std::nullopt;
     }
-    const Reference reference{file.parent_path(),
-                              file.string() + ": at /materials/" + std::to_string(material) + "/extras/haptic/" +
-                                  kind_.name + "/uri",
-                              percent_decoded(tag_.uri)};
+    const Reference reference{
+        file.parent_path(),
+        file.string() + ": at /materials/" + std::to_string(material) + "/extras/haptic/" + kind_.name + "/uri",
+        percent_decoded(tag_.uri)};
     auto bytes = read_reference(reference, ReferenceContent::png);
     if (!bytes) warn("_file", "'" + shown(reference.value) + "' is missing");
     return bytes && matches(bytes_of(*bytes), "'" + shown(reference.value) + "'") ? bytes : std::nullopt;

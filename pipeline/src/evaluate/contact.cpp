@@ -102,8 +102,8 @@ ContactCase contact_case(const Scene& scene, const std::string& file, const Prob
   for (const HeightField& height : haptic.heights) samples += 1.0 * height.width() * height.height();
   try {
     return {ContactSurface(haptic.mesh, haptic.materials, std::move(haptic.heights), probe.radius_m,
-                           std::move(haptic.channels)), largest.material,
-            largest.centre, samples};
+                           std::move(haptic.channels)),
+            largest.material, largest.centre, samples};
   } catch (const InvalidInput& error) {
     throw InvalidInput(file + ": " + error.what());
   }

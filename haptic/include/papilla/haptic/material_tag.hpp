@@ -132,6 +132,9 @@ std::vector<PlacedPicture*> pictures_of(MaterialTag& tag);
 /// The texture coordinates that its pictures lie on; nothing without any.
 std::optional<int> tex_coord_of(const MaterialTag& tag) noexcept;
 
+/// The largest static friction of a place: of the maps, else the constant.
+double largest_static_friction(const MaterialTag& tag) noexcept;
+
 /// A relief as it is stored: 16-bit grey samples v with h = offset_mm + scale_mm · v / 65535.
 struct EncodedRelief {
   std::span<const std::byte> png;

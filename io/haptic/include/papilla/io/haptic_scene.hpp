@@ -42,7 +42,7 @@ struct HapticScene {
   std::vector<ChannelField> channels;
   double probe_radius_m = 0;  ///< By which the reliefs are dilated; that of the ContactSurface must be the same.
   int maps_loaded = 0, maps_missing = 0, maps_coarsened = 0;
-  int roughness_overlays = 0;  ///< Maps over which roughness was laid.
+  int roughness_overlays = 0;                     ///< Maps over which roughness was laid.
   int channels_loaded = 0, channels_missing = 0;  ///< Pictures of stiffness, friction and damping.
   std::size_t triangles_out_of_reach = 0;
   std::vector<MaterialWarning> warnings;
