@@ -302,11 +302,7 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   }
 }
 
-constexpr const char* key_of(Quantity quantity) {
-  return quantity == Quantity::stiffness ? "maps/stiffness"
-         : quantity == Quantity::damping ? "maps/damping"
-                                         : "maps/friction";
-}
+std::string key_of(Quantity quantity) { return "maps/" + std::string(map_key(quantity)); }
 
 /// The grey values of a map's picture or recipe.
 HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& map, const RecipeLibrary& library) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
 #include "json_value.hpp"
@@ -189,10 +188,9 @@ void read_maps(const JsonValue& value, const std::filesystem::path& source, Mate
     value.fail("needs a 'texture', on whose repeats the maps lie; \"texture\": \"col\" with a size_mm is a smooth one");
   MapRule common;
   if (const auto range = value.get("range")) read_range(*range, common.range);
-  constexpr std::pair<const char*, Quantity> k_keys[] = {
-      {"stiffness", Quantity::stiffness}, {"friction", Quantity::dynamic_friction}, {"damping", Quantity::damping}};
-  for (const auto& [key, quantity] : k_keys)
-    if (const auto v = value.get(key)) rule.maps.insert_or_assign(quantity, read_map(*v, source, common));
+  for (const Quantity quantity : {Quantity::stiffness, Quantity::dynamic_friction, Quantity::damping})
+    if (const auto v = value.get(std::string(map_key(quantity))))
+      rule.maps.insert_or_assign(quantity, read_map(*v, source, common));
   if (rule.maps.empty()) value.fail("needs one of 'stiffness', 'friction', 'damping'");
 }
 
@@ -285,6 +283,16 @@ AssignRule read_assign(const JsonValue& value, const Materials& file) {
 }
 
 }  // namespace
+
+std::string_view map_key(Quantity quantity) noexcept {
+  switch (quantity) {
+    case Quantity::stiffness:
+    case Quantity::damping: return name_of(quantity);
+    case Quantity::static_friction:
+    case Quantity::dynamic_friction: break;
+  }
+  return "friction";
+}
 
 Materials read_materials(const std::filesystem::path& path, const std::filesystem::path& library) {
   const JsonValue::Json json = read_json(path);

@@ -37,7 +37,6 @@ struct PaintedMaterial {
   std::vector<std::byte> color_png, normal_png;  ///< Empty when not painted.
   std::vector<NewUv> uv;                         ///< Empty when it keeps its coordinates.
   std::optional<HeightTag> height;               ///< Of tagged materials.
-  std::optional<MapsTag> maps;                   ///< The same.
   WeatheredMaterial report;
 };
 
@@ -386,7 +385,7 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
     maps.maps = {{Quantity::stiffness, std::move(picture.stiffness)},
                  {Quantity::dynamic_friction, std::move(picture.friction)}};
     for (float& v : maps.maps[0].values) v *= static_cast<float>(tag->stiffness);
-    material.maps = encode_quantity_maps(std::move(maps));
+    report.maps = encode_quantity_maps(std::move(maps));
   }
   if (!report.keeps_relief) {
     HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
@@ -480,7 +479,7 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
     result.scene.losses.push_back(fmt::format(
         "material '{}': the relief of the layers; its atlas of {:.2g} mm a texel would blur its own, which stays",
         before.name, report.mm_per_texel));
-  felt[index] = {painted.height, painted.maps};
+  felt[index] = {painted.height, painted.report.maps};
   return report;
 }
 

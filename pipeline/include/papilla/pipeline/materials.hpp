@@ -41,6 +41,9 @@ struct MapRule {
   double range[2] = {0.5, 1.5};   ///< Black and white, in multiples of the constant.
 };
 
+/// The key of "maps" in MATERIALS.json: "stiffness", "friction", "damping".
+std::string_view map_key(Quantity quantity) noexcept;
+
 /// One entry of "materials": what a surface looks and feels like. SI units as in the haptic tag.
 struct MaterialRule {
   std::string name;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "papilla/core/progress.hpp"
+#include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
 
@@ -65,6 +66,7 @@ struct WeatheredMaterial {
   bool keeps_relief = false;      ///< Its own relief stays as it was, without the layers'.
   double mm_per_texel = 0;
   double friction = 0, stiffness = 1;  ///< Means of the channels; stiffness is a factor.
+  std::optional<MapsTag> maps;         ///< Of a tagged material, where they differ from place to place.
 
   bool painted() const { return !recipe.empty() && skipped.empty(); }
 };
