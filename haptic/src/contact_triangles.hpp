@@ -72,7 +72,7 @@ class ContactTriangles {
     Vec3 place;
     Vec3 off;  ///< Unit direction in which the surface ends there; zero where it continues on all sides.
     std::uint32_t material = 0;
-    std::uint32_t place = 0;
+    std::uint32_t triangle = 0;  ///< Its place in the clusters.
   };
 
   /// As ContactSurface's.

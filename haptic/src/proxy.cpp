@@ -512,7 +512,7 @@ void Proxy::Descent::add_rest(Tick& tick, const ContactTriangles::Rest& rest) no
       return;
     }
   }
-  tick.planes.add({out, dot(out, tick.x), rest.material, rest.place}, tick.x);
+  tick.planes.add({out, dot(out, tick.x), rest.material, rest.triangle}, tick.x);
 }
 
 /// Moves towards a place to rest: up by lift_m along `normal`, along the surface, and down. Only if these ways are free
