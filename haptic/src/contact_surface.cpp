@@ -20,15 +20,20 @@ struct Nearest {
   double distance;
 };
 
-/// The closest of the triangles whose material is accepted. The boxes of the tree are grown by the relief, so some are
-/// visited in vain.
-template <class Accept>
-std::optional<Nearest> find_nearest(const ContactTriangles& s, Vec3 x, double radius, Accept&& accept) noexcept {
+/// Which triangles a search is for: of one material, or of those with a stimulus, or all.
+struct Wanted {
+  std::optional<std::uint32_t> material = {};
+  bool stimulus = false;
+};
+
+/// The closest of the wanted triangles. The boxes of the tree are grown by the relief, so some are visited in vain.
+std::optional<Nearest> find_nearest(const ContactTriangles& s, Vec3 x, double radius, const Wanted& wanted) noexcept {
   Nearest best{.foot = {}, .distance = radius};
   bool found = false;
   s.clusters().within(x, best.distance, [&](std::uint32_t cluster) noexcept {
     s.clusters().in_box(cluster, s.box_around(x, x, best.distance), [&](std::uint32_t place) noexcept {
-      if (!accept(s.material_of(place))) return;
+      if (wanted.material && s.material_of(place) != *wanted.material) return;
+      if (wanted.stimulus && !s.material(s.material_of(place)).stimulus) return;
       const auto foot = s.foot(s.corners(place), x);
       const double distance = norm(x - foot.point);
       if (distance > best.distance) return;
@@ -39,10 +44,9 @@ std::optional<Nearest> find_nearest(const ContactTriangles& s, Vec3 x, double ra
   return found ? std::optional(best) : std::nullopt;
 }
 
-template <class Accept>
 std::optional<SurfacePoint> closest_base_point(const ContactTriangles& s, Vec3 p, double radius_m,
-                                               Accept&& accept) noexcept {
-  const auto near = find_nearest(s, p - s.origin(), radius_m, accept);
+                                               const Wanted& wanted) noexcept {
+  const auto near = find_nearest(s, p - s.origin(), radius_m, wanted);
   if (!near) return std::nullopt;
   const auto t = s.corners(near->place);
   SurfacePoint point;
@@ -74,20 +78,17 @@ Vec3 ContactSurface::shaded_normal(Vec3 proxy, Vec3 normal) const noexcept {
 }
 
 std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m) const noexcept {
-  return closest_base_point(*triangles_, p, radius_m, [](std::uint32_t) noexcept { return true; });
+  return closest_base_point(*triangles_, p, radius_m, {});
 }
 
 std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m,
                                                           std::uint32_t material) const noexcept {
-  return closest_base_point(*triangles_, p, radius_m,
-                            [material](std::uint32_t other) noexcept { return other == material; });
+  return closest_base_point(*triangles_, p, radius_m, {.material = material});
 }
 
 std::optional<StimulusSample> ContactSurface::stimulus(Vec3 p, double radius_m) const noexcept {
   const ContactTriangles& s = *triangles_;
-  const auto near = find_nearest(s, p - s.origin(), radius_m, [&](std::uint32_t material) noexcept {
-    return s.material(material).stimulus.has_value();
-  });
+  const auto near = find_nearest(s, p - s.origin(), radius_m, {.stimulus = true});
   if (!near) return std::nullopt;
   const std::uint32_t found = near->place;
   const auto& at = near->foot;
@@ -149,38 +150,6 @@ double ContactSurface::clearance(Vec3 x, double radius_m) const noexcept {
     reach = std::min(reach, std::max(0.0, least + contact_radius_m()));
   });
   return least;
-}
-
-double ContactSurface::most(std::uint32_t i, Quantity quantity) const noexcept {
-  const ContactMaterial& m = triangles_->material(i);
-  if (m.channels)
-    if (const auto most = triangles_->channels(*m.channels).most(quantity)) return *most;
-  switch (quantity) {
-    case Quantity::stiffness: return m.stiffness;
-    case Quantity::static_friction: return m.static_friction;
-    case Quantity::dynamic_friction: return m.dynamic_friction;
-    case Quantity::damping: break;
-  }
-  return m.damping;
-}
-
-LocalConstants ContactTriangles::constants_at(std::uint32_t place, Vec3 x) const noexcept {
-  const ContactMaterial& m = material(material_of(place));
-  LocalConstants local{m, {}};
-  if (!m.channels) return local;
-  const Corners t = corners(place);
-  const Foot at = foot(t, x - origin_);
-  const auto uv = [&](std::size_t k) {
-    return Vec2{static_cast<double>(relief(place, k).u), static_cast<double>(relief(place, k).v)};
-  };
-  const Vec2 by_v = uv(1) - uv(0), by_w = uv(2) - uv(0);
-  const Vec2 gradient = channels_[*m.channels].apply(uv(0) + at.v * by_v + at.w * by_w, local.constants);
-  if (local.constants.stiffness > m.most_stiffness)
-    local.constants.stiffness = m.most_stiffness;
-  else if (!(gradient == Vec2{}))
-    local.stiffness_slope = face(place).in_plane(dot(gradient, by_v), dot(gradient, by_w));
-  local.constants.damping = std::min(local.constants.damping, m.most_damping);
-  return local;
 }
 
 const ContactMaterial& ContactSurface::material(std::uint32_t i) const noexcept { return triangles_->material(i); }

@@ -313,7 +313,8 @@ void assign_relief(Material& material, HeightTag height) {
                               height.metres_per_uv.y * std::abs(place->transform->scale.y)};
     }
   }
-  if (material.haptic->roughness) material.haptic->roughness->rms_height_m = height.rms_m;
+  if (auto& roughness = material.haptic->roughness; roughness && !roughness->overlay)
+    roughness->rms_height_m = height.rms_m;
   material.haptic->height = std::move(height);
 }
 

@@ -105,7 +105,10 @@ TEST(Backing, SlidingTakesEnergyOut) {
   const ContactSurface surface = plate_of(layered(0.4));
   const std::vector<Vec3> loop{{0.05, 0.05, 1e-4}, {0.05, 0.05, -3e-3}, {0.06, 0.05, -3e-3}, {0.06, 0.05, 1e-4}};
   const double normal = k_skin * k_depth + k_backing * 2e-3;
-  EXPECT_NEAR(work_of(surface, loop, 4000), -0.4 * normal * 8e-3, 0.15 * 0.4 * normal * 8e-3);
+  // It slides on from where it broke away, and back by as much as the spring holds at most.
+  const double work = work_of(surface, loop, 4000);
+  EXPECT_LT(work, -0.4 * normal * 8e-3);
+  EXPECT_GT(work, -0.4 * normal * 1e-2);
 }
 
 /// Friction is that of the whole load: μ·N with N of both layers.
