@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/material_library.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/temporary_folder.hpp"
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/height_source.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/texture/normal_map.hpp"
