@@ -104,6 +104,7 @@ Json to_json(const RunReport& r) {
           {"memory_locked", loop.memory_locked},
           {"warnings", warnings},
           {"vibration", vibration_json(r.vibration)},
+          {"registration_residual_mm", r.registration_residual_mm ? Json(*r.registration_residual_mm) : Json()},
           {"triangles", r.triangles},
           {"contact_bytes", r.contact_bytes},
           {"load_seconds", r.load_seconds},
@@ -129,6 +130,9 @@ std::string summary(const RunReport& r) {
   text += quantile_line("tick", loop.tick_us) + quantile_line("wake-up", loop.wakeup_us);
   text += app::shown_format("  contact on {} ticks, lost on {}, largest force {:.2f} N, stiffness limit {:.0f} N/m\n",
                             loop.contact_ticks, loop.lost_contact_ticks, loop.max_force_n, r.stiffness_limit);
+  if (r.registration_residual_mm)
+    text += app::shown_format("  on a real part: touched points within {:.2f} mm (rms) of its own\n",
+                              *r.registration_residual_mm);
   return text + vibration_line(r.vibration);
 }
 

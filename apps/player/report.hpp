@@ -27,6 +27,7 @@ struct RunReport {
   std::vector<MaterialWarning> warnings;
   LoopResult loop;
   std::optional<VibrationReport> vibration;
+  std::optional<double> registration_residual_mm;  ///< Of a real part, by three points.
 };
 
 nlohmann::ordered_json to_json(const RunReport& report);

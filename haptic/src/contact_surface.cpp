@@ -53,7 +53,11 @@ std::optional<SurfacePoint> closest_base_point(const ContactTriangles& s, Vec3 p
   point.point = near->foot.point + s.origin();
   point.face_normal = normalized(cross(t.b - t.a, t.c - t.a));
   point.distance_m = near->distance;
-  if (s.has_relief(near->place)) point.height_m = s.relief_height(s.face(near->place), near->foot, &point.slope);
+  if (s.has_relief(near->place)) {
+    const auto face = s.face(near->place);
+    point.height_m = s.relief_height(face, near->foot, &point.slope);
+    point.base_m = face.shift + near->foot.v * face.shift_v + near->foot.w * face.shift_w;
+  }
   point.on_border = near->foot.on != ContactTriangles::Foot::On::face;
   point.triangle = s.source_of(near->place);
   point.material = s.material_of(near->place);

@@ -43,6 +43,7 @@ struct SurfacePoint {
   double distance_m = 0;
   double height_m = 0;     ///< Relief above `point` on the front side, dilated by the probe, ≥ 0.
   Vec3 slope;              ///< Its gradient in the triangle's plane, metres per metre.
+  double base_m = 0;       ///< Of `point` over the triangles that were given, ≤ 0; see ContactSurface.
   bool on_border = false;  ///< On an edge or corner of its triangle, where the face normal does not tell the side.
   std::uint32_t triangle = 0;
   std::uint32_t material = 0;

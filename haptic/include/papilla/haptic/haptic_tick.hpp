@@ -12,6 +12,7 @@
 #include "papilla/haptic/force_model.hpp"
 #include "papilla/haptic/friction.hpp"
 #include "papilla/haptic/proxy.hpp"
+#include "papilla/haptic/real_part.hpp"
 #include "papilla/haptic/safety.hpp"
 #include "papilla/haptic/stability.hpp"
 #include "papilla/haptic/stimulus.hpp"
@@ -29,6 +30,8 @@ class HapticTick {
   /// Enables the PassivityController, for devices whose DeviceDynamics are stated too well. clamp_to_stable() comes
   /// first.
   void control_passivity(const DeviceDynamics& device) { passivity_.emplace(device); }
+  /// The hand moves on a real part from now on: the force is RealPart::force() of the device's position.
+  void follow(const RealPart& part) { real_part_.emplace(part); }
   std::uint64_t passivity_interventions() const noexcept { return passivity_ ? passivity_->interventions() : 0; }
 
   /// @returns the force on the hand in newtons.
@@ -39,6 +42,7 @@ class HapticTick {
       lost_ = false;
       return guard_.apply(k_no_force, period_, device.age_s);
     }
+    if (real_part_) return guard_.apply(real_part_->force(probe), period_, device.age_s);
     // Wall damping acts on a velocity smoothed over k_smoothing_s: differences of encoder steps are noise.
     const Vec3 moved = started_ ? probe - last_ : Vec3{};
     const double share = period_ / (period_ + k_smoothing_s);
@@ -65,7 +69,7 @@ class HapticTick {
     lost_ = false;
   }
 
-  const ProxyState& proxy() const noexcept { return proxy_.state(); }
+  const ProxyState& proxy() const noexcept { return real_part_ ? real_part_->state() : proxy_.state(); }
   bool lost() const noexcept { return lost_; }  ///< ContactAudit: the last tick lost its contact.
   ForceGuard& guard() noexcept { return guard_; }
 
@@ -107,6 +111,7 @@ class HapticTick {
   BristleFriction bristles_;
   ForceGuard guard_;
   std::optional<PassivityController> passivity_;
+  std::optional<RealPart> real_part_;
   Vec3 last_, velocity_;
   bool started_ = false, lost_ = false;
 };
