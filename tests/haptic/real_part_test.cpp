@@ -209,7 +209,9 @@ TEST(RealPart, TicksGoThroughTheGuard) {
     state.position = inverse(k_truth, {0.02 + 5e-5 * i, 0.03, k_radius});
     force = tick(state);
     EXPECT_LE(norm(force), 3.3);
-    if (i == 0) EXPECT_LT(norm(force), 2e-3);  // Fades in.
+    if (i == 0) {
+      EXPECT_LT(norm(force), 2e-3);  // Fades in.
+    }
   }
   RealPart alone(surface, k_truth, {.press_n = 0.6});
   EXPECT_LT(norm(force - alone.force(state.position)), 1e-9);
