@@ -4,6 +4,16 @@
 #include "contact_triangles.hpp"
 
 namespace papilla {
+namespace {
+
+/// The vector g in the plane of two edges with g·ab = by_v and g·ac = by_w.
+Vec3 slope_in_plane(Vec3 ab, Vec3 ac, double by_v, double by_w) noexcept {
+  const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), det = bb * cc - bc * bc;
+  if (!(det > 0)) return {};
+  return ((by_v * cc - by_w * bc) / det) * ab + ((by_w * bb - by_v * bc) / det) * ac;
+}
+
+}  // namespace
 
 double ContactSurface::most(std::uint32_t i, Quantity quantity) const noexcept {
   const ContactMaterial& m = triangles_->material(i);
@@ -32,7 +42,7 @@ LocalConstants ContactTriangles::constants_at(std::uint32_t place, Vec3 x) const
   if (local.constants.stiffness > m.most_stiffness)
     local.constants.stiffness = m.most_stiffness;
   else if (!(gradient == Vec2{}))
-    local.stiffness_slope = face(place).in_plane(dot(gradient, by_v), dot(gradient, by_w));
+    local.stiffness_slope = slope_in_plane(t.b - t.a, t.c - t.a, dot(gradient, by_v), dot(gradient, by_w));
   local.constants.damping = std::min(local.constants.damping, m.most_damping);
   return local;
 }

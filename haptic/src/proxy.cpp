@@ -47,6 +47,8 @@ constexpr int k_pieces = 3;               // gathers along one sweep, then the t
 constexpr double k_regrowth = 1.01;       // per tick: growth of the largest radius after more than fits [b]
 constexpr std::uint32_t k_sparse = 64;    // blocks, of 512: with fewer a radius twice as large is tried [b]
 
+constexpr std::uint32_t k_no_place = 0xffffffffU;
+
 /// A half-space that the proxy must not leave: normal · x ≥ offset.
 struct HalfSpace {
   Vec3 normal;
@@ -225,6 +227,7 @@ class Proxy::Descent {
 
   double friction_of(const ProxyState& state) const noexcept;
   Vec3 towards_softer() const noexcept;
+  void read_constants(std::uint32_t place, Vec3 x) noexcept;
   void save_planes(const Planes& planes, std::uint32_t active, Vec3 x) noexcept;
   void restore_planes(Vec3 goal, Planes& planes) noexcept;
   bool crease_holds(Tick& tick, std::uint32_t active) noexcept;
@@ -241,10 +244,11 @@ class Proxy::Descent {
   ProxyState state_;
   double slide_speed_ = 0;  // m/s, smoothed.
   bool started_ = false;
-  Vec3 stiffness_slope_;             // At the proxy, N/m per metre.
-  Vec3 probe_;                       // Of the tick before.
-  Vec3 ahead_;                       // Unit direction of the probe's way in this tick; zero when that is short.
-  std::array<HalfSpace, 3> held_{};  // Planes that held the proxy in a crease, relative to it.
+  LocalConstants felt_;                    // At the proxy, or where it first touched the triangle in this tick.
+  std::uint32_t felt_place_ = k_no_place;  // Of that triangle.
+  Vec3 probe_;                             // Of the tick before.
+  Vec3 ahead_;                             // Unit direction of the probe's way in this tick; zero when that is short.
+  std::array<HalfSpace, 3> held_{};        // Planes that held the proxy in a crease, relative to it.
   std::size_t held_count_ = 0;
   std::array<Vec3, k_steps> waypoints_{};  // At most one for each sweep.
   std::size_t waypoint_count_ = 0;
@@ -258,6 +262,7 @@ void Proxy::Descent::reset(Vec3 position) noexcept {
   probe_ = position;
   near_.clear();
   held_count_ = waypoint_count_ = 0;
+  felt_place_ = k_no_place;
   slide_speed_ = 0;
   started_ = true;
 }
@@ -319,9 +324,8 @@ Aim Proxy::Descent::aim(Tick& tick) noexcept {
   next.normal = depth > 0 ? (1 / depth) * behind : loaded.normal;
   next.load_m = std::max(0.0, depth - surface_->skin_m());
   next.material = loaded.material;
-  const LocalConstants here = surface_->constants_at(loaded.place, tick.start + tick.x);
-  next.constants = here.constants;
-  stiffness_slope_ = here.stiffness_slope;
+  if (loaded.place != felt_place_) read_constants(loaded.place, tick.start + tick.x);
+  next.constants = felt_.constants;
   aim.held = friction_of(next) * next.load_m;
   return aim;
 }
@@ -405,6 +409,10 @@ const ProxyState& Proxy::Descent::end_tick(Tick& tick, double period_s) noexcept
   ProxyState& next = tick.next;
   if (tick.free) next = ProxyState{};
   next.proxy = tick.start + tick.x;
+  if (!next.in_contact)
+    felt_place_ = k_no_place;
+  else if (felt_place_ != k_no_place && !(tick.x == Vec3{}) && surface_->material(next.material).channels)
+    read_constants(felt_place_, next.proxy), next.constants = felt_.constants;
   next.shaded_normal = next.normal;
   if (next.in_contact && surface_->material(next.material).shading)
     next.shaded_normal = surface_->shaded_normal(next.proxy, next.normal);
@@ -422,16 +430,21 @@ double Proxy::Descent::friction_of(const ProxyState& state) const noexcept {
   return holds ? friction_coefficient(state.constants, slide_speed_) : 0;
 }
 
+void Proxy::Descent::read_constants(std::uint32_t place, Vec3 x) noexcept {
+  felt_ = surface_->constants_at(place, x);
+  felt_place_ = place;
+}
+
 /// From the probe to where the proxy is drawn: (∂W/∂k)·∇k/N·δ against the slope of the stiffness. The proxy then rests
 /// where the energy W(k(x), |x − p|) of the spring is least, not its length: a hand that slides from soft to hard has
 /// to put in what the stiffer spring stores.
 Vec3 Proxy::Descent::towards_softer() const noexcept {
   const double depth = state_.load_m;
-  if (!state_.in_contact || !(depth > 0) || stiffness_slope_ == Vec3{}) return {};
+  if (!state_.in_contact || !(depth > 0) || felt_.stiffness_slope == Vec3{}) return {};
   const ContactMaterial& m = surface_->material(state_.material);
   const double force = spring_force(m, state_.constants.stiffness, depth);
   if (!(force > 0)) return {};
-  const Vec3 way = (-energy_by_stiffness(m, depth) * depth / force) * stiffness_slope_;
+  const Vec3 way = (-energy_by_stiffness(m, depth) * depth / force) * felt_.stiffness_slope;
   const double length = norm(way), most = k_softest * depth;
   return length > most ? (most / length) * way : way;
 }

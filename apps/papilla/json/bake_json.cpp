@@ -29,7 +29,8 @@ Json channels_json(const std::optional<MapsTag>& maps) {
   if (!maps) return json;
   for (const auto& channel : maps->channels)
     if (channel)
-      json.push_back({{"quantity", name_of(channel->quantity)}, {"least", channel->least()}, {"most", channel->most()}});
+      json.push_back(
+          {{"quantity", name_of(channel->quantity)}, {"least", channel->least()}, {"most", channel->most()}});
   return json;
 }
 

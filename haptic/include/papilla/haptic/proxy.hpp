@@ -40,7 +40,8 @@ struct ProxyState {
 ///     sweep     x moves up to the first contact on the step, which becomes a plane; in a crease both faces do. Planes
 ///               that are not active are dropped when x moves; all are dropped when a step ends without contact, so
 ///               that surfaces which fall away release the proxy.
-/// so that no speed tunnels. Constants are those of the material's maps at x. Where the stiffness k has a slope, p is
+/// so that no speed tunnels. Constants are those of the material's maps at x, friction
+/// and pull those where x was in the tick before. Where the stiffness k has a slope, p is
 /// the probe less (∂W/∂k)·∇k·δ/N, at most δ/2, with W the energy of the spring and N its force (force_model.hpp), so
 /// that x rests where W(k(x), |x − p|) is least: without it a hand would gain (∂W/∂k)·Δk on each way from soft to hard.
 /// The place of the tick before gives ∇k and δ. The friction coefficient follows the smoothed sliding speed v
