@@ -11,7 +11,8 @@ static int run(int argc, char** argv) {
   if (argc != 2) return 2;
   HapticScene scene = load_haptic_scene(argv[1]);
   const LargestMaterial largest = largest_material(scene);
-  const ContactSurface surface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m);
+  const ContactSurface surface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m,
+                               std::move(scene.channels));
   const auto start = surface.closest_point(largest.centre, 10, largest.material);
   if (!start) return 1;
   HapticTick tick(surface, safety_limits(3.3), 1e-3);

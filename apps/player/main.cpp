@@ -34,6 +34,7 @@
 #include "papilla/haptic/stroke.hpp"
 #include "papilla/haptic/tag_limits.hpp"
 #include "papilla/io/gltf_reader.hpp"
+#include "real_surface.hpp"
 #include "report.hpp"
 #include "standard_output.hpp"
 #include "vibration_output.hpp"
@@ -58,6 +59,10 @@ struct Options {
   std::string motion = "stroke";
   std::uint64_t seed = 1;
   std::vector<double> origin;
+  std::string surface = "virtual";
+  RealSurface real;
+
+  bool is_real() const { return surface == "real"; }
   bool quiet = false, list = false, passivity = false, no_overlay = false;
 };
 
@@ -87,6 +92,7 @@ HapticSceneOptions scene_options(const Options& options, const DeviceChoice& cho
   scene.probe_radius_m = probe_radius_m(options, choice);
   scene.shortest_wave_m = 2 * options.speed / options.rate_hz;
   scene.overlay = !options.no_overlay;
+  if (options.is_real()) return scene;  // The hand is not in the frame of the scene.
   if (!options.origin.empty() && choice.preset == nullptr) {
     scene.reach_around = {{options.origin[0], options.origin[1], options.origin[2]}};
     scene.reach_m = options.reach_mm > 0 ? 1e-3 * options.reach_mm : k_default_reach_m;
@@ -218,14 +224,22 @@ int run(const Options& options) {
   }
   ContactSurface surface = [&] {
     try {
-      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m);
+      return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m,
+                            std::move(scene.channels));
     } catch (const InvalidInput& error) {
       throw InvalidInput(options.file + ": " + error.what());
     }
   }();
   std::optional<Trajectory> hand;
   if (choice.preset != nullptr) hand = make_hand(options, scene, surface);
-  const Vec3 origin = choice.preset != nullptr ? Vec3{} : workspace_origin(options, scene, surface);
+  std::optional<RealPart> real_part;
+  if (options.is_real()) {
+    const Registration registration = register_part(options.real, scene, surface);
+    report.registration_residual_mm = 1e3 * registration.residual_m;
+    real_part.emplace(surface, registration.to_part, RealPartOptions{.press_n = options.real.press_n});
+  }
+  const bool centred = choice.preset == nullptr && !real_part;
+  const Vec3 origin = centred ? workspace_origin(options, scene, surface) : Vec3{};
   scene.mesh = {};
   report.load_seconds = clock.seconds();
   report.probe_radius_m = surface.probe_radius_m();
@@ -235,6 +249,8 @@ int run(const Options& options) {
   report.maps_missing = scene.maps_missing;
   report.maps_coarsened = scene.maps_coarsened;
   report.roughness_overlays = scene.roughness_overlays;
+  report.channels_loaded = scene.channels_loaded;
+  report.channels_missing = scene.channels_missing;
   report.triangles_out_of_reach = scene.triangles_out_of_reach;
   report.warnings = std::move(scene.warnings);
   report.material_names = std::move(scene.names);
@@ -262,6 +278,7 @@ int run(const Options& options) {
   loop.rate_hz = options.rate_hz;
   loop.ticks = tick_count(options, hand);
   loop.hand = hand ? &*hand : nullptr;
+  loop.real_part = real_part ? &*real_part : nullptr;
   loop.record = options.record.empty() ? nullptr : &rows;
   loop.stop = &g_stop;
   loop.control_passivity = options.passivity;
@@ -309,6 +326,17 @@ int list_devices(const Options& options) {
   if (options.json != "-" && !options.quiet) app::print_out(device_list_text(list));
   write_json(options, list);
   return app::k_exit_done;
+}
+
+void check_real(const Options& options) {
+  const bool real = options.is_real();
+  if (!real && !(options.real.touched.empty() && options.real.part_points.empty()))
+    throw app::UsageError("--touched and --part-points need --surface real");
+  if (real && !options.vibration.empty())
+    throw app::UsageError("--vibration needs --surface virtual: a real part makes its own");
+  if (real && options.real.touched.empty()) throw app::UsageError("--surface real needs --touched");
+  if (real && options.trajectory.empty() && options.device.starts_with("sim"))
+    throw app::UsageError("--surface real on a simulated device needs a --trajectory, which moves on the real part");
 }
 
 std::string preset_names() {
@@ -373,6 +401,24 @@ int main(int argc, char** argv) {
                   "Load only what is this near to the trajectory or to --origin; default: all, or 150 around --origin")
       ->type_name("MM")
       ->check(app::in_range(1.0, 1e5));
+  program
+      .add_option("--surface", options.surface,
+                  "real: the tip moves on a real part that the file describes, and the device gives the deviation of "
+                  "the texture alone")
+      ->transform(app::one_of({"virtual", "real"}))
+      ->capture_default_str();
+  const auto points = [&](const char* name, std::vector<double>& values, const char* what) {
+    program.add_option(name, values, what)->type_name("X,Y,Z,X,Y,Z,X,Y,Z [m]")->delimiter(',')->expected(9);
+  };
+  points("--touched", options.real.touched,
+         "Where the tip touched three points of the real part, as --record has them");
+  points("--part-points", options.real.part_points,
+         "The same three points in the file; default: the part is a plane, which the first point lays on the middle of "
+         "the largest tagged surface");
+  program.add_option("--press", options.real.press_n, "Load of the hand on the real part, which no device measures")
+      ->type_name("N")
+      ->check(app::in_range(0.0, 20.0))
+      ->capture_default_str();
   app::writes(program.add_option("--record", options.record,
                                  "Write hand, probe, proxy and force of every tick; can be played again as T.csv"))
       ->type_name("R.csv");
@@ -431,6 +477,7 @@ int main(int argc, char** argv) {
     if (file->empty()) throw app::UsageError("a FILE is required");
     if (!options.vibration.empty() && !is_sound_target(options.vibration))
       throw app::UsageError("--vibration '" + options.vibration + "': is neither FILE.wav nor alsa or alsa:DEVICE");
+    check_real(options);
     return run(options);
   } catch (...) {
     return app::report_exception("papilla-player", as_json);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "report.hpp"
-#include "audio_sink.hpp"
 
 #include <sys/resource.h>
 
 #include <cmath>
 
+#include "audio_sink.hpp"
+#include "json_object.hpp"
 #include "shown_format.hpp"
 #include "tags_json.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json quantiles(const Histogram& h) {
-  return {{"p50", h.quantile(0.5)}, {"p99", h.quantile(0.99)}, {"p999", h.quantile(0.999)}, {"max", h.max()}};
+  return JsonObject()("p50", h.quantile(0.5))("p99", h.quantile(0.99))("p999", h.quantile(0.999))("max", h.max());
 }
 
 std::string quantile_line(const char* what, const Histogram& h) {
@@ -46,13 +47,9 @@ std::string pause_line(const LoopResult& loop) {
 
 Json vibration_json(const std::optional<VibrationReport>& vibration) {
   if (!vibration) return nullptr;
-  return {{"target", vibration->target},
-          {"samples", vibration->samples},
-          {"sample_rate_hz", k_audio_rate_hz},
-          {"peak_m_per_s2", vibration->peak_m_per_s2},
-          {"rms_m_per_s2", vibration->rms_m_per_s2},
-          {"beyond_full_scale", vibration->limited},
-          {"missed_ticks", vibration->missed_ticks}};
+  return JsonObject()("target", vibration->target)("samples", vibration->samples)("sample_rate_hz", k_audio_rate_hz)(
+      "peak_m_per_s2", vibration->peak_m_per_s2)("rms_m_per_s2", vibration->rms_m_per_s2)(
+      "beyond_full_scale", vibration->limited)("missed_ticks", vibration->missed_ticks);
 }
 
 std::string vibration_line(const std::optional<VibrationReport>& vibration) {
@@ -68,45 +65,46 @@ Json to_json(const RunReport& r) {
   Json clamped = Json::array(), clamps = Json::array(), warnings = Json::array();
   for (const StabilityClamp& c : r.clamps) {
     clamped.push_back(r.material_names[c.material]);
-    clamps.push_back({{"material", r.material_names[c.material]},
-                      {"stiffness_wanted", c.stiffness_wanted},
-                      {"stiffness", c.stiffness},
-                      {"damping_wanted", c.damping_wanted},
-                      {"damping", c.damping}});
+    clamps.push_back(JsonObject()("material", r.material_names[c.material])("stiffness_wanted", c.stiffness_wanted)(
+        "stiffness", c.stiffness)("damping_wanted", c.damping_wanted)("damping", c.damping));
   }
   for (const MaterialWarning& w : r.warnings)
-    warnings.push_back({{"code", w.warning.code}, {"material", w.material}, {"message", w.warning.message}});
+    warnings.push_back(JsonObject()("code", w.warning.code)("material", w.material)("message", w.warning.message));
   const LoopResult& loop = r.loop;
-  return {{"file", r.file},
-          {"device", r.device},
-          {"probe_radius_mm", 1e3 * r.probe_radius_m},
-          {"rate_hz", r.rate_hz},
-          {"achieved_rate_hz", loop.seconds > 0 ? static_cast<double>(loop.ticks) / loop.seconds : 0},
-          {"ticks", loop.ticks},
-          {"missed_deadlines", loop.missed_deadlines},
-          {"pauses", {{"count", loop.pauses}, {"longest_s", loop.longest_pause_s}}},
-          {"wakeup_us", quantiles(loop.wakeup_us)},
-          {"tick_us", quantiles(loop.tick_us)},
-          {"contact_ticks", loop.contact_ticks},
-          {"lost_contact_ticks", loop.lost_contact_ticks},
-          {"passivity_interventions", loop.passivity_interventions},
-          {"max_force_n", loop.max_force_n},
-          {"stiffness_limit_n_per_m", std::isfinite(r.stiffness_limit) ? Json(r.stiffness_limit) : Json()},
-          {"clamped_materials", clamped},
-          {"clamps", clamps},
-          {"height_maps",
-           {{"loaded", r.maps_loaded}, {"missing", r.maps_missing}, {"roughness_overlays", r.roughness_overlays}}},
-          {"materials", r.material_names},
-          {"tags", app::tags_json(r.tags)},
-          {"left_out", {{"triangles", r.triangles_out_of_reach}, {"maps_made_coarser", r.maps_coarsened}}},
-          {"fixed_priority", loop.fixed_priority},
-          {"memory_locked", loop.memory_locked},
-          {"warnings", warnings},
-          {"vibration", vibration_json(r.vibration)},
-          {"triangles", r.triangles},
-          {"contact_bytes", r.contact_bytes},
-          {"load_seconds", r.load_seconds},
-          {"rss_mib", peak_rss_mib()}};
+  JsonObject json;
+  json("file", r.file);
+  json("device", r.device);
+  json("probe_radius_mm", 1e3 * r.probe_radius_m);
+  json("rate_hz", r.rate_hz);
+  json("achieved_rate_hz", loop.seconds > 0 ? static_cast<double>(loop.ticks) / loop.seconds : 0.0);
+  json("ticks", loop.ticks);
+  json("missed_deadlines", loop.missed_deadlines);
+  json("pauses", JsonObject()("count", loop.pauses)("longest_s", loop.longest_pause_s));
+  json("wakeup_us", quantiles(loop.wakeup_us));
+  json("tick_us", quantiles(loop.tick_us));
+  json("contact_ticks", loop.contact_ticks);
+  json("lost_contact_ticks", loop.lost_contact_ticks);
+  json("passivity_interventions", loop.passivity_interventions);
+  json("max_force_n", loop.max_force_n);
+  json("stiffness_limit_n_per_m", std::isfinite(r.stiffness_limit) ? Json(r.stiffness_limit) : Json());
+  json("clamped_materials", std::move(clamped));
+  json("clamps", std::move(clamps));
+  json("height_maps",
+       JsonObject()("loaded", r.maps_loaded)("missing", r.maps_missing)("roughness_overlays", r.roughness_overlays));
+  json("channel_maps", JsonObject()("loaded", r.channels_loaded)("missing", r.channels_missing));
+  json("materials", r.material_names);
+  json("tags", app::tags_json(r.tags));
+  json("left_out", JsonObject()("triangles", r.triangles_out_of_reach)("maps_made_coarser", r.maps_coarsened));
+  json("fixed_priority", loop.fixed_priority);
+  json("memory_locked", loop.memory_locked);
+  json("warnings", std::move(warnings));
+  json("vibration", vibration_json(r.vibration));
+  json("registration_residual_mm", r.registration_residual_mm ? Json(*r.registration_residual_mm) : Json());
+  json("triangles", r.triangles);
+  json("contact_bytes", r.contact_bytes);
+  json("load_seconds", r.load_seconds);
+  json("rss_mib", peak_rss_mib());
+  return json;
 }
 
 std::string summary(const RunReport& r) {
@@ -114,6 +112,9 @@ std::string summary(const RunReport& r) {
   std::string text = app::shown_format("{} on {} at {:.0f} Hz\n", r.file, r.device, r.rate_hz);
   text += app::shown_format("  {} triangles to feel, {} height maps ({} missing), loaded in {:.2f} s\n", r.triangles,
                             r.maps_loaded, r.maps_missing, r.load_seconds);
+  if (r.channels_loaded + r.channels_missing > 0)
+    text += app::shown_format("  {} maps of stiffness, friction and damping ({} missing)\n", r.channels_loaded,
+                              r.channels_missing);
   for (const StabilityClamp& clamp : r.clamps) text += clamp_line(clamp, r.material_names[clamp.material]);
   for (const MaterialWarning& w : r.warnings)
     text += app::shown_format("  warning {}: {}{}{}\n", w.warning.code, w.material, w.material.empty() ? "" : ": ",
@@ -125,6 +126,9 @@ std::string summary(const RunReport& r) {
   text += quantile_line("tick", loop.tick_us) + quantile_line("wake-up", loop.wakeup_us);
   text += app::shown_format("  contact on {} ticks, lost on {}, largest force {:.2f} N, stiffness limit {:.0f} N/m\n",
                             loop.contact_ticks, loop.lost_contact_ticks, loop.max_force_n, r.stiffness_limit);
+  if (r.registration_residual_mm)
+    text += app::shown_format("  on a real part: touched points within {:.2f} mm (rms) of its own\n",
+                              *r.registration_residual_mm);
   return text + vibration_line(r.vibration);
 }
 

@@ -19,6 +19,7 @@ struct RunReport {
   double rate_hz = 0, stiffness_limit = 0, load_seconds = 0, probe_radius_m = 0;
   std::size_t triangles = 0, contact_bytes = 0;
   int maps_loaded = 0, maps_missing = 0, maps_coarsened = 0, roughness_overlays = 0;
+  int channels_loaded = 0, channels_missing = 0;
   std::size_t triangles_out_of_reach = 0;
   std::vector<StabilityClamp> clamps;
   std::vector<std::string> material_names;
@@ -26,6 +27,7 @@ struct RunReport {
   std::vector<MaterialWarning> warnings;
   LoopResult loop;
   std::optional<VibrationReport> vibration;
+  std::optional<double> registration_residual_mm;  ///< Of a real part, by three points.
 };
 
 nlohmann::ordered_json to_json(const RunReport& report);

@@ -26,7 +26,7 @@ struct ReliefBase {
 };
 
 void check_input(const ContactMesh& mesh, const std::vector<ContactMaterial>& materials,
-                 const std::vector<HeightField>& heights, double radius) {
+                 const std::vector<HeightField>& heights, const std::vector<ChannelField>& channels, double radius) {
   const auto fail = [](const std::string& what) { throw InvalidInput("ContactSurface: " + what); };
   const std::size_t n = mesh.triangles.size();
   if (!(radius >= 0) || !std::isfinite(radius)) fail("the probe radius " + std::to_string(radius) + " is not >= 0");
@@ -38,10 +38,15 @@ void check_input(const ContactMesh& mesh, const std::vector<ContactMaterial>& ma
     fail("corner_normals needs three entries per triangle");
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const ContactMaterial& m = materials[i];
-    for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.stribeck_velocity})
+    for (const double value :
+         {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.stribeck_velocity, m.backing_stiffness})
       if (!(value >= 0) || !std::isfinite(value))
         fail("material " + std::to_string(i) + " has a number that is not >= 0");
     if (!std::isfinite(m.amplitude)) fail("material " + std::to_string(i) + " has an amplitude that is not finite");
+    if (!(m.backing_depth_m >= 0)) fail("material " + std::to_string(i) + " has a backing at no depth");
+    if (m.channels && *m.channels >= channels.size()) fail("material " + std::to_string(i) + " names missing maps");
+    if (m.channels && mesh.corner_uv.empty())
+      fail("material " + std::to_string(i) + " has maps but the mesh has no uv");
     if (m.stimulus && *m.stimulus >= heights.size())
       fail("material " + std::to_string(i) + " names a missing height field");
     if (m.stimulus && mesh.corner_uv.empty())
@@ -181,9 +186,13 @@ std::array<ContactTriangles::PackedNormal, 3> ContactTriangles::packed_corner_no
 }
 
 ContactTriangles::ContactTriangles(const ContactMesh& mesh, std::vector<ContactMaterial> materials,
-                                   std::vector<HeightField> heights, double probe_radius_m)
-    : materials_(std::move(materials)), heights_(std::move(heights)), radius_(probe_radius_m) {
-  check_input(mesh, materials_, heights_, radius_);
+                                   std::vector<HeightField> heights, double probe_radius_m,
+                                   std::vector<ChannelField> channels)
+    : materials_(std::move(materials)),
+      heights_(std::move(heights)),
+      channels_(std::move(channels)),
+      radius_(probe_radius_m) {
+  check_input(mesh, materials_, heights_, channels_, radius_);
   const ReliefBase base = relief_base(mesh, materials_, heights_);
 
   const std::size_t n = mesh.triangles.size();
@@ -215,7 +224,10 @@ ContactTriangles::ContactTriangles(const ContactMesh& mesh, std::vector<ContactM
     const double* s = &base.shifts[3 * t];
     return s[0] < 0 || s[1] < 0 || s[2] < 0 || materials_[material_of(t)].height.has_value();
   };
-  const auto has_uv = [&](std::uint32_t t) { return has_relief(t) || materials_[material_of(t)].stimulus.has_value(); };
+  const auto has_uv = [&](std::uint32_t t) {
+    const ContactMaterial& m = materials_[material_of(t)];
+    return has_relief(t) || m.stimulus.has_value() || m.channels.has_value();
+  };
   const auto highest = [&](std::uint32_t t) {
     const double* s = &base.shifts[3 * t];
     const auto& height = materials_[material_of(t)].height;

@@ -112,7 +112,7 @@ std::optional<ContactTriangles::Rest> ContactTriangles::rest_candidate(Vec3 goal
   const Vec3 away = nearest.away;
   if (away == Vec3{}) return std::nullopt;
   const double beyond = (dot(away, normal) >= 0 ? contact : -contact) / nearest.distance;
-  return Rest{goal + away + beyond * away, nearest.ends.middle(), material_of(nearest.place)};
+  return Rest{goal + away + beyond * away, nearest.ends.middle(), material_of(nearest.place), nearest.place};
 }
 
 }  // namespace papilla

@@ -20,15 +20,20 @@ struct Nearest {
   double distance;
 };
 
-/// The closest of the triangles whose material is accepted. The boxes of the tree are grown by the relief, so some are
-/// visited in vain.
-template <class Accept>
-std::optional<Nearest> find_nearest(const ContactTriangles& s, Vec3 x, double radius, Accept&& accept) noexcept {
+/// Which triangles a search is for: of one material, or of those with a stimulus, or all.
+struct Wanted {
+  std::optional<std::uint32_t> material = {};
+  bool stimulus = false;
+};
+
+/// The closest of the wanted triangles. The boxes of the tree are grown by the relief, so some are visited in vain.
+std::optional<Nearest> find_nearest(const ContactTriangles& s, Vec3 x, double radius, const Wanted& wanted) noexcept {
   Nearest best{.foot = {}, .distance = radius};
   bool found = false;
   s.clusters().within(x, best.distance, [&](std::uint32_t cluster) noexcept {
     s.clusters().in_box(cluster, s.box_around(x, x, best.distance), [&](std::uint32_t place) noexcept {
-      if (!accept(s.material_of(place))) return;
+      if (wanted.material && s.material_of(place) != *wanted.material) return;
+      if (wanted.stimulus && !s.material(s.material_of(place)).stimulus) return;
       const auto foot = s.foot(s.corners(place), x);
       const double distance = norm(x - foot.point);
       if (distance > best.distance) return;
@@ -39,17 +44,20 @@ std::optional<Nearest> find_nearest(const ContactTriangles& s, Vec3 x, double ra
   return found ? std::optional(best) : std::nullopt;
 }
 
-template <class Accept>
 std::optional<SurfacePoint> closest_base_point(const ContactTriangles& s, Vec3 p, double radius_m,
-                                               Accept&& accept) noexcept {
-  const auto near = find_nearest(s, p - s.origin(), radius_m, accept);
+                                               const Wanted& wanted) noexcept {
+  const auto near = find_nearest(s, p - s.origin(), radius_m, wanted);
   if (!near) return std::nullopt;
   const auto t = s.corners(near->place);
   SurfacePoint point;
   point.point = near->foot.point + s.origin();
   point.face_normal = normalized(cross(t.b - t.a, t.c - t.a));
   point.distance_m = near->distance;
-  if (s.has_relief(near->place)) point.height_m = s.relief_height(s.face(near->place), near->foot, &point.slope);
+  if (s.has_relief(near->place)) {
+    const auto face = s.face(near->place);
+    point.height_m = s.relief_height(face, near->foot, &point.slope);
+    point.base_m = face.shift + near->foot.v * face.shift_v + near->foot.w * face.shift_w;
+  }
   point.on_border = near->foot.on != ContactTriangles::Foot::On::face;
   point.triangle = s.source_of(near->place);
   point.material = s.material_of(near->place);
@@ -59,8 +67,10 @@ std::optional<SurfacePoint> closest_base_point(const ContactTriangles& s, Vec3 p
 }  // namespace
 
 ContactSurface::ContactSurface(const ContactMesh& mesh, std::vector<ContactMaterial> materials,
-                               std::vector<HeightField> heights, double probe_radius_m)
-    : triangles_(std::make_unique<ContactTriangles>(mesh, std::move(materials), std::move(heights), probe_radius_m)) {}
+                               std::vector<HeightField> heights, double probe_radius_m,
+                               std::vector<ChannelField> channels)
+    : triangles_(std::make_unique<ContactTriangles>(mesh, std::move(materials), std::move(heights), probe_radius_m,
+                                                    std::move(channels))) {}
 ContactSurface::ContactSurface(ContactSurface&&) noexcept = default;
 ContactSurface& ContactSurface::operator=(ContactSurface&&) noexcept = default;
 ContactSurface::~ContactSurface() = default;
@@ -72,20 +82,17 @@ Vec3 ContactSurface::shaded_normal(Vec3 proxy, Vec3 normal) const noexcept {
 }
 
 std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m) const noexcept {
-  return closest_base_point(*triangles_, p, radius_m, [](std::uint32_t) noexcept { return true; });
+  return closest_base_point(*triangles_, p, radius_m, {});
 }
 
 std::optional<SurfacePoint> ContactSurface::closest_point(Vec3 p, double radius_m,
                                                           std::uint32_t material) const noexcept {
-  return closest_base_point(*triangles_, p, radius_m,
-                            [material](std::uint32_t other) noexcept { return other == material; });
+  return closest_base_point(*triangles_, p, radius_m, {.material = material});
 }
 
 std::optional<StimulusSample> ContactSurface::stimulus(Vec3 p, double radius_m) const noexcept {
   const ContactTriangles& s = *triangles_;
-  const auto near = find_nearest(s, p - s.origin(), radius_m, [&](std::uint32_t material) noexcept {
-    return s.material(material).stimulus.has_value();
-  });
+  const auto near = find_nearest(s, p - s.origin(), radius_m, {.stimulus = true});
   if (!near) return std::nullopt;
   const std::uint32_t found = near->place;
   const auto& at = near->foot;

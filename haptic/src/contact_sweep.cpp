@@ -62,7 +62,7 @@ struct ContactTriangles::Sweep {
       std::swap(flat, best_is_flat);
     }
     best->crease.reset();
-    if (flat) add_crease({hit.t, hit.normal, hit.penetration_m, hit.triangle, hit.material});
+    if (flat) add_crease({hit.t, hit.normal, hit.penetration_m, hit.triangle, hit.material, hit.place});
     if (crease) add_crease(*crease);
   }
 
@@ -132,7 +132,7 @@ void ContactTriangles::sweep_plain(std::uint32_t place, Sweep& sweep) const noex
     if (dot(normal, way) > 0) normal = -normal;
   }
   if (dot(normal, way) >= 0) return;
-  sweep.add({touch.t, normal, contact - touch.distance, source_of(place), material_of(place), {}}, touch.above);
+  sweep.add({touch.t, normal, contact - touch.distance, source_of(place), material_of(place), place, {}}, touch.above);
 }
 
 /// A segment relative to a triangle with relief.
@@ -206,9 +206,14 @@ void ContactTriangles::sweep_relief(std::uint32_t place, Sweep& sweep) const noe
     inside = {next, clearance_of(face, from + next * way)};
   }
   const WaySample there = find_level(face, from, way, level, outside, inside);
-  sweep.add(
-      {there.t, normalized(there.clearance.gradient), -there.clearance.value, source_of(place), material_of(place), {}},
-      false);
+  sweep.add({there.t,
+             normalized(there.clearance.gradient),
+             -there.clearance.value,
+             source_of(place),
+             material_of(place),
+             place,
+             {}},
+            false);
 }
 
 /// The sample between two where the clearance falls to the level, at most k_above_level above it: regula falsi with

@@ -12,6 +12,12 @@
 
 namespace papilla {
 
+/// The constants at a place of a surface.
+struct LocalConstants {
+  ContactConstants constants;
+  Vec3 stiffness_slope;  ///< Gradient of the stiffness along the surface, N/m per metre.
+};
+
 /// What ContactSurface holds and what the proxy sweeps against. Triangles are named by their place in the clusters.
 class ContactTriangles {
  public:
@@ -66,11 +72,12 @@ class ContactTriangles {
     Vec3 place;
     Vec3 off;  ///< Unit direction in which the surface ends there; zero where it continues on all sides.
     std::uint32_t material = 0;
+    std::uint32_t triangle = 0;  ///< Its place in the clusters.
   };
 
   /// As ContactSurface's.
   ContactTriangles(const ContactMesh& mesh, std::vector<ContactMaterial> materials, std::vector<HeightField> heights,
-                   double probe_radius_m);
+                   double probe_radius_m, std::vector<ChannelField> channels = {});
 
   std::optional<SweepHit> sweep(Vec3 from, Vec3 to) const noexcept;
 
@@ -99,6 +106,9 @@ class ContactTriangles {
   const ContactMaterial& material(std::uint32_t index) const noexcept { return materials_[index]; }
   ContactMaterial& material(std::uint32_t index) noexcept { return materials_[index]; }
   std::size_t material_count() const noexcept { return materials_.size(); }
+  const ChannelField& channels(std::uint32_t index) const noexcept { return channels_[index]; }
+  /// What the material, or its maps, say at the point of the triangle that is closest to x.
+  LocalConstants constants_at(std::uint32_t place, Vec3 x) const noexcept;
   const HeightField& height(std::uint32_t index) const noexcept { return heights_[index]; }
   const TriangleClusters& clusters() const noexcept { return clusters_; }
   std::size_t skipped() const noexcept { return skipped_; }
@@ -164,6 +174,7 @@ class ContactTriangles {
 
   std::vector<ContactMaterial> materials_;
   std::vector<HeightField> heights_;
+  std::vector<ChannelField> channels_;
   TriangleClusters clusters_;           // Vertices relative to origin_. The arrays below are indexed by its slots.
   LargeArray<std::uint16_t> material_;  // With k_relief_bit where there is relief.
   LargeArray<std::uint32_t> source_;    // Index in the ContactMesh.

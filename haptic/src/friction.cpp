@@ -23,7 +23,7 @@ std::optional<FrictionModel> friction_model(std::string_view name) noexcept {
   return std::nullopt;
 }
 
-double friction_coefficient(const ContactMaterial& material, double speed) noexcept {
+double friction_coefficient(const ContactConstants& material, double speed) noexcept {
   if (!(speed > 0) || material.static_friction == material.dynamic_friction) return material.static_friction;
   const double ratio = material.stribeck_velocity > 0 ? speed / material.stribeck_velocity : 1e3;
   return material.dynamic_friction + (material.static_friction - material.dynamic_friction) * std::exp(-ratio * ratio);

@@ -165,6 +165,7 @@ LoopResult run_haptic_loop(HapticDevice& device, const ContactSurface& surface, 
   limits.watchdog_s = options.watchdog_s;
   HapticTick tick(surface, limits, period);
   if (options.control_passivity) tick.control_passivity(device.caps().dynamics);
+  if (options.real_part) tick.follow(*options.real_part);
   const StopAtEnd stop_at_end(device);
   {
     const Realtime realtime(result);

@@ -6,25 +6,10 @@
 #include <limits>
 
 #include "papilla/core/error.hpp"
+#include "texels.hpp"
 
 namespace papilla {
 namespace {
-
-constexpr double k_largest_texel = 1e9;  // Larger texel coordinates are clamped to fit an integer.
-
-long wrapped(long i, long n, Wrap mode) noexcept {
-  if (i >= 0 && i < n) return i;
-  switch (mode) {
-    case Wrap::clamp: return std::clamp(i, 0L, n - 1);
-    case Wrap::mirror: {
-      const long m = ((i % (2 * n)) + 2 * n) % (2 * n);
-      return m < n ? m : 2 * n - 1 - m;
-    }
-    case Wrap::repeat: break;
-  }
-  const long m = i % n;
-  return m < 0 ? m + n : m;
-}
 
 /// Weights of Catmull and Rom (1974) for the samples at −1, 0, 1, 2, and their derivatives.
 void cubic_weights(double f, double* w, double* d) noexcept {
@@ -50,10 +35,6 @@ void bspline_weights(double f, double* w, double* d) noexcept {
   d[1] = 0.5 * (3 * f2 - 4 * f);
   d[2] = 0.5 * (-3 * f2 + 2 * f + 1);
   d[3] = 0.5 * f2;
-}
-
-double texel_coordinate(double value) noexcept {
-  return std::isfinite(value) ? std::clamp(value, -k_largest_texel, k_largest_texel) : 0;
 }
 
 /// Envelope of parabolas of apex radius R over the samples of a line.

@@ -126,32 +126,52 @@ bool is_sha256(const std::string& text) {
          });
 }
 
-void read_uv(const Members& in, HeightTag& height) {
-  constexpr const char* k_code = "tag_height_uv";
+/// How the codes of warnings begin, and what they are about.
+struct PictureKind {
+  const char *code, *sha256_code, *uv_code, *what;
+};
+constexpr PictureKind k_height{"tag_height", "tag_height_sha256", "tag_height_uv", "map"};
+constexpr PictureKind k_maps{"tag_maps", "tag_maps_sha256", "tag_maps", "picture"};
+
+void read_uv_transform(const Json& json, const std::string& place, const char* code,
+                       std::vector<HapticWarning>& warnings, UvTransform& t) {
+  const Members in(json, place, warnings);
+  in.pair("offset", code, -k_any, k_any, t.offset);
+  in.pair("scale", code, -k_any, k_any, t.scale);
+  in.number("rotation", code, -k_any, k_any, t.rotation);
+}
+
+void read_picture(const Members& in, const PictureKind& kind, std::vector<HapticWarning>& warnings,
+                  PlacedPicture& picture) {
+  in.text("uri", kind.code, picture.uri);
+  in.text("image", kind.code, picture.image);
+  in.text("sha256", kind.sha256_code, picture.sha256);
+  if (!is_sha256(picture.sha256)) {
+    warnings.push_back(
+        {kind.sha256_code, in.place() + ".sha256: is not 64 hexadecimal digits, no " + kind.what + " can be accepted"});
+    picture.sha256.clear();
+  }
+  std::transform(picture.sha256.begin(), picture.sha256.end(), picture.sha256.begin(),
+                 [](char c) { return c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c; });
+  Vec2 size;
+  if (in.pair("size", kind.code, 1, k_largest_picture, size))
+    picture.size = {static_cast<int>(size.x), static_cast<int>(size.y)};
   double tex_coord = 0;
-  if (in.number("texCoord", k_code, 0, 7, tex_coord)) height.tex_coord = static_cast<int>(tex_coord);
-  in.pair("metresPerUV", k_code, 1e-9, k_any, height.metres_per_uv);
+  if (in.number("texCoord", kind.uv_code, 0, 7, tex_coord)) picture.tex_coord = static_cast<int>(tex_coord);
   if (in.has("wrap")) {
     const Json& wrap = in.at("wrap");
     const bool fits = wrap.is_array() && wrap.size() == 2 && wrap_of(wrap[0]) && wrap_of(wrap[1]);
     if (fits)
-      height.wrap = {*wrap_of(wrap[0]), *wrap_of(wrap[1])};
+      picture.wrap = {*wrap_of(wrap[0]), *wrap_of(wrap[1])};
     else
-      in.warn(k_code, "wrap", "is not two of repeat, clamp, mirror; repeat is used");
+      in.warn(kind.uv_code, "wrap", "is not two of repeat, clamp, mirror; repeat is used");
   }
-}
-
-void read_uv_transform(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings,
-                       UvTransform& t) {
-  constexpr const char* k_code = "tag_height_uv";
-  const Members in(json, place, warnings);
-  in.pair("offset", k_code, -k_any, k_any, t.offset);
-  in.pair("scale", k_code, -k_any, k_any, t.scale);
-  in.number("rotation", k_code, -k_any, k_any, t.rotation);
+  if (const Json* transform = in.object("uvTransform", kind.uv_code))
+    read_uv_transform(*transform, in.place() + ".uvTransform", kind.uv_code, warnings, picture.uv_transform);
 }
 
 std::optional<HeightTag> read_height(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings) {
-  constexpr const char* k_code = "tag_height";
+  constexpr const char* k_code = k_height.code;
   const Members in(json, place, warnings);
   HeightTag height;
   if (!in.number("scale", k_code, -1, 1, height.scale_m) ||
@@ -159,31 +179,80 @@ std::optional<HeightTag> read_height(const Json& json, const std::string& place,
     warnings.push_back({k_code, place + ": scale and offset must be numbers within a metre, the relief is dropped"});
     return std::nullopt;
   }
-  in.text("uri", k_code, height.uri);
-  in.text("image", k_code, height.image);
-  in.text("sha256", "tag_height_sha256", height.sha256);
-  if (!is_sha256(height.sha256)) {
-    warnings.push_back({"tag_height_sha256", place + ".sha256: is not 64 hexadecimal digits, no map can be accepted"});
-    height.sha256.clear();
-  }
-  std::transform(height.sha256.begin(), height.sha256.end(), height.sha256.begin(),
-                 [](char c) { return c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c; });
+  read_picture(in, k_height, warnings, height);
   double bits = 16;
   if (in.number("bits", "tag_height_bits", 1, 64, bits)) height.bits = static_cast<int>(bits);
   if (height.bits != 16) in.warn("tag_height_bits", "bits", "steps of an 8-bit map can be felt, 16 is expected");
   in.text("channel", k_code, height.channel);
-  Vec2 size;
-  if (in.pair("size", k_code, 1, k_largest_picture, size))
-    height.size = {static_cast<int>(size.x), static_cast<int>(size.y)};
   std::string outward = "white";
   in.text("outward", k_code, outward);
   if (outward != "white" && outward != "black") in.warn(k_code, "outward", "is neither white nor black, white is used");
   height.white_is_outward = outward != "black";
   in.number("rms", k_code, 0, 1, height.rms_m);
-  read_uv(in, height);
-  if (const Json* transform = in.object("uvTransform", "tag_height_uv"))
-    read_uv_transform(*transform, place + ".uvTransform", warnings, height.uv_transform);
+  in.pair("metresPerUV", k_height.uv_code, 1e-9, k_any, height.metres_per_uv);
   return height;
+}
+
+constexpr std::array k_channel_names{"r", "g", "b"};
+
+std::optional<MapChannel> read_channel(const Json& json, const std::string& place,
+                                       std::vector<HapticWarning>& warnings) {
+  const Members in(json, place, warnings);
+  std::string name;
+  in.text("quantity", k_maps.code, name);
+  const auto quantity = papilla::quantity(name);
+  MapChannel channel;
+  if (!quantity || !in.number("scale", k_maps.code, -k_any, k_any, channel.scale) ||
+      (in.has("offset") && !in.number("offset", k_maps.code, -k_any, k_any, channel.offset))) {
+    warnings.push_back({k_maps.code, place + ": needs a quantity and the numbers scale and offset, it is dropped"});
+    return std::nullopt;
+  }
+  channel.quantity = *quantity;
+  if (channel.least() >= 0 && channel.most() <= largest_value(*quantity)) return channel;
+  warnings.push_back({k_maps.code, place + ": leads from " + Json(channel.least()).dump() + " to " +
+                                       Json(channel.most()).dump() + ", beyond 0 to " +
+                                       Json(largest_value(*quantity)).dump() + ", it is dropped"});
+  return std::nullopt;
+}
+
+std::optional<MapsTag> read_maps(const Json& json, const std::string& place, std::vector<HapticWarning>& warnings) {
+  const Members in(json, place, warnings);
+  MapsTag maps;
+  read_picture(in, k_maps, warnings, maps);
+  maps.bits = 8;
+  double bits = 8;
+  if (in.number("bits", k_maps.code, 1, 64, bits)) maps.bits = static_cast<int>(bits);
+  bool any = false;
+  if (const Json* channels = in.object("channels", k_maps.code)) {
+    const Members of(*channels, place + ".channels", warnings);
+    for (std::size_t c = 0; c < k_channel_names.size(); ++c) {
+      const char* const name = k_channel_names[c];
+      const Json* const json_channel = of.object(name, k_maps.code);
+      if (json_channel == nullptr) continue;
+      auto channel = read_channel(*json_channel, place + ".channels." + name, warnings);
+      const bool is_known = channel && std::any_of(maps.channels.begin(), maps.channels.end(), [&](const auto& other) {
+                              return other && other->quantity == channel->quantity;
+                            });
+      if (is_known) of.warn(k_maps.code, name, "has the quantity of another channel, it is dropped");
+      if (!channel || is_known) continue;
+      maps.channels[c] = channel;
+      any = true;
+    }
+  }
+  if (any) return maps;
+  warnings.push_back({k_maps.code, place + ": has no channel, the constants are used"});
+  return std::nullopt;
+}
+
+std::optional<BackingTag> read_backing(const Json& json, const std::string& place,
+                                       std::vector<HapticWarning>& warnings) {
+  constexpr const char* k_code = "tag_backing";
+  const Members in(json, place, warnings);
+  BackingTag backing;
+  const bool has_stiffness = in.number("stiffness", k_code, 0, largest_value(Quantity::stiffness), backing.stiffness);
+  if (has_stiffness && in.number("depth", k_code, 0, 1, backing.depth_m)) return backing;
+  warnings.push_back({k_code, place + ": needs stiffness and depth, the surface is felt without it"});
+  return std::nullopt;
 }
 
 std::optional<RoughnessTag> read_roughness(const Json& json, const std::string& place,
@@ -294,8 +363,8 @@ void read_friction(const Members& in, MaterialTag& tag) {
 }
 
 constexpr std::array k_members{"version",          "stiffness",     "damping",      "staticFriction", "dynamicFriction",
-                               "stribeckVelocity", "frictionModel", "forceShading", "height",         "roughness",
-                               "forceModel",       "symmetry",      "provenance"};
+                               "stribeckVelocity", "frictionModel", "forceShading", "height",         "maps",
+                               "backing",          "roughness",     "forceModel",   "symmetry",       "provenance"};
 
 MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   const std::string place = "haptic";
@@ -317,6 +386,14 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
   in.flag("forceShading", "tag_force_shading", tag.force_shading);
   if (const Json* height = in.object("height", "tag_height"))
     tag.height = read_height(*height, place + ".height", warnings);
+  if (const Json* maps = in.object("maps", k_maps.code)) tag.maps = read_maps(*maps, place + ".maps", warnings);
+  if (tag.maps && tag.height && tag.maps->tex_coord != tag.height->tex_coord) {
+    warnings.push_back(
+        {k_maps.code, place + ".maps.texCoord: is another one than that of the height, the constants are used"});
+    tag.maps.reset();
+  }
+  if (const Json* backing = in.object("backing", "tag_backing"))
+    tag.backing = read_backing(*backing, place + ".backing", warnings);
   if (const Json* roughness = in.object("roughness", "tag_roughness"))
     tag.roughness = read_roughness(*roughness, place + ".roughness", warnings);
   if (const Json* model = in.object("forceModel", "tag_force_model"))
@@ -334,24 +411,43 @@ MaterialTag read_tag(const Json& json, std::vector<HapticWarning>& warnings) {
 
 Json pair_json(Vec2 v) { return Json::array({v.x, v.y}); }
 
-Json height_json(const HeightTag& h) {
+Json picture_json(const PlacedPicture& p) {
   Json json = Json::object();
-  if (!h.uri.empty()) json["uri"] = h.uri;
-  if (!h.image.empty()) json["image"] = h.image;
-  if (!h.sha256.empty()) json["sha256"] = h.sha256;
-  json["bits"] = h.bits;
+  if (!p.uri.empty()) json["uri"] = p.uri;
+  if (!p.image.empty()) json["image"] = p.image;
+  if (!p.sha256.empty()) json["sha256"] = p.sha256;
+  json["bits"] = p.bits;
+  if (p.size[0] > 0) json["size"] = p.size;
+  return json;
+}
+
+void add_place(const PlacedPicture& p, Json& json) {
+  json["texCoord"] = p.tex_coord;
+  json["uvTransform"] = {{"offset", pair_json(p.uv_transform.offset)},
+                         {"rotation", p.uv_transform.rotation},
+                         {"scale", pair_json(p.uv_transform.scale)}};
+  json["wrap"] = {name_of(p.wrap[0]), name_of(p.wrap[1])};
+}
+
+Json height_json(const HeightTag& h) {
+  Json json = picture_json(h);
   json["channel"] = h.channel;
-  if (h.size[0] > 0) json["size"] = h.size;
   json["scale"] = h.scale_m;
   json["offset"] = h.offset_m;
   json["outward"] = h.white_is_outward ? "white" : "black";
-  json["texCoord"] = h.tex_coord;
-  json["uvTransform"] = {{"offset", pair_json(h.uv_transform.offset)},
-                         {"rotation", h.uv_transform.rotation},
-                         {"scale", pair_json(h.uv_transform.scale)}};
+  add_place(h, json);
   json["metresPerUV"] = pair_json(h.metres_per_uv);
-  json["wrap"] = {name_of(h.wrap[0]), name_of(h.wrap[1])};
   if (h.rms_m > 0) json["rms"] = h.rms_m;
+  return json;
+}
+
+Json maps_json(const MapsTag& maps) {
+  Json json = picture_json(maps);
+  for (std::size_t c = 0; c < k_channel_names.size(); ++c)
+    if (const auto& channel = maps.channels[c])
+      json["channels"][k_channel_names[c]] = {
+          {"quantity", name_of(channel->quantity)}, {"scale", channel->scale}, {"offset", channel->offset}};
+  add_place(maps, json);
   return json;
 }
 
@@ -373,7 +469,8 @@ Json roughness_json(const RoughnessTag& roughness) {
 }
 
 Json tag_json(const MaterialTag& tag) {
-  Json json = {{"version", tag.roughness && tag.roughness->overlay ? 2 : 1},
+  const bool two = (tag.roughness && tag.roughness->overlay) || tag.maps || tag.backing;
+  Json json = {{"version", two ? MaterialTag::k_newest_version : 1},
                {"stiffness", tag.stiffness},
                {"damping", tag.damping},
                {"staticFriction", tag.static_friction},
@@ -383,6 +480,8 @@ Json tag_json(const MaterialTag& tag) {
     json["frictionModel"] = {{"name", tag.friction_model->name}, {"stiffness", tag.friction_model->stiffness}};
   if (tag.force_shading) json["forceShading"] = true;
   if (tag.height) json["height"] = height_json(*tag.height);
+  if (tag.maps) json["maps"] = maps_json(*tag.maps);
+  if (tag.backing) json["backing"] = {{"stiffness", tag.backing->stiffness}, {"depth", tag.backing->depth_m}};
   if (tag.roughness) json["roughness"] = roughness_json(*tag.roughness);
   if (tag.force_model)
     json["forceModel"] = {{"name", tag.force_model->name},
@@ -402,13 +501,51 @@ Json tag_json(const MaterialTag& tag) {
   return json;
 }
 
+std::string data_uri_of(std::span<const std::byte> png) { return "data:image/png;base64," + encode_base64(png); }
+
 Json parse(std::string_view text) { return Json::parse(text, nullptr, false); }
 
 }  // namespace
 
+std::vector<PlacedPicture*> pictures_of(MaterialTag& tag) {
+  std::vector<PlacedPicture*> pictures;
+  if (tag.height) pictures.push_back(&*tag.height);
+  if (tag.maps) pictures.push_back(&*tag.maps);
+  return pictures;
+}
+
+std::optional<int> tex_coord_of(const MaterialTag& tag) noexcept {
+  if (tag.height) return tag.height->tex_coord;
+  if (tag.maps) return tag.maps->tex_coord;
+  return std::nullopt;
+}
+
+double largest_static_friction(const MaterialTag& tag) noexcept {
+  double largest = tag.static_friction;
+  if (!tag.maps) return largest;
+  for (const auto& channel : tag.maps->channels) {
+    if (!channel) continue;
+    if (channel->quantity == Quantity::static_friction) return channel->most();
+    if (channel->quantity == Quantity::dynamic_friction)
+      largest =
+          tag.dynamic_friction > 0 ? tag.static_friction * channel->most() / tag.dynamic_friction : channel->most();
+  }
+  return largest;
+}
+
+MapsTag make_maps_tag(const EncodedMaps& encoded) {
+  MapsTag tag;
+  tag.uri = data_uri_of(encoded.png);
+  tag.sha256 = sha256_hex(encoded.png);
+  tag.size = {encoded.width, encoded.height};
+  tag.bits = encoded.bits;
+  tag.channels = encoded.channels;
+  return tag;
+}
+
 HeightTag make_height_tag(const HeightMap& relief, const EncodedRelief& encoded) {
   HeightTag tag;
-  tag.uri = encoded.uri.empty() ? "data:image/png;base64," + encode_base64(encoded.png) : encoded.uri;
+  tag.uri = encoded.uri.empty() ? data_uri_of(encoded.png) : encoded.uri;
   tag.sha256 = sha256_hex(encoded.png);
   tag.size = {relief.width, relief.height};
   tag.scale_m = k_metres_per_mm * encoded.scale_mm;

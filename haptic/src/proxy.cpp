@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "contact_triangles.hpp"
+#include "papilla/haptic/force_model.hpp"
 #include "papilla/haptic/friction.hpp"
 
 namespace papilla {
@@ -36,6 +37,7 @@ constexpr int k_hop_sweeps = 4 * k_hops;  // at most: up, along, down, around a 
 constexpr int k_few = 8;                  // sweeps: a descent that took more followed the surface closely [b]
 constexpr double k_lift = 0.25;           // skin: a shallower hollow holds no proxy (docs/contact.md) [b]
 constexpr double k_around = 4;            // radii aside for one down: a chord that cuts 3 % of the radius [g]
+constexpr double k_softest = 0.5;         // of the depth: how far aside a slope of the stiffness draws the proxy [b]
 // Gathering, for speed; hops see only what is gathered.
 constexpr double k_needed_travels = 0.3;  // travel: margin around the proxy that a sweep wants [b]
 constexpr double k_wanted_travels = 3;    // travel: gathered radius, for this tick and the next ones [b]
@@ -45,11 +47,14 @@ constexpr int k_pieces = 3;               // gathers along one sweep, then the t
 constexpr double k_regrowth = 1.01;       // per tick: growth of the largest radius after more than fits [b]
 constexpr std::uint32_t k_sparse = 64;    // blocks, of 512: with fewer a radius twice as large is tried [b]
 
+constexpr std::uint32_t k_no_place = 0xffffffffU;
+
 /// A half-space that the proxy must not leave: normal · x ≥ offset.
 struct HalfSpace {
   Vec3 normal;
   double offset = 0;
   std::uint32_t material = 0;
+  std::uint32_t place = 0;  ///< Of the triangle.
 };
 
 /// The point of a few half-spaces that is closest to a goal.
@@ -212,7 +217,7 @@ class Proxy::Descent {
 
  private:
   Tick begin_tick(Vec3 probe) noexcept;
-  Aim aim(Tick& tick) const noexcept;
+  Aim aim(Tick& tick) noexcept;
   Next settle(Tick& tick, const Aim& aim) noexcept;
   Next settle_held(Tick& tick, const Aim& aim) noexcept;
   static void apply_friction(Aim& aim) noexcept;
@@ -220,7 +225,9 @@ class Proxy::Descent {
   bool sweep_step(Tick& tick, const Aim& aim) noexcept;
   const ProxyState& end_tick(Tick& tick, double period_s) noexcept;
 
-  double friction_of(std::uint32_t material) const noexcept;
+  double friction_of(const ProxyState& state) const noexcept;
+  Vec3 towards_softer() const noexcept;
+  void read_constants(std::uint32_t place, Vec3 x) noexcept;
   void save_planes(const Planes& planes, std::uint32_t active, Vec3 x) noexcept;
   void restore_planes(Vec3 goal, Planes& planes) noexcept;
   bool crease_holds(Tick& tick, std::uint32_t active) noexcept;
@@ -237,9 +244,11 @@ class Proxy::Descent {
   ProxyState state_;
   double slide_speed_ = 0;  // m/s, smoothed.
   bool started_ = false;
-  Vec3 probe_;                       // Of the tick before.
-  Vec3 ahead_;                       // Unit direction of the probe's way in this tick; zero when that is short.
-  std::array<HalfSpace, 3> held_{};  // Planes that held the proxy in a crease, relative to it.
+  LocalConstants felt_;                    // At the proxy, or where it first touched the triangle in this tick.
+  std::uint32_t felt_place_ = k_no_place;  // Of that triangle.
+  Vec3 probe_;                             // Of the tick before.
+  Vec3 ahead_;                             // Unit direction of the probe's way in this tick; zero when that is short.
+  std::array<HalfSpace, 3> held_{};        // Planes that held the proxy in a crease, relative to it.
   std::size_t held_count_ = 0;
   std::array<Vec3, k_steps> waypoints_{};  // At most one for each sweep.
   std::size_t waypoint_count_ = 0;
@@ -253,6 +262,7 @@ void Proxy::Descent::reset(Vec3 position) noexcept {
   probe_ = position;
   near_.clear();
   held_count_ = waypoint_count_ = 0;
+  felt_place_ = k_no_place;
   slide_speed_ = 0;
   started_ = true;
 }
@@ -281,12 +291,12 @@ Tick Proxy::Descent::begin_tick(Vec3 probe) noexcept {
   ahead_ = tick.travel > shortest_ ? (1 / tick.travel) * (probe - probe_) : Vec3{};
   probe_ = probe;
   tick.start = state_.proxy;
-  tick.goal = probe - tick.start;
+  tick.goal = probe - tick.start + towards_softer();
   tick.farthest = k_far * tick.travel + surface_->skin_m();
   waypoint_count_ = 0;
   restore_planes(tick.goal, tick.planes);
   tick.press_normal = state_.normal;
-  if (state_.in_contact && friction_of(state_.material) > 0) tick.press = k_press * shortest_;
+  if (state_.in_contact && friction_of(state_) > 0) tick.press = k_press * shortest_;
   if (state_.in_contact && tick.press == 0 && tick.travel > shortest_) {
     tick.first = hop_to_nearest(tick, state_.normal, 0);
     tick.slid = tick.x;
@@ -296,7 +306,7 @@ Tick Proxy::Descent::begin_tick(Vec3 probe) noexcept {
 }
 
 /// The closest point that the planes allow; with active planes it gives normal, load and material of the contact.
-Aim Proxy::Descent::aim(Tick& tick) const noexcept {
+Aim Proxy::Descent::aim(Tick& tick) noexcept {
   Aim aim{constrain(tick.goal, tick.planes.plane, tick.planes.count, shortest_), {}};
   if (!aim.at.found) return aim;
   aim.step = aim.at.point - tick.x;
@@ -314,7 +324,9 @@ Aim Proxy::Descent::aim(Tick& tick) const noexcept {
   next.normal = depth > 0 ? (1 / depth) * behind : loaded.normal;
   next.load_m = std::max(0.0, depth - surface_->skin_m());
   next.material = loaded.material;
-  aim.held = friction_of(next.material) * next.load_m;
+  if (loaded.place != felt_place_) read_constants(loaded.place, tick.start + tick.x);
+  next.constants = felt_.constants;
+  aim.held = friction_of(next) * next.load_m;
   return aim;
 }
 
@@ -380,7 +392,7 @@ bool Proxy::Descent::sweep_step(Tick& tick, const Aim& aim) noexcept {
   tick.free = !hit && tick.planes.count == 0;
   if (tick.free) return false;
   if (!hit) {
-    if (friction_of(tick.next.material) > 0) tick.press = norm(moved) + k_press * shortest_;
+    if (friction_of(tick.next) > 0) tick.press = norm(moved) + k_press * shortest_;
     tick.press_normal = tick.next.normal;
     tick.crept = aim.at.count > 1 && norm(moved) > k_crept * shortest_;
     if (aim.at.count > 1) tick.stride.record(moved, aim.wanted);
@@ -397,6 +409,10 @@ const ProxyState& Proxy::Descent::end_tick(Tick& tick, double period_s) noexcept
   ProxyState& next = tick.next;
   if (tick.free) next = ProxyState{};
   next.proxy = tick.start + tick.x;
+  if (!next.in_contact)
+    felt_place_ = k_no_place;
+  else if (felt_place_ != k_no_place && !(tick.x == Vec3{}) && surface_->material(next.material).channels)
+    read_constants(felt_place_, next.proxy), next.constants = felt_.constants;
   next.shaded_normal = next.normal;
   if (next.in_contact && surface_->material(next.material).shading)
     next.shaded_normal = surface_->shaded_normal(next.proxy, next.normal);
@@ -408,10 +424,29 @@ const ProxyState& Proxy::Descent::end_tick(Tick& tick, double period_s) noexcept
 }
 
 /// μ at the present sliding speed; 0 for other models than Coulomb's, which leave the proxy free.
-double Proxy::Descent::friction_of(std::uint32_t material) const noexcept {
-  const ContactMaterial& m = surface_->material(material);
+double Proxy::Descent::friction_of(const ProxyState& state) const noexcept {
+  const ContactMaterial& m = surface_->material(state.material);
   const bool holds = m.friction == FrictionModel::coulomb && m.model != ForceModel::textured_normal;
-  return holds ? friction_coefficient(m, slide_speed_) : 0;
+  return holds ? friction_coefficient(state.constants, slide_speed_) : 0;
+}
+
+void Proxy::Descent::read_constants(std::uint32_t place, Vec3 x) noexcept {
+  felt_ = surface_->constants_at(place, x);
+  felt_place_ = place;
+}
+
+/// From the probe to where the proxy is drawn: (∂W/∂k)·∇k/N·δ against the slope of the stiffness. The proxy then rests
+/// where the energy W(k(x), |x − p|) of the spring is least, not its length: a hand that slides from soft to hard has
+/// to put in what the stiffer spring stores.
+Vec3 Proxy::Descent::towards_softer() const noexcept {
+  const double depth = state_.load_m;
+  if (!state_.in_contact || !(depth > 0) || felt_.stiffness_slope == Vec3{}) return {};
+  const ContactMaterial& m = surface_->material(state_.material);
+  const double force = spring_force(m, state_.constants.stiffness, depth);
+  if (!(force > 0)) return {};
+  const Vec3 way = (-energy_by_stiffness(m, depth) * depth / force) * felt_.stiffness_slope;
+  const double length = norm(way), most = k_softest * depth;
+  return length > most ? (most / length) * way : way;
 }
 
 /// Keeps the active planes for the next tick, if all of them were found at x.
@@ -423,7 +458,7 @@ void Proxy::Descent::save_planes(const Planes& planes, std::uint32_t active, Vec
       held_count_ = 0;
       return;
     }
-    held_[held_count_++] = {plane.normal, plane.offset - dot(plane.normal, x), plane.material};
+    held_[held_count_++] = {plane.normal, plane.offset - dot(plane.normal, x), plane.material, plane.place};
   }
 }
 
@@ -465,13 +500,13 @@ void Proxy::Descent::add_contact(Tick& tick, const SweepHit& hit, Vec3 way) cons
     const Vec3 out = ((first - c * second) / s) * hit.normal + ((second - c * first) / s) * crease.normal;
     if (norm(out) <= tolerance) {
       tick.x = tick.x + out;
-      tick.planes.add({hit.normal, dot(hit.normal, tick.x), hit.material}, tick.x);
-      tick.planes.add({crease.normal, dot(crease.normal, tick.x), crease.material}, tick.x);
+      tick.planes.add({hit.normal, dot(hit.normal, tick.x), hit.material, hit.place}, tick.x);
+      tick.planes.add({crease.normal, dot(crease.normal, tick.x), crease.material, crease.place}, tick.x);
       return;
     }
   }
   tick.x = tick.x + first * hit.normal;
-  tick.planes.add({hit.normal, dot(hit.normal, tick.x), hit.material}, tick.x);
+  tick.planes.add({hit.normal, dot(hit.normal, tick.x), hit.material, hit.place}, tick.x);
 }
 
 /// Adds the plane that holds the proxy at the nearest place: the goal lies straight behind the touched point. The rim
@@ -490,7 +525,7 @@ void Proxy::Descent::add_rest(Tick& tick, const ContactTriangles::Rest& rest) no
       return;
     }
   }
-  tick.planes.add({out, dot(out, tick.x), rest.material}, tick.x);
+  tick.planes.add({out, dot(out, tick.x), rest.material, rest.triangle}, tick.x);
 }
 
 /// Moves towards a place to rest: up by lift_m along `normal`, along the surface, and down. Only if these ways are free

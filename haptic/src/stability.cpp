@@ -35,11 +35,17 @@ std::vector<StabilityClamp> clamp_to_stable(ContactSurface& surface, const Devic
   std::vector<StabilityClamp> clamps;
   for (std::uint32_t i = 0; i < surface.material_count(); ++i) {
     ContactMaterial& material = surface.material(i);
-    StabilityClamp clamp{i, material.stiffness, 0, material.damping, 0};
-    material.damping = std::min(material.damping, device.damping / 2);
-    material.stiffness = std::min(material.stiffness, stiffness_limit(device, period_s, material.damping));
-    clamp.stiffness = material.stiffness;
-    clamp.damping = material.damping;
+    const bool has_backing = std::isfinite(material.backing_depth_m);
+    StabilityClamp clamp{i, surface.most(i, Quantity::stiffness), 0, surface.most(i, Quantity::damping), 0};
+    if (has_backing) clamp.stiffness_wanted = std::max(clamp.stiffness_wanted, material.backing_stiffness);
+    clamp.damping = std::min(clamp.damping_wanted, device.damping / 2);
+    const double limit = stiffness_limit(device, period_s, clamp.damping);
+    clamp.stiffness = std::min(clamp.stiffness_wanted, limit);
+    material.most_damping = clamp.damping;
+    material.damping = std::min(material.damping, clamp.damping);
+    material.most_stiffness = limit;
+    material.stiffness = std::min(material.stiffness, limit);
+    material.backing_stiffness = std::min(material.backing_stiffness, limit);
     if (clamp.stiffness < clamp.stiffness_wanted || clamp.damping < clamp.damping_wanted) clamps.push_back(clamp);
   }
   return clamps;

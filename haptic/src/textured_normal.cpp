@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/haptic/textured_normal.hpp"
 
+#include "papilla/haptic/force_model.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -133,7 +135,7 @@ Vec3 textured_normal_force(const ContactMaterial& material, Vec3 way, Vec3 veloc
   const double depth = norm(way);
   if (!(depth > 0)) return {};
   const Vec3 n = (1 / depth) * way;
-  const double spring = material.stiffness * depth;
+  const double spring = spring_force(material, material.stiffness, depth);
   return (spring - std::clamp(material.damping * dot(velocity, n), -spring, spring)) * n;
 }
 

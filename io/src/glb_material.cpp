@@ -141,10 +141,11 @@ Json MaterialWriter::reference(const TextureReference& reference, const char* fa
 }
 
 Json haptic_json(const MaterialTag& tag) {
-  MaterialTag without_picture = tag;
-  if (tag.height) without_picture.height->uri.clear();
-  Json json = Json::parse(to_json(without_picture));
+  MaterialTag without_pictures = tag;
+  for (PlacedPicture* picture : pictures_of(without_pictures)) picture->uri.clear();
+  Json json = Json::parse(to_json(without_pictures));
   if (tag.height && !tag.height->uri.empty()) json["height"]["uri"] = tag.height->uri;
+  if (tag.maps && !tag.maps->uri.empty()) json["maps"]["uri"] = tag.maps->uri;
   return json;
 }
 

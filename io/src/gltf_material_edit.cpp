@@ -282,7 +282,8 @@ class MaterialEditor {
     }
     if (edit.tag) {
       MaterialTag tag = *edit.tag;
-      if (tag.height && !edit.uv.empty()) tag.height->tex_coord = material.channel;
+      if (!edit.uv.empty())
+        for (PlacedPicture* picture : pictures_of(tag)) picture->tex_coord = material.channel;
       json["extras"]["haptic"] = haptic_json(tag);
     } else if (json.contains("extras")) {
       json["extras"].erase("haptic");

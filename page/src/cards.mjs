@@ -97,6 +97,9 @@ function constants(material, about) {
   add('stiffness', tag && `${number(tag.stiffness ?? 500)} N/m`);
   add('damping', tag && `${number(tag.damping ?? 0)} N·s/m`);
   add('friction', tag && `${number(tag.staticFriction ?? tag.dynamicFriction ?? 0)} static, ${number(tag.dynamicFriction ?? tag.staticFriction ?? 0)} dynamic`);
+  add('backing', tag?.backing && `${number(tag.backing.stiffness)} N/m from ${number(1000 * tag.backing.depth)} mm on`);
+  for (const { quantity, scale, offset = 0 } of Object.values(tag?.maps?.channels ?? {}))
+    add(`map of ${quantity.replaceAll('_', ' ')}`, `${number(Math.min(offset, offset + scale))} to ${number(Math.max(offset, offset + scale))}`);
   const { forceModel: force, frictionModel: hold } = tag ?? {};
   add('force model', force && [force.name ?? 'heightfield', force.form, force.sign === 'literal' && 'uphill', !['heightfield', 'textured-normal'].includes(force.name ?? 'heightfield') && `${number(force.amplitude ?? 0.01)} N per grey level`, force.level && `level ${force.level}`].filter(Boolean).join(', '));
   add('friction model', hold && [hold.name ?? 'coulomb', hold.stiffness > 0 && `${number(hold.stiffness)} N/m`].filter(Boolean).join(', '));

@@ -30,10 +30,16 @@ export function sample({ relief, size }, x, y) {
   return { h, slope: [hx * width / size[0], hy * height / size[1]] };
 }
 
+/** Force in newtons of a skin over its backing at a depth in metres: k·δ, beyond the backing's depth its own stiffness. */
+export function springForce({ stiffness, backing }, depth) {
+  const beyond = backing ? Math.max(0, depth - backing.depth) : 0;
+  return stiffness * (depth - beyond) + (backing ? backing.stiffness * beyond : 0);
+}
+
 /**
  * The force in newtons on a point pressed to `depth` mm below the mean of the relief that moves with (vx, vy) mm/s.
- * n is the normal of the relief, δ the depth along it: F = n·max(0, k·δ − b·(v·n)) − μ(|v|)·Fn along the way it
- * slides, μ = μd + (μs − μd)·exp(−(v/vs)²).
+ * n is the normal of the relief, δ the depth along it: F = n·max(0, springForce(δ) − b·(v·n)) − μ(|v|)·Fn along the way
+ * it slides, μ = μd + (μs − μd)·exp(−(v/vs)²).
  */
 export function forceAt(surface, x, y, depth, vx, vy) {
   const { h, slope } = sample(surface, x, y);
@@ -41,7 +47,7 @@ export function forceAt(surface, x, y, depth, vx, vy) {
   const n = [-slope[0] / length, -slope[1] / length, 1 / length];
   const delta = (h - surface.mean + depth) * n[2] / 1000;
   const along = (vx * n[0] + vy * n[1]) / 1000;
-  const normal = delta > 0 ? Math.max(0, surface.stiffness * delta - surface.damping * along) : 0;
+  const normal = delta > 0 ? Math.max(0, springForce(surface, delta) - surface.damping * along) : 0;
   const t = [vx / 1000 - along * n[0], vy / 1000 - along * n[1], -along * n[2]];
   const speed = Math.hypot(...t);
   const mu = surface.dynamicFriction + (surface.staticFriction - surface.dynamicFriction) * Math.exp(-((speed / surface.stribeckVelocity) ** 2));
@@ -59,7 +65,7 @@ export function surfaceOf({ haptic, relief }) {
   const scale = uvTransform.scale ?? [1, 1];
   return {
     relief, size: metresPerUV.map((m, i) => 1000 * m / Math.abs(scale[i] || 1)), mean: sum / relief.mm.length,
-    stiffness: haptic.stiffness ?? 500, damping: haptic.damping ?? 0, staticFriction: still,
+    stiffness: haptic.stiffness ?? 500, backing: haptic.backing, damping: haptic.damping ?? 0, staticFriction: still,
     dynamicFriction: haptic.dynamicFriction ?? still, stribeckVelocity: haptic.stribeckVelocity ?? 0.01,
   };
 }

@@ -10,7 +10,7 @@ import { Sound } from './sound.mjs';
 const $ = (id) => document.getElementById(id);
 const KEPT = 400;
 
-const feelsLike = (a, b) => a.height === b.height && a.haptic.stiffness === b.haptic.stiffness;
+const feelsLike = (a, b) => a.height === b.height && a.haptic.stiffness === b.haptic.stiffness && a.haptic.backing?.stiffness === b.haptic.backing?.stiffness;
 
 export class Touch {
   constructor(scene, reasonOff) {
@@ -68,7 +68,7 @@ export class Touch {
     this.press();
     this.position = [0.5, 0.5];
     $('touch-note').textContent = `${material.name}: one repeat of ${number(size[0])} x ${number(size[1])} mm, ${relief.width} x ${relief.height} samples of ${relief.depth} bits (${relief.levels} different values), ${number(high - low)} mm from valley to peak. `
-      + 'The probe is a point at a fixed depth below the mean of the relief: F = n max(0, k d - b v.n), with friction against its way. The player adds the ball of the finger and a proxy that sticks.';
+      + 'The probe is a point at a fixed depth below the mean of the relief: F = n max(0, k d - b v.n), with friction against its way. The player adds the ball of the finger, a proxy that sticks, and the maps of stiffness, friction and damping.';
     this.show();
   }
 

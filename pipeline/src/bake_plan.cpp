@@ -245,7 +245,7 @@ std::vector<PartSurface> plan_surfaces(const Scene& scene, const Assignment& ass
     surface.uv_defects = uv.defects;
     surface.uv_note = uv.note;
     const bool feel = grain || (rule && (rule->stiffness || rule->static_friction || rule->dynamic_friction ||
-                                         rule->damping || rule->friction_model || rule->force_model));
+                                         rule->damping || rule->friction_model || rule->force_model || rule->backing));
     Given given{cad, uv.state};
     given.in_place = in_place;
     if (!perception.empty()) {

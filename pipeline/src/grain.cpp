@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -19,6 +21,7 @@
 #include "papilla/haptic/tag_limits.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/height_file.hpp"
+#include "papilla/pipeline/quantity_maps.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/procedural/texture.hpp"
@@ -71,9 +74,10 @@ struct Source {
   GreyImage grey;  ///< Of a recipe or test grain: heights.
   ColorImage color;
   Transfer transfer = Transfer::automatic;
-  bool computed = false;                ///< Of a recipe or a test grain: heights, not a photograph.
-  std::optional<double> friction = {};  ///< Of a recipe: mean of the channel.
-  double stiffness = 1;                 ///< The same.
+  bool computed = false;                  ///< Of a recipe or a test grain: heights, not a photograph.
+  std::optional<double> friction = {};    ///< Of a recipe: mean of the channel.
+  double stiffness = 1;                   ///< The same.
+  std::optional<QuantityMaps> maps = {};  ///< The same: the channels over their means.
 };
 
 bool measures_pitch(const MaterialRule& rule) {
@@ -207,33 +211,66 @@ HeightMap make_relief(const MaterialRule& rule, const Source& source, const Text
   return relief;
 }
 
+/// Waves that no hand and device play are left out of a roughness that the rule has, and those longer than the relief.
+void add_fine_roughness(const MaterialRule& rule, Grain& grain) {
+  if (!rule.fine_roughness || grain.height.overlay) return;
+  RoughnessModel whole = *rule.fine_roughness;
+  whole.longest_mm = std::min({whole.longest_mm, grain.size_mm[0], grain.size_mm[1]});
+  if (!(whole.shortest_mm < whole.longest_mm)) return;
+  grain.height.overlay =
+      roughness_above(whole, shortest_playable_wavelength_mm(k_hand_speed_mm_per_s, k_device_rate_hz));
+}
+
 double mean_of(const std::vector<float>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
-  CompileOptions options = recipe_options(rule.texture.parent_path());
-  options.source = "material '" + rule.name + "', texture";
+/// A channel in multiples of its mean.
+QuantityMap over_mean(Quantity quantity, std::vector<float> values, double mean) {
+  for (float& v : values) v = mean > 0 ? static_cast<float>(static_cast<double>(v) / mean) : 1;
+  return {quantity, std::move(values)};
+}
+
+/// A recipe of MATERIALS.json as a tile. @param key  where it stands.
+RenderedTexture render_recipe(const MaterialRule& rule, const std::filesystem::path& file, const std::string& recipe,
+                              const std::string& key, std::initializer_list<Channel> channels,
+                              const RecipeLibrary& library) {
+  CompileOptions options = recipe_options(file.parent_path());
+  options.source = "material '" + rule.name + "', " + key;
   options.seamless = true;
   options.time = rule.time;
   RenderOptions render;
   render.width = render.height = k_recipe_samples;
-  for (const Channel c : {Channel::bump, Channel::color, Channel::friction, Channel::stiffness})
-    render.channels |= 1U << static_cast<unsigned>(c);
-  RenderedTexture texture = render_texture(compile_texture(rule.recipe, library, options), render);
+  for (const Channel c : channels) render.channels |= 1U << static_cast<unsigned>(c);
+  return render_texture(compile_texture(recipe, library, options), render);
+}
+
+Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
+  RenderedTexture texture =
+      render_recipe(rule, rule.texture, rule.recipe, "texture",
+                    {Channel::bump, Channel::color, Channel::friction, Channel::stiffness}, library);
   Source source;
   source.computed = true;
   source.friction = mean_of(texture.values[Channel::friction]);
   source.stiffness = mean_of(texture.values[Channel::stiffness]);
+  source.maps = QuantityMaps{.width = texture.width, .height = texture.height, .periodic = true, .maps = {}};
+  source.maps->maps = {over_mean(Quantity::stiffness, texture.values[Channel::stiffness], source.stiffness),
+                       over_mean(Quantity::dynamic_friction, texture.values[Channel::friction], *source.friction)};
   source.color = to_color_image(texture.values[Channel::color], texture.width, texture.height);
   source.grey = {texture.width, texture.height, texture.values[Channel::bump], 0, 32};
   return source;
 }
 
+GrainResult make_test_grain(const MaterialRule& rule, const std::string& name, GrainOptions options) {
+  options.size_px = k_recipe_samples;
+  options.seed = rule.height.relief.height.seed;
+  return synthesize_grain(grain_kind(name.substr(k_grain_prefix.size())), options);
+}
+
 /// A test grain as heights of [0, 1]; its picture is the lit relief.
 Source synthesized_source(const MaterialRule& rule) {
-  const GrainOptions options{.size_px = k_recipe_samples, .seed = rule.height.relief.height.seed};
-  const GrainResult made = synthesize_grain(grain_kind(rule.recipe.substr(k_grain_prefix.size())), options);
+  const GrainOptions options;
+  const GrainResult made = make_test_grain(rule, rule.recipe, options);
   Source source;
   source.computed = true;
   source.grey = {made.relief.width, made.relief.height, made.relief.mm, 0, 32};
@@ -263,6 +300,78 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   } catch (const InvalidInput& unread) {
     throw InvalidInput("material '" + rule.name + "', texture: " + unread.what());
   }
+}
+
+std::string key_of(Quantity quantity) { return "maps/" + std::string(map_key(quantity)); }
+
+/// The grey values of a map's picture or recipe.
+HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& map, const RecipeLibrary& library) {
+  if (map.recipe.starts_with(k_grain_prefix)) {
+    const GrainOptions options;
+    HeightMap made = make_test_grain(rule, map.recipe, options).relief;
+    for (float& v : made.mm) v /= static_cast<float>(options.height_mm);
+    return made;
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(map.picture, error) && looks_like_recipe(map.recipe, library)) {
+    RenderedTexture made = render_recipe(rule, map.picture, map.recipe, key_of(quantity), {Channel::bump}, library);
+    return {made.width, made.height, std::move(made.values[Channel::bump]), 1, 1, true};
+  }
+  const auto place = [&](const Error& unread) {
+    return "material '" + rule.name + "', " + key_of(quantity) + ": " + unread.what();
+  };
+  try {
+    Picture picture = read_reduced_picture(map.picture, k_most_samples);
+    return {picture.grey.width, picture.grey.height, std::move(picture.grey.pixels), 1, 1, false};
+  } catch (const IoError& unread) {
+    std::vector<std::string_view> recipes;
+    for (const auto& [name, recipe] : library.recipes()) recipes.push_back(name);
+    throw IoError(place(unread) + did_you_mean(map.recipe, recipes));
+  } catch (const InvalidInput& unread) {
+    throw InvalidInput(place(unread));
+  }
+}
+
+/// The maps of the rule, and those of its recipe for other quantities, in multiples of the constants, over one picture.
+QuantityMaps read_maps(const MaterialRule& rule, std::optional<QuantityMaps> of_recipe, const RecipeLibrary& library) {
+  QuantityMaps all = std::move(of_recipe).value_or(QuantityMaps{});
+  std::erase_if(all.maps, [&](const QuantityMap& map) { return rule.maps.contains(map.quantity); });
+  std::map<Quantity, HeightMap> read;
+  for (const auto& [quantity, map] : rule.maps) {
+    const HeightMap& grey = read[quantity] = read_map(rule, quantity, map, library);
+    if (all.maps.empty()) {
+      all.periodic = read.size() == 1 ? grey.periodic : all.periodic && grey.periodic;
+      all.width = std::max(all.width, grey.width), all.height = std::max(all.height, grey.height);
+    }
+  }
+  for (const auto& [quantity, map] : rule.maps) {
+    HeightMap grey = std::move(read[quantity]);
+    const auto [low, high] = std::minmax_element(grey.mm.begin(), grey.mm.end());
+    const float least = *low, most = *high;
+    if (grey.width != all.width || grey.height != all.height) grey = resample(grey, all.width, all.height);
+    // A resampled edge rings.
+    for (float& v : grey.mm)
+      v = static_cast<float>(map.range[0] + (map.range[1] - map.range[0]) *
+                                                std::clamp(static_cast<double>(std::clamp(v, least, most)), 0.0, 1.0));
+    all.maps.push_back({quantity, std::move(grey.mm)});
+  }
+  return all;
+}
+
+/// The maps of the tag. @param size_mm  what the texture shows: the relief may be a tile of it.
+void add_maps(const MaterialRule& rule, QuantityMaps maps, const double (&size_mm)[2], Grain& grain) {
+  if (maps.maps.empty()) return;
+  maps.pitch_mm_x = size_mm[0] / maps.width;
+  maps.pitch_mm_y = size_mm[1] / maps.height;
+  grain.tag.maps = encode_quantity_maps(std::move(maps));
+  MaterialTag constants = grain.tag;
+  apply_constants(rule, constants, grain.stiffness_factor);
+  for (const Quantity lost : scale_by_constants(grain.tag.maps, constants))
+    if (rule.maps.contains(lost))
+      grain.warnings.push_back(
+          fmt::format("material '{}': {}: multiplies a constant that is 0, and is left out", rule.name, key_of(lost)));
+  if (grain.tag.maps)
+    grain.tag.maps->uv_transform.scale = {grain.size_mm[0] / size_mm[0], grain.size_mm[1] / size_mm[1]};
 }
 
 /// A recipe has its own height.
@@ -329,7 +438,7 @@ void limit_slopes(const MaterialRule& rule, Grain& grain) {
   MaterialTag constants = grain.tag;
   apply_constants(rule, constants);
   GrainHeight& height = grain.height;
-  height.max_slope = rule.height.max_slope.value_or(default_max_slope(constants.static_friction));
+  height.max_slope = rule.height.max_slope.value_or(default_max_slope(largest_static_friction(constants)));
   limit_roughness(rule, height.max_slope, grain);
   height.unlimited_depth_mm = range_mm(grain.relief);
   const bool periodic = std::exchange(grain.relief.periodic, true);
@@ -401,6 +510,7 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   GrainPlan plan{rule.name, {}, {}};
   try {
     const Source source = read_source(rule, library);
+    read_maps(rule, source.maps, library);
     if (!rule.height.images.empty()) {
       require_picture(rule, source);
       about_images(rule, [&] { return width_of_picture_files(rule.height.images); });
@@ -430,6 +540,8 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
     grain.height_seconds = stereo_clock.seconds();
   }
   if (!several || !measures_pitch(rule)) find_size(rule, source.grey, grain.size_mm);
+  const double size_mm[2] = {grain.size_mm[0], grain.size_mm[1]};
+  QuantityMaps maps = read_maps(rule, std::move(source.maps), library);
   look_at(rule, source, grain);
   ReadingOptions in_time;
   in_time.deadline = deadline.earlier_by(k_seconds_to_read_a_pixel * static_cast<double>(source.grey.pixels.size()));
@@ -450,6 +562,8 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
   grain.relief = several           ? several_relief(rule, std::move(*several), grain)
                  : source.computed ? computed_relief(rule, source, grain)
                                    : make_relief(rule, source, reading, grain);
+  add_fine_roughness(rule, grain);
+  add_maps(rule, std::move(maps), size_mm, grain);
   limit_heights(rule, grain);
   limit_slopes(rule, grain);
   describe_relief(grain, {.dimension = reading.stop != StopReason::time_limit});
@@ -479,6 +593,7 @@ void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffnes
   if (rule.friction_model) tag.friction_model = *rule.friction_model;
   if (rule.force_model) tag.force_model = *rule.force_model;
   if (rule.force_shading) tag.force_shading = *rule.force_shading;
+  if (rule.backing) tag.backing = *rule.backing;
 }
 
 UvTransform transform_to_repeats(const Grain& grain, double mm_per_unit) {
@@ -491,10 +606,19 @@ MaterialTag surface_tag(const MaterialRule& rule, const Grain* grain, double kep
   MaterialTag tag = grain != nullptr ? grain->tag : MaterialTag();
   if (grain != nullptr && kept_mm_per_unit > 0) {
     const double metres = kept_mm_per_unit * k_metres_per_mm;
-    tag.height->uv_transform.scale = transform_to_repeats(*grain, kept_mm_per_unit).scale;
+    const Vec2 repeats = transform_to_repeats(*grain, kept_mm_per_unit).scale;
+    for (PlacedPicture* picture : pictures_of(tag)) {
+      Vec2& scale = picture->uv_transform.scale;
+      scale = {scale.x * repeats.x, scale.y * repeats.y};
+    }
     tag.height->metres_per_uv = {metres, metres};
   }
   apply_constants(rule, tag, grain != nullptr ? grain->stiffness_factor : 1);
+  if (grain == nullptr && rule.fine_roughness)
+    tag.roughness = RoughnessTag{.fractal_dimension = 3 - rule.fine_roughness->hurst,
+                                 .rms_height_m = k_metres_per_mm * rule.fine_roughness->rms_mm,
+                                 .wavelength_range_m = {k_metres_per_mm * rule.fine_roughness->shortest_mm,
+                                                        k_metres_per_mm * rule.fine_roughness->longest_mm}};
   return tag;
 }
 

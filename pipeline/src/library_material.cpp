@@ -9,6 +9,7 @@
 #include "json_value.hpp"
 #include "papilla/core/plain_number.hpp"
 #include "papilla/core/referenced_file.hpp"
+#include "papilla/core/units.hpp"
 
 namespace papilla {
 namespace {
@@ -239,6 +240,13 @@ MaterialRule rule_of(const LibraryMaterial& material, const std::string& name) {
   rule.static_friction = material.static_friction.value;
   rule.dynamic_friction = material.dynamic_friction.value;
   rule.stribeck_velocity = material.stribeck_velocity.value;
+  if (const auto& backing = material.backing)
+    rule.backing = BackingTag{backing->stiffness.value, k_metres_per_mm * backing->depth_mm.value};
+  if (const auto& roughness = material.roughness)
+    rule.fine_roughness = RoughnessModel{.hurst = roughness->hurst.value,
+                                         .rms_mm = k_mm_per_metre * roughness->rms_m.value,
+                                         .shortest_mm = k_mm_per_metre * roughness->wavelength_range_m[0].value,
+                                         .longest_mm = k_mm_per_metre * roughness->wavelength_range_m[1].value};
   rule.color = material.appearance.color.value;
   rule.roughness = material.appearance.roughness.value;
   rule.metallic = material.appearance.metallic.value;

@@ -9,6 +9,7 @@
 #include "json_value.hpp"
 #include "lights_value.hpp"
 #include "papilla/core/near_name.hpp"
+#include "papilla/core/units.hpp"
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/pipeline/library_material.hpp"
 #include "papilla/pipeline/material_library.hpp"
@@ -136,10 +137,61 @@ ForceModelTag read_force_model(const JsonValue& value) {
   return tag;
 }
 
+BackingTag read_backing(const JsonValue& value) {
+  value.expect_keys({"stiffness", "depth_mm"});
+  return {value.require("stiffness").number(1e-3, 1e6), k_metres_per_mm * value.require("depth_mm").number(0, 100)};
+}
+
+RoughnessModel read_fine_roughness(const JsonValue& value) {
+  value.expect_keys({"hurst", "rms", "wavelength_range"});
+  const JsonValue range = value.require("wavelength_range");
+  if (range.list().size() != 2) range.fail("must be [shortest, longest]");
+  RoughnessModel model;
+  model.hurst = value.require("hurst").number(0.01, 0.99);
+  model.rms_mm = k_mm_per_metre * value.require("rms").number(0, 0.005);
+  model.shortest_mm = k_mm_per_metre * range.at(0).number(1e-9, 1);
+  model.longest_mm = k_mm_per_metre * range.at(1).number(1e-9, 1);
+  if (!(model.shortest_mm < model.longest_mm)) range.fail("must go from short to long");
+  return model;
+}
+
 void check_grain(const JsonValue& value, const std::string& name) {
   const std::vector<std::string_view> known = grain_names();
   if (std::find(known.begin(), known.end(), name) == known.end())
     value.fail("there is no grain '" + name + "'" + did_you_mean(name, known));
+}
+
+void read_range(const JsonValue& value, double (&range)[2]) {
+  constexpr double k_most = 100;
+  if (value.list().size() != 2) value.fail("must be [black, white]");
+  for (std::size_t k = 0; k < 2; ++k) range[k] = value.at(k).number(0, k_most);
+}
+
+/// "FILE", a recipe, or {"picture": that, "range": [black, white]}.
+MapRule read_map(const JsonValue& value, const std::filesystem::path& source, MapRule rule) {
+  const bool is_object = value.json().is_object();
+  if (is_object) {
+    value.expect_keys({"picture", "range"});
+    if (const auto range = value.get("range")) read_range(*range, rule.range);
+  }
+  const JsonValue picture = is_object ? value.require("picture") : value;
+  rule.recipe = picture.text();
+  if (rule.recipe.empty()) picture.fail("must not be empty");
+  if (rule.recipe.starts_with(k_grain_prefix)) check_grain(picture, rule.recipe.substr(k_grain_prefix.size()));
+  rule.picture = source.parent_path() / rule.recipe;
+  return rule;
+}
+
+void read_maps(const JsonValue& value, const std::filesystem::path& source, MaterialRule& rule) {
+  value.expect_keys({"stiffness", "friction", "damping", "range"});
+  if (rule.texture.empty())
+    value.fail("needs a 'texture', on whose repeats the maps lie; \"texture\": \"col\" with a size_mm is a smooth one");
+  MapRule common;
+  if (const auto range = value.get("range")) read_range(*range, common.range);
+  for (const Quantity quantity : {Quantity::stiffness, Quantity::dynamic_friction, Quantity::damping})
+    if (const auto v = value.get(std::string(map_key(quantity))))
+      rule.maps.insert_or_assign(quantity, read_map(*v, source, common));
+  if (rule.maps.empty()) value.fail("needs one of 'stiffness', 'friction', 'damping'");
 }
 
 /// The rule of the library's material that "library:ID" names.
@@ -160,9 +212,12 @@ MaterialRule library_rule(const JsonValue& value, const std::string& name, const
 
 MaterialRule read_material(const JsonValue& value, const std::string& name, const std::filesystem::path& source,
                            const std::filesystem::path& library) {
-  value.expect_keys({"material", "texture", "time", "size_mm", "stiffness", "damping", "staticFriction",
-                     "dynamicFriction", "stribeckVelocity", "frictionModel", "forceModel", "forceShading", "height",
-                     "unwrap", "show", "color", "roughness", "metallic", "$comment"});
+  value.expect_keys({"material",         "texture",       "time",           "size_mm",
+                     "stiffness",        "damping",       "staticFriction", "dynamicFriction",
+                     "stribeckVelocity", "frictionModel", "forceModel",     "forceShading",
+                     "height",           "maps",          "backing",        "fineRoughness",
+                     "unwrap",           "show",          "color",          "roughness",
+                     "metallic",         "$comment"});
   MaterialRule rule;
   if (const auto v = value.get("material")) rule = library_rule(*v, name, library);
   rule.name = name;
@@ -199,6 +254,11 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
     rule.texture = rule.height.images.front();
     rule.recipe.clear();
   }
+  if (const auto v = value.get("maps")) read_maps(*v, source, rule);
+  if (const auto v = value.get("backing"))
+    rule.backing = v->json().is_null() ? std::nullopt : std::optional(read_backing(*v));
+  if (const auto v = value.get("fineRoughness"))
+    rule.fine_roughness = v->json().is_null() ? std::nullopt : std::optional(read_fine_roughness(*v));
   if (const auto v = value.get("unwrap"))
     rule.unwrap = v->one_of({"auto", "keep", "new", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
@@ -223,6 +283,16 @@ AssignRule read_assign(const JsonValue& value, const Materials& file) {
 }
 
 }  // namespace
+
+std::string_view map_key(Quantity quantity) noexcept {
+  switch (quantity) {
+    case Quantity::stiffness:
+    case Quantity::damping: return name_of(quantity);
+    case Quantity::static_friction:
+    case Quantity::dynamic_friction: break;
+  }
+  return "friction";
+}
 
 Materials read_materials(const std::filesystem::path& path, const std::filesystem::path& library) {
   const JsonValue::Json json = read_json(path);

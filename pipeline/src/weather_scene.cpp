@@ -17,6 +17,7 @@
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/pipeline/quantity_maps.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/texture.hpp"
 #include "papilla/texture/normal_map.hpp"
@@ -131,6 +132,7 @@ struct PaintJob {
   const SurfaceReading& reading;
   const OwnSurface& own;
   double depth_mm;     ///< Of a height of 1.
+  double friction;     ///< Without layers.
   bool tiles = false;  ///< Windows go on round their borders.
 };
 
@@ -139,11 +141,22 @@ struct ChannelSums {
   double friction = 0, stiffness = 0, texels = 0;
 };
 
-/// A painted window: byte and height a texel.
+/// A painted window: byte, height, friction and stiffness a texel.
 struct Painted {
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;
-  std::vector<float> bump;
+  std::vector<float> bump, friction, stiffness;
+
+  Painted(int width_px, int height_px, float friction_between)
+      : width(width_px),
+        height(height_px),
+        rgb(3 * texels(), 128),
+        bump(texels(), 0.5F),
+        friction(texels(), friction_between),
+        stiffness(texels(), 1) {}
+
+  std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  friend bool operator==(const Painted&, const Painted&) = default;
 };
 
 constexpr unsigned bit(Channel c) { return 1U << static_cast<unsigned>(c); }
@@ -182,12 +195,13 @@ Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vecto
   if (job.texture.depends_on_neighbours()) points.raster = {texels.width, texels.height, job.tiles, place};
   const TextureValues values = evaluate_texture(job.texture, points, k_maps, 1 / scale);
   const ColorImage image = to_color_image(values[Channel::color], static_cast<int>(place.size()), 1);
-  Painted out{texels.width, texels.height, std::vector<unsigned char>(3 * texels.count(), 128),
-              std::vector<float>(texels.count(), 0.5F)};
+  Painted out(texels.width, texels.height, static_cast<float>(job.friction));
   for (std::size_t k = 0; k < place.size(); ++k) {
     std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * k), 3,
                 out.rgb.begin() + static_cast<std::ptrdiff_t>(3 * place[k]));
     out.bump[place[k]] = values[Channel::bump][k];
+    out.friction[place[k]] = values[Channel::friction][k];
+    out.stiffness[place[k]] = values[Channel::stiffness][k];
     sums.friction += charts * static_cast<double>(values[Channel::friction][k]);
     sums.stiffness += charts * static_cast<double>(values[Channel::stiffness][k]);
     sums.texels += charts;
@@ -196,10 +210,11 @@ Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vecto
 }
 
 std::size_t hash_of(const Painted& tile) {
-  const auto bytes = std::as_bytes(std::span(tile.bump));
   const std::hash<std::string_view> hash;
-  return hash({reinterpret_cast<const char*>(tile.rgb.data()), tile.rgb.size()}) * 31 +
-         hash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  std::size_t sum = hash({reinterpret_cast<const char*>(tile.rgb.data()), tile.rgb.size()});
+  for (const std::vector<float>* values : {&tile.bump, &tile.friction, &tile.stiffness})
+    sum = 31 * sum + hash({reinterpret_cast<const char*>(values->data()), values->size() * sizeof(float)});
+  return sum;
 }
 
 /// Tiles with the same bytes are one, wherever they are shown: found by a hash, and compared.
@@ -210,10 +225,7 @@ std::vector<std::uint32_t> distinct_tiles(std::vector<Painted> painted, std::vec
   for (Painted& p : painted) {
     const std::size_t hash = hash_of(p);
     const auto [first, last] = known.equal_range(hash);
-    const auto same = std::find_if(first, last, [&](const auto& entry) {
-      const Painted& other = distinct[entry.second];
-      return other.width == p.width && other.rgb == p.rgb && other.bump == p.bump;
-    });
+    const auto same = std::find_if(first, last, [&](const auto& entry) { return distinct[entry.second] == p; });
     number.push_back(same != last ? same->second : static_cast<std::uint32_t>(distinct.size()));
     if (same != last) continue;
     known.emplace(hash, number.back());
@@ -227,7 +239,8 @@ void copy_tile(const Painted& tile, std::pair<int, int> corner, Painted& picture
   for (int row = 0; row < tile.height; ++row) {
     const auto from = static_cast<std::ptrdiff_t>(row) * tile.width;
     const auto to = static_cast<std::ptrdiff_t>(corner.second + row) * picture.width + corner.first;
-    std::copy_n(tile.bump.begin() + from, tile.width, picture.bump.begin() + to);
+    for (const auto channel : {&Painted::bump, &Painted::friction, &Painted::stiffness})
+      std::copy_n((tile.*channel).begin() + from, tile.width, (picture.*channel).begin() + to);
     std::copy_n(tile.rgb.begin() + 3 * from, 3 * tile.width, picture.rgb.begin() + 3 * to);
   }
 }
@@ -247,9 +260,7 @@ Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, ChannelSu
   std::vector<std::pair<int, int>> sizes;
   for (const Painted& p : distinct) sizes.emplace_back(p.width, p.height);
   const TilePlaces places = place_tiles(sizes);
-  const std::size_t texels = static_cast<std::size_t>(places.width) * static_cast<std::size_t>(places.height);
-  Painted picture{places.width, places.height, std::vector<unsigned char>(3 * texels, 128),
-                  std::vector<float>(texels, 0.5F)};
+  Painted picture(places.width, places.height, static_cast<float>(job.friction));
   for (std::size_t k = 0; k < distinct.size(); ++k) copy_tile(distinct[k], places.corner[k], picture);
   for (std::size_t t = 0; t < surface.size(); ++t) {
     const AtlasChart& chart = atlas.charts[atlas.chart_of[t]];
@@ -273,6 +284,23 @@ void set_haptic_constants(MaterialTag& tag, double friction, double factor) {
   tag.stiffness *= factor;
 }
 
+/// Gives a tagged material the maps of its layers, on the coordinates of what was painted. A relief that stays on other
+/// ones leaves no place for them: they become constants.
+void assign_maps(Material& material, MapsTag maps, std::vector<std::string>& losses) {
+  if (!material.haptic) return;
+  const TextureReference& place = *material.base_color_texture;
+  if (material.haptic->height && material.haptic->height->tex_coord != place.tex_coord) {
+    losses.push_back(
+        fmt::format("material '{}': where its layers change friction and stiffness, which are means over "
+                    "the surface, for its relief lies on other coordinates",
+                    material.name));
+    return;
+  }
+  maps.tex_coord = place.tex_coord;
+  if (place.transform) maps.uv_transform = *place.transform;
+  material.haptic->maps = std::move(maps);
+}
+
 /// Gives a tagged material a relief that lies on the coordinates of its normal map.
 void assign_relief(Material& material, HeightTag height) {
   if (!material.haptic) return;
@@ -285,7 +313,8 @@ void assign_relief(Material& material, HeightTag height) {
                               height.metres_per_uv.y * std::abs(place->transform->scale.y)};
     }
   }
-  if (material.haptic->roughness) material.haptic->roughness->rms_height_m = height.rms_m;
+  if (auto& roughness = material.haptic->roughness; roughness && !roughness->overlay)
+    roughness->rms_height_m = height.rms_m;
   material.haptic->height = std::move(height);
 }
 
@@ -337,20 +366,28 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
     return material;
   }
   ChannelSums means;
-  Painted picture;
+  Painted picture(0, 0, 0);
+  const double friction = tag ? tag->dynamic_friction : k_common_friction;
   double scale = job.config.size;
   if (surface->repeat) {
     const bool tiles = surface->leaves_the_repeat();
     const ProceduralTexture tiling = tiles ? compiled(true) : texture;
-    picture = paint({tiling, reading, *surface->own, job.config.depth_mm, tiles}, *surface->repeat, surface->sky, scale,
-                    1, means);
+    picture = paint({tiling, reading, *surface->own, job.config.depth_mm, friction, tiles}, *surface->repeat,
+                    surface->sky, scale, 1, means);
   } else {
     scale = surface->atlas.texels_per_repeat;
-    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm}, means, material,
+    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm, friction}, means, material,
                           [&](double done) { report_material(job, k_laid_out + done * (k_painted - k_laid_out)); });
   }
   const double pitch = surface->mm_per_repeat / scale;
   report.keeps_relief = surface->keeps_relief;
+  if (tag) {
+    QuantityMaps maps{picture.width, picture.height, pitch, pitch, surface->repeat.has_value(), {}};
+    maps.maps = {{Quantity::stiffness, std::move(picture.stiffness)},
+                 {Quantity::dynamic_friction, std::move(picture.friction)}};
+    for (float& v : maps.maps[0].values) v *= static_cast<float>(tag->stiffness);
+    report.maps = encode_quantity_maps(std::move(maps));
+  }
   if (!report.keeps_relief) {
     HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
     // A height of 1/2 is the surface as it was.
@@ -375,7 +412,7 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
 }
 
 /// Gives the material the maps that were painted.
-void apply(const PaintedMaterial& painted, Material& material, Pictures& pictures) {
+void apply(const PaintedMaterial& painted, Material& material, Pictures& pictures, std::vector<std::string>& losses) {
   TextureReference place;
   if (const TextureReference* own = own_place(material); painted.uv.empty() && own) place = *own;
   for (auto* reference : {&material.base_color_texture, &material.normal_texture}) {
@@ -386,13 +423,26 @@ void apply(const PaintedMaterial& painted, Material& material, Pictures& picture
     (*reference)->transform = place.transform, (*reference)->tex_coord = place.tex_coord;
   }
   material.base_color = {1, 1, 1, material.base_color[3]};
+  if (material.haptic && material.haptic->maps) {
+    losses.push_back(
+        fmt::format("material '{}': its own maps of stiffness, friction and damping, over which its "
+                    "layers lie as if they were constant",
+                    material.name));
+    material.haptic->maps.reset();
+  }
   if (material.haptic) set_haptic_constants(*material.haptic, painted.report.friction, painted.report.stiffness);
 }
+
+/// What a weathered material gets for the hand.
+struct FeltMaps {
+  std::optional<HeightTag> height;
+  std::optional<MapsTag> maps;
+};
 
 /// Weathers one material. @return what is reported of it.
 WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures,
                                    std::vector<NewUv>& uv, std::vector<AtlasMaterial>& with_atlas,
-                                   std::vector<std::optional<HeightTag>>& heights) {
+                                   std::vector<FeltMaps>& felt) {
   const Material& before = job.scene.materials[index];
   const std::optional<MaterialTag>& tag = before.haptic;
   const std::string recipe =
@@ -423,14 +473,14 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
   report = painted.report;
   report.name = before.name, report.recipe = recipe;
   if (!report.painted()) return report;
-  apply(painted, result.scene.materials[index], pictures);
+  apply(painted, result.scene.materials[index], pictures, result.scene.losses);
   uv.insert(uv.end(), painted.uv.begin(), painted.uv.end());
   if (!painted.uv.empty()) with_atlas.push_back({index, report.keeps_relief});
   if (report.keeps_relief)
     result.scene.losses.push_back(fmt::format(
         "material '{}': the relief of the layers; its atlas of {:.2g} mm a texel would blur its own, which stays",
         before.name, report.mm_per_texel));
-  heights[index] = painted.height;
+  felt[index] = {painted.height, painted.report.maps};
   return report;
 }
 
@@ -469,15 +519,18 @@ WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, dou
   Job job{before, config, layered.layers, library, time, cache.state(), progress, instances(before), {}};
   std::vector<NewUv> uv;
   std::vector<AtlasMaterial> with_atlas;
-  std::vector<std::optional<HeightTag>> heights(before.materials.size());
+  std::vector<FeltMaps> felt(before.materials.size());
   for (std::uint32_t m = 0; m < before.materials.size(); ++m) {
     job.material = m;
     report_material(job, 0);
-    result.materials.push_back(weather_material(result, m, job, pictures, uv, with_atlas, heights));
+    result.materials.push_back(weather_material(result, m, job, pictures, uv, with_atlas, felt));
   }
   if (!with_atlas.empty()) set_atlas_uv(result.scene, job.all, std::move(uv), with_atlas);
-  for (std::size_t m = 0; m < heights.size(); ++m)
-    if (heights[m]) assign_relief(result.scene.materials[m], std::move(*heights[m]));
+  for (std::size_t m = 0; m < felt.size(); ++m) {
+    Material& material = result.scene.materials[m];
+    if (felt[m].height) assign_relief(material, std::move(*felt[m].height));
+    if (felt[m].maps) assign_maps(material, std::move(*felt[m].maps), result.scene.losses);
+  }
   return result;
 }
 

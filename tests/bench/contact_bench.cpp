@@ -12,6 +12,7 @@
 #include "bench/bench_json.hpp"
 #include "contact_targets.hpp"
 #include "haptic/contact_shapes.hpp"
+#include "papilla/haptic/channel_field.hpp"
 #include "papilla/haptic/contact_audit.hpp"
 #include "papilla/haptic/histogram.hpp"
 #include "papilla/haptic/proxy.hpp"
@@ -55,7 +56,30 @@ struct Shape {
   ContactMesh mesh;
   Probe (*probe)(std::uint64_t seed);
   std::vector<HeightField> heights;
+  double friction = 0;
+  std::vector<ChannelField> channels = {};
 };
+
+/// Stiffness, friction and damping around those of the constants, waves of 4 mm and longer: 512 texels over 0.2 m.
+ChannelField place_by_place(double friction) {
+  constexpr int pixels = 512;
+  const ContactMaterial constants;
+  std::vector<ChannelField::Texel> texels;
+  for (int j = 0; j < pixels; ++j)
+    for (int i = 0; i < pixels; ++i) {
+      const auto wave = [&](double u, double v) {
+        return static_cast<std::uint16_t>(
+            std::lround(32767.5 * (1 + std::sin(2 * std::numbers::pi * (u * i + v * j) / pixels))));
+      };
+      texels.push_back({wave(20, 7), wave(-9, 31), wave(13, 50)});
+    }
+  return ChannelField(
+      pixels, pixels, std::move(texels),
+      {{MapChannel{Quantity::stiffness, constants.stiffness, 0.5 * constants.stiffness},
+        MapChannel{Quantity::dynamic_friction, friction, 0.5 * friction}, MapChannel{Quantity::damping, 1, 0}},
+       {},
+       {}});
+}
 
 /// Waves of 1.6 mm and longer in all directions, 0.2 mm high: one tile of 25.6 mm, eight of them side by side.
 HeightField grain() {
@@ -162,9 +186,11 @@ void add_shape(bench::BenchReport& report, Inputs& inputs, Shape shape, int tick
   const Shape& kept = *inputs.shapes.emplace_back(std::make_unique<Shape>(std::move(shape)));
   ContactMaterial material;
   if (!kept.heights.empty()) material.height = 0;
+  if (!kept.channels.empty()) material.channels = 0;
+  material.static_friction = material.dynamic_friction = kept.friction;
   for (const double radius : {0.0, 1e-3}) {
-    const ContactSurface& surface = *inputs.surfaces.emplace_back(
-        std::make_unique<ContactSurface>(kept.mesh, std::vector<ContactMaterial>{material}, kept.heights, radius));
+    const ContactSurface& surface = *inputs.surfaces.emplace_back(std::make_unique<ContactSurface>(
+        kept.mesh, std::vector<ContactMaterial>{material}, kept.heights, radius, kept.channels));
     report.add(
         {.method = "proxy",
          .solver = radius > 0 ? "ball 1 mm" : "point",
@@ -176,7 +202,7 @@ void add_shape(bench::BenchReport& report, Inputs& inputs, Shape shape, int tick
         });
   }
 #ifdef PAPILLA_HAVE_EMBREE
-  if (!kept.heights.empty()) return;  // Embree has no relief.
+  if (!kept.heights.empty() || kept.friction > 0) return;  // Embree has neither relief nor friction.
   auto embree = std::make_shared<bench::EmbreeClosest>(kept.mesh);
   report.add(
       {.method = "closest-point", .solver = "embree", .input = kept.name, .notes = "lower bound: one query a tick"},
@@ -253,6 +279,14 @@ void add_speed_targets(bench::BenchReport& report, bool quick, const Inputs& inp
 #else
   report.target({"point: within 3 times of Embree's closest point", "built without Embree", std::nullopt});
 #endif
+  for (const char* subject : {point, ball})
+    for (const std::string what : {"", "a grain and "}) {
+      const std::string constant = "plate with " + what + "friction";
+      limit(fmt::format("{} on a plate with {}friction: with maps at most 1.15 times the median tick", subject, what)
+                .c_str(),
+            of(subject, (constant + " by maps").c_str(), "tick_us_p50") / of(subject, constant.c_str(), "tick_us_p50"),
+            1.15, "times");
+    }
   for (const auto& surface : inputs.surfaces)
     if (surface->triangles() == 2000000 && surface->probe_radius_m() == 0) {
       const double bytes = static_cast<double>(surface->bytes()) / static_cast<double>(surface->triangles());
@@ -277,6 +311,18 @@ void body(bench::BenchReport& report) {
   const ContactMesh plate = testing::plate(squares, squares, k_size, k_size);
   add_shape(report, inputs, {"plate", plate, over_plate, {}}, ticks);
   add_shape(report, inputs, {"plate with a grain", plate, over_plate, {grain()}}, ticks);
+  constexpr double k_friction = 0.4;
+  for (const bool has_grain : {false, true})
+    for (const bool has_maps : {false, true}) {
+      std::vector<HeightField> heights;
+      std::vector<ChannelField> channels;
+      if (has_grain) heights.push_back(grain());
+      if (has_maps) channels.push_back(place_by_place(k_friction));
+      add_shape(report, inputs,
+                {fmt::format("plate with {}friction{}", has_grain ? "a grain and " : "", has_maps ? " by maps" : ""),
+                 plate, over_plate, std::move(heights), k_friction, std::move(channels)},
+                ticks);
+    }
 #ifdef PAPILLA_HAVE_EMBREE
   report.compare("proxy/point", "closest-point/embree", "tick_us_p50");
 #endif

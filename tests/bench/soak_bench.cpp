@@ -232,7 +232,9 @@ void body(bench::BenchReport& report) {
   std::vector<Result> results;
   {
     const HapticScene scene = cockpit();
-    const auto make = [&] { return ContactSurface(scene.mesh, scene.materials, scene.heights, scene.probe_radius_m); };
+    const auto make = [&] {
+      return ContactSurface(scene.mesh, scene.materials, scene.heights, scene.probe_radius_m, scene.channels);
+    };
     results.push_back(soak_all("cockpit, materials of the demo", make(), quick ? k_quick_s : k_cockpit_s, 1000, make));
   }
   for (std::size_t i = 0; i < held.size(); ++i)

@@ -228,9 +228,11 @@ class Repair {
     if (!extras.contains("haptic") || !extras["haptic"].is_object()) return;
     Json& tag = extras["haptic"];
     repair_tag(tag);
-    if (!tag.contains("height") || !tag["height"].is_object() || !tag["height"].contains("uri")) return;
-    if (const auto* blob = document_.blob_of(tag["height"]["uri"]))
-      tag["height"]["sha256"] = sha256_hex(std::as_bytes(std::span(blob->bytes)));
+    for (const char* picture : {"height", "maps"}) {
+      if (!tag.contains(picture) || !tag[picture].is_object() || !tag[picture].contains("uri")) continue;
+      if (const auto* blob = document_.blob_of(tag[picture]["uri"]))
+        tag[picture]["sha256"] = sha256_hex(std::as_bytes(std::span(blob->bytes)));
+    }
   }
 
   /// Every node has one parent at most, with a lower number than its own.

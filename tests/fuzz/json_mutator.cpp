@@ -214,13 +214,19 @@ const JsonGrammar& tag_grammar() {
        {"sign", {"downhill", "literal"}},
        {"outward", {"white", "black"}},
        {"wrap", {"repeat", "clamp", "mirror"}},
+       {"quantity", {"stiffness", "static_friction", "dynamic_friction", "damping"}},
        {"channel", {"r", "g"}},
        {"group", {"p1", "p4m", "p6m", "cmm"}}},
-      Json::parse(R"({"version":1,"stiffness":900,"damping":0.5,"staticFriction":0.4,"dynamicFriction":0.3,
+      Json::parse(R"({"version":2,"stiffness":900,"damping":0.5,"staticFriction":0.4,"dynamicFriction":0.3,
         "stribeckVelocity":0.02,"frictionModel":{"name":"bristle","stiffness":300},"forceShading":true,
         "height":{"image":"h","sha256":"","bits":16,"channel":"r","size":[8,8],"scale":0.001,"offset":-0.0005,
           "outward":"white","texCoord":0,"uvTransform":{"offset":[0.1,0],"rotation":0.5,"scale":[2,2]},
           "metresPerUV":[0.04,0.04],"wrap":["repeat","clamp"],"rms":0.0001},
+        "maps":{"image":"m","sha256":"","bits":8,"size":[8,8],
+          "channels":{"r":{"quantity":"stiffness","scale":300,"offset":100},"g":{"quantity":"dynamic_friction","scale":0.4,
+            "offset":0.1},"b":{"quantity":"damping","scale":-0.5,"offset":0.5}},
+          "texCoord":0,"uvTransform":{"offset":[0.1,0],"rotation":0.5,"scale":[2,2]},"wrap":["repeat","clamp"]},
+        "backing":{"stiffness":1800,"depth":0.001},
         "roughness":{"fractalDimension":2.4,"rmsHeight":0.0001,"wavelengthRange":[0.0002,0.02]},
         "forceModel":{"name":"lateral","amplitude":0.02,"sign":"literal"},
         "symmetry":{"group":"pmm","period":[[0.01,0],[0,0.01]]},
@@ -246,7 +252,7 @@ void mutate_json(Json& json, const JsonGrammar& grammar, Random& random) {
 
 void repair_tag(Json& tag) {
   if (!tag.is_object()) tag = Json::object();
-  tag["version"] = 1;
+  tag["version"] = tag.contains("maps") || tag.contains("backing") ? 2 : 1;
   if (!tag.contains("stiffness") && !tag.contains("height")) tag["stiffness"] = 500;
 }
 

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const MaterialWarning& warning : scene->warnings)
     fuzz::require(warning.warning.message.find('\n') == std::string::npos, "a warning is one line");
   fuzz::expect_result_or_refusal([&] {
-    ContactSurface surface(scene->mesh, scene->materials, scene->heights, scene->probe_radius_m);
+    ContactSurface surface(scene->mesh, scene->materials, scene->heights, scene->probe_radius_m, scene->channels);
     clamp_to_stable(surface, k_device, k_period_s);
     clamp_amplitudes(surface, k_max_force_n);
     const LargestMaterial largest = largest_material(*scene);

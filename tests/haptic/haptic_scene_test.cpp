@@ -8,7 +8,10 @@
 #include <fstream>
 
 #include "haptic/tagged_glb.hpp"
+#include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/haptic/contact_surface.hpp"
+#include "papilla/haptic/proxy.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/papilla_haptic.h"
@@ -80,6 +83,90 @@ TEST(HapticScene, LaysRoughnessOverTheMap) {
   const double rise = felt.heights[0].sample({0.3, 0.6}).height_m - plain.heights[0].sample({0.3, 0.6}).height_m;
   EXPECT_NE(rise, 0);
   EXPECT_LT(std::abs(rise), 3e-5);
+}
+
+/// The tag of the plate with maps of 4 x 1 texels: stiffness 100 to 400 N/m along u, friction the other way.
+nlohmann::json mapped_tag() {
+  std::vector<std::uint16_t> values;
+  for (int i = 0; i < 4; ++i)
+    for (const int v : {i * 21845, (3 - i) * 21845, 0}) values.push_back(static_cast<std::uint16_t>(v));
+  const std::string png = testing::png16(4, 1, 3, values);
+  const auto bytes = std::as_bytes(std::span(png.data(), png.size()));
+  nlohmann::json mapped = tag();
+  mapped["version"] = 2;
+  mapped["staticFriction"] = 0.4, mapped["dynamicFriction"] = 0.2;
+  mapped["backing"] = {{"stiffness", 1200}, {"depth", 5e-4}};
+  mapped["maps"] = {{"uri", "data:image/png;base64," + encode_base64(bytes)},
+                    {"sha256", sha256_hex(bytes)},
+                    {"size", {4, 1}},
+                    {"channels",
+                     {{"r", {{"quantity", "stiffness"}, {"scale", 300}, {"offset", 100}}},
+                      {"g", {{"quantity", "dynamic_friction"}, {"scale", 0.3}, {"offset", 0}}}}}};
+  return mapped;
+}
+
+TEST(HapticScene, ReadsMapsAndBacking) {
+  const File file(testing::plate_glb({{"haptic", mapped_tag()}}, testing::sine_png()));
+  const HapticScene scene = load_haptic_scene(file.path);
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0].warning.message;
+  EXPECT_EQ(scene.channels_loaded, 1);
+  EXPECT_EQ(scene.channels_missing, 0);
+  ASSERT_EQ(scene.channels.size(), 1U);
+  EXPECT_EQ(scene.materials[0].channels, 0U);
+  EXPECT_EQ(scene.materials[0].backing_stiffness, 1200);
+  EXPECT_EQ(scene.materials[0].backing_depth_m, 5e-4);
+  for (int i = 0; i < 4; ++i) {
+    ContactConstants there = scene.materials[0];
+    scene.channels[0].apply({(i + 0.5) / 4, 0.5}, there);
+    EXPECT_NEAR(there.stiffness, 100 * (i + 1), 0.01);
+    EXPECT_NEAR(there.dynamic_friction, 0.1 * (3 - i), 1e-5);
+    EXPECT_NEAR(there.static_friction, 0.2 * (3 - i), 1e-5);
+  }
+  // A place of the surface: 2.5 repeats over 0.1 m, so that u is 0.375 at 15 mm, on the second texel.
+  const ContactSurface surface(scene.mesh, scene.materials, scene.heights, scene.probe_radius_m, scene.channels);
+  Proxy proxy(surface);
+  proxy.reset({0.015, 0.005, -0.05});
+  proxy.update({0.015, -0.002, -0.05}, 1e-3);
+  EXPECT_NEAR(proxy.state().constants.stiffness, 200, 25);
+}
+
+TEST(HapticScene, LostMapsLeaveTheConstants) {
+  nlohmann::json other = mapped_tag(), torn = mapped_tag(), missing = mapped_tag();
+  other["maps"]["sha256"] = std::string(64, '0');
+  torn["maps"]["uri"] = "data:image/png;base64,AAAA";
+  torn["maps"]["sha256"] = sha256_hex(std::as_bytes(std::span("\0\0\0", 3)));
+  missing["maps"].erase("uri");
+  missing["maps"]["image"] = "maps";
+  for (const auto& [tagged, code] :
+       {std::pair(other, "maps_sha256"), std::pair(torn, "maps_image"), std::pair(missing, "maps_image")}) {
+    const File file(testing::plate_glb({{"haptic", tagged}}, testing::sine_png()));
+    const HapticScene scene = load_haptic_scene(file.path);
+    EXPECT_EQ(scene.channels_missing, 1);
+    EXPECT_TRUE(scene.channels.empty());
+    EXPECT_FALSE(scene.materials[0].channels);
+    EXPECT_EQ(scene.materials[0].stiffness, 300);
+    ASSERT_EQ(scene.warnings.size(), 2U);
+    EXPECT_EQ(scene.warnings[0].warning.code, code);
+    EXPECT_EQ(scene.warnings[1].warning.code, "maps_lost");
+  }
+}
+
+TEST(HapticScene, MapsFollowTheTextureTransformOfPackers) {
+  const Scene before = [&] {
+    const File file(testing::plate_glb({{"haptic", mapped_tag()}}, testing::sine_png()));
+    return read_gltf(file.path);
+  }();
+  Scene packed = before;
+  TextureReference reference;
+  reference.transform = UvTransform{{0, 0}, 0, {16, 16}};
+  packed.materials[0].normal_texture = reference;
+  const HapticScene plain = haptic_scene(before, "a.glb"), moved = haptic_scene(packed, "a.glb");
+  for (const Vec2 uv : {Vec2{0.3, 0.2}, Vec2{1.7, -0.4}}) {
+    ContactConstants one, other;
+    plain.channels[0].apply(uv, one);
+    moved.channels[0].apply((1.0 / 16) * uv, other);
+    EXPECT_NEAR(one.stiffness, other.stiffness, 1e-9);
+  }
 }
 
 TEST(HapticScene, FollowsTheTextureTransformOfPackers) {

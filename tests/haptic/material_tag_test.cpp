@@ -89,6 +89,118 @@ TEST(MaterialTag, RoughnessOverTheMapIsVersion2) {
   EXPECT_THROW(parse_material_tag(R"({"version":3,"stiffness":1})", warnings), InvalidInput);
 }
 
+MapsTag full_maps() {
+  MapsTag maps;
+  maps.uri = "maps.png";
+  maps.sha256 = std::string(64, 'b');
+  maps.bits = 8;
+  maps.size = {64, 32};
+  maps.tex_coord = 1;
+  maps.uv_transform = {{0.1, 0.2}, 0.3, {2, 3}};
+  maps.wrap = {Wrap::mirror, Wrap::clamp};
+  maps.channels = {MapChannel{Quantity::stiffness, 300.3, 600.7}, MapChannel{Quantity::dynamic_friction, 0.7 / 3, 0.1},
+                   MapChannel{Quantity::damping, -0.1, 0.4}};
+  return maps;
+}
+
+TEST(MaterialTag, MapsAndBackingAreVersion2) {
+  std::vector<HapticWarning> warnings;
+  MaterialTag tag = full_tag();
+  tag.backing = BackingTag{1800.1, 2.5e-3};
+  EXPECT_EQ(nlohmann::json::parse(to_json(tag))["version"], 2);
+  EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
+  tag.backing.reset();
+  tag.maps = full_maps();
+  EXPECT_EQ(nlohmann::json::parse(to_json(tag))["version"], 2);
+  tag.backing = BackingTag{1800.1, 2.5e-3};
+  EXPECT_EQ(parse_material_tag(to_json(tag), warnings), tag);
+  EXPECT_TRUE(warnings.empty()) << warnings.front().message;
+  const auto json = nlohmann::json::parse(to_json(tag));
+  EXPECT_EQ(json["backing"], nlohmann::json::parse(R"({"stiffness":1800.1,"depth":0.0025})"));
+  EXPECT_EQ(json["maps"]["channels"]["r"],
+            nlohmann::json::parse(R"({"quantity":"stiffness","scale":300.3,"offset":600.7})"));
+  EXPECT_EQ(json["maps"]["channels"]["g"]["quantity"], "dynamic_friction");
+  EXPECT_EQ(json["maps"]["bits"], 8);
+  EXPECT_TRUE(nlohmann::json::parse(tag.other_json.empty() ? "{}" : tag.other_json).empty());
+}
+
+TEST(MaterialTag, LargestFrictionIsThatOfTheMaps) {
+  MaterialTag tag = full_tag();
+  EXPECT_EQ(largest_static_friction(tag), 0.45);
+  tag.maps = full_maps();  // Dynamic friction up to 0.1 + 0.7/3.
+  EXPECT_NEAR(largest_static_friction(tag), 0.45 / 0.35 * (0.1 + 0.7 / 3), 1e-12);
+  tag.maps->channels[1] = MapChannel{Quantity::static_friction, -0.5, 0.9};
+  EXPECT_EQ(largest_static_friction(tag), 0.9);
+}
+
+/// The members of a maps object that is fine apart from `with`; the codes and places of what is said.
+std::string complaint_about_maps(const std::string& channels, const std::string& with = "") {
+  std::vector<HapticWarning> warnings;
+  const MaterialTag tag = parse_material_tag(R"({"version":2,"stiffness":700,"maps":{"uri":"a.png","sha256":")" +
+                                                 std::string(64, 'c') + R"(","channels":)" + channels + with + "}}",
+                                             warnings);
+  EXPECT_EQ(tag.stiffness, 700);
+  std::string all;
+  for (const HapticWarning& w : warnings) all += w.code + ' ' + w.message + '\n';
+  return all;
+}
+
+TEST(MaterialTag, MapsThatAreNoneAreReportedWithTheirPlace) {
+  EXPECT_EQ(complaint_about_maps(R"({"r":{"quantity":"stiffness","scale":100}})"), "");
+  const auto says = [](const std::string& channels, const std::string& what, const std::string& with = "") {
+    const std::string said = complaint_about_maps(channels, with);
+    EXPECT_NE(said.find(what), std::string::npos) << channels << ": " << said;
+  };
+  says("{}", "tag_maps haptic.maps: has no channel");
+  says("[]", "tag_maps haptic.maps.channels");
+  says(R"({"r":5})", "tag_maps haptic.maps.channels.r = 5: is no object");
+  says(R"({"a":{"quantity":"stiffness","scale":1}})", "tag_maps haptic.maps: has no channel");
+  says(R"({"r":{"quantity":"colour","scale":1}})", "tag_maps haptic.maps.channels.r: needs a quantity");
+  says(R"({"r":{"quantity":"stiffness"}})", "tag_maps haptic.maps.channels.r: needs a quantity");
+  says(R"({"r":{"quantity":"stiffness","scale":"1"}})", "tag_maps haptic.maps.channels.r.scale");
+  says(R"({"g":{"quantity":"dynamic_friction","scale":-1}})",
+       "tag_maps haptic.maps.channels.g: leads from -1.0 to 0.0");
+  says(R"({"g":{"quantity":"damping","scale":1e6}})", "tag_maps haptic.maps.channels.g: leads from");
+  says(R"({"g":{"quantity":"stiffness","scale":1e300,"offset":1e300}})", "tag_maps haptic.maps.channels.g");
+  says(R"({"r":{"quantity":"damping","scale":1},"b":{"quantity":"damping","scale":2}})",
+       "tag_maps haptic.maps.channels.b");
+  says(R"({"r":{"quantity":"damping","scale":1}})", "tag_maps haptic.maps.texCoord", R"(,"texCoord":99)");
+  says(R"({"r":{"quantity":"damping","scale":1}})", "tag_maps haptic.maps.wrap", R"(,"wrap":["repeat"])");
+  says(R"({"r":{"quantity":"damping","scale":1}})", "tag_maps haptic.maps.uvTransform.scale",
+       R"(,"uvTransform":{"scale":[1,null]})");
+  std::vector<HapticWarning> warnings;
+  const MaterialTag unsummed = parse_material_tag(
+      R"({"version":2,"stiffness":1,"maps":{"uri":"a.png","sha256":"x","channels":{"r":{"quantity":"damping","scale":1}}}})",
+      warnings);
+  EXPECT_TRUE(has(warnings, "tag_maps_sha256"));
+  EXPECT_EQ(unsummed.maps.value().sha256, "");
+}
+
+TEST(MaterialTag, MapsLieOnTheCoordinatesOfTheRelief) {
+  MaterialTag tag = full_tag();
+  tag.maps = full_maps();
+  tag.maps->tex_coord = 0;
+  std::vector<HapticWarning> warnings;
+  EXPECT_FALSE(parse_material_tag(to_json(tag), warnings).maps);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].code, "tag_maps");
+  EXPECT_NE(warnings[0].message.find("haptic.maps.texCoord"), std::string::npos);
+}
+
+TEST(MaterialTag, BackingsThatAreNoneAreReportedWithTheirPlace) {
+  for (const char* backing : {R"({"stiffness":1})", R"({"depth":0.001})", R"({"stiffness":-1,"depth":0.001})",
+                              R"({"stiffness":1e9,"depth":0.001})", R"({"stiffness":1,"depth":-1})",
+                              R"({"stiffness":1,"depth":2})", R"({"stiffness":"1","depth":0})", "[]", "true"}) {
+    std::vector<HapticWarning> warnings;
+    const MaterialTag tag =
+        parse_material_tag(std::string(R"({"version":2,"stiffness":700,"backing":)") + backing + "}", warnings);
+    EXPECT_FALSE(tag.backing) << backing;
+    ASSERT_FALSE(warnings.empty()) << backing;
+    EXPECT_EQ(warnings[0].code, "tag_backing");
+    EXPECT_EQ(warnings[0].message.find("haptic.backing"), 0U) << warnings[0].message;
+  }
+}
+
 TEST(MaterialTag, RoughnessWithoutPowerLawHasNoDimension) {
   MaterialTag tag = full_tag();
   tag.roughness->fractal_dimension.reset();

@@ -24,12 +24,13 @@ inline std::string little_endian(std::uint32_t v, int bytes) {
   return {text.rbegin(), text.rend()};
 }
 
-/// A 16-bit grey PNG with uncompressed data.
-inline std::string grey16_png(int width, int height, const std::vector<std::uint16_t>& values) {
+/// A 16-bit PNG with uncompressed data. @param channels 1, grey, or 3, RGB.
+inline std::string png16(int width, int height, int channels, const std::vector<std::uint16_t>& values) {
   std::string raw;
   for (int y = 0; y < height; ++y) {
     raw += '\0';
-    for (int x = 0; x < width; ++x) raw += big_endian(values[static_cast<std::size_t>(y * width + x)], 2);
+    for (int x = 0; x < width * channels; ++x)
+      raw += big_endian(values[static_cast<std::size_t>(y * width * channels + x)], 2);
   }
   std::string stream = "\x78\x01";
   std::uint32_t a = 1, b = 0;
@@ -52,8 +53,13 @@ inline std::string grey16_png(int width, int height, const std::vector<std::uint
     return big_endian(static_cast<std::uint32_t>(data.size()), 4) + type + data + big_endian(~crc, 4);
   };
   const std::string header = big_endian(static_cast<std::uint32_t>(width), 4) +
-                             big_endian(static_cast<std::uint32_t>(height), 4) + std::string("\x10\0\0\0\0", 5);
+                             big_endian(static_cast<std::uint32_t>(height), 4) +
+                             std::string(channels == 3 ? "\x10\2\0\0\0" : "\x10\0\0\0\0", 5);
   return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", stream) + chunk("IEND", "");
+}
+
+inline std::string grey16_png(int width, int height, const std::vector<std::uint16_t>& values) {
+  return png16(width, height, 1, values);
 }
 
 /// Four waves of a sine along u.

@@ -31,6 +31,22 @@ TEST(DecodeGrey16, TakesTheRedChannel) {
   EXPECT_EQ(decode_grey16(as_bytes(test::k_rgb16_png), "g").values, (std::vector<std::uint16_t>{0x1234}));
 }
 
+TEST(DecodeRgb16, KeepsItsChannels) {
+  const Rgb16 rgb = decode_rgb16(as_bytes(test::k_rgb16_png), "g");
+  EXPECT_EQ(rgb.bits, 16);
+  ASSERT_EQ(rgb.values.size(), 1U);
+  EXPECT_EQ(rgb.values[0][0], decode_grey16(as_bytes(test::k_rgb16_png), "g").values[0]);
+  EXPECT_NE(rgb.values[0][0], rgb.values[0][1]);
+}
+
+TEST(DecodeRgb16, GreyIsEveryChannel) {
+  const Rgb16 rgb = decode_rgb16(as_bytes(test::k_grey8_png), "g");
+  EXPECT_EQ(rgb.bits, 8);
+  using Texel = std::array<std::uint16_t, 3>;
+  EXPECT_EQ(rgb.values, (std::vector<Texel>{{0x0101, 0x0101, 0x0101}, {0xffff, 0xffff, 0xffff}}));
+  EXPECT_THROW(decode_rgb16({}, "g"), InvalidInput);
+}
+
 TEST(DecodeGrey16, RefusesWhatIsNoPng) {
   EXPECT_THROW(decode_grey16({}, "g"), InvalidInput);
   const std::vector<std::byte> zeros(100);

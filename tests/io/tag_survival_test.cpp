@@ -265,6 +265,33 @@ TEST_F(TagSurvivalTest, AMapIsTakenFromATagWithTheSame) {
   EXPECT_EQ(read.materials[1].haptic, scene.materials[1].haptic);
 }
 
+/// Maps and backing go the way of the height: within the tag, without bytes in the manifest, found by their sum.
+TEST_F(TagSurvivalTest, MapsAndBackingSurviveAsTheHeightDoes) {
+  Scene scene = four_cubes();
+  MapsTag maps;
+  maps.uri = "data:image/png;base64,AAAA";
+  maps.sha256 = std::string(64, 'e');
+  maps.tex_coord = scene.materials[0].haptic->height ? scene.materials[0].haptic->height->tex_coord : 0;
+  maps.channels[0] = MapChannel{Quantity::stiffness, 100, 50};
+  for (const std::size_t m : {0U, 1U}) {
+    scene.materials[m].haptic->maps = maps;
+    scene.materials[m].haptic->backing = BackingTag{1800, 2e-3};
+  }
+  if (scene.materials[1].haptic->height) scene.materials[1].haptic->height->tex_coord = maps.tex_coord;
+  EXPECT_EQ(to_json(tag_manifest(scene)).find("base64"), std::string::npos);
+  EXPECT_EQ(after(scene, [](ordered_json&) {}).materials[0].haptic, scene.materials[0].haptic);
+  const Scene restored = after(scene, [](ordered_json& gltf) { gltf["materials"][1].erase("extras"); });
+  ASSERT_TRUE(restored.materials[1].haptic);
+  EXPECT_EQ(restored.materials[1].haptic->maps, scene.materials[1].haptic->maps) << "the picture of the other tag";
+  EXPECT_EQ(restored.materials[1].haptic->backing, scene.materials[1].haptic->backing);
+  const Scene all_gone = after(scene, drop_material_extras);
+  ASSERT_TRUE(all_gone.materials[1].haptic && all_gone.materials[1].haptic->maps);
+  EXPECT_EQ(all_gone.materials[1].haptic->maps->uri, "");
+  EXPECT_EQ(all_gone.materials[1].haptic->maps->channels, maps.channels);
+  ASSERT_FALSE(all_gone.materials[1].haptic_warnings.empty());
+  EXPECT_NE(all_gone.materials[1].haptic_warnings.back().message.find("without its maps"), std::string::npos);
+}
+
 TEST_F(TagSurvivalTest, AManifestThatIsNoneIsIgnored) {
   for (const char* text : {"7", "{}", R"({"version":2})", R"({"version":1,"materials":[{}],"surfaces":[]})",
                            R"({"version":1,"materials":[],"surfaces":[{"material":3,"area":1}]})",

@@ -52,7 +52,7 @@ FeltPlate felt_plate(const MaterialRule& rule, const DeviceCaps& device, const H
   rules.assign = {assign};
   BakeResult baked = bake_scene(std::move(scene), rules);
   HapticScene haptic = haptic_scene(baked.scene, ".", options);
-  ContactSurface surface(haptic.mesh, haptic.materials, haptic.heights, haptic.probe_radius_m);
+  ContactSurface surface(haptic.mesh, haptic.materials, haptic.heights, haptic.probe_radius_m, haptic.channels);
   clamp_to_stable(surface, device.dynamics, 1e-3);
   return {std::move(baked), std::move(haptic), std::move(surface)};
 }

@@ -45,7 +45,7 @@ class ForceModelFile : public testing::Test {
 
 /// A stroke 0.4 mm below the plate: the force of the tick, and the one put together from its proxy.
 void expect_stimulus(const HapticScene& scene) {
-  const ContactSurface surface(scene.mesh, scene.materials, scene.heights, scene.probe_radius_m);
+  const ContactSurface surface(scene.mesh, scene.materials, scene.heights, scene.probe_radius_m, scene.channels);
   const auto tick = std::make_unique<HapticTick>(
       surface, SafetyLimits{.max_force_n = 100, .slew_n_per_s = 1e9, .soft_start_s = 0}, 1e-3);
   Stimulus stimulus(surface);

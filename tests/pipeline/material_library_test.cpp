@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/material_library.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -207,16 +208,20 @@ TEST_F(OwnLibrary, AMaterialOfTheLibraryBakesAsItsNumbersWrittenOut) {
   const Materials named = read(folder_, R"({"materials": {"m": {"material": "library:leather/perforated"}})" + assign);
   const LibraryMaterial m = MaterialLibrary(k_materials).material("leather/perforated");
   ASSERT_TRUE(m.relief);
-  const auto number = [](double value) { return std::to_string(value); };
-  const Materials written =
-      read(folder_,
-           R"({"materials": {"m": {"texture": ")" + m.relief->recipe + R"(", "size_mm": [50, 50], "show": "relief",
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  const Materials written = read(
+      folder_, R"({"materials": {"m": {"texture": ")" + m.relief->recipe + R"(", "size_mm": [50, 50], "show": "relief",
         "height": {"depth_mm": 0.5}, "stiffness": )" +
-               number(m.stiffness.value) + R"(, "damping": )" + number(m.damping.value) + R"(, "staticFriction": )" +
-               number(m.static_friction.value) + R"(, "dynamicFriction": )" + number(m.dynamic_friction.value) +
-               R"(, "stribeckVelocity": )" + number(m.stribeck_velocity.value) + R"(, "color": ")" +
-               m.appearance.color.value + R"(", "roughness": )" + number(m.appearance.roughness.value) +
-               R"(, "metallic": )" + number(m.appearance.metallic.value) + "}}" + assign);
+                   number(m.stiffness.value) + R"(, "damping": )" + number(m.damping.value) +
+                   R"(, "staticFriction": )" + number(m.static_friction.value) + R"(, "dynamicFriction": )" +
+                   number(m.dynamic_friction.value) + R"(, "stribeckVelocity": )" + number(m.stribeck_velocity.value) +
+                   R"(, "backing": {"stiffness": )" + number(m.backing.value().stiffness.value) + R"(, "depth_mm": )" +
+                   number(m.backing->depth_mm.value) + R"(}, "fineRoughness": {"hurst": )" +
+                   number(m.roughness.value().hurst.value) + R"(, "rms": )" + number(m.roughness->rms_m.value) +
+                   R"(, "wavelength_range": [)" + number(m.roughness->wavelength_range_m[0].value) + ", " +
+                   number(m.roughness->wavelength_range_m[1].value) + R"(]}, "color": ")" + m.appearance.color.value +
+                   R"(", "roughness": )" + number(m.appearance.roughness.value) + R"(, "metallic": )" +
+                   number(m.appearance.metallic.value) + "}}" + assign);
   const BakeResult a = bake_scene(square(), named), b = bake_scene(square(), written);
   ASSERT_EQ(a.scene.materials.size(), 1U);
   ASSERT_EQ(b.scene.materials.size(), 1U);
@@ -226,6 +231,27 @@ TEST_F(OwnLibrary, AMaterialOfTheLibraryBakesAsItsNumbersWrittenOut) {
   EXPECT_EQ(a.scene.materials[0].roughness, b.scene.materials[0].roughness);
   EXPECT_EQ(a.grains.at("m").height_png.bytes, b.grains.at("m").height_png.bytes);
   EXPECT_EQ(a.scene.materials[0].haptic->stiffness, m.stiffness.value);
+  ASSERT_TRUE(a.scene.materials[0].haptic->backing);
+  EXPECT_EQ(a.scene.materials[0].haptic->backing->stiffness, m.backing->stiffness.value);
+  EXPECT_DOUBLE_EQ(a.scene.materials[0].haptic->backing->depth_m, 1e-3 * m.backing->depth_mm.value);
+  // Of the roughness, what a hand at 0.1 m/s and a loop of 1 kHz play.
+  const auto& roughness = a.scene.materials[0].haptic->roughness;
+  ASSERT_TRUE(roughness);
+  EXPECT_TRUE(roughness->overlay);
+  EXPECT_DOUBLE_EQ(roughness->fractal_dimension.value(), 3 - m.roughness->hurst.value);
+  EXPECT_DOUBLE_EQ(roughness->wavelength_range_m.x, 2e-4);
+  EXPECT_DOUBLE_EQ(roughness->wavelength_range_m.y, m.roughness->wavelength_range_m[1].value);
+  EXPECT_GT(roughness->rms_height_m, 0);
+  EXPECT_LT(roughness->rms_height_m, m.roughness->rms_m.value);
+}
+
+TEST_F(OwnLibrary, NullTakesTheBackingOfTheLibraryAway) {
+  const Materials file = read(folder_, R"({"materials": {"m": {"material": "library:leather/nappa-fine"},
+      "bare": {"material": "library:leather/nappa-fine", "backing": null, "fineRoughness": null}}})");
+  EXPECT_TRUE(file.materials.at("m").backing);
+  EXPECT_TRUE(file.materials.at("m").fine_roughness);
+  EXPECT_FALSE(file.materials.at("bare").backing);
+  EXPECT_FALSE(file.materials.at("bare").fine_roughness);
 }
 
 TEST_F(OwnLibrary, WhatStandsBesideTheLibrarysMaterialOverridesIt) {

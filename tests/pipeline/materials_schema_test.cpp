@@ -95,7 +95,7 @@ class MaterialsSchemaTest : public testing::Test {
 
 TEST_F(MaterialsSchemaTest, HasTheKeysOfTheReader) {
   EXPECT_EQ(known(""), keys_of(schema_));
-  for (const char* object : {"forceModel", "frictionModel", "height"})
+  for (const char* object : {"forceModel", "frictionModel", "height", "backing", "fineRoughness"})
     EXPECT_EQ(known(object), keys_of(schema_.at(object).at("properties"))) << object;
 }
 

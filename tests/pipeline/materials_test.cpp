@@ -134,6 +134,57 @@ TEST_F(MaterialsTest, HeightTakesSeveralPhotographs) {
   refused(R"({"images": ["a.jpg", "b.jpg", "c.jpg"], "reference": {"ruler": 5}})", "/reference");
 }
 
+TEST_F(MaterialsTest, ReadsMapsAndBacking) {
+  const Materials file = read(R"({"materials": {"rust": {
+      "texture": "fbm", "size_mm": [40, 40],
+      "backing": {"stiffness": 1800, "depth_mm": 2.5},
+      "fineRoughness": {"hurst": 0.6, "rms": 6e-6, "wavelength_range": [1e-5, 4e-4]},
+      "maps": {"stiffness": "hard.png", "friction": {"picture": "noise", "range": [1, 2]}, "range": [0.25, 4]}}}})");
+  const MaterialRule& rule = file.materials.at("rust");
+  ASSERT_TRUE(rule.backing);
+  EXPECT_EQ(rule.backing->stiffness, 1800);
+  EXPECT_DOUBLE_EQ(rule.backing->depth_m, 2.5e-3);
+  ASSERT_TRUE(rule.fine_roughness);
+  EXPECT_EQ(rule.fine_roughness->hurst, 0.6);
+  EXPECT_DOUBLE_EQ(rule.fine_roughness->rms_mm, 6e-3);
+  EXPECT_DOUBLE_EQ(rule.fine_roughness->longest_mm, 0.4);
+  ASSERT_EQ(rule.maps.size(), 2U);
+  const MapRule &stiffness = rule.maps.at(Quantity::stiffness), &friction = rule.maps.at(Quantity::dynamic_friction);
+  EXPECT_EQ(stiffness.recipe, "hard.png");
+  EXPECT_EQ(stiffness.picture.filename(), "hard.png");
+  EXPECT_EQ(stiffness.range[0], 0.25);
+  EXPECT_EQ(stiffness.range[1], 4);
+  EXPECT_EQ(friction.recipe, "noise");
+  EXPECT_EQ(friction.range[0], 1);
+  EXPECT_EQ(friction.range[1], 2);
+}
+
+TEST_F(MaterialsTest, RefusesMapsAndBackingsWithTheirPlace) {
+  const auto refused = [&](const std::string& rest, const std::string& reason) {
+    const std::string said = complaint(R"({"materials": {"m": {"texture": "fbm", )" + rest + "}}}");
+    EXPECT_NE(said.find("/materials/m/" + reason), std::string::npos) << said;
+  };
+  refused(R"("backing": {"stiffness": 1800})", "backing: ");
+  refused(R"("backing": {"stiffness": 1800, "depth": 2})", "backing: unknown key 'depth'; did you mean 'depth_mm'?");
+  refused(R"("backing": {"stiffness": -1, "depth_mm": 2})", "backing/stiffness: ");
+  refused(R"("backing": 5)", "backing: ");
+  refused(R"("maps": {"stifness": "a.png"})", "maps: unknown key 'stifness'; did you mean 'stiffness'?");
+  refused(R"("maps": {})", "maps: needs one of");
+  refused(R"("maps": {"range": [0, 1]})", "maps: needs one of");
+  refused(R"("maps": {"friction": ""})", "maps/friction: must not be empty");
+  refused(R"("maps": {"friction": 0.5})", "maps/friction: ");
+  refused(R"("maps": {"friction": {"range": [0, 1]}})", "maps/friction: ");
+  refused(R"("maps": {"friction": {"picture": "a.png", "rang": [0, 1]}})", "maps/friction: unknown key 'rang'");
+  refused(R"("maps": {"friction": "grain:lether"})", "maps/friction: there is no grain 'lether'");
+  refused(R"("maps": {"friction": "a.png", "range": [-1, 1]})", "maps/range/0: ");
+  refused(R"("maps": {"friction": "a.png", "range": [1]})", "maps/range: must be [black, white]");
+  refused(R"("fineRoughness": {"hurst": 0.5, "rms": 1e-6, "wavelength_range": [2e-4, 1e-4]})",
+          "fineRoughness/wavelength_range: must go from short to long");
+  EXPECT_NE(complaint(R"({"materials": {"m": {"maps": {"friction": "a.png"}}}})")
+                .find("/materials/m/maps: needs a 'texture'"),
+            std::string::npos);
+}
+
 TEST_F(MaterialsTest, ReadsHowASurfaceHoldsAndShades) {
   const Materials file = read(R"({"materials": {
       "cloth": {"frictionModel": {"name": "bristle", "stiffness": 400}, "forceShading": true}, "plain": {}}})");

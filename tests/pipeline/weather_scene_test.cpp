@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/temporary_folder.hpp"
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/io/height_source.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/texture/normal_map.hpp"
@@ -249,6 +251,46 @@ TEST(Weather, TheNewReliefIsFelt) {
   scene.materials[0].normal_texture.reset();
   EXPECT_EQ(weather_scene(scene, config, 1).scene.materials[0].haptic.value().height.value().sha256,
             tag.height->sha256);
+}
+
+/// Rust that grips on one half, dust that slips on the other: the hand feels either where it is.
+TEST(Weather, FrictionAndStiffnessAreFeltWhereTheyAre) {
+  Scene scene = waves({32, 32, std::vector<float>(32 * 32), 1000.0 / 32, 1000.0 / 32, true});
+  MaterialTag tag;
+  tag.stiffness = 600;
+  tag.static_friction = 0.5, tag.dynamic_friction = 0.4;
+  scene.materials[0].haptic = tag;
+  WeatherConfig config;
+  config.size = 32;
+  config.layers = {{"base|bumpblend=off|frictionfunction=.8|stiffnessfunction=1.5|alphafunction=step(x,.5)", {"*"}},
+                   {"base|bumpblend=off|frictionfunction=.1|stiffnessfunction=.5|alphafunction=step(.5,x)", {"*"}}};
+  const WeatherResult aged = weather_scene(scene, config, 1);
+  const MaterialTag& felt = aged.scene.materials[0].haptic.value();
+  ASSERT_TRUE(felt.maps);
+  EXPECT_EQ(felt.maps->channels[0].value().quantity, Quantity::stiffness);
+  EXPECT_NEAR(felt.maps->channels[0]->least(), 300, 1e-3);
+  EXPECT_NEAR(felt.maps->channels[0]->most(), 900, 1e-3);
+  EXPECT_EQ(felt.maps->channels[1].value().quantity, Quantity::dynamic_friction);
+  EXPECT_NEAR(felt.dynamic_friction, 0.45, 1e-3) << "the mean, for where the map is lost";
+  EXPECT_NEAR(felt.static_friction, 0.45 * 0.5 / 0.4, 1e-3);
+  std::vector<HapticWarning> warnings;
+  const auto maps = find_maps(*felt.maps, aged.scene, "aged.glb", 0, warnings);
+  ASSERT_TRUE(maps && warnings.empty());
+  for (const double u : {0.25, 0.75}) {
+    ContactConstants there;
+    there.static_friction = felt.static_friction, there.dynamic_friction = felt.dynamic_friction;
+    maps->apply({u, 0.5}, there);
+    EXPECT_NEAR(there.dynamic_friction, u < 0.5 ? 0.8 : 0.1, 2e-3) << u;
+    EXPECT_NEAR(there.static_friction, there.dynamic_friction * 0.5 / 0.4, 2e-3) << u;
+    EXPECT_NEAR(there.stiffness, u < 0.5 ? 900 : 300, 3) << u;
+  }
+  // Where nothing differs there is no map; a second ageing says that it takes the first one for constant.
+  config.layers = {{"base|bumpblend=off|frictionfunction=.8", {"*"}}};
+  EXPECT_FALSE(weather_scene(scene, config, 1).scene.materials[0].haptic.value().maps);
+  const WeatherResult again = weather_scene(aged.scene, config, 1);
+  EXPECT_FALSE(again.scene.materials[0].haptic.value().maps);
+  EXPECT_TRUE(std::any_of(again.scene.losses.begin(), again.scene.losses.end(),
+                          [](const std::string& loss) { return loss.find("its own maps") != std::string::npos; }));
 }
 
 TEST(Weather, MapsTileWhereTheUvLeaveTheRepeat) {

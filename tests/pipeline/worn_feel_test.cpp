@@ -44,7 +44,7 @@ Felt stroke(const std::string& recipe, double time, const RecipeLibrary& library
   felt.tag = baked.scene.materials.back().haptic.value();
 
   const HapticScene haptic = haptic_scene(baked.scene, ".");
-  const ContactSurface surface(haptic.mesh, haptic.materials, haptic.heights, haptic.probe_radius_m);
+  const ContactSurface surface(haptic.mesh, haptic.materials, haptic.heights, haptic.probe_radius_m, haptic.channels);
   HapticTick tick(surface, safety_limits(3.3), 1e-3);
   DeviceState device;
   device.position = {0.02, 0.05, 0.01};

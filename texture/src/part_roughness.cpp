@@ -48,6 +48,22 @@ void measure_slopes(const HeightMap& rough, RoughnessModel& model) {
 
 }  // namespace
 
+std::optional<RoughnessModel> roughness_above(const RoughnessModel& whole, double shortest_mm) {
+  if (!(whole.rms_mm > 0) || !(whole.longest_mm > shortest_mm)) return std::nullopt;
+  // ∫ k^p d ln k between the wave numbers of two wavelengths.
+  const auto integral = [](double p, double shortest, double longest) {
+    return (std::pow(1 / shortest, p) - std::pow(1 / longest, p)) / p;
+  };
+  RoughnessModel part = whole;
+  part.shortest_mm = std::max(whole.shortest_mm, shortest_mm);
+  const double heights = -2 * whole.hurst, slopes = 2 + heights;
+  const double kept = integral(heights, part.shortest_mm, part.longest_mm);
+  part.rms_mm *= std::sqrt(kept / integral(heights, whole.shortest_mm, whole.longest_mm));
+  part.rms_slope =
+      2 * std::numbers::pi * part.rms_mm * std::sqrt(integral(slopes, part.shortest_mm, part.longest_mm) / kept);
+  return part;
+}
+
 PartedRelief part_roughness(const HeightMap& relief, double longest_mm) {
   texture_detail::require_height_map(relief, "part_roughness", true);
   if (!texture_detail::is_positive(longest_mm))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "json/scene_json.hpp"
 #include "json/texture_json.hpp"
+#include "papilla/core/units.hpp"
 
 namespace papilla::app {
 namespace {
@@ -19,6 +20,17 @@ Json slope_json(const GrainHeight& height) {
                {"trace", Json::array()}};
   for (const TraceSample& sample : slopes.trace)
     json["trace"].push_back({{"seconds", sample.seconds}, {"error", sample.error}});
+  return json;
+}
+
+/// What the channels of a tag's maps are, from where to where, in SI units.
+Json channels_json(const std::optional<MapsTag>& maps) {
+  Json json = Json::array();
+  if (!maps) return json;
+  for (const auto& channel : maps->channels)
+    if (channel)
+      json.push_back(
+          {{"quantity", name_of(channel->quantity)}, {"least", channel->least()}, {"most", channel->most()}});
   return json;
 }
 
@@ -62,6 +74,7 @@ Json grain_json(const std::string& name, const Grain& grain) {
   json["roughness"] = {{"rms_mm", grain.roughness.rms_mm},
                        {"fractal_dimension", fractal ? Json(fractal->dimension) : Json(nullptr)},
                        {"overlay", roughness_model_json(h.overlay)}};
+  json["maps"] = channels_json(grain.tag.maps);
   json["plan"] = steps_json(grain.plan);
   return json;
 }
@@ -125,8 +138,16 @@ Json own_uv_json(const std::vector<PartSurface>& surfaces) {
 Json contact_models_json(const Materials& rules) {
   Json json = Json::array();
   for (const auto& [name, rule] : rules.materials) {
-    if (!rule.force_model && !rule.friction_model) continue;
-    Json line = {{"material", name}, {"force_model", nullptr}, {"friction_model", nullptr}};
+    if (!rule.force_model && !rule.friction_model && !rule.backing && rule.maps.empty()) continue;
+    Json line = {{"material", name},
+                 {"force_model", nullptr},
+                 {"friction_model", nullptr},
+                 {"backing", nullptr},
+                 {"maps", Json::object()}};
+    if (const auto& backing = rule.backing)
+      line["backing"] = {{"stiffness", backing->stiffness}, {"depth_mm", k_mm_per_metre * backing->depth_m}};
+    for (const auto& [quantity, map] : rule.maps)
+      line["maps"][std::string(map_key(quantity))] = {{"picture", map.recipe}, {"range", map.range}};
     if (const auto& m = rule.force_model)
       line["force_model"] = {{"name", m->name},
                              {"form", m->form.empty() ? Json() : Json(m->form)},
@@ -214,6 +235,7 @@ Json weather_json(const WeatheredMaterial& m) {
   json["mm_per_texel"] = m.mm_per_texel;
   json["friction"] = m.friction;
   json["stiffness"] = m.stiffness;
+  json["maps"] = channels_json(m.maps);
   return json;
 }
 

@@ -54,7 +54,8 @@ Json materials_json(const Scene& scene) {
 /// The tag as it stands in the file; a height map within the tag is only named.
 Json tag_json(const MaterialTag& tag) {
   MaterialTag shown = tag;
-  if (shown.height && shown.height->uri.starts_with("data:")) shown.height->uri = "data:";
+  for (PlacedPicture* picture : pictures_of(shown))
+    if (picture->is_embedded()) picture->uri = "data:";
   return Json::parse(to_json(shown));
 }
 

@@ -86,8 +86,9 @@ Json plan_json(const std::vector<PartSurface>& surfaces);
 Json grain_plans_json(const std::vector<GrainPlan>& plans);
 /// {part, material, mm_per_unit, flipped, degenerate, overlapping, note, lost[]} a line, of surfaces with grain.
 Json own_uv_json(const std::vector<PartSurface>& surfaces);
-/// {material, force_model{name, form, amplitude, sign, level}, friction_model{name, stiffness}}, each null where not
-/// stated, a line of a material that states one.
+/// {material, force_model{name, form, amplitude, sign, level}, friction_model{name, stiffness}, backing{stiffness,
+/// depth_mm}, maps{quantity: {picture, range}}}, each null or empty where not stated, a line of a material that states
+/// one.
 Json contact_models_json(const Materials& rules);
 /// {in_place, reason}.
 Json way_json(const BakeWay& way);

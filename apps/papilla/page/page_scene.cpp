@@ -60,7 +60,7 @@ struct ShownPart {
 bool lies_on_uv1(const Material& material) {
   for (const auto* map : {&material.base_color_texture, &material.normal_texture})
     if (*map && (*map)->tex_coord == 1) return true;
-  return material.haptic && material.haptic->height && material.haptic->height->tex_coord == 1;
+  return material.haptic && tex_coord_of(*material.haptic) == 1;
 }
 
 ShownPart show_part(const Scene& scene, const Part& part, double keep) {
@@ -138,10 +138,8 @@ class PageMaterials {
     std::vector<HapticWarning> warnings = material.haptic_warnings;
     if (const auto& tag = material.haptic) {
       MaterialTag shown = *tag;  // The map itself travels with the heights.
-      if (shown.height) {
-        shown.height->uri.clear();
-        json["height"] = height(*tag->height, number, warnings);
-      }
+      for (PlacedPicture* picture : pictures_of(shown)) picture->uri.clear();
+      if (tag->height) json["height"] = height(*tag->height, number, warnings);
       json["haptic"] = Json::parse(to_json(shown));
     }
     for (const auto* map : {&material.base_color_texture, &material.normal_texture})

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "papilla/core/units.hpp"
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/io/node_places.hpp"
 #include "shown_format.hpp"
@@ -127,6 +128,11 @@ std::string contact_models_text(const Materials& rules, const std::vector<PartSu
       models += (models.empty() ? "friction model " : "; friction model ") + m->name;
       if (m->stiffness > 0) models += shown_format(", {:g} N/m", m->stiffness);
     }
+    const auto add = [&models](const std::string& what) { models += (models.empty() ? "" : "; ") + what; };
+    if (const auto& backing = rule.backing)
+      add(shown_format("backing {:g} N/m from {:g} mm on", backing->stiffness, k_mm_per_metre * backing->depth_m));
+    for (const auto& [quantity, map] : rule.maps)
+      add(shown_format("map of {} {}, {:g} to {:g} times", map_key(quantity), map.recipe, map.range[0], map.range[1]));
     if (!models.empty()) out += shown_format("{}: {}\n", name, models);
   }
   return out;

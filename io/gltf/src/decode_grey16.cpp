@@ -49,10 +49,9 @@ void check_chunks(std::span<const std::byte> bytes, const std::string& name) {
   throw InvalidInput(name + ": is damaged");
 }
 
-}  // namespace
-
-Grey16 decode_grey16(std::span<const std::byte> bytes, const std::string& name) {
-  const PngHeader header = read_header(bytes, name);
+/// The picture as stored; 16 bits a sample as they lie in memory, or 8.
+tinygltf::Image decode(std::span<const std::byte> bytes, const std::string& name, int& bits) {
+  bits = read_header(bytes, name).bits;
   check_chunks(bytes, name);
   tinygltf::Image image;
   std::string error, warning;
@@ -60,17 +59,41 @@ Grey16 decode_grey16(std::span<const std::byte> bytes, const std::string& name) 
   if (bytes.size() > 0x7fffffffU ||
       !tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0, data, static_cast<int>(bytes.size()), nullptr))
     throw InvalidInput(name + ": is damaged");
+  return image;
+}
 
-  Grey16 grey{image.width, image.height, header.bits, {}};
-  grey.values.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  const std::size_t channels = static_cast<std::size_t>(image.component);
-  for (std::size_t i = 0; i < grey.values.size(); ++i) {
-    if (image.bits == 16)
-      std::memcpy(&grey.values[i], &image.image[2 * channels * i], 2);
-    else
-      grey.values[i] = static_cast<std::uint16_t>(image.image[channels * i] * 257U);
-  }
+std::size_t pixels_of(const tinygltf::Image& image) {
+  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
+std::uint16_t sample(const tinygltf::Image& image, std::size_t pixel, std::size_t channel) {
+  const std::size_t at = pixel * static_cast<std::size_t>(image.component) + channel;
+  std::uint16_t value = 0;
+  if (image.bits != 16) return static_cast<std::uint16_t>(image.image[at] * 257U);
+  std::memcpy(&value, &image.image[2 * at], 2);
+  return value;
+}
+
+}  // namespace
+
+Grey16 decode_grey16(std::span<const std::byte> bytes, const std::string& name) {
+  Grey16 grey;
+  const tinygltf::Image image = decode(bytes, name, grey.bits);
+  grey.width = image.width, grey.height = image.height;
+  grey.values.resize(pixels_of(image));
+  for (std::size_t i = 0; i < grey.values.size(); ++i) grey.values[i] = sample(image, i, 0);
   return grey;
+}
+
+Rgb16 decode_rgb16(std::span<const std::byte> bytes, const std::string& name) {
+  Rgb16 rgb;
+  const tinygltf::Image image = decode(bytes, name, rgb.bits);
+  rgb.width = image.width, rgb.height = image.height;
+  const bool has_colour = image.component >= 3;
+  rgb.values.resize(pixels_of(image));
+  for (std::size_t i = 0; i < rgb.values.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) rgb.values[i][c] = sample(image, i, has_colour ? c : 0);
+  return rgb;
 }
 
 }  // namespace papilla

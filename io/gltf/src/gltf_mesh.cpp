@@ -230,7 +230,7 @@ class PrimitiveReader {
     if (!tag_channel_ || material < 0 || static_cast<std::size_t>(material) >= scene_.materials.size())
       return "TEXCOORD_1";
     const auto& tag = scene_.materials[static_cast<std::size_t>(material)].haptic;
-    return "TEXCOORD_" + std::to_string(tag && tag->height ? std::max(tag->height->tex_coord, 1) : 1);
+    return "TEXCOORD_" + std::to_string(tag ? std::max(tex_coord_of(*tag).value_or(1), 1) : 1);
   }
 
   std::uint32_t material_slot(int material, const std::string& where, PartBuilder& builder) {

@@ -448,8 +448,9 @@ void note_losses(const Document& document, Scene& scene) {
 
 /// Gives the channel of the tag the number 1, and that one its number.
 void move_tag_channel(Material& material) {
-  if (!material.haptic || !material.haptic->height || material.haptic->height->tex_coord <= 1) return;
-  const int channel = std::exchange(material.haptic->height->tex_coord, 1);
+  const int channel = material.haptic ? tex_coord_of(*material.haptic).value_or(0) : 0;
+  if (channel <= 1) return;
+  for (PlacedPicture* picture : pictures_of(*material.haptic)) picture->tex_coord = 1;
   for (auto* reference : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
                           &material.occlusion_texture, &material.emissive_texture}) {
     if (!*reference) continue;

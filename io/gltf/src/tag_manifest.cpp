@@ -31,14 +31,15 @@ double rounded(double value) {
 }
 
 Json tag_json(MaterialTag tag) {
-  if (tag.height && tag.height->uri.starts_with("data:")) tag.height->uri.clear();
+  for (PlacedPicture* picture : pictures_of(tag))
+    if (picture->is_embedded()) picture->uri.clear();
   return Json::parse(to_json(tag));
 }
 
 /// What a node repeats: the constants.
 Json constants_json(const MaterialTag& tag) {
   MaterialTag constants = tag;
-  constants.height.reset(), constants.roughness.reset(), constants.force_model.reset();
+  constants.height.reset(), constants.maps.reset(), constants.roughness.reset(), constants.force_model.reset();
   constants.symmetry.reset(), constants.provenance.reset();
   constants.other_json.clear();
   return Json::parse(to_json(constants));

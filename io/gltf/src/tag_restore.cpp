@@ -18,7 +18,7 @@ constexpr double k_merged = 1.05;          // A material of more than this times
 /// Whether two tags feel the same, wherever their height maps are kept.
 bool same_feel(MaterialTag a, MaterialTag b) {
   for (MaterialTag* tag : {&a, &b})
-    if (tag->height) tag->height->uri.clear(), tag->height->image.clear();
+    for (PlacedPicture* picture : pictures_of(*tag)) picture->uri.clear(), picture->image.clear();
   return a == b;
 }
 
@@ -66,20 +66,24 @@ class TagRestorer {
     material.name = entry.name;
     material.haptic = entry.tag;
     std::string message = "the tag was missing and is found again by the " + by;
-    if (entry.tag.height && entry.tag.height->uri.empty() && !find_picture(*material.haptic->height))
-      message += ", without its height map";
+    for (PlacedPicture* picture : pictures_of(*material.haptic))
+      if (picture->uri.empty() && !find_picture(*picture))
+        message += material.haptic->height && picture == &*material.haptic->height ? ", without its height map"
+                                                                                   : ", without its maps";
     material.haptic_warnings.push_back({"tag_restored", message});
   }
 
-  /// A height map of the same bytes, within another tag.
-  bool find_picture(HeightTag& height) const {
-    if (!height.image.empty()) return true;  // By its name, as ever.
-    for (const Material& other : scene_.materials)
-      if (other.haptic && other.haptic->height && other.haptic->height->sha256 == height.sha256 &&
-          !other.haptic->height->uri.empty()) {
-        height.uri = other.haptic->height->uri;
-        return true;
-      }
+  /// A picture of the same bytes, within another tag.
+  bool find_picture(PlacedPicture& picture) {
+    if (!picture.image.empty()) return true;  // By its name, as ever.
+    for (Material& other : scene_.materials) {
+      if (!other.haptic) continue;
+      for (const PlacedPicture* known : pictures_of(*other.haptic))
+        if (known->sha256 == picture.sha256 && !known->uri.empty()) {
+          picture.uri = known->uri;
+          return true;
+        }
+    }
     return false;
   }
 

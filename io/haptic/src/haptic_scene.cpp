@@ -47,7 +47,7 @@ class Builder {
       if (std::optional<MaterialTag> tag = scene_.materials[i].haptic; tag && used[i]) {
         adopt_texture_transform(scene_.materials[i], *tag, warnings);
         tagged_[i] = static_cast<std::uint32_t>(result.materials.size());
-        tex_coord_[i] = tag->height ? tag->height->tex_coord : 0;
+        tex_coord_[i] = tex_coord_of(*tag).value_or(0);
         result.names.push_back(scene_.materials[i].name.empty() ? "material " + std::to_string(i)
                                                                 : scene_.materials[i].name);
         result.materials.push_back(contact_material(*tag, i, warnings));
@@ -82,8 +82,8 @@ class Builder {
       for (std::size_t k = 0; k < 3; ++k)
         result.mesh.corner_uv.push_back(has_uv ? gltf_uv(uv.values[uv.indices[t][k]]) : Vec2{});
       if (any_shading_) add_normals(instance.world, mesh, t, result.materials[*tagged_[source]].shading);
-      if (!has_uv && (result.materials[*tagged_[source]].height || result.materials[*tagged_[source]].stimulus))
-        ++without_uv_[source];
+      const ContactMaterial& material = result.materials[*tagged_[source]];
+      if (!has_uv && (material.height || material.stimulus || material.channels)) ++without_uv_[source];
     }
     if (!used) return;
     for (const Vec3& p : mesh.positions)
@@ -114,7 +114,8 @@ class Builder {
     for (const auto& [source, flat] : without_uv_)
       result.warnings.push_back({scene_.materials[source].name,
                                  {"uv_missing", std::to_string(flat) + " triangles have no texture coordinates " +
-                                                    std::to_string(tex_coord_[source]) + ", their relief is flat"}});
+                                                    std::to_string(tex_coord_[source]) +
+                                                    ", their relief is flat and their maps are those of one place"}});
     std::size_t degenerate = 0;
     for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
       const Vec2* uv = &result.mesh.corner_uv[3 * t];
@@ -142,7 +143,12 @@ class Builder {
       made.bristle_stiffness = tag.friction_model->stiffness;
     }
     made.shading = tag.force_shading;
+    if (tag.backing) {
+      made.backing_stiffness = tag.backing->stiffness;
+      made.backing_depth_m = tag.backing->depth_m;
+    }
     made.height = add_relief(tag, material, warnings);
+    made.channels = add_channels(tag, material, warnings);
     if (!tag.force_model) return made;
     made.model = model_of(tag);
     made.amplitude = tag.force_model->amplitude;
@@ -152,6 +158,19 @@ class Builder {
     if (tag.roughness && tag.roughness->fractal_dimension) made.hurst = 3 - *tag.roughness->fractal_dimension;
     if (is_stimulus(made.model)) std::swap(made.height, made.stimulus);
     return made;
+  }
+
+  std::optional<std::uint32_t> add_channels(const MaterialTag& tag, std::size_t material,
+                                            std::vector<HapticWarning>& warnings) {
+    if (!tag.maps) return std::nullopt;
+    std::optional<ChannelField> field = find_maps(*tag.maps, scene_, file_, material, warnings);
+    ++(field ? result.channels_loaded : result.channels_missing);
+    if (!field) {
+      warnings.push_back({"maps_lost", "the maps of stiffness, friction and damping are lost, the constants are used"});
+      return std::nullopt;
+    }
+    result.channels.push_back(std::move(*field));
+    return static_cast<std::uint32_t>(result.channels.size() - 1);
   }
 
   std::optional<std::uint32_t> add_relief(const MaterialTag& tag, std::size_t material,
@@ -188,16 +207,18 @@ class Builder {
 
   /// Share of the map that is steeper than the cone of friction.
   static double steep_share(const HeightField& field, const MaterialTag& tag) {
-    return tag.static_friction > 0 ? field.share_steeper(1 / tag.static_friction, tag.height->metres_per_uv) : 0;
+    const double friction = largest_static_friction(tag);
+    return friction > 0 ? field.share_steeper(1 / friction, tag.height->metres_per_uv) : 0;
   }
 
   HapticWarning steep_warning(const MaterialTag& tag, double share, double felt_share) const {
+    const double friction = largest_static_friction(tag);
     char text[256];
     std::snprintf(
         text, sizeof text,
         "haptic.height: %.3g %% of the map is steeper than %.3g, the limit of friction %.3g: a point does not "
         "slide there; as a ball of %.3g mm feels it, %.3g %% is",
-        100 * share, 1 / tag.static_friction, tag.static_friction, 1e3 * options_.probe_radius_m, 100 * felt_share);
+        100 * share, 1 / friction, friction, 1e3 * options_.probe_radius_m, 100 * felt_share);
     return {"relief_steep", text};
   }
 
@@ -218,15 +239,19 @@ class Builder {
   static void adopt_texture_transform(const Material& material, MaterialTag& tag,
                                       std::vector<HapticWarning>& warnings) {
     const auto& reference = material.normal_texture ? material.normal_texture : material.base_color_texture;
-    if (!tag.height || !reference || !reference->transform || reference->tex_coord != tag.height->tex_coord) return;
-    const UvTransform& found = *reference->transform;
-    UvTransform& known = tag.height->uv_transform;
+    const std::vector<PlacedPicture*> pictures = pictures_of(tag);
+    if (pictures.empty() || !reference || !reference->transform || reference->tex_coord != *tex_coord_of(tag)) return;
+    const UvTransform found = *reference->transform, known = pictures.front()->uv_transform;
     if (found == known || found.scale.x == 0 || found.scale.y == 0 || known.scale.x == 0 || known.scale.y == 0) return;
-    // The length of a unit of uv changes with the scale.
-    Vec2& metres = tag.height->metres_per_uv;
-    metres = {metres.x * std::abs(found.scale.x / known.scale.x), metres.y * std::abs(found.scale.y / known.scale.y)};
-    known = found;
-    warnings.push_back({"uv_transform", "the height map follows the texture's KHR_texture_transform, not the tag's"});
+    if (tag.height) {
+      // The length of a unit of uv changes with the scale.
+      Vec2& metres = tag.height->metres_per_uv;
+      metres = {metres.x * std::abs(found.scale.x / known.scale.x), metres.y * std::abs(found.scale.y / known.scale.y)};
+    }
+    for (PlacedPicture* picture : pictures)
+      if (picture->uv_transform == known) picture->uv_transform = found;
+    warnings.push_back(
+        {"uv_transform", "the tag's pictures follow the texture's KHR_texture_transform, not the tag's"});
   }
 
   HeightField coarsened(HeightField field, Vec2 metres_per_uv) {

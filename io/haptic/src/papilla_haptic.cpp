@@ -24,7 +24,7 @@ struct papilla_haptic {
 
   papilla_haptic(papilla::HapticScene from, const papilla_haptic_options& options)
       : scene(std::move(from)),
-        surface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m),
+        surface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m, std::move(scene.channels)),
         limits(papilla::safety_limits(options.max_force_n)),
         period_s(1 / options.rate_hz),
         tick(surface, limits, period_s) {

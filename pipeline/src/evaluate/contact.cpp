@@ -95,14 +95,15 @@ ContactCase contact_case(const Scene& scene, const std::string& file, const Prob
       haptic_scene(scene, file, {.probe_radius_m = probe.radius_m, .shortest_wave_m = shortest_wave_m});
   const LargestMaterial largest = largest_material(haptic);
   for (ContactMaterial& material : haptic.materials) {
-    if (!probe.friction) material.static_friction = material.dynamic_friction = 0;
+    if (!probe.friction) material.static_friction = material.dynamic_friction = 0, material.channels.reset();
     if (!probe.relief) material.height.reset();
   }
   double samples = 0;
   for (const HeightField& height : haptic.heights) samples += 1.0 * height.width() * height.height();
   try {
-    return {ContactSurface(haptic.mesh, haptic.materials, std::move(haptic.heights), probe.radius_m), largest.material,
-            largest.centre, samples};
+    return {ContactSurface(haptic.mesh, haptic.materials, std::move(haptic.heights), probe.radius_m,
+                           std::move(haptic.channels)),
+            largest.material, largest.centre, samples};
   } catch (const InvalidInput& error) {
     throw InvalidInput(file + ": " + error.what());
   }

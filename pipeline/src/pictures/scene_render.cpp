@@ -169,7 +169,7 @@ ShadedMaterial shaded_material(const Scene& scene, std::size_t index, const Scen
   if (index < options.mm_per_uv.size()) shaded.mm_per_uv = options.mm_per_uv[index];
   if (options.mode == RenderMode::triangles) return {.color = k_clay};
   if (material.normal_texture) shaded.channel = material.normal_texture->tex_coord;
-  if (material.haptic && material.haptic->height) shaded.channel = material.haptic->height->tex_coord;
+  if (material.haptic) shaded.channel = tex_coord_of(*material.haptic).value_or(shaded.channel);
   if (material.base_color_texture) shaded.color_channel = material.base_color_texture->tex_coord;
   if (options.mode != RenderMode::material) return shaded;
   if (material.alpha_mode == "BLEND") shaded.opacity = std::clamp(material.base_color[3], 0.0, 1.0);

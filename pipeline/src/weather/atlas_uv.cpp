@@ -42,8 +42,8 @@ void move_to_second_channel(Material& material, bool keeps_relief) {
   for (std::optional<TextureReference>* reference :
        {&material.metallic_roughness_texture, &material.occlusion_texture, &material.emissive_texture})
     if (*reference && (*reference)->tex_coord == 0) (*reference)->tex_coord = 1;
-  if (material.haptic && material.haptic->height && material.haptic->height->tex_coord == 0)
-    material.haptic->height->tex_coord = 1;
+  if (!material.haptic) return;
+  for (PlacedPicture* picture : pictures_of(*material.haptic)) picture->tex_coord = 1;
 }
 
 }  // namespace

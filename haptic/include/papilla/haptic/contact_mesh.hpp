@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -33,13 +34,23 @@ enum class StimulusForm {
 /// Friction between surface and probe; see friction.hpp.
 enum class FrictionModel { coulomb, bristle };
 
-/// The constants of the material tag that the tick uses.
-struct ContactMaterial {
-  double stiffness = 500;           ///< N/m.
+/// What a place of a surface feels like: the constants of its material, or what the material's maps say there.
+struct ContactConstants {
+  double stiffness = 500;           ///< N/m, of the skin.
   double damping = 0;               ///< N·s/m, of the wall; acts along the contact normal.
   double static_friction = 0;       ///< Coulomb, dimensionless.
   double dynamic_friction = 0;      ///< Coulomb, dimensionless, at most static_friction.
   double stribeck_velocity = 0.01;  ///< m/s, the speed over which static friction fades into dynamic.
+};
+
+/// The numbers of the material tag that the tick uses.
+struct ContactMaterial : ContactConstants {
+  double backing_stiffness = 0;  ///< N/m, of what lies below the skin; see spring_force().
+  double backing_depth_m = std::numeric_limits<double>::infinity();  ///< Where it is reached; infinity: never.
+  std::optional<std::uint32_t> channels;  ///< Index of its maps in the surface's channel fields.
+  /// What the maps are held to; see clamp_to_stable().
+  double most_stiffness = std::numeric_limits<double>::infinity();
+  double most_damping = std::numeric_limits<double>::infinity();
   FrictionModel friction = FrictionModel::coulomb;
   double bristle_stiffness = 0;         ///< N/m, of bristle friction, at most `stiffness`; 0: `stiffness`.
   bool shading = false;                 ///< Force shading; see ContactSurface::shaded_normal().

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "papilla/haptic/channel_field.hpp"
 #include "papilla/haptic/contact_mesh.hpp"
 #include "papilla/haptic/height_field.hpp"
 
@@ -21,6 +22,7 @@ struct SweepHit {
   double penetration_m = 0;    ///< Minus the clearance at t: positive when the probe overlapped at the start already.
   std::uint32_t triangle = 0;  ///< Index in the ContactMesh.
   std::uint32_t material = 0;
+  std::uint32_t place = 0;  ///< The triangle's number within the surface; see ContactTriangles.
   /// The other face of a crease: a second triangle without relief, touched above its face, with another normal, at the
   /// same parameter or within a quarter of the tolerance behind it. The first one, if there are several.
   struct Crease {
@@ -29,6 +31,7 @@ struct SweepHit {
     double penetration_m = 0;
     std::uint32_t triangle = 0;
     std::uint32_t material = 0;
+    std::uint32_t place = 0;
   };
   std::optional<Crease> crease;
 };
@@ -40,6 +43,7 @@ struct SurfacePoint {
   double distance_m = 0;
   double height_m = 0;     ///< Relief above `point` on the front side, dilated by the probe, ≥ 0.
   Vec3 slope;              ///< Its gradient in the triangle's plane, metres per metre.
+  double base_m = 0;       ///< Of `point` over the triangles that were given, ≤ 0; see ContactSurface.
   bool on_border = false;  ///< On an edge or corner of its triangle, where the face normal does not tell the side.
   std::uint32_t triangle = 0;
   std::uint32_t material = 0;
@@ -71,7 +75,7 @@ struct StimulusSample {
 /// relief is deep) the offset is shortened and the valleys of the relief end at the base. Different heights on both
 /// sides of a uv seam meet in a fillet of the size of their difference, without a hole.
 ///
-/// Build: O(n log n), about 1 µs a triangle. Memory: 22 bytes a triangle, 30 with relief, 12 more with shaded
+/// Build: O(n log n), about 1 µs a triangle. Memory: 22 bytes a triangle, 30 with relief or maps, 12 more with shaded
 /// materials. Vertices are rounded to single precision around the centre of the scene (0.5 µm at 10 m). Queries are
 /// const, noexcept and allocate nothing; the same input gives the same bits.
 class ContactSurface {
@@ -85,10 +89,11 @@ class ContactSurface {
 
   /// @param mesh triangles with zero area or non-finite vertices are left out (see skipped_triangles()).
   /// @param probe_radius_m r ≥ 0.
+  /// @param channels maps of materials, over the same corner_uv as the heights.
   /// @throws InvalidInput when indices are out of range, array sizes disagree, a material's numbers are not finite or
   ///         negative, there are more than 32767 materials, or no triangle is left.
   ContactSurface(const ContactMesh& mesh, std::vector<ContactMaterial> materials, std::vector<HeightField> heights,
-                 double probe_radius_m);
+                 double probe_radius_m, std::vector<ChannelField> channels = {});
   ContactSurface(ContactSurface&&) noexcept;
   ContactSurface& operator=(ContactSurface&&) noexcept;
   ~ContactSurface();
@@ -121,6 +126,9 @@ class ContactSurface {
 
   /// min over T of f_T(x) within `radius_m` of x; radius_m − contact_radius_m() when no triangle is that near.
   double clearance(Vec3 x, double radius_m) const noexcept;
+
+  /// The largest value that a material has of a quantity: of its map, else its constant.
+  double most(std::uint32_t material, Quantity quantity) const noexcept;
 
   const ContactMaterial& material(std::uint32_t index) const noexcept;
   ContactMaterial& material(std::uint32_t index) noexcept;

@@ -14,7 +14,7 @@ std::string_view name_of(FrictionModel model) noexcept;
 std::optional<FrictionModel> friction_model(std::string_view name) noexcept;
 
 /// μ(v) = μd + (μs − μd)·exp(−(v/vs)²), μs at rest [Stribeck].
-double friction_coefficient(const ContactMaterial& material, double speed) noexcept;
+double friction_coefficient(const ContactConstants& material, double speed) noexcept;
 
 /// Weight of the newest speed in the smoothed sliding speed: 1 − exp(−T/10 ms), a first-order lag that is the same at
 /// every rate (frictional memory: Armstrong-Hélouvry, Dupont and Canudas de Wit 1994); 10 ms is assumed.

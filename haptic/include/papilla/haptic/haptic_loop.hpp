@@ -12,6 +12,7 @@
 #include "papilla/haptic/histogram.hpp"
 #include "papilla/haptic/latest_slot.hpp"
 #include "papilla/haptic/loop_clock.hpp"
+#include "papilla/haptic/real_part.hpp"
 #include "papilla/haptic/safety.hpp"
 #include "papilla/haptic/trajectory.hpp"
 
@@ -34,6 +35,7 @@ struct LoopOptions {
   double rate_hz = 1000;
   std::uint64_t ticks = 2000;
   bool control_passivity = false;            ///< See PassivityController.
+  const RealPart* real_part = nullptr;       ///< The hand moves on it; nullptr: in the scene.
   double watchdog_s = 0.01;                  ///< Largest age of a position, older ones stop all force; longest pause.
   bool paced = true;                         ///< False: no waiting between ticks (tests, fast replays).
   LoopClock* clock = nullptr;                ///< Paces the loop; nullptr: the system's.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "papilla/haptic/force_model.hpp"
 #include "papilla/haptic/friction.hpp"
 #include "papilla/haptic/proxy.hpp"
+#include "papilla/haptic/real_part.hpp"
 #include "papilla/haptic/safety.hpp"
 #include "papilla/haptic/stability.hpp"
 #include "papilla/haptic/stimulus.hpp"
@@ -28,6 +30,8 @@ class HapticTick {
   /// Enables the PassivityController, for devices whose DeviceDynamics are stated too well. clamp_to_stable() comes
   /// first.
   void control_passivity(const DeviceDynamics& device) { passivity_.emplace(device); }
+  /// The hand moves on a real part from now on: the force is RealPart::force() of the device's position.
+  void follow(const RealPart& part) { real_part_.emplace(part); }
   std::uint64_t passivity_interventions() const noexcept { return passivity_ ? passivity_->interventions() : 0; }
 
   /// @returns the force on the hand in newtons.
@@ -38,6 +42,7 @@ class HapticTick {
       lost_ = false;
       return guard_.apply(k_no_force, period_, device.age_s);
     }
+    if (real_part_) return guard_.apply(real_part_->force(probe), period_, device.age_s);
     // Wall damping acts on a velocity smoothed over k_smoothing_s: differences of encoder steps are noise.
     const Vec3 moved = started_ ? probe - last_ : Vec3{};
     const double share = period_ / (period_ + k_smoothing_s);
@@ -64,20 +69,24 @@ class HapticTick {
     lost_ = false;
   }
 
-  const ProxyState& proxy() const noexcept { return proxy_.state(); }
+  const ProxyState& proxy() const noexcept { return real_part_ ? real_part_->state() : proxy_.state(); }
   bool lost() const noexcept { return lost_; }  ///< ContactAudit: the last tick lost its contact.
   ForceGuard& guard() noexcept { return guard_; }
 
  private:
   ContactStep contact_step(const ProxyState& state, Vec3 moved) const noexcept {
     if (!state.in_contact) return {};
-    const double stiffness = surface_->material(state.material).stiffness;
-    return {true, stiffness * std::abs(dot(state.normal, moved)), stiffness, moved};
+    const ContactMaterial& material = surface_->material(state.material);
+    const double skin = state.constants.stiffness;
+    const double backing = std::isfinite(material.backing_depth_m) ? material.backing_stiffness : skin;
+    // The stiffest bounds how the force changes, the softest what it stores.
+    return {true, std::max(skin, backing) * std::abs(dot(state.normal, moved)), std::min(skin, backing), moved};
   }
 
   /// Springs, damping and friction. Coulomb's friction of `heightfield` is in the proxy.
   Vec3 contact_force(const ProxyState& state, Vec3 probe, Vec3 moved) noexcept {
-    const ContactMaterial& material = surface_->material(state.material);
+    ContactMaterial material = surface_->material(state.material);
+    if (state.in_contact) static_cast<ContactConstants&>(material) = state.constants;
     const bool textured = material.model == ForceModel::textured_normal;
     const Vec3 way = textured ? way_to_textured_surface(*surface_, state, probe) : Vec3{};
     const Vec3 force = textured ? textured_normal_force(material, way, velocity_)
@@ -87,7 +96,7 @@ class HapticTick {
       return force;
     }
     const Vec3 normal = textured ? normalized(way) : state.normal;
-    const double load = textured ? norm(force) : material.stiffness * state.load_m;
+    const double load = textured ? norm(force) : spring_force(material, material.stiffness, state.load_m);
     return force + bristles_.force(material, normal, load, moved, period_);
   }
 
@@ -102,6 +111,7 @@ class HapticTick {
   BristleFriction bristles_;
   ForceGuard guard_;
   std::optional<PassivityController> passivity_;
+  std::optional<RealPart> real_part_;
   Vec3 last_, velocity_;
   bool started_ = false, lost_ = false;
 };

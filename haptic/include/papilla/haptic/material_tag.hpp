@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "papilla/core/vec.hpp"
+#include "papilla/haptic/channel_field.hpp"
 #include "papilla/haptic/height_field.hpp"
 
 namespace papilla {
@@ -22,24 +23,44 @@ struct HapticWarning {
   std::string message;  ///< One line: place, value, fallback.
 };
 
-/// Location and units of a material's height map: height = offset + scale · v / 65535 metres along the outward normal,
-/// v the 16-bit sample, linear.
-struct HeightTag {
+/// A picture of a tag: where its bytes are, and how it lies on a surface.
+struct PlacedPicture {
   std::string uri;     ///< Sidecar file next to the glTF, or a data: URI; may be empty.
   std::string image;   ///< Name of an image in the glTF; may be empty.
-  std::string sha256;  ///< Of the PNG's bytes, 64 hexadecimal digits. Maps with another sum are not used.
-  int bits = 16;
-  std::string channel = "r";
+  std::string sha256;  ///< Of the PNG's bytes, 64 hexadecimal digits. Pictures with another sum are not used.
+  int bits = 16;       ///< A sample.
   std::array<int, 2> size{0, 0};  ///< Width, height in samples; 0: not given.
+  int tex_coord = 0;
+  UvTransform uv_transform;
+  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};
+  friend bool operator==(const PlacedPicture&, const PlacedPicture&) = default;
+
+  bool is_embedded() const { return uri.starts_with("data:"); }
+};
+
+/// Location and units of a material's height map: height = offset + scale · v / 65535 metres along the outward normal,
+/// v the 16-bit sample, linear.
+struct HeightTag : PlacedPicture {
+  std::string channel = "r";
   double scale_m = 0;
   double offset_m = 0;
   bool white_is_outward = true;  ///< "outward": "white" or "black".
-  int tex_coord = 0;
-  UvTransform uv_transform;
-  Vec2 metres_per_uv{1, 1};  ///< Metres on the surface per unit of uv before the transform.
-  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};
-  double rms_m = 0;  ///< Root mean square of the height around its mean; 0: not given.
+  Vec2 metres_per_uv{1, 1};      ///< Metres on the surface per unit of uv before the transform.
+  double rms_m = 0;              ///< Root mean square of the height around its mean; 0: not given.
   friend bool operator==(const HeightTag&, const HeightTag&) = default;
+};
+
+/// Maps of what the constants say of the whole surface: one picture, a quantity a channel. Version 2.
+struct MapsTag : PlacedPicture {
+  std::array<std::optional<MapChannel>, 3> channels;  ///< Red, green, blue; no two of the same quantity.
+  friend bool operator==(const MapsTag&, const MapsTag&) = default;
+};
+
+/// What lies below the skin, whose stiffness is the material's. Version 2.
+struct BackingTag {
+  double stiffness = 0;  ///< N/m, ≥ 0.
+  double depth_m = 0;    ///< Where it is reached, ≥ 0.
+  friend bool operator==(const BackingTag&, const BackingTag&) = default;
 };
 
 /// Statistics of a rough surface: of the relief, from which the player synthesises one when the map is lost, or, with
@@ -83,11 +104,11 @@ struct ProvenanceTag {
 };
 
 /// materials[i].extras.haptic of a glTF file, version 1 or 2, in SI units. A tag is written as version 2 where it has
-/// what version 1 does not: roughness that is laid over the map. docs/haptic-material.md explains it and
-/// haptic-material.schema.json is its JSON Schema. The values here are the defaults of the tag.
+/// what version 1 does not: roughness that is laid over the map, maps, a backing. docs/haptic-material.md explains it
+/// and haptic-material.schema.json is its JSON Schema. The values here are the defaults of the tag.
 struct MaterialTag {
   static constexpr int k_newest_version = 2;
-  double stiffness = 500;           ///< N/m, ≥ 0.
+  double stiffness = 500;           ///< N/m, ≥ 0; of the skin where there is a backing.
   double damping = 0;               ///< N·s/m, ≥ 0.
   double static_friction = 0;       ///< ≥ 0. Defaults to dynamic_friction when only that is given.
   double dynamic_friction = 0;      ///< In [0, static_friction]. Defaults to static_friction when only that is given.
@@ -95,6 +116,8 @@ struct MaterialTag {
   std::optional<FrictionTag> friction_model;
   bool force_shading = false;  ///< Where there is no relief; see ContactSurface::shaded_normal().
   std::optional<HeightTag> height;
+  std::optional<MapsTag> maps;  ///< On the texture coordinates of `height`; the constants are for where it is lost.
+  std::optional<BackingTag> backing;
   std::optional<RoughnessTag> roughness;
   std::optional<ForceModelTag> force_model;
   std::optional<SymmetryTag> symmetry;
@@ -102,6 +125,15 @@ struct MaterialTag {
   std::string other_json;  ///< A JSON object of the members that the versions do not define, or empty.
   friend bool operator==(const MaterialTag&, const MaterialTag&) = default;
 };
+
+/// The pictures of a tag, height first.
+std::vector<PlacedPicture*> pictures_of(MaterialTag& tag);
+
+/// The texture coordinates that its pictures lie on; nothing without any.
+std::optional<int> tex_coord_of(const MaterialTag& tag) noexcept;
+
+/// The largest static friction of a place: of the maps, else the constant.
+double largest_static_friction(const MaterialTag& tag) noexcept;
 
 /// A relief as it is stored: 16-bit grey samples v with h = offset_mm + scale_mm · v / 65535.
 struct EncodedRelief {
@@ -115,10 +147,22 @@ struct EncodedRelief {
 /// repeat of the map, without a transform. A data: URI in extras survives tools that drop images no texture uses.
 HeightTag make_height_tag(const HeightMap& relief, const EncodedRelief& encoded);
 
+/// Channel samples as they are stored: an RGB picture of 8 or 16 bits a sample.
+struct EncodedMaps {
+  std::span<const std::byte> png;
+  int width = 0, height = 0, bits = 8;
+  std::array<std::optional<MapChannel>, 3> channels;
+};
+
+/// The maps member of a tag, with the picture as a data: URI.
+MapsTag make_maps_tag(const EncodedMaps& encoded);
+
 /// Reads one tag. Unknown members are kept in other_json. A value of the wrong type or range is reported and replaced
 /// by its default: codes tag_stiffness, tag_damping, tag_friction, tag_stribeck, tag_height (no relief when its scale
-/// or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_roughness, tag_force_model,
-/// tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance. Then limit_relief() applies (tag_limits.hpp).
+/// or offset is no number), tag_height_bits, tag_height_sha256, tag_height_uv, tag_maps (a channel that is none or can
+/// be out of range, a picture on other coordinates than the relief: no map), tag_maps_sha256, tag_backing,
+/// tag_roughness, tag_force_model, tag_friction_model, tag_force_shading, tag_symmetry, tag_provenance. Then
+/// limit_relief() applies (tag_limits.hpp).
 /// @param json the object itself, not the extras around it.
 /// @throws InvalidInput when it is no JSON object, of another version than 1 and 2, or has neither stiffness nor
 /// height.

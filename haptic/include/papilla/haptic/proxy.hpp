@@ -21,6 +21,7 @@ struct ProxyState {
   int constraints = 0;         ///< Active constraints, 0 to 3. A crease flatter than the tolerance can be one.
   int sweeps = 0;              ///< Swept tests of the tick, at most Proxy::k_steps.
   std::uint32_t material = 0;  ///< Material of the surface that carries the load.
+  ContactConstants constants;  ///< In contact: of that material at the proxy, as its maps say.
 };
 
 /// The god object of Zilles and Salisbury [A constraint-based god-object method for haptic display, 1995] with the
@@ -39,7 +40,12 @@ struct ProxyState {
 ///     sweep     x moves up to the first contact on the step, which becomes a plane; in a crease both faces do. Planes
 ///               that are not active are dropped when x moves; all are dropped when a step ends without contact, so
 ///               that surfaces which fall away release the proxy.
-/// so that no speed tunnels. The friction coefficient follows the smoothed sliding speed v [Stribeck]:
+/// so that no speed tunnels. Constants are those of the material's maps at x, friction
+/// and pull those where x was in the tick before. Where the stiffness k has a slope, p is
+/// the probe less (∂W/∂k)·∇k·δ/N, at most δ/2, with W the energy of the spring and N its force (force_model.hpp), so
+/// that x rests where W(k(x), |x − p|) is least: without it a hand would gain (∂W/∂k)·Δk on each way from soft to hard.
+/// The place of the tick before gives ∇k and δ. The friction coefficient follows the smoothed sliding speed v
+/// [Stribeck]:
 ///     μ = μd + (μs − μd)·exp(−(v/vs)²),   v ← v + (1 − exp(−T/10 ms))·(|Δx|/T − v)
 /// Frictional memory (10 ms is assumed; frictional lag: Armstrong-Hélouvry, Dupont and Canudas de Wit 1994) keeps a
 /// proxy without mass from sticking and slipping at the rate of the loop; sliding is steady while δ·|dμ/dv| is below

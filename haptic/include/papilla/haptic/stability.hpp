@@ -45,14 +45,17 @@ class PassivityController {
   std::array<Vec3, k_history> written_{};
 };
 
-/// The reduction of one material.
+/// The reduction of one material: of the stiffest and the most damped place of its maps, of the stiffer one of skin and
+/// backing.
 struct StabilityClamp {
   std::uint32_t material = 0;
   double stiffness_wanted = 0, stiffness = 0;
   double damping_wanted = 0, damping = 0;
 };
 
-/// Makes every material of the surface stable: damping is limited to b/2, then stiffness to stiffness_limit().
+/// Makes every material of the surface stable: damping is limited to b/2, then stiffness to the stiffness_limit() of
+/// the largest damping that is left; so are those of maps, and of backings, with the stiffness of which a contact is
+/// felt beyond their depth. What is below the limit stays as it is.
 /// @returns the reduced materials, in order.
 std::vector<StabilityClamp> clamp_to_stable(ContactSurface& surface, const DeviceDynamics& device, double period_s);
 

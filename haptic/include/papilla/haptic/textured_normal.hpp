@@ -25,8 +25,8 @@ namespace papilla {
 Vec3 way_to_textured_surface(const ContactSurface& surface, const ProxyState& state, Vec3 probe) noexcept;
 
 /// The force of the model `textured-normal` without its friction [Cho 2017], newtons. With w the way to the textured
-/// surface and n = w/|w|:
-///     F = n·(k·|w| − clamp(b·(v·n), ±k·|w|))
+/// surface, n = w/|w| and N = spring_force() at the depth |w|, k·|w| without a backing:
+///     F = n·(N − clamp(b·(v·n), ±N))
 /// 0 at the textured surface, whatever the speed. BristleFriction adds friction for the load |F|.
 /// @param velocity of the probe, m/s.
 Vec3 textured_normal_force(const ContactMaterial& material, Vec3 way, Vec3 velocity) noexcept;

@@ -104,8 +104,8 @@ bool is_library_id(std::string_view text) noexcept;
 /// @throws IoError, InvalidInput naming the file and the JSON pointer of the offending value.
 LibraryMaterial read_library_material(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// The rule that MATERIALS.json would have with the material's numbers written out. Backing, roughness and Young's
-/// modulus have no place there. @param name of the rule.
+/// The rule that MATERIALS.json would have with the material's numbers written out. Young's modulus has no place
+/// there. @param name of the rule.
 MaterialRule rule_of(const LibraryMaterial& material, const std::string& name);
 
 /// Stiffness in N/m with which a device renders a solid of Young's modulus E, so that soft things differ as they do

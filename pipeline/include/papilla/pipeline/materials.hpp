@@ -11,6 +11,7 @@
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
+#include "papilla/texture/part_roughness.hpp"
 #include "papilla/texture/picture_relief.hpp"
 
 namespace papilla {
@@ -32,6 +33,17 @@ struct HeightRule {
   std::optional<double> max_slope;  ///< Of the relief; without it default_max_slope() of the material's friction.
 };
 
+/// Where a constant of a material is larger and smaller: a picture or a recipe, read as grey, over what `texture`
+/// shows.
+struct MapRule {
+  std::filesystem::path picture;  ///< As MaterialRule::texture.
+  std::string recipe;             ///< What the file has, in case it is a recipe or a grain.
+  double range[2] = {0.5, 1.5};   ///< Black and white, in multiples of the constant.
+};
+
+/// The key of "maps" in MATERIALS.json: "stiffness", "friction", "damping".
+std::string_view map_key(Quantity quantity) noexcept;
+
 /// One entry of "materials": what a surface looks and feels like. SI units as in the haptic tag.
 struct MaterialRule {
   std::string name;
@@ -44,6 +56,9 @@ struct MaterialRule {
   std::optional<double> stiffness;  ///< N/m
   std::optional<double> damping;    ///< N·s/m
   std::optional<double> static_friction, dynamic_friction, stribeck_velocity;
+  std::map<Quantity, MapRule> maps;  ///< Instead of those that a recipe has for the same quantity.
+  std::optional<BackingTag> backing;
+  std::optional<RoughnessModel> fine_roughness;  ///< Finer than the relief, over which it is laid.
   std::optional<FrictionTag> friction_model;
   std::optional<ForceModelTag> force_model;
   std::optional<bool> force_shading;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "papilla/core/progress.hpp"
+#include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
 
@@ -65,6 +66,7 @@ struct WeatheredMaterial {
   bool keeps_relief = false;      ///< Its own relief stays as it was, without the layers'.
   double mm_per_texel = 0;
   double friction = 0, stiffness = 1;  ///< Means of the channels; stiffness is a factor.
+  std::optional<MapsTag> maps;         ///< Of a tagged material, where they differ from place to place.
 
   bool painted() const { return !recipe.empty() && skipped.empty(); }
 };
@@ -104,9 +106,10 @@ class WeatherCache {
 std::string reason_for_no_paint(const WeatherResult& result);
 
 /// Lays the layers over the materials' own colour and the relief of their own normal maps at one time; each material
-/// gets a base colour and a normal map, and the friction and stiffness of its haptic tag follow the means of the
-/// layers' channels. The tag's height map is replaced by the new relief, 0 where no layer is over a flat material,
-/// unless it lies on coordinates of its own.
+/// gets a base colour and a normal map, and its haptic tag maps of friction and stiffness where the layers' channels
+/// differ from place to place (encode_quantity_maps()), with their means as constants. Own maps are replaced, and where
+/// an own relief stays on other coordinates there are only the means (losses of the result). The tag's height map is
+/// replaced by the new relief, 0 where no layer is over a flat material, unless it lies on coordinates of its own.
 ///
 /// Every texel knows the interpolated normal, the position and the sky of the surface that shows it. A material whose
 /// recipe reads none of them, or whose uv show no texel twice, keeps its uv; its maps cover one repeat. The others are

@@ -21,6 +21,12 @@ struct RoughnessModel {
   double direction_rad = 0;                ///< From x (right) towards y (down), in (−π/2, π/2].
 };
 
+/// The part of a roughness whose waves are no shorter than `shortest_mm`, by its power law
+///     ⟨h²⟩ ∝ ∫ k^(−2H) d ln k,   ⟨|∇h|²⟩ ∝ (2π)² ∫ k^(2−2H) d ln k,   k from 1/longest to 1/shortest
+/// as the player makes it up (roughness_field.hpp): its rms and slope follow from the rms of the whole. Nothing when
+/// all waves are shorter, or the rms is 0. @pre 0 < H < 1, 0 < shortest < longest of `whole`.
+std::optional<RoughnessModel> roughness_above(const RoughnessModel& whole, double shortest_mm);
+
 /// What part_roughness() returns.
 struct PartedRelief {
   HeightMap relief;                         ///< Without the roughness; with it where none was parted.

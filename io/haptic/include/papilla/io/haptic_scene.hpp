@@ -39,9 +39,11 @@ struct HapticScene {
   std::vector<ContactMaterial> materials;
   std::vector<std::string> names;  ///< Of the materials.
   std::vector<HeightField> heights;
+  std::vector<ChannelField> channels;
   double probe_radius_m = 0;  ///< By which the reliefs are dilated; that of the ContactSurface must be the same.
   int maps_loaded = 0, maps_missing = 0, maps_coarsened = 0;
-  int roughness_overlays = 0;  ///< Maps over which roughness was laid.
+  int roughness_overlays = 0;                     ///< Maps over which roughness was laid.
+  int channels_loaded = 0, channels_missing = 0;  ///< Pictures of stiffness, friction and damping.
   std::size_t triangles_out_of_reach = 0;
   std::vector<MaterialWarning> warnings;
 };
@@ -55,6 +57,9 @@ struct HapticScene {
 /// stroke is as steady as the relief; on sharper peaks a difference of a micrometre decides where the probe slips off.
 /// Reliefs of stimuli displace nothing and stay as they are. Where a map is steeper than 1/μ, μ the static friction, a
 /// point does not slide; such a map is reported with the share of its area (warning relief_steep).
+///
+/// Pictures of stiffness, friction and damping are read as they are; where one is lost the constants are used (warning
+/// maps_lost).
 ///
 /// Maps of materials that no triangle uses are not read; maps are halved while they stay fine enough for the
 /// shortest wavelength. A KHR_texture_transform of the normal texture (without one: of the base colour) that differs

@@ -23,9 +23,18 @@ std::optional<std::string> find_height_bytes(const HeightTag& tag, const Scene& 
                                              const std::filesystem::path& file, std::size_t material,
                                              std::vector<HapticWarning>& warnings);
 
+/// The same of the picture of a tag's maps (maps_data_uri, maps_file, maps_sha256, maps_image).
+std::optional<std::string> find_maps_bytes(const MapsTag& tag, const Scene& scene, const std::filesystem::path& file,
+                                           std::size_t material, std::vector<HapticWarning>& warnings);
+
 /// The decoded map; further warnings: height_bits, height_size, and height_image when the bytes are no picture.
 /// @throws InvalidInput, IoError as find_height_bytes().
 std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& scene, const std::filesystem::path& file,
                                            std::size_t material, std::vector<HapticWarning>& warnings);
+
+/// The decoded maps; further warnings: maps_bits, maps_size, and maps_image when the bytes are no picture.
+/// @throws InvalidInput, IoError as find_height_bytes().
+std::optional<ChannelField> find_maps(const MapsTag& tag, const Scene& scene, const std::filesystem::path& file,
+                                      std::size_t material, std::vector<HapticWarning>& warnings);
 
 }  // namespace papilla

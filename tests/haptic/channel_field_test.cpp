@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "papilla/haptic/channel_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "papilla/core/error.hpp"
+
+namespace papilla {
+namespace {
+
+constexpr MapChannel k_stiffness{Quantity::stiffness, 600, 200}, k_friction{Quantity::dynamic_friction, 0.5, 0.1},
+    k_damping{Quantity::damping, -2, 3};
+
+ChannelFieldOptions three_channels() { return {{k_stiffness, k_friction, k_damping}, {}, {}}; }
+
+/// Random texels.
+std::vector<ChannelField::Texel> noise(int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<int> value(0, 65535);
+  std::vector<ChannelField::Texel> texels(static_cast<std::size_t>(count));
+  for (auto& texel : texels)
+    for (auto& v : texel) v = static_cast<std::uint16_t>(value(random));
+  return texels;
+}
+
+ContactConstants at(const ChannelField& field, Vec2 uv, ContactConstants constants = {}) {
+  field.apply(uv, constants);
+  return constants;
+}
+
+TEST(ChannelField, IsTheTexelAtItsCentre) {
+  const auto texels = noise(5 * 3, 1);
+  const ChannelField field(5, 3, texels, three_channels());
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) {
+      const ContactConstants found = at(field, {(x + 0.5) / 5, (y + 0.5) / 3});
+      const auto& texel = texels[static_cast<std::size_t>(5 * y + x)];
+      EXPECT_NEAR(found.stiffness, 200 + 600 * texel[0] / 65535.0, 1e-9);
+      EXPECT_NEAR(found.dynamic_friction, 0.1 + 0.5 * texel[1] / 65535.0, 1e-12);
+      EXPECT_NEAR(found.damping, 3 - 2 * texel[2] / 65535.0, 1e-12);
+    }
+}
+
+/// The closed form of four corners.
+TEST(ChannelField, IsBilinearBetweenTexels) {
+  const auto texels = noise(4 * 4, 2);
+  const ChannelField field(4, 4, texels, three_channels());
+  for (const Vec2 f : {Vec2{0.25, 0.5}, Vec2{0.9, 0.1}, Vec2{0.5, 0.5}}) {
+    const auto v = [&](int x, int y) { return 200 + 600 * texels[static_cast<std::size_t>(4 * y + x)][0] / 65535.0; };
+    const double expected =
+        (1 - f.x) * (1 - f.y) * v(1, 2) + f.x * (1 - f.y) * v(2, 2) + (1 - f.x) * f.y * v(1, 3) + f.x * f.y * v(2, 3);
+    EXPECT_NEAR(at(field, {(1.5 + f.x) / 4, (2.5 + f.y) / 4}).stiffness, expected, 1e-9);
+  }
+}
+
+TEST(ChannelField, WrapsAsItsOptionsSay) {
+  std::vector<ChannelField::Texel> texels;
+  for (const int v : {0, 20000, 40000, 60000}) texels.push_back({static_cast<std::uint16_t>(v), 0, 0});
+  const auto value = [&](Wrap wrap, double u) {
+    const ChannelField field(4, 1, texels, {{MapChannel{Quantity::stiffness, 65535, 0}}, {}, {wrap, wrap}});
+    return at(field, {u, 0.5}).stiffness;
+  };
+  EXPECT_NEAR(value(Wrap::repeat, 1), 30000, 1e-6);  // Between the last and the first.
+  EXPECT_NEAR(value(Wrap::clamp, 1), 60000, 1e-6);
+  EXPECT_NEAR(value(Wrap::mirror, 1.125), 60000, 1e-6);
+  EXPECT_NEAR(value(Wrap::mirror, 1.375), 40000, 1e-6);
+  EXPECT_NEAR(value(Wrap::repeat, -7.875), value(Wrap::repeat, 0.125), 1e-6);
+}
+
+TEST(ChannelField, GradientIsThatOfFiniteDifferences) {
+  ChannelFieldOptions options = three_channels();
+  options.uv_transform = {{0.3, -0.2}, 0.7, {2, 3}};
+  const ChannelField field(16, 8, noise(16 * 8, 3), options);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> coordinate(-2, 2);
+  constexpr double k_step = 1e-7;
+  int near_a_line = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec2 uv{coordinate(random), coordinate(random)};
+    ContactConstants constants;
+    const Vec2 gradient = field.apply(uv, constants);
+    const Vec2 measured{
+        (at(field, uv + Vec2{k_step, 0}).stiffness - at(field, uv - Vec2{k_step, 0}).stiffness) / (2 * k_step),
+        (at(field, uv + Vec2{0, k_step}).stiffness - at(field, uv - Vec2{0, k_step}).stiffness) / (2 * k_step)};
+    near_a_line += norm(gradient - measured) > 1e-3 * (1 + norm(gradient));
+  }
+  EXPECT_LE(near_a_line, 2);  // Between texels it jumps.
+}
+
+TEST(ChannelField, FollowsTheTransform) {
+  const auto texels = noise(8 * 8, 5);
+  ChannelFieldOptions turned = three_channels();
+  turned.uv_transform = {{0.1, 0.2}, 0, {3, 5}};
+  const ChannelField plain(8, 8, texels, three_channels()), moved(8, 8, texels, turned);
+  EXPECT_NEAR(at(moved, {0.3, 0.7}).stiffness, at(plain, {0.1 + 0.9, 0.2 + 3.5}).stiffness, 1e-9);
+}
+
+/// One friction on the map: the other one keeps its ratio to it.
+TEST(ChannelField, FrictionWithoutMapFollowsInTheRatioOfTheConstants) {
+  ContactConstants constants;
+  constants.static_friction = 0.6;
+  constants.dynamic_friction = 0.4;
+  const std::vector<ChannelField::Texel> white{{65535, 65535, 65535}};
+  const ChannelField dynamic(1, 1, white, {{MapChannel{Quantity::dynamic_friction, 0.2, 0}}, {}, {}});
+  EXPECT_DOUBLE_EQ(at(dynamic, {}, constants).dynamic_friction, 0.2);
+  EXPECT_NEAR(at(dynamic, {}, constants).static_friction, 0.3, 1e-15);
+  const ChannelField fixed(1, 1, white, {{MapChannel{Quantity::static_friction, 0.3, 0}}, {}, {}});
+  EXPECT_NEAR(at(fixed, {}, constants).dynamic_friction, 0.2, 1e-15);
+  EXPECT_DOUBLE_EQ(at(fixed, {}, constants).static_friction, 0.3);
+  // From nothing there is no ratio: both are the map's.
+  EXPECT_DOUBLE_EQ(at(dynamic, {}).static_friction, 0.2);
+  // Two maps that disagree: dynamic is at most static.
+  const ChannelField both(
+      1, 1, white,
+      {{MapChannel{Quantity::static_friction, 0.1, 0}, MapChannel{Quantity::dynamic_friction, 0.5, 0}}, {}, {}});
+  EXPECT_DOUBLE_EQ(at(both, {}, constants).dynamic_friction, 0.1);
+}
+
+TEST(ChannelField, KnowsItsLargestValues) {
+  const ChannelField field(3, 1, {{0, 0, 100}, {30000, 0, 0}, {10000, 0, 65535}}, three_channels());
+  EXPECT_NEAR(field.most(Quantity::stiffness).value(), 200 + 600 * 30000 / 65535.0, 1e-9);
+  EXPECT_NEAR(field.most(Quantity::damping).value(), 3, 1e-12);
+  EXPECT_FALSE(field.most(Quantity::static_friction).has_value());
+}
+
+TEST(ChannelField, IsFiniteEverywhere) {
+  const ChannelField field(4, 4, noise(16, 6), three_channels());
+  for (const double u :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300, -1e18}) {
+    const ContactConstants found = at(field, {u, -u});
+    EXPECT_TRUE(found.stiffness >= 200 && found.stiffness <= 800) << u;
+  }
+}
+
+TEST(ChannelField, RefusesWhatIsNone) {
+  const std::vector<ChannelField::Texel> four(4);
+  EXPECT_THROW(ChannelField(0, 4, {}, three_channels()), InvalidInput);
+  EXPECT_THROW(ChannelField(3, 2, four, three_channels()), InvalidInput);
+  EXPECT_THROW(ChannelField(2, 2, four, {{MapChannel{Quantity::damping, -2, 1}}, {}, {}}), InvalidInput);
+  EXPECT_THROW(ChannelField(2, 2, four, {{k_friction, k_friction}, {}, {}}), InvalidInput);
+  ChannelFieldOptions odd = three_channels();
+  odd.uv_transform.scale.x = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(ChannelField(2, 2, four, odd), InvalidInput);
+}
+
+TEST(Quantity, NamesAreReadAgain) {
+  for (const Quantity known : k_quantities) EXPECT_EQ(quantity(name_of(known)), known);
+  EXPECT_FALSE(quantity("friction").has_value());
+}
+
+}  // namespace
+}  // namespace papilla
