@@ -30,7 +30,9 @@ const JsonGrammar& materials_grammar() {
                                     {"gltf_material", {"*", "Leather", "L?ather", ""}}},
                                    Json::parse(R"({"$comment":"c","version":1,"materials":{
         "grain":{"texture":"grain.png","time":0.5,"size_mm":[40,40],"stiffness":900,"damping":0.4,"staticFriction":0.45,
-          "dynamicFriction":0.35,"stribeckVelocity":0.01,"frictionModel":{"name":"bristle","stiffness":300},
+          "dynamicFriction":0.35,"stribeckVelocity":0.01,"frictionModel":{"name":"bristle","stiffness":300},"backing":{"stiffness":1800,"depth_mm":2},
+          "maps":{"stiffness":"a.png","friction":{"picture":"noise","range":[0,2]},"range":[0.5,1.5]},
+          "fineRoughness":{"hurst":0.5,"rms":1e-6,"wavelength_range":[1e-5,1e-3]},
           "forceShading":true,"height":{"method":"auto","depth_mm":0.3,"scale":1,"max_slope":0.5},"unwrap":"auto",
           "show":"picture","color":"#808080","roughness":0.5,"metallic":0,"$comment":"c"},
         "chrome":{"stiffness":2000,"color":"#808080"}},
