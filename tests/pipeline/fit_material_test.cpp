@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -32,7 +33,7 @@ const std::vector<ContactMaterial>& materials() {
 }
 
 double relative(const std::optional<FittedNumber>& found, double truth) {
-  return found ? std::abs(found->value / truth - 1) : INFINITY;
+  return found ? std::abs(found->value / truth - 1) : std::numeric_limits<double>::infinity();
 }
 
 void expect_material(const MaterialFit& fit, const ContactMaterial& truth, double share) {
@@ -70,24 +71,42 @@ TEST(FitMaterial, ARecordingGivesTheMaterialBack) {
   }
 }
 
+/// The same forces without proxies.
+constexpr FitOptions k_of_player{.forces = StrokeForces::player};
+
+/// Materials on which a proxy slides steadily, so that its slip can be found again.
+const std::vector<ContactMaterial>& steady_materials() {
+  static const std::vector<ContactMaterial> all = {
+      material(900, 0.8, 0.4, 0.35, 0.02), material(300, 1.5, 0.7, 0.6, 0.04), material(2500, 0.8, 0.2, 0.12, 0.03),
+      material(1500, 3, 0.4, 0.3, 0.03),   material(600, 0.5, 0.3, 0.2, 0.05)};
+  return all;
+}
+
 TEST(FitMaterial, WithoutProxiesThePlaneIsFoundToo) {
-  for (const ContactMaterial& truth : materials()) {
+  for (const ContactMaterial& truth : steady_materials()) {
     SCOPED_TRACE(truth.stiffness);
-    const MaterialFit fit = fit_material(testing::seen_from_outside(stroke_on(truth)), {}, "stroke");
+    const MaterialFit fit = fit_material(testing::seen_from_outside(stroke_on(truth)), k_of_player, "stroke");
     EXPECT_EQ(fit.surface, StrokeSurface::plane);
+    EXPECT_TRUE(fit.warnings.empty());
     expect_material(fit, truth, 0.02);
   }
+  const MaterialFit unsteady =
+      fit_material(testing::seen_from_outside(stroke_on(materials()[3])), k_of_player, "stroke");
+  EXPECT_LE(relative(unsteady.stiffness, 1500), 0.02);
+  EXPECT_LE(relative(unsteady.dynamic_friction, 0.3), 0.02);
+  ASSERT_EQ(unsteady.warnings.size(), 1U);
+  EXPECT_NE(unsteady.warnings[0].find("sticks and slips"), std::string::npos);
 }
 
 TEST(FitMaterial, NoiseOfTwoPercentCostsLessThanTen) {
   std::uint64_t seed = 1;
-  for (const ContactMaterial& truth : materials())
+  for (const ContactMaterial& truth : steady_materials())
     for (const bool outside : {false, true}) {
       SCOPED_TRACE(truth.stiffness);
       auto stroke = stroke_on(truth);
       if (outside) stroke = testing::seen_from_outside(std::move(stroke));
       testing::add_force_noise(stroke, 0.02, seed++);
-      expect_material(fit_material(stroke, {}, "stroke"), truth, 0.1);
+      expect_material(fit_material(stroke, outside ? k_of_player : FitOptions{}, "stroke"), truth, 0.1);
     }
 }
 
@@ -187,10 +206,10 @@ TEST(FitMaterial, WithoutPressingInAndOutThereIsNoDampingAndNoDepth) {
   auto stroke = stroke_on(materials()[4], {.presses = false, .crawls = false, .hurries = false, .steadily = true});
   testing::add_force_noise(stroke, 0.02, 6);
   const MaterialFit recorded = fit_material(stroke, {}, "stroke");
-  EXPECT_LE(relative(recorded.stiffness, 600), 0.1);  // The depth is recorded.
+  EXPECT_LE(relative(recorded.stiffness, 600), 0.2);  // The depth is recorded.
   EXPECT_FALSE(recorded.damping);
   EXPECT_NE(reason_of(recorded, "damping").find("too slowly"), std::string::npos);
-  const MaterialFit fit = fit_material(testing::seen_from_outside(stroke), {}, "stroke");
+  const MaterialFit fit = fit_material(testing::seen_from_outside(stroke), k_of_player, "stroke");
   EXPECT_LE(relative(fit.dynamic_friction, 0.2), 0.25);
 }
 
@@ -205,14 +224,13 @@ TEST(FitMaterial, AStandingPressWithoutItsBeginningHasNoStiffness) {
   EXPECT_LE(relative(fit.dynamic_friction, 0.2), 0.1);
 }
 
-TEST(FitMaterial, ForcesThatTheDeviceCutOffAreLeftOut) {
+TEST(FitMaterial, ForcesThatTheDeviceCutsOffAreUnderstoodWhereItsLimitIsTold) {
   constexpr double most = 0.7;
   const ContactMaterial truth = materials()[0];
   const auto stroke = testing::record_stroke(testing::flat_plate(truth), testing::hand_of({}), most);
   const MaterialFit cut = fit_material(stroke, {}, "stroke");
   const MaterialFit told = fit_material(stroke, {.max_force_n = most}, "stroke");
   EXPECT_LE(relative(told.stiffness, truth.stiffness), 0.02);
-  EXPECT_LT(told.used_samples, cut.used_samples);
   EXPECT_LT(told.rms_residual_n, cut.rms_residual_n);
 }
 
@@ -246,7 +264,7 @@ TEST(FitMaterial, FeelsTheRoughnessOfAWave) {
   for (const bool outside : {false, true}) {
     auto stroke = testing::record_stroke(wavy_plate(wave, amplitude), testing::hand_of({}));
     if (outside) stroke = testing::seen_from_outside(std::move(stroke));
-    const MaterialFit fit = fit_material(stroke, {}, "stroke");
+    const MaterialFit fit = fit_material(stroke, outside ? k_of_player : FitOptions{}, "stroke");
     EXPECT_LE(relative(fit.stiffness, 900), 0.02);
     ASSERT_TRUE(fit.roughness) << reason_of(fit, "roughness");
     EXPECT_NEAR(fit.roughness->rms_m.value, amplitude / std::numbers::sqrt2, 0.1 * amplitude);
@@ -257,7 +275,7 @@ TEST(FitMaterial, FeelsTheRoughnessOfAWave) {
 
 /// Fractional Brownian profiles by spectral synthesis, along a way that is not evenly sampled.
 std::vector<std::vector<ProfilePoint>> brownian_runs(double hurst, double noise_m, std::uint64_t seed) {
-  constexpr int k_waves = 3000;
+  constexpr int k_waves = 16000;  // Down to 25 um.
   constexpr double k_long_m = 0.4, k_rms_m = 2e-5;
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;

@@ -51,7 +51,7 @@ TEST(StrokeRecording, NamesThePlaceOfWhatIsWrong) {
   says(heading + "0,0,0,0,0,0,0\n", "r.csv: holds no recording");
   says("t,x,y,z\n0,0,0,0\n", "r.csv:1: the heading has no column force_x");
   says("0,0,0,0,0,0,0\n", "r.csv:1: the heading has no column t");
-  says("t,probe_x,prob_y,probe_z,force_x,force_y,force_z\n", "no column probe_y; did you mean 'prob_y'?");
+  says("t,probe_x,prob_y,probz,force_x,force_y,force_z\n", "r.csv:1: the heading has no column probe_y; did you mean");
   says(heading + "0,0,0,0,0,0,0\n1,0,0,x,0,0,0\n", "r.csv:3: column 4 (probe_z) is no number");
   says(heading + "0,0,0\n", "r.csv:2: column 4 (probe_z) is missing");
   says(heading + "0,0,0,0,nan,0,0\n", "r.csv:2: column 5 (force_x) is not finite");

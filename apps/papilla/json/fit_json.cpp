@@ -49,7 +49,7 @@ Json fit_json(const std::string& stroke, const MaterialFit& fit) {
   json["normal"] = {fit.normal.x, fit.normal.y, fit.normal.z};
   json["rms_residual_n"] = fit.rms_residual_n;
   json["samples"] = fit.samples;
-  json["used_samples"] = fit.used_samples;
+  json["outliers"] = fit.outliers;
   json["slip_m_per_s"] = Json(nullptr);
   if (fit.fastest_slip_m_per_s > 0) json["slip_m_per_s"] = {fit.slowest_slip_m_per_s, fit.fastest_slip_m_per_s};
   json["stop"] = to_string(fit.stop);

@@ -19,7 +19,7 @@ namespace papilla::app {
 namespace {
 
 struct Options {
-  std::string stroke, output, material, picture, surface = "auto";
+  std::string stroke, output, material, picture, surface = "auto", forces = "auto";
   FitOptions fit;
 };
 
@@ -28,9 +28,15 @@ StrokeSurface surface_of(const std::string& name) {
   return name == "plane" ? StrokeSurface::plane : StrokeSurface::automatic;
 }
 
+StrokeForces forces_of(const std::string& name) {
+  if (name == "player") return StrokeForces::player;
+  return name == "sensor" ? StrokeForces::sensor : StrokeForces::automatic;
+}
+
 Json run(const Options& options, VerbContext& context) {
   FitOptions wanted = options.fit;
   wanted.surface = surface_of(options.surface);
+  wanted.forces = forces_of(options.forces);
   const std::vector<StrokeSample> stroke = parse_stroke_recording(read_file(options.stroke), options.stroke);
   const MaterialFit fit = fit_material(stroke, wanted, options.stroke, context.progress);
   if (!fit.stiffness && !fit.damping && !fit.dynamic_friction)
@@ -76,14 +82,14 @@ void add_fit(CLI::App& program) {
                    "Where the surface is: recorded (columns proxy_x …), an unknown plane, or what the file has")
       ->transform(one_of({"auto", "recorded", "plane"}))
       ->capture_default_str();
-  verb->add_option("--max-force", options->fit.max_force_n, "Force of the device, at which it cut forces off")
+  verb->add_option("--forces", options->forces,
+                   "Who made the forces: the player, whose safety fades them in, a sensor, or auto: the player where "
+                   "there are proxies")
+      ->transform(one_of({"auto", "player", "sensor"}))
+      ->capture_default_str();
+  verb->add_option("--max-force", options->fit.max_force_n, "Of the player's device, which cuts forces off there")
       ->type_name("N")
       ->check(positive());
-  verb->add_option("--settle", options->fit.settle_s,
-                   "So long after the first contact forces are left out; the player fades them in")
-      ->type_name("S")
-      ->check(in_range(0, 1000))
-      ->capture_default_str();
 }
 
 }  // namespace papilla::app

@@ -24,10 +24,11 @@ using P = StrokeParameters;
 constexpr std::size_t k_least_samples = 50;
 constexpr std::size_t k_least_contacts = 20;  // Samples with force.
 constexpr double k_least_force_n = 5e-3;      // A press; below the friction of every device.
-constexpr double k_contact_share = 0.02;      // Of the largest force: where a sample counts as contact.
+constexpr double k_contact_share = 0.2;       // Of the largest force: surely contact, for first parameters.
 constexpr double k_best_sensor = 1e-3;        // Of the root mean square force: no force is known better.
 constexpr double k_huber = 4;                 // Robust deviations, of a vector: one of a thousand normal ones is beyond.
-constexpr int k_reweightings = 4;
+constexpr double k_rough_tolerance = 1e-3;    // Of the misfit, to choose among starts.
+constexpr int k_reweightings = 3;
 constexpr double k_block_s = 0.05;      // Errors hang together for no longer: the player's fade-in.
 constexpr double k_deviations = 1.96;   // 95 %
 constexpr double k_widest = 0.5;        // Of a number: half the interval of one that is identified.
@@ -50,8 +51,8 @@ double quantile(const std::vector<double>& values, double share) {
 /// What is fitted: the model, the weight of every sample, and the parameters that are free.
 class Fit {
  public:
-  Fit(StrokeModel model, std::vector<double> weights, double floor_n)
-      : model_(std::move(model)), used_(weights), weights_(std::move(weights)), floor_n_(floor_n) {}
+  Fit(StrokeModel model, double floor_n)
+      : model_(std::move(model)), weights_(model_.stroke().size(), 1.0), floor_n_(floor_n) {}
 
   StrokeParameters parameters;
   std::vector<P::Index> free;
@@ -62,8 +63,6 @@ class Fit {
   StrokeModel& model() { return model_; }
   const StrokeModel& model() const { return model_; }
   const std::vector<double>& weights() const { return weights_; }
-  bool is_used(std::size_t i) const { return used_[i] > 0; }
-  double scale_n() const { return scale_n_; }
   double floor_n() const { return floor_n_; }
 
   std::vector<ModelForce> forces() const {
@@ -86,7 +85,8 @@ class Fit {
   }
 
   /// Least squares with the weights as they are.
-  void solve(const ProgressCallback& progress, const std::string& name);
+  /// @param tolerance relative, of the misfit.
+  void solve(const ProgressCallback& progress, const std::string& name, double tolerance = 1e-7);
   /// Huber's weights from the residuals.
   void reweight();
   /// Residuals and their derivatives, three rows a sample, times the roots of the weights.
@@ -94,8 +94,8 @@ class Fit {
 
  private:
   StrokeModel model_;
-  std::vector<double> used_, weights_;
-  double floor_n_, scale_n_ = 0;
+  std::vector<double> weights_;
+  double floor_n_;
 };
 
 /// Residuals over the free parameters.
@@ -146,7 +146,7 @@ class TraceCallback : public ceres::IterationCallback {
   const ProgressCallback& progress_;
 };
 
-void Fit::solve(const ProgressCallback& progress, const std::string& name) {
+void Fit::solve(const ProgressCallback& progress, const std::string& name, double tolerance) {
   std::vector<double> x;
   for (const P::Index k : free) x.push_back(parameters.x[k]);
   ceres::Problem problem;
@@ -171,9 +171,8 @@ void Fit::solve(const ProgressCallback& progress, const std::string& name) {
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
-  options.max_num_iterations = 60;
-  options.function_tolerance = 1e-9;
-  options.parameter_tolerance = 1e-9;
+  options.max_num_iterations = 50;
+  options.function_tolerance = tolerance;
   TraceCallback callback(*this, std::accumulate(weights_.begin(), weights_.end(), 0.0), progress);
   options.callbacks.push_back(&callback);
   ceres::Solver::Summary summary;
@@ -188,14 +187,14 @@ void Fit::reweight() {
   const std::vector<ModelForce> now = forces();
   std::vector<double> parts;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (is_used(i) && now[i].load_n > 0) {
+    if (now[i].load_n > 0) {
       const Vec3 r = residual(i, now);
       for (const double part : {r.x, r.y, r.z}) parts.push_back(std::abs(part));
     }
   if (parts.empty()) return;
-  scale_n_ = std::max(floor_n_, 1.4826 * quantile(sorted(std::move(parts)), 0.5));
+  const double scale_n = std::max(floor_n_, 1.4826 * quantile(sorted(std::move(parts)), 0.5));
   for (std::size_t i = 0; i < now.size(); ++i)
-    weights_[i] = is_used(i) ? std::min(1.0, k_huber * scale_n_ / std::max(norm(residual(i, now)), 1e-300)) : 0;
+    weights_[i] = std::min(1.0, k_huber * scale_n / std::max(norm(residual(i, now)), 1e-300));
 }
 
 void Fit::linearize(Eigen::VectorXd& residuals, Eigen::MatrixXd& slopes) const {
@@ -231,7 +230,7 @@ class Uncertainty {
       if (const double t = fit.model().stroke()[i].t_s; t - begin > k_block_s) close(), begin = t;
       const auto row = static_cast<Eigen::Index>(3 * i);
       block += slopes.middleRows(row, 3).transpose() * residuals.segment(row, 3);
-      if (!fit.is_used(i) || !(forces[i].load_n > 0)) continue;
+      if (!(forces[i].load_n > 0)) continue;
       squares += fit.weights()[i] * residuals.segment(row, 3).squaredNorm();  // Of Huber's psi.
       rows += 3;
     }
@@ -288,7 +287,7 @@ StrokeFacts facts_of(const Fit& fit, const std::vector<ModelForce>& forces) {
   const double k = std::exp(fit.parameters.x[P::stiffness]);
   for (std::size_t i = 1; i < forces.size(); ++i) {
     const ModelForce& f = forces[i];
-    if (!fit.is_used(i) || !(f.load_n > 0)) continue;
+    if (!(f.load_n > 0)) continue;
     const Vec3 moved = fit.model().stroke()[i].probe_m - fit.model().stroke()[i - 1].probe_m;
     facts.slid_m += norm(moved - dot(moved, f.normal) * f.normal);
     if (f.slip_m_per_s > 0) facts.slips_m_per_s.push_back(f.slip_m_per_s);
@@ -317,6 +316,27 @@ bool spans(const StrokeFacts& facts, double vs) {
   return slow >= k_least_slips && fast >= k_least_slips;
 }
 
+/// Whether a proxy slides unsteadily: δ·|dμ/dv| at its steepest is longer than the memory of friction (proxy.hpp).
+bool sticks_and_slips(const StrokeParameters& p, const StrokeFacts& facts) {
+  constexpr double k_memory_s = 1e-2, k_steepest = 0.858;  // √(2/e)
+  return facts.deepest_m * k_steepest * p.x[P::friction_drop] / std::exp(p.x[P::stribeck]) > k_memory_s;
+}
+
+/// Goes on from the guess that leads to the least misfit.
+void begin(Fit& fit, const std::vector<FirstGuess>& guesses, const ProgressCallback& progress,
+           const std::string& name) {
+  FirstGuess best = guesses.front();
+  double least = std::numeric_limits<double>::infinity();
+  for (const FirstGuess& guess : guesses) {
+    fit.model().set_normal(guess.normal);
+    fit.parameters = guess.parameters;
+    fit.solve(progress, name, k_rough_tolerance);
+    if (const double misfit = fit.misfit(); misfit < least) least = misfit, best = {fit.parameters, guess.normal};
+  }
+  fit.model().set_normal(best.normal);
+  fit.parameters = best.parameters;
+}
+
 /// Fits with frictions that depend on speed from several speeds. @returns whether they explain more than chance.
 bool fit_stribeck(Fit& fit, const StrokeFacts& facts, const ProgressCallback& progress, const std::string& name) {
   const StrokeParameters constant = fit.parameters;
@@ -330,7 +350,7 @@ bool fit_stribeck(Fit& fit, const StrokeFacts& facts, const ProgressCallback& pr
     fit.parameters = constant;
     fit.parameters.x[P::friction_drop] = 0.1 * constant.x[P::dynamic_friction] + 0.01;
     fit.parameters.x[P::stribeck] = std::log(0.5 * std::max(1e-4, quantile(facts.slips_m_per_s, share)));
-    fit.solve(progress, name);
+    fit.solve(progress, name, k_rough_tolerance);
     if (const double misfit = fit.misfit(); misfit < least) least = misfit, best = fit.parameters;
   }
   fit.parameters = best;
@@ -433,7 +453,7 @@ std::optional<double> noise_of(const Fit& fit, const std::vector<ModelForce>& fo
   constexpr double k_rest_m_per_s = 1e-4;
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < forces.size(); ++i) {
-    if (!fit.is_used(i) || (forces[i].load_n > 0 && norm(forces[i].velocity_m_per_s) > k_rest_m_per_s)) continue;
+    if (forces[i].load_n > 0 && norm(forces[i].velocity_m_per_s) > k_rest_m_per_s) continue;
     const Vec3 r = fit.residual(i, forces);
     squares += fit.weights()[i] * dot(r, r) / 3;
     count += 1;
@@ -454,7 +474,7 @@ std::vector<std::vector<ProfilePoint>> profiles_of(const Fit& fit, const std::ve
     const StrokeSample& now = fit.model().stroke()[i];
     const Vec3 moved = now.probe_m - fit.model().stroke()[i - 1].probe_m;
     const Vec3 way = moved - dot(moved, f.normal) * f.normal;
-    const bool slips = fit.is_used(i) && fit.weights()[i] > 0.5 && f.slip_m_per_s > 0;
+    const bool slips = fit.weights()[i] > 0.5 && f.slip_m_per_s > 0;
     if (!slips || dot(normalized(way), direction) < k_straight) goes_on = false;
     if (norm(way) > 0) direction = normalized(way);
     if (!slips) continue;
@@ -494,38 +514,31 @@ std::vector<FittedForce> fitted_forces(const Fit& fit, const std::vector<ModelFo
     const Vec3 friction = forces[i].force_n - dot(forces[i].force_n, n) * n;
     const Vec3 against = normalized(friction);
     fitted.push_back({sample.t_s, dot(sample.force_n, n), dot(sample.force_n, against), dot(forces[i].force_n, n),
-                      norm(friction), forces[i].load_n, forces[i].slip_m_per_s, fit.is_used(i)});
+                      norm(friction), forces[i].load_n, forces[i].slip_m_per_s});
   }
   return fitted;
 }
 
-/// Where forces are compared: 1, else 0.
-std::vector<double> usable(std::span<const StrokeSample> stroke, const FitOptions& options, double contact_force_n) {
-  std::vector<double> weights(stroke.size(), 1);
-  std::optional<double> first;
-  for (std::size_t i = 0; i < stroke.size(); ++i) {
-    const double size = norm(stroke[i].force_n);
-    if (!first && size >= contact_force_n) first = stroke[i].t_s;
-    const bool settles = first && stroke[i].t_s < *first + options.settle_s;
-    if (settles || size >= 0.999 * options.max_force_n) weights[i] = 0;
-  }
-  return weights;
-}
-
 /// Force from which on a sample counts as contact. @throws InvalidInput when the stroke never presses.
-double contact_force(std::span<const StrokeSample> stroke, const FitOptions& options, const std::string& name) {
+double contact_force(std::span<const StrokeSample> stroke, const std::string& name) {
   double largest = 0;
   for (const StrokeSample& sample : stroke) largest = std::max(largest, norm(sample.force_n));
   const double contact = std::max(k_least_force_n, k_contact_share * largest);
-  const std::vector<double> weights = usable(stroke, options, contact);
   std::size_t count = 0;
-  for (std::size_t i = 0; i < stroke.size(); ++i) count += weights[i] > 0 && norm(stroke[i].force_n) >= contact;
+  for (const StrokeSample& sample : stroke) count += norm(sample.force_n) >= contact;
   if (count < k_least_contacts)
-    throw InvalidInput(fmt::format(
-        "{}: the stroke never presses: {} samples have a force of {:.3g} N or more, {:.3g} s after the first one and "
-        "below the largest force, so that nothing of the material is identified",
-        name, count, contact, options.settle_s));
+    throw InvalidInput(fmt::format("{}: the stroke never presses: {} samples have a force of {:.3g} N or more, so that "
+                                   "nothing of the material is identified",
+                                   name, count, contact));
   return contact;
+}
+
+/// What the player's guard did to the forces.
+std::optional<SafetyLimits> guard_of(std::span<const StrokeSample> stroke, const FitOptions& options) {
+  const bool is_player = options.forces == StrokeForces::player ||
+                         (options.forces == StrokeForces::automatic && stroke.front().proxy_m.has_value());
+  if (!is_player) return std::nullopt;
+  return safety_limits(options.max_force_n);
 }
 
 StrokeSurface surface_of(std::span<const StrokeSample> stroke, const FitOptions& options, const std::string& name) {
@@ -548,15 +561,15 @@ MaterialFit fit_material(std::span<const StrokeSample> stroke, const FitOptions&
     result.warnings.push_back(fmt::format("only the first {} of {} samples are used", options.most_samples, stroke.size()));
     stroke = stroke.first(options.most_samples);
   }
-  const double contact_n = contact_force(stroke, options, name);
+  const double contact_n = contact_force(stroke, name);
   double squares = 0, contacts = 0;
   for (const StrokeSample& sample : stroke)
     if (norm(sample.force_n) >= contact_n) squares += dot(sample.force_n, sample.force_n), ++contacts;
-  Fit fit(StrokeModel(stroke, surface_of(stroke, options, name), contact_n), usable(stroke, options, contact_n),
+  Fit fit(StrokeModel(stroke, surface_of(stroke, options, name), contact_n, guard_of(stroke, options)),
           k_best_sensor * std::sqrt(squares / contacts));
-  fit.parameters = first_parameters(fit.model(), contact_n);
   fit.free = {P::stiffness, P::offset, P::damping, P::dynamic_friction};
   if (fit.model().surface() == StrokeSurface::plane) fit.free.insert(fit.free.end(), {P::tilt_u, P::tilt_v});
+  begin(fit, first_guesses(fit.model(), contact_n), progress, name);
   fit.solve(progress, name);
   for (int i = 0; i < k_reweightings; ++i) fit.reweight(), fit.solve(progress, name);
   const StrokeFacts first = facts_of(fit, fit.forces());
@@ -570,14 +583,17 @@ MaterialFit fit_material(std::span<const StrokeSample> stroke, const FitOptions&
   result.trace = std::move(fit.trace);
   result.samples = stroke.size();
   double sum = 0;
-  for (std::size_t i = 0; i < forces.size(); ++i)
-    if (fit.is_used(i)) {
-      const Vec3 r = fit.residual(i, forces);
-      sum += dot(r, r);
-      ++result.used_samples;
-    }
-  result.rms_residual_n = std::sqrt(sum / static_cast<double>(result.used_samples));
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const Vec3 r = fit.residual(i, forces);
+    sum += dot(r, r);
+    result.outliers += fit.weights()[i] < 0.5;
+  }
+  result.rms_residual_n = std::sqrt(sum / static_cast<double>(forces.size()));
   result.forces = fitted_forces(fit, forces);
+  if (by_speed && result.surface == StrokeSurface::plane && sticks_and_slips(fit.parameters, facts))
+    result.warnings.push_back(
+        "friction falls so fast with speed that the contact sticks and slips: without recorded proxies static friction "
+        "and Stribeck speed are less certain than their intervals say");
   Verdicts verdicts(result, fit);
   verdicts.judge_stiffness(facts);
   verdicts.judge_damping(facts);

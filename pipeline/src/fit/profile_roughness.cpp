@@ -109,7 +109,7 @@ std::optional<FittedNumber> hurst_of(const std::vector<Window>& windows, double 
   for (const Window& window : windows) shortest = std::min(shortest, window.heights.size());
   std::vector<std::size_t> lags;
   std::vector<double> log_lags, logs;
-  for (std::size_t lag = 1; 8 * lag <= shortest; lag *= 2) {
+  for (std::size_t lag = 2; 8 * lag <= shortest; lag *= 2) {  // Over one step, interpolation smooths.
     double mean = 0, step = 0;
     for (const Window& window : windows) {
       mean += second_difference(window, lag, noise_m) / static_cast<double>(windows.size());

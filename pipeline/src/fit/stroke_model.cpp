@@ -14,6 +14,7 @@ namespace {
 
 constexpr double k_smoothing_s = 1e-3;   // Of the velocity: HapticTick's.
 constexpr double k_least_slide_m = 2e-6;  // Of a proxy in a sample; below, its direction is rounding. Over τ = 1.25 µm.
+constexpr double k_skin_m = 2e-5;         // Of a contact surface: there the player knows of the contact.
 constexpr double k_first_friction = 0.3, k_first_speed = 0.01;  // Of the descent.
 constexpr double k_shallow_m = 1e-6;                            // Least depth that a first stiffness rests on.
 
@@ -70,6 +71,31 @@ std::vector<Vec3> recorded_normals(std::span<const StrokeSample> stroke) {
   return normals;
 }
 
+/// Coulomb's friction of a proxy on a plane, and how fast it slips.
+class SlidingFriction {
+ public:
+  /// @param slip_m_per_s smoothed; unchanged while it holds.
+  Vec3 force(const ContactMaterial& material, Vec3 n, double load_n, Vec3 moved, double period_s,
+             double& slip_m_per_s) noexcept {
+    const Vec3 friction = bristles_.force(material, n, load_n, moved, period_s);
+    const Vec3 now = (-1 / material.stiffness) * friction;
+    const double slipped = norm(held_ + across(moved, n) - now);
+    if (slipped > 1e-3 * norm(moved)) slip_m_per_s = speed_;
+    speed_ += friction_memory_share(period_s) * (slipped / period_s - speed_);
+    held_ = now;
+    return friction;
+  }
+  void release() noexcept {
+    bristles_.release();
+    held_ = {}, speed_ = 0;
+  }
+
+ private:
+  BristleFriction bristles_;
+  Vec3 held_;         // Deflection.
+  double speed_ = 0;  // As that of the bristles.
+};
+
 /// Two unit vectors across a unit vector.
 std::array<Vec3, 2> tangents(Vec3 n) {
   const Vec3 axis = std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -101,19 +127,14 @@ ContactShape contact_shape(std::span<const StrokeSample> stroke, double contact_
   return shape;
 }
 
-double squares(const StrokeModel& model, const StrokeParameters& parameters) {
-  std::vector<ModelForce> forces;
-  model.evaluate(parameters, forces);
-  double sum = 0;
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    const Vec3 residual = model.stroke()[i].force_n - forces[i].force_n;
-    sum += dot(residual, residual);
-  }
-  return sum;
-}
+/// Stiffness and offset of a spring.
+struct Spring {
+  double stiffness = 0, offset = 0;
+};
 
-/// ln k and offset by regression of the force along `normal` on the depth, where there is force.
-void start_spring(StrokeParameters& p, const StrokeModel& model, double contact_force_n, Vec3 normal) {
+/// By regression of the force along `normal` on the depth, where there is force, and through the place where contact
+/// seems to begin: on a recorded surface the surface, else the shallowest one that was felt.
+std::vector<Spring> first_springs(const StrokeModel& model, double contact_force_n, Vec3 normal) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, shallowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < model.stroke().size(); ++i) {
     const Vec3 felt = model.stroke()[i].force_n;
@@ -122,20 +143,49 @@ void start_spring(StrokeParameters& p, const StrokeModel& model, double contact_
     n += 1, x += depth, y += force, xx += depth * depth, xy += depth * force;
     shallowest = std::min(shallowest, depth);
   }
-  const double spread = xx - x * x / n, slope = (xy - x * y / n) / spread;
-  // Without variation of depth: a surface at the shallowest place that was felt.
-  const double steep = y / n / std::max(x / n - shallowest, k_shallow_m);
-  const bool is_line = spread > 0 && slope > 0.05 * steep;
-  const double k = std::clamp(is_line ? slope : steep, 1.0, 1e6);
-  p.x[StrokeParameters::stiffness] = std::log(k);
-  p.x[StrokeParameters::offset] = x / n - y / n / k;
+  const double mean_depth = x / n, mean_force = y / n, spread = xx - x * x / n, slope = (xy - x * y / n) / spread;
+  const double begin = model.surface() == StrokeSurface::recorded ? 0 : shallowest;
+  std::vector<Spring> springs;
+  const auto add = [&](double stiffness) {
+    const double k = std::clamp(stiffness, 1.0, 1e6);
+    springs.push_back({k, mean_depth - mean_force / k});
+  };
+  add(mean_force / std::max(mean_depth - begin, k_shallow_m));
+  if (spread > 0 && slope > 0) add(slope);
+  return springs;
 }
 
 }  // namespace
 
-StrokeModel::StrokeModel(std::span<const StrokeSample> stroke, StrokeSurface surface, double contact_force_n)
-    : stroke_(stroke), surface_(surface), velocity_(velocities_of(stroke)) {
-  if (surface_ == StrokeSurface::recorded) normals_ = recorded_normals(stroke);
+std::vector<StrokeModel::Recorded> StrokeModel::recorded_of(std::span<const StrokeSample> stroke) {
+  const std::vector<Vec3> normals = recorded_normals(stroke);
+  std::vector<Recorded> recorded(stroke.size());
+  double speed = 0;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    const Vec3 n = normals[i];
+    recorded[i] = {n, across(behind(stroke[i]), n), false, speed};
+    if (i == 0) continue;
+    const bool touches = norm(behind(stroke[i])) > k_least_slide_m && norm(behind(stroke[i - 1])) > k_least_slide_m;
+    const double slipped = touches ? norm(across(*stroke[i].proxy_m - *stroke[i - 1].proxy_m, n)) : 0;
+    recorded[i].slips = slipped > k_least_slide_m;
+    const double period = period_at(stroke, i);
+    speed += friction_memory_share(period) * (slipped / period - speed);
+  }
+  return recorded;
+}
+
+Vec3 StrokeModel::recorded_friction(std::size_t i, const ContactMaterial& material, double depth_m,
+                                    double& slip_m_per_s) const {
+  const Recorded& sample = recorded_[i];
+  if (!sample.slips) return material.stiffness * sample.lag;
+  slip_m_per_s = sample.slip_m_per_s;
+  return friction_coefficient(material, sample.slip_m_per_s) * material.stiffness * depth_m * normalized(sample.lag);
+}
+
+StrokeModel::StrokeModel(std::span<const StrokeSample> stroke, StrokeSurface surface, double contact_force_n,
+                         const std::optional<SafetyLimits>& guard)
+    : stroke_(stroke), surface_(surface), guard_(guard), velocity_(velocities_of(stroke)) {
+  if (surface_ == StrokeSurface::recorded) recorded_ = recorded_of(stroke);
   double count = 0;
   for (const StrokeSample& sample : stroke)
     if (norm(sample.force_n) >= contact_force_n) middle_ = middle_ + sample.probe_m, ++count;
@@ -153,17 +203,17 @@ Vec3 StrokeModel::normal(const StrokeParameters& p) const {
   if (surface_ == StrokeSurface::plane)
     return normalized(normal_ + p.x[StrokeParameters::tilt_u] * along_u_ + p.x[StrokeParameters::tilt_v] * along_v_);
   Vec3 mean;
-  for (const Vec3 n : normals_) mean = mean + n;
+  for (const Recorded& sample : recorded_) mean = mean + sample.normal;
   return normalized(mean);
 }
 
 Vec3 StrokeModel::normal_at(std::size_t i, Vec3 plane) const {
-  return surface_ == StrokeSurface::plane ? plane : normals_[i];
+  return surface_ == StrokeSurface::plane ? plane : recorded_[i].normal;
 }
 
 double StrokeModel::depth(std::size_t i, Vec3 plane) const {
   if (surface_ == StrokeSurface::plane) return dot(plane, middle_ - stroke_[i].probe_m);
-  return dot(normals_[i], behind(stroke_[i]));
+  return dot(recorded_[i].normal, behind(stroke_[i]));
 }
 
 void StrokeModel::evaluate(const StrokeParameters& p, std::vector<ModelForce>& forces) const {
@@ -175,52 +225,50 @@ void StrokeModel::evaluate(const StrokeParameters& p, std::vector<ModelForce>& f
   material.stribeck_velocity = std::exp(p.x[StrokeParameters::stribeck]);
   const double offset = p.x[StrokeParameters::offset];
   const Vec3 plane = normal(p);
-  BristleFriction bristles;  // With Coulomb's friction: that of a proxy on a plane.
-  double speed = 0;          // Its smoothed slip.
-  Vec3 held;                 // Its z.
+  SlidingFriction sliding;
+  std::optional<ForceGuard> guard;
+  if (guard_) guard.emplace(*guard_);
   forces.resize(stroke_.size());
   for (std::size_t i = 0; i < stroke_.size(); ++i) {
     ModelForce& force = forces[i];
     const Vec3 n = normal_at(i, plane);
-    const double depth = this->depth(i, plane) - offset;
-    force = {{}, n, 0, 0, velocity_[i]};
-    if (!(depth > 0)) {
-      bristles.release();
-      held = {}, speed = 0;
-      continue;
-    }
-    const double period = period_at(stroke_, i);
+    const double depth = this->depth(i, plane) - offset, period = period_at(stroke_, i);
     const Vec3 moved = i > 0 ? stroke_[i].probe_m - stroke_[i - 1].probe_m : Vec3{};
-    force.load_n = material.stiffness * depth;
-    const Vec3 friction = bristles.force(material, n, force.load_n, moved, period);
-    const Vec3 now = (-1 / material.stiffness) * friction;
-    const double slipped = norm(held + across(moved, n) - now);
-    speed += friction_memory_share(period) * (slipped / period - speed);
-    if (slipped > 1e-3 * norm(moved)) force.slip_m_per_s = speed;
-    held = now;
-    const double push = force.load_n - material.damping * dot(velocity_[i], n);
-    force.force_n = std::max(0.0, push) * n + friction;
+    force = {{}, n, 0, 0, velocity_[i]};
+    if (depth > 0) {
+      force.load_n = material.stiffness * depth;
+      const Vec3 friction = surface_ == StrokeSurface::plane
+                                ? sliding.force(material, n, force.load_n, moved, period, force.slip_m_per_s)
+                                : recorded_friction(i, material, depth, force.slip_m_per_s);
+      const double push = force.load_n - material.damping * dot(velocity_[i], n);
+      force.force_n = std::max(0.0, push) * n + friction;
+    } else {
+      sliding.release();
+    }
+    if (!guard) continue;
+    ContactStep step;
+    if (depth > -k_skin_m) step = {true, material.stiffness * std::abs(dot(n, moved)), material.stiffness, moved};
+    force.force_n = guard->apply(force.force_n, period, 0, step);
   }
 }
 
-StrokeParameters first_parameters(StrokeModel& model, double contact_force_n) {
-  StrokeParameters start;
-  start.x[StrokeParameters::dynamic_friction] = k_first_friction;
-  start.x[StrokeParameters::stribeck] = std::log(k_first_speed);
-  // Friction tilts the mean force along the way; where most of the way is along the surface, without that part.
+std::vector<FirstGuess> first_guesses(StrokeModel& model, double contact_force_n) {
   const ContactShape shape = contact_shape(model.stroke(), contact_force_n);
-  StrokeParameters best = start;
-  Vec3 best_normal = shape.mean_force;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3 normal : {shape.mean_force, normalized(across(shape.mean_force, shape.way))}) {
-    if (!(norm(normal) > 0)) continue;
-    model.set_normal(normal);
-    StrokeParameters tried = start;
-    start_spring(tried, model, contact_force_n, normal);
-    if (const double sum = squares(model, tried); sum < least) least = sum, best = tried, best_normal = normal;
-  }
-  model.set_normal(best_normal);
-  return best;
+  std::vector<Vec3> normals = {shape.mean_force};
+  // Friction tilts the mean force along the way; where most of the way is along the surface, without that part.
+  if (const Vec3 n = normalized(across(shape.mean_force, shape.way)); norm(n) > 0) normals.push_back(n);
+  if (model.surface() == StrokeSurface::recorded) normals.resize(1);
+  std::vector<FirstGuess> guesses;
+  for (const Vec3 normal : normals)
+    for (const Spring& spring : first_springs(model, contact_force_n, normal)) {
+      StrokeParameters p;
+      p.x[StrokeParameters::stiffness] = std::log(spring.stiffness);
+      p.x[StrokeParameters::offset] = spring.offset;
+      p.x[StrokeParameters::dynamic_friction] = k_first_friction;
+      p.x[StrokeParameters::stribeck] = std::log(k_first_speed);
+      guesses.push_back({p, normal});
+    }
+  return guesses;
 }
 
 }  // namespace papilla

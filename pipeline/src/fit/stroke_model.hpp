@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
+#include "papilla/haptic/contact_mesh.hpp"
+#include "papilla/haptic/safety.hpp"
 #include "papilla/pipeline/fit_material.hpp"
 #include "papilla/pipeline/stroke_recording.hpp"
 
@@ -30,10 +33,11 @@ struct ModelForce {
 /// The path of a stroke with the surface that it touched, on which the model of fit_material() is evaluated.
 class StrokeModel {
  public:
-  /// @param surface `recorded` or `plane`.
-  StrokeModel(std::span<const StrokeSample> stroke, StrokeSurface surface, double contact_force_n);
+  /// @param surface `recorded` or `plane`. @param guard of the player; nothing: forces are as they are.
+  StrokeModel(std::span<const StrokeSample> stroke, StrokeSurface surface, double contact_force_n,
+              const std::optional<SafetyLimits>& guard);
 
-  /// The forces of all samples, in order. Deterministic; cost: 50 ns a sample.
+  /// The forces of all samples, in order. Deterministic; cost: 100 ns a sample.
   void evaluate(const StrokeParameters& parameters, std::vector<ModelForce>& forces) const;
 
   StrokeSurface surface() const { return surface_; }
@@ -48,12 +52,29 @@ class StrokeModel {
  private:
   std::span<const StrokeSample> stroke_;
   StrokeSurface surface_;
+  std::optional<SafetyLimits> guard_;
   Vec3 middle_, normal_{0, 0, 1}, along_u_, along_v_;
-  std::vector<Vec3> normals_;  ///< Of a recorded surface.
+  /// What recorded proxies tell of a sample.
+  struct Recorded {
+    Vec3 normal, lag;         ///< Of the surface; of the proxy along it.
+    bool slips = false;
+    double slip_m_per_s = 0;  ///< Smoothed, before this sample.
+  };
+  std::vector<Recorded> recorded_;
   std::vector<Vec3> velocity_;
+
+  Vec3 recorded_friction(std::size_t i, const ContactMaterial& material, double depth_m, double& slip_m_per_s) const;
+  static std::vector<Recorded> recorded_of(std::span<const StrokeSample> stroke);
 };
 
-/// First parameters and, for a plane, normal. The friction is constant.
-StrokeParameters first_parameters(StrokeModel& model, double contact_force_n);
+/// Where a descent may begin.
+struct FirstGuess {
+  StrokeParameters parameters;  ///< With constant friction.
+  Vec3 normal;                  ///< Of a plane.
+};
+
+/// Normals by the mean force with and without its part along the way; stiffness by regression of force on depth, and
+/// as the quotient of both from where the contact seems to begin.
+std::vector<FirstGuess> first_guesses(StrokeModel& model, double contact_force_n);
 
 }  // namespace papilla

@@ -43,7 +43,7 @@ Plot friction_plot(const MaterialFit& fit) {
   const std::size_t step = std::max<std::size_t>(1, fit.forces.size() / k_drawn);
   for (std::size_t i = 0; i < fit.forces.size(); i += step) {
     const FittedForce& f = fit.forces[i];
-    if (!f.is_used || !(f.slip_m_per_s > 0) || f.load_n < k_light * heaviest) continue;
+    if (!(f.slip_m_per_s > 0) || f.load_n < k_light * heaviest) continue;
     measured.points.push_back({1e3 * f.slip_m_per_s, f.along_n / f.load_n});
     slowest = std::min(slowest, f.slip_m_per_s);
     fastest = std::max(fastest, f.slip_m_per_s);

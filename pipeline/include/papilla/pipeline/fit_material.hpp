@@ -22,12 +22,18 @@ enum class StrokeSurface {
   plane,      ///< An unknown plane, found with the material.
 };
 
+/// Where the forces of a recording come from.
+enum class StrokeForces {
+  automatic,  ///< The player where the recording has proxies, else a sensor.
+  player,     ///< They went through its ForceGuard: faded in, limited in size and rate.
+  sensor,
+};
+
 /// Options of fit_material().
 struct FitOptions {
   StrokeSurface surface = StrokeSurface::automatic;
-  double max_force_n = std::numeric_limits<double>::infinity();  ///< Of the device: there and above, forces are cut off.
-  /// For so long after the first contact forces are left out: the player fades them in (ForceGuard).
-  double settle_s = 0.1;
+  StrokeForces forces = StrokeForces::automatic;
+  double max_force_n = std::numeric_limits<double>::infinity();  ///< Of the player's device.
   std::size_t most_samples = 200'000;  ///< Later ones are left out.
 };
 
@@ -56,7 +62,6 @@ struct FittedForce {
   double fitted_normal_n = 0, fitted_along_n = 0;  ///< By the model.
   double load_n = 0;                               ///< k·δ of the model, which friction is a part of.
   double slip_m_per_s = 0;                         ///< Smoothed speed at which the contact slips; 0 while it holds.
-  bool is_used = false;                            ///< Not left out.
 };
 
 /// What fit_material() returns. A number that the recording does not tell is absent and in `not_identified`.
@@ -71,7 +76,7 @@ struct MaterialFit {
   StrokeSurface surface = StrokeSurface::plane;  ///< Which one was taken.
   Vec3 normal;                                   ///< Of the plane, or the mean of the recorded surface, unit.
   std::size_t samples = 0;                       ///< All that were looked at.
-  std::size_t used_samples = 0;                  ///< Those that forces were compared at.
+  std::size_t outliers = 0;                      ///< Of them with less than half of their weight.
   double rms_residual_n = 0;                     ///< Root mean square of the vector of force that is not explained.
   double slowest_slip_m_per_s = 0, fastest_slip_m_per_s = 0;  ///< 5 % and 95 % of the slipping samples; 0: none slip.
   StopReason stop = StopReason::converged;
@@ -85,6 +90,8 @@ struct MaterialFit {
 /// the normal, δ the depth of the probe behind the surface, v its velocity,
 ///     F = n·max(0, k·δ − b·(v·n)) + f,     f = −k·z,   z ← z + Δx,   |z| ≤ μ(s)·δ
 ///     μ(s) = μd + (μs − μd)·exp(−(s/vs)²), s the speed at which z is cut off, smoothed over 10 ms
+/// and, where the player made the forces, what its guard makes of F (safety.hpp): the force of the first contact fades
+/// in, and the device's largest force and rate are kept.
 /// δ = n·(proxy − probe) − g where the recording has proxies, n their direction without the part along the way and g a
 /// gap (the skin of the contact); δ = d − n·probe for a plane with unknown n and d. v is the recorded velocity, or the
 /// difference of the places smoothed over 1 ms, as in the player.
@@ -97,7 +104,7 @@ struct MaterialFit {
 ///
 /// A number is left out where its interval is wider than the number itself (half of it more than 50 %; frictions more
 /// than 0.05 and damping more than 0.25 N·s/m beside), and `not_identified` says what the stroke lacks. A stroke that
-/// identifies all presses deeper and less deep at some centimetres a second, rests, and slides from a crawl to a
+/// identifies all comes from the air, presses deeper and less deep at some centimetres a second, rests, and slides from a crawl to a
 /// decimetre a second.
 ///
 /// Roughness: heights h = n·probe + (F·n + b·v·n)/k against the way of the probe while it slips, in windows of at most
@@ -106,8 +113,8 @@ struct MaterialFit {
 /// windows, where it bends by less than a tenth of a decade.
 ///
 /// Breaks down where the model does: bristle friction, stimuli, two layers, surfaces that bend within the stroke and
-/// have no recorded proxies; where the player was at its largest force (see FitOptions::max_force_n) or softened forces
-/// (passivity); noise of the *positions* biases stiffness down. A recording of the player has the stiffness that the
+/// have no recorded proxies; where the player's largest force is not told and was reached, or
+/// passivity control softened forces; noise of the *positions* biases stiffness down. A recording of the player has the stiffness that the
 /// device was given, not what the tag wanted.
 ///
 /// Cost: about 2 µs a sample and iteration, some ten iterations. Deterministic. Source of the model: see the headers
