@@ -21,7 +21,8 @@ constexpr std::array<WeberFraction, k_touch_quantities> k_fractions{{
      "Samur, Colgate and Peshkin, Psychophysical evaluation of a variable friction tactile interface, SPIE 7240, 2009"},
     {"roughness", "times threshold", 0.20, 1,
      "Forta, Griffin and Morioka, Vibrotactile difference thresholds, Somatosensory and Motor Research 29, 2012 "
-     "(0.20 to 0.58, the least); roughness as the power of vibration over the threshold: Bensmaia and Hollins, Pacinian "
+     "(0.20 to 0.58, the least); roughness as the power of vibration over the threshold: Bensmaia and Hollins, "
+     "Pacinian "
      "representations of fine surface texture, Perception and Psychophysics 67, 2005"},
 }};
 
@@ -38,9 +39,9 @@ std::string models_of(const MaterialRule& rule) {
 std::string pattern_of(const MaterialRule& rule) {
   if (rule.texture.empty()) return "";
   const HeightRule& h = rule.height;
-  std::string text = fmt::format("{}|{}|{}|{}x{}|{}|{}|{}|{}|{}", rule.texture.string(), rule.recipe, rule.time,
-                                 rule.size_mm[0], rule.size_mm[1], h.pitch_mm, h.depth_mm.value_or(0), h.opposite,
-                                 h.scale, h.max_slope.value_or(0));
+  std::string text =
+      fmt::format("{}|{}|{}|{}x{}|{}|{}|{}|{}|{}", rule.texture.string(), rule.recipe, rule.time, rule.size_mm[0],
+                  rule.size_mm[1], h.pitch_mm, h.depth_mm.value_or(0), h.opposite, h.scale, h.max_slope.value_or(0));
   text += fmt::format("|{}", h.relief.height.seed);
   for (const auto& image : h.images) text += "|" + image.string();
   return text;
@@ -54,9 +55,7 @@ double weber_difference(double a, double b, double noise) {
 
 bool is_smooth(const FeltMaterial& m) { return m.pattern.empty(); }
 /// Its relief is known, and nobody feels it.
-bool feels_smooth(const FeltMaterial& m) {
-  return is_smooth(m) || (m.felt && m.felt->most_times_threshold < 1);
-}
+bool feels_smooth(const FeltMaterial& m) { return is_smooth(m) || (m.felt && m.felt->most_times_threshold < 1); }
 
 std::optional<double> roughness_of(const FeltMaterial& m) {
   if (m.felt) return m.felt->roughness;
@@ -119,7 +118,7 @@ std::span<const WeberFraction, k_touch_quantities> weber_fractions() { return k_
 
 FeltMaterial felt_material(const MaterialRule& rule, const Grain* grain, const TouchOptions& options) {
   const MaterialTag tag = surface_tag(rule, grain, 0);
-  FeltMaterial felt{rule.name,       tag.stiffness,        tag.damping, tag.static_friction, tag.dynamic_friction,
+  FeltMaterial felt{rule.name,       tag.stiffness,    tag.damping, tag.static_friction, tag.dynamic_friction,
                     models_of(rule), pattern_of(rule), {}};
   if (grain == nullptr) return felt;
   std::vector<WaveBand> bands = wave_bands(grain->relief, true);  // A surface repeats it, whether it tiles or not.

@@ -19,7 +19,7 @@ WaveBand band(double wave_mm, double amplitude_mm) {
 
 TEST(FeltWaves, ThresholdIsThePublishedCurve) {
   const double db_per_octave = 20 * std::log10(vibrotactile_threshold_m(80) / vibrotactile_threshold_m(160));
-  EXPECT_NEAR(db_per_octave, 12, 0.1);                                // Verrillo 1963.
+  EXPECT_NEAR(db_per_octave, 12, 0.1);                                            // Verrillo 1963.
   EXPECT_NEAR(20 * std::log10(vibrotactile_threshold_m(250) / 1e-6), -20, 1e-9);  // dB re 1 um.
   EXPECT_EQ(vibrotactile_threshold_m(1), vibrotactile_threshold_m(40));
   EXPECT_NEAR(vibrotactile_threshold_m(40), 3.9e-6, 0.01e-6);
@@ -49,7 +49,8 @@ TEST(FeltWaves, PowersOverTheThresholdAddUp) {
   const std::vector<WaveBand> one = {band(0.4, 3e-4)};  // 250 Hz, three times the threshold.
   EXPECT_NEAR(measure_felt_waves(one).times_threshold, 3, 1e-9);
   EXPECT_NEAR(measure_felt_waves(one).roughness, 3, 1e-9);
-  const std::vector<WaveBand> two = {band(0.4, 3e-4), band(0.8, 16e-4), band(4, 0.05)};  // 4 times at 125 Hz, 12.8 at 25 Hz.
+  const std::vector<WaveBand> two = {band(0.4, 3e-4), band(0.8, 16e-4),
+                                     band(4, 0.05)};  // 4 times at 125 Hz, 12.8 at 25 Hz.
   const FeltWaves felt = measure_felt_waves(two);
   EXPECT_NEAR(felt.roughness, 5, 1e-9);  // Without what is coarser than 1 mm.
   EXPECT_NEAR(felt.times_threshold, std::hypot(5, 0.05 / 3.90625e-3), 1e-6);
@@ -69,7 +70,8 @@ TEST(FeltWaves, WhatIsTogetherFarBelowTheThresholdMayBeLeftOut) {
 }
 
 TEST(FeltWaves, TheFinestWaveThatIsFelt) {
-  const std::vector<WaveBand> bands = {band(0.015, 1e-2), band(0.1, 1e-6), band(0.4, 1e-6), band(2, 0.02), band(5, 0.1)};
+  const std::vector<WaveBand> bands = {band(0.015, 1e-2), band(0.1, 1e-6), band(0.4, 1e-6), band(2, 0.02),
+                                       band(5, 0.1)};
   const FeltWaves felt = measure_felt_waves(bands);  // 0.015 mm is faster than 1 kHz even at 20 mm/s.
   EXPECT_FALSE(felt.may_be_left_out);
   EXPECT_EQ(felt.finest_felt_mm, bands[3].shortest_mm);

@@ -11,11 +11,11 @@ namespace papilla::testing {
 
 /// What a hand does on a plate of 0.1 m in the plane z = 0; every part takes two seconds, one after the other.
 struct HandPlan {
-  bool presses = true;   ///< In and out, five times a second, at one place.
-  bool rests = true;     ///< In contact.
-  bool crawls = true;    ///< To and fro at up to 12 mm/s.
-  bool hurries = true;   ///< To and fro at up to 210 mm/s.
-  bool steadily = false; ///< To and fro at 80 mm/s instead of crawling and hurrying, without pressing.
+  bool presses = true;    ///< In and out, five times a second, at one place.
+  bool rests = true;      ///< In contact.
+  bool crawls = true;     ///< To and fro at up to 12 mm/s.
+  bool hurries = true;    ///< To and fro at up to 210 mm/s.
+  bool steadily = false;  ///< To and fro at 80 mm/s instead of crawling and hurrying, without pressing.
   double depth_m = 1.5e-3;
 };
 

@@ -18,7 +18,8 @@ template <class Height>
 HeightMap relief_of(int width, int height, double pitch_x, double pitch_y, Height&& at) {
   HeightMap relief{width, height, {}, pitch_x, pitch_y, true};
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) relief.mm.push_back(static_cast<float>(at((x + 0.5) * pitch_x, (y + 0.5) * pitch_y)));
+    for (int x = 0; x < width; ++x)
+      relief.mm.push_back(static_cast<float>(at((x + 0.5) * pitch_x, (y + 0.5) * pitch_y)));
   return relief;
 }
 
@@ -42,8 +43,8 @@ TEST(WaveBands, AWaveIsInItsBandWhateverItsDirection) {
   const auto oblique = wave_bands(
       relief_of(128, 64, 0.1, 0.2, [](double x, double y) { return 0.03 * std::sin(two_pi * (x / 0.8 + y / 1.6)); }),
       true);
-  for (const auto& [bands, wave] : {std::pair{&along, 0.8}, std::pair{&down, 1.6},
-                                    std::pair{&oblique, 1 / std::hypot(1 / 0.8, 1 / 1.6)}}) {
+  for (const auto& [bands, wave] :
+       {std::pair{&along, 0.8}, std::pair{&down, 1.6}, std::pair{&oblique, 1 / std::hypot(1 / 0.8, 1 / 1.6)}}) {
     const WaveBand& band = strongest(*bands);
     EXPECT_LE(band.shortest_mm, wave);
     EXPECT_GT(band.longest_mm, wave);

@@ -76,8 +76,7 @@ Json touch_survey_json(const TouchSurvey& touch) {
             {"frequencies_hz", {touch.slowest_hz, touch.fastest_hz}},
             {"receptors", Json::array()}};
   for (std::size_t i = 0; i < k_touch_receptors.size(); ++i)
-    json["receptors"].push_back(
-        {{"name", k_touch_receptors[i].name}, {"variance_share", touch.receptor_shares[i]}});
+    json["receptors"].push_back({{"name", k_touch_receptors[i].name}, {"variance_share", touch.receptor_shares[i]}});
   json["unfelt_share"] = touch.unfelt_share;
   json["needed_size"] = {touch.needed_width, touch.needed_height};
   return json;

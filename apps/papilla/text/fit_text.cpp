@@ -49,8 +49,8 @@ std::string fit_text(const MaterialFit& fit) {
   for (const NotIdentified& missing : fit.not_identified)
     text += shown_format("not identified: {}: {}\n", missing.parameter, missing.reason);
   for (const std::string& warning : fit.warnings) text += shown_format("warning: {}\n", warning);
-  return text + shown_format("{} samples, {} of them far off; {:.3g} mN (rms) not explained; surface: {}; {}\n", fit.samples,
-                             fit.outliers, 1e3 * fit.rms_residual_n,
+  return text + shown_format("{} samples, {} of them far off; {:.3g} mN (rms) not explained; surface: {}; {}\n",
+                             fit.samples, fit.outliers, 1e3 * fit.rms_residual_n,
                              fit.surface == StrokeSurface::recorded ? "as recorded" : "a plane", to_string(fit.stop));
 }
 

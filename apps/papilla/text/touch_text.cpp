@@ -44,12 +44,10 @@ std::string receptors_text(const FeltWaves& felt) {
 
 std::string relief_line(const FeltMaterial& material, const ReliefSaving& saving) {
   const FeltWaves& felt = *material.felt;
-  std::string line =
-      shown_format("  {}: {:.3g} to {:.3g} Hz ({}), {:.3g} times the threshold", material.name, felt.slowest_hz,
-                   felt.fastest_hz, receptors_text(felt), felt.times_threshold);
+  std::string line = shown_format("  {}: {:.3g} to {:.3g} Hz ({}), {:.3g} times the threshold", material.name,
+                                  felt.slowest_hz, felt.fastest_hz, receptors_text(felt), felt.times_threshold);
   if (felt.may_be_left_out) return line + "; nobody feels it: it may be left out\n";
-  if (felt.finest_felt_mm > 0)
-    line += shown_format("; waves below {:.3g} mm are not felt", felt.finest_felt_mm);
+  if (felt.finest_felt_mm > 0) line += shown_format("; waves below {:.3g} mm are not felt", felt.finest_felt_mm);
   if (saving.saves())
     line += shown_format(": {} x {} samples would do for {} x {}, {:.0f} of {:.0f} kB", saving.needed_width,
                          saving.needed_height, saving.width, saving.height,
@@ -63,9 +61,8 @@ std::string touch_text(const TouchReport& report) {
   if (report.materials.empty()) return "";
   std::array<std::size_t, 3> count{};
   for (const MaterialPair& pair : report.pairs) ++count[static_cast<std::size_t>(pair.verdict)];
-  std::string text =
-      shown_format("\ntouch: {} materials, {} pairs: {} told apart, {} alike, {} not known\n", report.materials.size(),
-                   report.pairs.size(), count[0], count[1], count[2]);
+  std::string text = shown_format("\ntouch: {} materials, {} pairs: {} told apart, {} alike, {} not known\n",
+                                  report.materials.size(), report.pairs.size(), count[0], count[1], count[2]);
   text += pairs_of(report, PairVerdict::alike, "nobody tells apart by hand");
   text += pairs_of(report, PairVerdict::unknown, "not known");
   std::string reliefs;

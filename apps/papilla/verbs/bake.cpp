@@ -48,7 +48,8 @@ struct Options {
   }
 };
 
-/// The page, report.json, what hands feel of it, and pictures if they are wanted; what they are and took is added to the JSON.
+/// The page, report.json, what hands feel of it, and pictures if they are wanted; what they are and took is added to
+/// the JSON.
 void write_report(const Options& options, const Materials& rules, const BakeResult& result, const VerbContext& context,
                   const Stopwatch& total, Json& json) {
   const fs::path folder = options.report;

@@ -40,8 +40,8 @@ Json run(const Options& options, VerbContext& context) {
   const std::vector<StrokeSample> stroke = parse_stroke_recording(read_file(options.stroke), options.stroke);
   const MaterialFit fit = fit_material(stroke, wanted, options.stroke, context.progress);
   if (!fit.stiffness && !fit.damping && !fit.dynamic_friction)
-    throw InvalidInput(options.stroke + ": the stroke identifies nothing of the material: " +
-                       fit.not_identified.front().reason);
+    throw InvalidInput(options.stroke +
+                       ": the stroke identifies nothing of the material: " + fit.not_identified.front().reason);
   context.console.print(fit_text(fit));
   Json json = fit_json(options.stroke, fit);
   if (!options.output.empty()) {
@@ -53,8 +53,8 @@ Json run(const Options& options, VerbContext& context) {
   }
   if (!options.picture.empty()) {
     const bool is_drawn = write_plot(options.picture, fit_plots(fit));
-    context.console.print(shown_format(is_drawn ? "{}: forces and friction\n" : "{}: not drawn, gnuplot is missing\n",
-                                       options.picture));
+    context.console.print(
+        shown_format("{}: {}\n", options.picture, is_drawn ? "forces and friction" : "not drawn, gnuplot is missing"));
     json["picture"] = is_drawn ? Json(options.picture) : Json(nullptr);
   }
   return json;

@@ -26,17 +26,17 @@ constexpr std::size_t k_least_contacts = 20;  // Samples with force.
 constexpr double k_least_force_n = 5e-3;      // A press; below the friction of every device.
 constexpr double k_contact_share = 0.2;       // Of the largest force: surely contact, for first parameters.
 constexpr double k_best_sensor = 1e-3;        // Of the root mean square force: no force is known better.
-constexpr double k_huber = 4;                 // Robust deviations, of a vector: one of a thousand normal ones is beyond.
-constexpr double k_rough_tolerance = 1e-3;    // Of the misfit, to choose among starts.
+constexpr double k_huber = 4;               // Robust deviations, of a vector: one of a thousand normal ones is beyond.
+constexpr double k_rough_tolerance = 1e-3;  // Of the misfit, to choose among starts.
 constexpr int k_reweightings = 3;
-constexpr double k_block_s = 0.05;      // Errors hang together for no longer: the player's fade-in.
-constexpr double k_deviations = 1.96;   // 95 %
-constexpr double k_widest = 0.5;        // Of a number: half the interval of one that is identified.
+constexpr double k_block_s = 0.05;     // Errors hang together for no longer: the player's fade-in.
+constexpr double k_deviations = 1.96;  // 95 %
+constexpr double k_widest = 0.5;       // Of a number: half the interval of one that is identified.
 constexpr double k_wide_friction = 0.05, k_wide_damping = 0.25;  // So much is known of a zero, too.
 constexpr double k_least_slide_m = 1e-3;
 constexpr std::size_t k_least_slips = 20;
 constexpr double k_wide_range = 5;  // Of speeds, to say that friction does not depend on them.
-constexpr double k_chance = 9.21;  // 1 % of chi square with two degrees of freedom.
+constexpr double k_chance = 9.21;   // 1 % of chi square with two degrees of freedom.
 
 std::vector<double> sorted(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -199,8 +199,8 @@ void Fit::reweight() {
 
 void Fit::linearize(Eigen::VectorXd& residuals, Eigen::MatrixXd& slopes) const {
   const auto rows = static_cast<Eigen::Index>(3 * model_.stroke().size());
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_row(
-      rows, static_cast<Eigen::Index>(free.size()));
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_row(rows,
+                                                                                static_cast<Eigen::Index>(free.size()));
   residuals.resize(rows);
   std::vector<double> x;
   for (const P::Index k : free) x.push_back(parameters.x[k]);
@@ -275,9 +275,9 @@ class Uncertainty {
 
 /// What the stroke did, as the reasons tell it.
 struct StrokeFacts {
-  double slid_m = 0;                   ///< Along the surface while there was force.
-  std::vector<double> slips_m_per_s;   ///< Of the slipping samples, ascending.
-  double fastest_press_m_per_s = 0;    ///< 95 % of the speeds along the normal.
+  double slid_m = 0;                  ///< Along the surface while there was force.
+  std::vector<double> slips_m_per_s;  ///< Of the slipping samples, ascending.
+  double fastest_press_m_per_s = 0;   ///< 95 % of the speeds along the normal.
   double shallowest_m = 0, deepest_m = 0;
 };
 
@@ -405,9 +405,9 @@ class Verdicts {
 
   void judge_friction(const StrokeFacts& facts, bool by_speed) {
     if (!slides(facts)) {
-      const std::string reason =
-          fmt::format("the probe never slid: it moved {:.3g} mm along the surface while it pressed, and {} samples slip",
-                      1e3 * facts.slid_m, facts.slips_m_per_s.size());
+      const std::string reason = fmt::format(
+          "the probe never slid: it moved {:.3g} mm along the surface while it pressed, and {} samples slip",
+          1e3 * facts.slid_m, facts.slips_m_per_s.size());
       for (const char* name : {"static_friction", "dynamic_friction", "stribeck_velocity"}) leave_out(name, reason);
       return;
     }
@@ -423,12 +423,11 @@ class Verdicts {
     if (by_speed) {
       result_.static_friction = not_negative(mu + fit_.parameters.x[P::friction_drop],
                                              uncertainty_.half({P::dynamic_friction, P::friction_drop}));
-      result_.stribeck_velocity =
-          from_log(fit_.parameters.x[P::stribeck], uncertainty_.half({P::stribeck}));
+      result_.stribeck_velocity = from_log(fit_.parameters.x[P::stribeck], uncertainty_.half({P::stribeck}));
       return;
     }
-    const std::string speeds = fmt::format("{:.3g} to {:.3g} mm/s", 1e3 * result_.slowest_slip_m_per_s,
-                                           1e3 * result_.fastest_slip_m_per_s);
+    const std::string speeds =
+        fmt::format("{:.3g} to {:.3g} mm/s", 1e3 * result_.slowest_slip_m_per_s, 1e3 * result_.fastest_slip_m_per_s);
     if (result_.fastest_slip_m_per_s > k_wide_range * result_.slowest_slip_m_per_s) {
       result_.static_friction = result_.dynamic_friction;
       leave_out("stribeck_velocity", "friction does not change over the speeds of the stroke, " + speeds);
@@ -448,14 +447,18 @@ class Verdicts {
   Uncertainty uncertainty_;
 };
 
-/// Noise of a component of force: of samples without contact, or at rest in it; nothing where there are few.
+/// Noise of a component of force: of differences between neighbours without contact, or at rest in it, which an offset
+/// does not matter to; nothing where there are few.
 std::optional<double> noise_of(const Fit& fit, const std::vector<ModelForce>& forces) {
   constexpr double k_rest_m_per_s = 1e-4;
+  const auto is_quiet = [&](std::size_t i) {
+    return !(forces[i].load_n > 0) || norm(forces[i].velocity_m_per_s) <= k_rest_m_per_s;
+  };
   double squares = 0, count = 0;
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    if (forces[i].load_n > 0 && norm(forces[i].velocity_m_per_s) > k_rest_m_per_s) continue;
-    const Vec3 r = fit.residual(i, forces);
-    squares += fit.weights()[i] * dot(r, r) / 3;
+  for (std::size_t i = 1; i < forces.size(); ++i) {
+    if (!is_quiet(i) || !is_quiet(i - 1) || (forces[i].load_n > 0) != (forces[i - 1].load_n > 0)) continue;
+    const Vec3 d = fit.residual(i, forces) - fit.residual(i - 1, forces);
+    squares += dot(d, d) / 6;
     count += 1;
   }
   if (count < static_cast<double>(k_least_samples)) return std::nullopt;
@@ -465,7 +468,8 @@ std::optional<double> noise_of(const Fit& fit, const std::vector<ModelForce>& fo
 /// The straight pieces that the probe slid along, as places of the surface.
 std::vector<std::vector<ProfilePoint>> profiles_of(const Fit& fit, const std::vector<ModelForce>& forces) {
   constexpr double k_straight = 0.9;  // Cosine.
-  const double k = std::exp(fit.parameters.x[P::stiffness]), b = fit.parameters.x[P::damping];
+  constexpr double k_far_off = 0.1;   // Weight of a force that is no relief.
+  const double k = std::exp(fit.parameters.x[P::stiffness]);
   std::vector<std::vector<ProfilePoint>> runs;
   Vec3 direction;
   bool goes_on = false;
@@ -474,7 +478,7 @@ std::vector<std::vector<ProfilePoint>> profiles_of(const Fit& fit, const std::ve
     const StrokeSample& now = fit.model().stroke()[i];
     const Vec3 moved = now.probe_m - fit.model().stroke()[i - 1].probe_m;
     const Vec3 way = moved - dot(moved, f.normal) * f.normal;
-    const bool slips = fit.weights()[i] > 0.5 && f.slip_m_per_s > 0;
+    const bool slips = fit.weights()[i] > k_far_off && f.slip_m_per_s > 0;
     if (!slips || dot(normalized(way), direction) < k_straight) goes_on = false;
     if (norm(way) > 0) direction = normalized(way);
     if (!slips) continue;
@@ -482,7 +486,7 @@ std::vector<std::vector<ProfilePoint>> profiles_of(const Fit& fit, const std::ve
     const double way_m = goes_on ? runs.back().back().way_m + norm(way) : 0;
     if (goes_on && !(norm(way) > 0)) continue;
     goes_on = true;
-    const double depth = (dot(now.force_n, f.normal) + b * dot(f.velocity_m_per_s, f.normal)) / k;
+    const double depth = (f.load_n + dot(fit.residual(i, forces), f.normal)) / k;
     runs.back().push_back({way_m, now.probe_m + depth * f.normal, f.normal});
   }
   return runs;
@@ -527,9 +531,10 @@ double contact_force(std::span<const StrokeSample> stroke, const std::string& na
   std::size_t count = 0;
   for (const StrokeSample& sample : stroke) count += norm(sample.force_n) >= contact;
   if (count < k_least_contacts)
-    throw InvalidInput(fmt::format("{}: the stroke never presses: {} samples have a force of {:.3g} N or more, so that "
-                                   "nothing of the material is identified",
-                                   name, count, contact));
+    throw InvalidInput(
+        fmt::format("{}: the stroke never presses: {} samples have a force of {:.3g} N or more, so that "
+                    "nothing of the material is identified",
+                    name, count, contact));
   return contact;
 }
 
@@ -545,8 +550,7 @@ StrokeSurface surface_of(std::span<const StrokeSample> stroke, const FitOptions&
   const bool has_proxies = stroke.front().proxy_m.has_value();
   if (options.surface == StrokeSurface::recorded && !has_proxies)
     throw InvalidInput(name + ": has no columns proxy_x, proxy_y, proxy_z that tell the surface");
-  if (options.surface == StrokeSurface::automatic)
-    return has_proxies ? StrokeSurface::recorded : StrokeSurface::plane;
+  if (options.surface == StrokeSurface::automatic) return has_proxies ? StrokeSurface::recorded : StrokeSurface::plane;
   return options.surface;
 }
 
@@ -558,7 +562,8 @@ MaterialFit fit_material(std::span<const StrokeSample> stroke, const FitOptions&
   if (stroke.size() < k_least_samples)
     throw InvalidInput(fmt::format("{}: {} samples are fewer than {}", name, stroke.size(), k_least_samples));
   if (stroke.size() > options.most_samples) {
-    result.warnings.push_back(fmt::format("only the first {} of {} samples are used", options.most_samples, stroke.size()));
+    result.warnings.push_back(
+        fmt::format("only the first {} of {} samples are used", options.most_samples, stroke.size()));
     stroke = stroke.first(options.most_samples);
   }
   const double contact_n = contact_force(stroke, name);

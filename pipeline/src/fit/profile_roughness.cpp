@@ -141,8 +141,8 @@ std::optional<FittedNumber> hurst_of(const std::vector<Window>& windows, double 
   }
   const Mean mean = mean_of(slopes);
   if (!(mean.value > 0 && mean.value < 1)) {
-    reason = fmt::format("no rough surface: its differences of height grow with the lag to the power of {:.2f}",
-                         mean.value);
+    reason =
+        fmt::format("no rough surface: its differences of height grow with the lag to the power of {:.2f}", mean.value);
     return std::nullopt;
   }
   return FittedNumber{mean.value, std::max(0.0, mean.value - mean.half), std::min(1.0, mean.value + mean.half)};
@@ -175,7 +175,8 @@ ProfileRoughness profile_roughness(const std::vector<std::vector<ProfilePoint>>&
   }
   const Mean mean = mean_of(squares);
   if (!(mean.value - mean.half > noise_m * noise_m)) {
-    result.no_roughness = fmt::format("the heights differ by no more than the noise of the force, {:.3g} µm", 1e6 * noise_m);
+    result.no_roughness =
+        fmt::format("the heights differ by no more than the noise of the force, {:.3g} µm", 1e6 * noise_m);
     return result;
   }
   FittedRoughness roughness;

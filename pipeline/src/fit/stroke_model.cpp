@@ -12,7 +12,7 @@
 namespace papilla {
 namespace {
 
-constexpr double k_smoothing_s = 1e-3;   // Of the velocity: HapticTick's.
+constexpr double k_smoothing_s = 1e-3;    // Of the velocity: HapticTick's.
 constexpr double k_least_slide_m = 2e-6;  // Of a proxy in a sample; below, its direction is rounding. Over τ = 1.25 µm.
 constexpr double k_skin_m = 2e-5;         // Of a contact surface: there the player knows of the contact.
 constexpr double k_first_friction = 0.3, k_first_speed = 0.01;  // Of the descent.
@@ -53,21 +53,23 @@ std::vector<Vec3> recorded_normals(std::span<const StrokeSample> stroke) {
     const Vec3 way = *stroke[i].proxy_m - *stroke[i - 1].proxy_m;
     if (norm(way) > k_least_slide_m) sliding[i] = normalized(across(behind(stroke[i]), normalized(way)));
   }
+  constexpr std::size_t k_none = std::numeric_limits<std::size_t>::max();
   std::vector<Vec3> normals(stroke.size());
-  std::vector<std::size_t> distance(stroke.size(), stroke.size());
-  const auto spread = [&](std::size_t i, std::optional<std::size_t>& last) {
-    if (!touches(i)) last.reset();
+  std::vector<std::size_t> distance(stroke.size(), k_none);
+  const auto spread = [&](std::size_t i, std::size_t last) {
+    if (!touches(i)) last = k_none;
     if (sliding[i]) last = i;
-    if (!last) return;
-    const std::size_t away = i > *last ? i - *last : *last - i;
-    if (away < distance[i]) distance[i] = away, normals[i] = *sliding[*last];
+    if (last == k_none) return last;
+    const std::size_t away = i > last ? i - last : last - i;
+    if (away < distance[i]) distance[i] = away, normals[i] = *sliding[last];
+    return last;
   };
-  std::optional<std::size_t> last;
-  for (std::size_t i = 0; i < stroke.size(); ++i) spread(i, last);
-  last.reset();
-  for (std::size_t i = stroke.size(); i-- > 0;) spread(i, last);
+  std::size_t last = k_none;
+  for (std::size_t i = 0; i < stroke.size(); ++i) last = spread(i, last);
+  last = k_none;
+  for (std::size_t i = stroke.size(); i-- > 0;) last = spread(i, last);
   for (std::size_t i = 0; i < stroke.size(); ++i)
-    if (distance[i] == stroke.size() && touches(i)) normals[i] = normalized(behind(stroke[i]));
+    if (distance[i] == k_none && touches(i)) normals[i] = normalized(behind(stroke[i]));
   return normals;
 }
 

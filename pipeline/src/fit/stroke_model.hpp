@@ -25,9 +25,9 @@ struct StrokeParameters {
 /// The force of the model at a sample.
 struct ModelForce {
   Vec3 force_n, normal;
-  double load_n = 0;         ///< k·δ; 0 without contact.
-  double slip_m_per_s = 0;   ///< 0 while it holds.
-  Vec3 velocity_m_per_s;     ///< That damping acts on.
+  double load_n = 0;        ///< k·δ; 0 without contact.
+  double slip_m_per_s = 0;  ///< 0 while it holds.
+  Vec3 velocity_m_per_s;    ///< That damping acts on.
 };
 
 /// The path of a stroke with the surface that it touched, on which the model of fit_material() is evaluated.
@@ -56,7 +56,7 @@ class StrokeModel {
   Vec3 middle_, normal_{0, 0, 1}, along_u_, along_v_;
   /// What recorded proxies tell of a sample.
   struct Recorded {
-    Vec3 normal, lag;         ///< Of the surface; of the proxy along it.
+    Vec3 normal, lag;  ///< Of the surface; of the proxy along it.
     bool slips = false;
     double slip_m_per_s = 0;  ///< Smoothed, before this sample.
   };

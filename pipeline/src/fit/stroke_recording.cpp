@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <memory>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/near_name.hpp"
@@ -83,13 +84,15 @@ class Line {
 
   double number(std::size_t column) const {
     const std::string_view name = heading_.names()[column];
-    if (column >= fields_.size()) throw InvalidInput(fmt::format("{}column {} ({}) is missing", place_, column + 1, name));
+    if (column >= fields_.size())
+      throw InvalidInput(fmt::format("{}column {} ({}) is missing", place_, column + 1, name));
     double value = 0;
     const std::string_view text = fields_[column];
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
       throw InvalidInput(fmt::format("{}column {} ({}) is no number", place_, column + 1, name));
-    if (!std::isfinite(value)) throw InvalidInput(fmt::format("{}column {} ({}) is not finite", place_, column + 1, name));
+    if (!std::isfinite(value))
+      throw InvalidInput(fmt::format("{}column {} ({}) is not finite", place_, column + 1, name));
     return value;
   }
   Vec3 vector(const Columns& columns) const { return {number(columns[0]), number(columns[1]), number(columns[2])}; }
@@ -120,8 +123,8 @@ StrokeSample sample_of(const Line& line, const Layout& layout) {
 
 std::vector<StrokeSample> parse_stroke_recording(std::string_view csv, const std::string& name) {
   std::vector<StrokeSample> samples;
-  std::optional<Heading> heading;
-  std::optional<Layout> layout;
+  std::unique_ptr<const Heading> heading;
+  std::unique_ptr<const Layout> layout;
   for (int number = 1; !csv.empty(); ++number) {
     const std::size_t end = csv.find('\n');
     const std::string_view text = trimmed(csv.substr(0, end));
@@ -129,8 +132,8 @@ std::vector<StrokeSample> parse_stroke_recording(std::string_view csv, const std
     if (text.empty() || text.front() == '#') continue;
     const std::string place = fmt::format("{}:{}: ", name, number);
     if (!heading) {
-      heading.emplace(text, place);
-      layout.emplace(*heading);
+      heading = std::make_unique<const Heading>(text, place);
+      layout = std::make_unique<const Layout>(*heading);
       continue;
     }
     const Line line(text, *heading, place);

@@ -16,9 +16,10 @@ using Style = PlotSeries::Style;
 constexpr std::size_t k_drawn = 4000;
 
 Plot force_plot(const MaterialFit& fit) {
-  Plot plot{.title = fmt::format("Force, measured and fitted: {:.3g} mN (rms) are not explained", 1e3 * fit.rms_residual_n),
-            .x_name = "time [s]",
-            .y_name = "force [N]"};
+  Plot plot{
+      .title = fmt::format("Force, measured and fitted: {:.3g} mN (rms) are not explained", 1e3 * fit.rms_residual_n),
+      .x_name = "time [s]",
+      .y_name = "force [N]"};
   PlotSeries normal{"normal, measured", {}, Style::points, 4}, along{"along, measured", {}, Style::points, 5};
   PlotSeries fitted_normal{"normal, fitted", {}, Style::line, 0}, fitted_along{"along, fitted", {}, Style::line, 1};
   const std::size_t step = std::max<std::size_t>(1, fit.forces.size() / k_drawn);
@@ -35,7 +36,8 @@ Plot force_plot(const MaterialFit& fit) {
 
 Plot friction_plot(const MaterialFit& fit) {
   constexpr double k_light = 0.2;  // Of the heaviest load; below, the quotient is noise.
-  Plot plot{.title = "Friction over speed", .x_name = "speed of slip [mm/s]", .y_name = "force along / load", .log_x = true};
+  Plot plot{
+      .title = "Friction over speed", .x_name = "speed of slip [mm/s]", .y_name = "force along / load", .log_x = true};
   double heaviest = 0;
   for (const FittedForce& f : fit.forces) heaviest = std::max(heaviest, f.load_n);
   PlotSeries measured{"measured", {}, Style::points, 4}, fitted{"fitted", {}, Style::line, 1};

@@ -196,8 +196,7 @@ std::optional<std::string> plot_svg(std::span<const Plot> plots) {
   std::vector<const Plot*> drawn;
   int height_px = 0;
   for (const Plot& plot : plots)
-    if (std::any_of(plot.series.begin(), plot.series.end(),
-                    [&](const PlotSeries& s) { return has_points(plot, s); })) {
+    if (std::any_of(plot.series.begin(), plot.series.end(), [&](const PlotSeries& s) { return has_points(plot, s); })) {
       drawn.push_back(&plot);
       height_px += plot.height_px;
     }

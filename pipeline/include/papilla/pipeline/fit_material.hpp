@@ -34,7 +34,7 @@ struct FitOptions {
   StrokeSurface surface = StrokeSurface::automatic;
   StrokeForces forces = StrokeForces::automatic;
   double max_force_n = std::numeric_limits<double>::infinity();  ///< Of the player's device.
-  std::size_t most_samples = 200'000;  ///< Later ones are left out.
+  std::size_t most_samples = 200'000;                            ///< Later ones are left out.
 };
 
 /// A number with its 95 % interval.
@@ -50,8 +50,8 @@ struct NotIdentified {
 
 /// The heights under the probe's way.
 struct FittedRoughness {
-  FittedNumber rms_m;                         ///< Root mean square about a parabola over the longest wave.
-  std::optional<FittedNumber> hurst;          ///< H, where a power law holds; the surface has the dimension 3 − H.
+  FittedNumber rms_m;                 ///< Root mean square about a parabola over the longest wave.
+  std::optional<FittedNumber> hurst;  ///< H, where a power law holds; the surface has the dimension 3 − H.
   double shortest_wave_m = 0, longest_wave_m = 0;  ///< Waves that the numbers are of.
 };
 
@@ -66,8 +66,8 @@ struct FittedForce {
 
 /// What fit_material() returns. A number that the recording does not tell is absent and in `not_identified`.
 struct MaterialFit {
-  std::optional<FittedNumber> stiffness;          ///< N/m
-  std::optional<FittedNumber> damping;            ///< N·s/m
+  std::optional<FittedNumber> stiffness;  ///< N/m
+  std::optional<FittedNumber> damping;    ///< N·s/m
   std::optional<FittedNumber> static_friction;
   std::optional<FittedNumber> dynamic_friction;   ///< Where only one speed was slid at: the friction at that speed.
   std::optional<FittedNumber> stribeck_velocity;  ///< m/s
@@ -80,8 +80,8 @@ struct MaterialFit {
   double rms_residual_n = 0;                     ///< Root mean square of the vector of force that is not explained.
   double slowest_slip_m_per_s = 0, fastest_slip_m_per_s = 0;  ///< 5 % and 95 % of the slipping samples; 0: none slip.
   StopReason stop = StopReason::converged;
-  Trace trace;                       ///< Weighted root mean square residual in newtons over the iterations.
-  std::vector<FittedForce> forces;   ///< Of every sample.
+  Trace trace;                      ///< Weighted root mean square residual in newtons over the iterations.
+  std::vector<FittedForce> forces;  ///< Of every sample.
   std::vector<std::string> warnings;
 };
 
@@ -104,25 +104,25 @@ struct MaterialFit {
 ///
 /// A number is left out where its interval is wider than the number itself (half of it more than 50 %; frictions more
 /// than 0.05 and damping more than 0.25 N·s/m beside), and `not_identified` says what the stroke lacks. A stroke that
-/// identifies all comes from the air, presses deeper and less deep at some centimetres a second, rests, and slides from a crawl to a
-/// decimetre a second.
+/// identifies all comes from the air, presses deeper and less deep at some centimetres a second, rests, and slides from
+/// a crawl to a decimetre a second.
 ///
-/// Roughness: heights h = n·probe + (F·n + b·v·n)/k against the way of the probe while it slips, in windows of at most
-/// 20 mm and a quarter of the way, each less its parabola; rms² less the noise of the force (of samples without contact
-/// or at rest) over k². H is the mean slope of log rms second difference over log lag, with Student's interval over the
-/// windows, where it bends by less than a tenth of a decade.
+/// Roughness: heights h = n·probe + δ + ΔF·n/k, ΔF what the model leaves of the force, against the way of the probe
+/// while it slips, in windows of at most 20 mm and a fifth of the way, each less its parabola; rms² less the noise of
+/// the force (of samples without contact or at rest) over k². H is the mean slope of log rms second difference over log
+/// lag, with Student's interval over the windows, where it bends by less than a tenth of a decade.
 ///
 /// Breaks down where the model does: bristle friction, stimuli, two layers, surfaces that bend within the stroke and
 /// have no recorded proxies; where the player's largest force is not told and was reached, or
-/// passivity control softened forces; noise of the *positions* biases stiffness down. A recording of the player has the stiffness that the
-/// device was given, not what the tag wanted.
+/// passivity control softened forces; noise of the *positions* biases stiffness down. A recording of the player has the
+/// stiffness that the device was given, not what the tag wanted.
 ///
 /// Cost: about 2 µs a sample and iteration, some ten iterations. Deterministic. Source of the model: see the headers
 /// named; intervals: White, Maximum likelihood estimation of misspecified models, Econometrica 50, 1982; Huber, Robust
 /// estimation of a location parameter, Annals of Mathematical Statistics 35, 1964.
 /// @param name of the recording in messages.
-/// @throws InvalidInput when it has fewer than 50 samples, never presses, or has no proxies and options.surface asks for
-/// them; SolverFailure when no parameters fit.
+/// @throws InvalidInput when it has fewer than 50 samples, never presses, or has no proxies and options.surface asks
+/// for them; SolverFailure when no parameters fit.
 MaterialFit fit_material(std::span<const StrokeSample> stroke, const FitOptions& options, const std::string& name,
                          const ProgressCallback& progress = {});
 

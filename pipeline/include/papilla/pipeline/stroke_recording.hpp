@@ -13,10 +13,10 @@ namespace papilla {
 /// One sample of a recorded stroke, in SI units and one frame.
 struct StrokeSample {
   double t_s = 0;
-  Vec3 probe_m;                         ///< Centre of what touches.
-  Vec3 force_n;                         ///< On the hand: it points out of the surface.
-  std::optional<Vec3> proxy_m;          ///< Place of the probe on the surface, where the recording knows it.
-  std::optional<Vec3> velocity_m_per_s; ///< Of the probe, where it was measured.
+  Vec3 probe_m;                          ///< Centre of what touches.
+  Vec3 force_n;                          ///< On the hand: it points out of the surface.
+  std::optional<Vec3> proxy_m;           ///< Place of the probe on the surface, where the recording knows it.
+  std::optional<Vec3> velocity_m_per_s;  ///< Of the probe, where it was measured.
 };
 
 /// Reads a recording: CSV with a heading, whose columns may be in any order and others beside them. Needed are t,

@@ -59,8 +59,8 @@ struct PieceSurvey {
 
 /// What hands get of a picture's waves under a stroke. Heights are not known, so nothing is said of thresholds.
 struct TouchSurvey {
-  double speed_m_per_s = 0;               ///< TouchOptions::speed_m_per_s.
-  double slowest_hz = 0, fastest_hz = 0;  ///< Of the longest and the shortest wave.
+  double speed_m_per_s = 0;                                        ///< TouchOptions::speed_m_per_s.
+  double slowest_hz = 0, fastest_hz = 0;                           ///< Of the longest and the shortest wave.
   std::array<double, k_touch_receptors.size()> receptor_shares{};  ///< Of the variance of grey, in each band.
   double unfelt_share = 0;                                         ///< Faster than all bands.
   int needed_width = 0, needed_height = 0;  ///< Pixels of the picture that even a slow stroke can tell apart.
