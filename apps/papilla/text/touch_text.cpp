@@ -32,7 +32,7 @@ std::string pairs_of(const TouchReport& report, PairVerdict verdict, const char*
   }
   if (count == 0) return "";
   if (count > k_listed) lines += shown_format("  and {} more\n", count - k_listed);
-  return shown_format("{}:\n{}", heading, lines);
+  return shown_format("{}:\n", heading) + lines;
 }
 
 std::string receptors_text(const FeltWaves& felt) {
@@ -68,9 +68,8 @@ std::string touch_text(const TouchReport& report) {
   std::string reliefs;
   for (const FeltMaterial& material : report.materials)
     if (material.felt) reliefs += relief_line(material, report.savings.at(material.name));
-  if (!reliefs.empty())
-    text += shown_format("reliefs under a stroke of {:g} m/s:\n{}", report.options.speed_m_per_s, reliefs);
-  return text;
+  if (!reliefs.empty()) text += shown_format("reliefs under a stroke of {:g} m/s:\n", report.options.speed_m_per_s);
+  return text + reliefs;
 }
 
 }  // namespace papilla::app

@@ -161,6 +161,8 @@ void Fit::solve(const ProgressCallback& progress, const std::string& name, doubl
         case P::stribeck: return {std::log(1e-6), std::log(10)};
         case P::tilt_u:
         case P::tilt_v: return {-1, 1};
+        case P::offset:
+          return model_.surface() == StrokeSurface::recorded ? std::pair{0.0, k_widest_gap_m} : std::pair{-1e6, 1e6};
         default: return {-1e6, 1e6};
       }
     }();

@@ -150,7 +150,9 @@ std::vector<Spring> first_springs(const StrokeModel& model, double contact_force
   std::vector<Spring> springs;
   const auto add = [&](double stiffness) {
     const double k = std::clamp(stiffness, 1.0, 1e6);
-    springs.push_back({k, mean_depth - mean_force / k});
+    const double offset = mean_depth - mean_force / k;
+    springs.push_back(
+        {k, model.surface() == StrokeSurface::recorded ? std::clamp(offset, 0.0, k_widest_gap_m) : offset});
   };
   add(mean_force / std::max(mean_depth - begin, k_shallow_m));
   if (spread > 0 && slope > 0) add(slope);

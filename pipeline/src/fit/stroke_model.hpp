@@ -30,6 +30,9 @@ struct ModelForce {
   Vec3 velocity_m_per_s;    ///< That damping acts on.
 };
 
+/// Largest g: a skin in a scene of hundreds of metres.
+inline constexpr double k_widest_gap_m = 1e-3;
+
 /// The path of a stroke with the surface that it touched, on which the model of fit_material() is evaluated.
 class StrokeModel {
  public:
