@@ -85,6 +85,46 @@ function fillPlan({ scene, report }) {
     ...stages.map((stage) => ({ title: stage.replaceAll('_', ' '), of: (r) => r.stages[stage] ? mark(r.stages[stage]) : '' }))], rows));
 }
 
+const VERDICTS = { told_apart: 'told apart', alike: 'nobody tells apart', unknown: 'not known' };
+const ORDER = ['alike', 'unknown', 'told_apart'];
+
+/** A Weber difference, marked where it is more than its fraction. */
+function differenceCell(value, fraction) {
+  if (value === null) return '–';
+  const text = value === 'infinite' ? '∞' : number(value);
+  return value === 'infinite' || value > fraction ? element('b', {}, text) : text;
+}
+
+function reliefRows(materials) {
+  const felt = materials.filter(({ relief }) => relief);
+  if (!felt.length) return [];
+  const share = (name) => ({ title: `${name} %`, numeric: true, of: ({ relief }) => number(100 * relief.receptors.find((r) => r.name === name).variance_share) });
+  const finest = ({ may_be_left_out: none, finest_felt_mm: mm }) => none ? 'all of it' : mm === null ? 'nothing' : `below ${number(mm)} mm`;
+  const saving = ({ size, needed_size: needed, bytes, needed_bytes: left }) => left < bytes ? `${needed.join(' x ')} for ${size.join(' x ')}: ${number((bytes - left) / 1e3)} of ${number(bytes / 1e3)} kB` : 'nothing';
+  return [element('h3', {}, 'Reliefs under the stroke'), table([{ title: 'material', of: (m) => m.name },
+    { title: 'Hz', of: ({ relief }) => relief.frequencies_hz.map(number).join(' to ') }, ...felt[0].relief.receptors.map(({ name }) => share(name)),
+    { title: 'times threshold', numeric: true, of: ({ relief }) => number(relief.times_threshold) },
+    { title: 'not felt', of: ({ relief }) => finest(relief) }, { title: 'leaving it out saves', of: ({ relief }) => saving(relief) }], felt)];
+}
+
+/** Weber differences of all pairs of materials, and what of their reliefs is felt. */
+function fillApart({ report }) {
+  const host = $('apart-table');
+  if (!report?.touch) return host.append('bake --report compares the materials of a scene.');
+  const { speed_m_per_s: speed, weber, receptors, materials, pairs } = report.touch;
+  if (!pairs.length) host.append(element('p', {}, 'Fewer than two materials.'));
+  else {
+    const alike = pairs.filter(({ verdict }) => verdict === 'alike').length;
+    host.append(element('p', { class: 'note' }, `${alike} of ${count(pairs.length, 'pair')} nobody tells apart. Weber differences |a − b| / (min(a, b) + noise); bold: more than the fraction that is felt, ${weber.map((w) => `${w.quantity} ${w.fraction}`).join(', ')}.`),
+      table([{ title: 'material', of: (p) => p.a }, { title: 'and', of: (p) => p.b },
+        ...weber.map((w) => ({ title: w.quantity, numeric: true, of: (p) => differenceCell(p[w.quantity], w.fraction) })),
+        { title: 'verdict', of: (p) => VERDICTS[p.verdict] }, { title: 'why', of: (p) => p.reason }],
+      [...pairs].sort((p, q) => ORDER.indexOf(p.verdict) - ORDER.indexOf(q.verdict))));
+  }
+  host.append(...reliefRows(materials));
+  host.append(element('p', { class: 'note' }, `A stroke of ${speed} m/s. Receptors: ${receptors.map((r) => `${r.name} ${r.low_hz} to ${r.high_hz} Hz (${r.senses})`).join(', ')}. Sources: ${weber.map((w) => w.source).join('; ')}.`));
+}
+
 function fillTimings({ report }) {
   const host = $('timings-table');
   if (!report?.seconds) return host.append('Nothing was computed for this page but the page.');
@@ -113,6 +153,7 @@ function fillDownloads(data, touch) {
 export function fillTables(data, touch, onPart) {
   fillDistortion(data, onPart);
   fillPlan(data);
+  fillApart(data);
   fillTimings(data);
   fillDownloads(data, touch);
 }

@@ -184,6 +184,23 @@ std::vector<SurveyPicture> draw_survey(const TextureSurvey& survey, const std::f
   return pictures;
 }
 
+/// Of at most the middle 1024 pixels a side.
+TouchSurvey touch_of(const TextureSurvey& survey) {
+  constexpr int k_most_side = 1024;
+  const GreyImage part = middle_part(survey.middle, k_most_side);
+  const HeightMap grey{part.width, part.height, part.pixels, survey.pitch_mm, survey.pitch_mm, false};
+  const TouchOptions options;
+  const FeltWaves waves = measure_felt_waves(wave_bands(grey, false), options);
+  TouchSurvey touch{options.speed_m_per_s, waves.slowest_hz, waves.fastest_hz, {}, 0, 0, 0};
+  for (std::size_t i = 0; i < touch.receptor_shares.size(); ++i)
+    touch.receptor_shares[i] = waves.receptors[i].variance_share;
+  touch.unfelt_share = waves.unfelt_share;
+  const double finest_mm = finest_wave_mm(options);
+  touch.needed_width = needed_samples(survey.width, survey.pitch_mm, finest_mm);
+  touch.needed_height = needed_samples(survey.height, survey.pitch_mm, finest_mm);
+  return touch;
+}
+
 }  // namespace
 
 std::array<FractalReading, 6> named_readings(const FractalReadings& readings) {
@@ -220,6 +237,7 @@ TextureSurvey survey_picture(const std::filesystem::path& path, const SurveyOpti
     survey_whole(bands, options, progress, survey);
   }
   if (options.symmetry) survey.groups = groups_of(survey, options.pattern);
+  if (options.by_class && survey.pitch_mm > 0) survey.touch = touch_of(survey);
   if (!options.pictures.empty()) survey.pictures = draw_survey(survey, options.pictures);
   return survey;
 }

@@ -46,6 +46,7 @@ printf 't,x,y,z\n0,0,0,0.01\n0.01,0,0,0.01\n' >hand.csv
 "$papilla" bake scene.glb -m rules.json -o tagged.glb -q || fail "nothing baked"
 printf 'ISO-10303-21;\n' >part.step
 printf '{}' >own.json
+printf 't,x,y,z,force_x,force_y,force_z\n0,0,0,0,0,0,0\n1,0,0,0,0,0,1\n' >stroke.csv
 
 # What each verb reads and writes: VERB | arguments | inputs among them | option of each output.
 table='inspect    | one.obj --reach volume.json --view volume2.json  | one.obj volume.json volume2.json | --picture --json
@@ -60,6 +61,7 @@ synthesize | fractal --like grain.png --size 32              | grain.png        
 height     | grain.png                                       | grain.png                        | --output --normal --json
 texture    | dots --library lib.recipes -o made --size 8     | lib.recipes                      | --json
 weather    | scene.glb -c config.json                        | scene.glb config.json            | --output --json
+fit        | stroke.csv                                      | stroke.csv                       | --output --picture --json
 plan       | scene.glb -m rules.json --reach volume.json --view volume2.json | scene.glb rules.json volume.json volume2.json | --json
 bake       | scene.glb -m rules.json --library lib.recipes --reach volume.json --view volume2.json | scene.glb rules.json lib.recipes volume.json volume2.json | --output --json
 materials  | check own.json                                  | own.json                         | --output --picture --json

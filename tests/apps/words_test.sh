@@ -105,6 +105,21 @@ grep -qF "nothing of it is applied" "$out/plan.txt" || fail "plan suggests nothi
 grep -qF '"library:carpet/' "$out/plan.json" || fail "plan: no carpet for floor_carpet"
 grep -A1 '"stage": "tag"' "$out/plan.json" | grep -q '"run": true' && fail "plan: something suggested is applied"
 
+# A material from a stroke of the player, which plan reads.
+printf 'v 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 100 0\nf 1 2 3\nf 1 3 4\n' >"$out/plate.obj"
+echo '{"materials": {"m": {"stiffness": 350, "damping": 0.05, "staticFriction": 0.4, "dynamicFriction": 0.3}}, "assign": [{"part": "*", "material": "m"}]}' >"$out/m.json"
+"$papilla" bake "$out/plate.obj" -m "$out/m.json" -o "$out/plate.glb" -q || fail "bake: exit code $?"
+"$player" "$out/plate.glb" --seconds 2 --record "$out/stroke.csv" -q || fail "player: exit code $?"
+"$papilla" fit "$out/stroke.csv" -o "$out/fitted.json" --material felt --json "$out/fit.json" >"$out/fit.txt" || fail "fit: exit code $?"
+grep -q "^stiffness  *[0-9]" "$out/fit.txt" || fail "fit: $(cat "$out/fit.txt")"
+grep -q "^not identified: static_friction: " "$out/fit.txt" || fail "fit: $(cat "$out/fit.txt")"
+"$papilla" plan "$out/plate.obj" -m "$out/fitted.json" --strict -q || fail "plan of a fitted material: exit code $?"
+printf 't,x,y,z\n0,0,0,0\n' >"$out/hand.csv"
+says "hand.csv:1: the heading has no column force_x" 3 "$papilla" fit "$out/hand.csv"
+head -n 200 "$out/stroke.csv" >"$out/air.csv"
+says "air.csv: the stroke never presses" 3 "$papilla" fit "$out/air.csv"
+says "--surface: 'plan' is none of auto,recorded,plane; did you mean 'plane'?" 2 "$papilla" fit a.csv --surface plan
+
 # Rules that take nothing: a warning, or with --strict an error.
 cat >"$out/rules.json" <<'JSON'
 {"materials": {"hard": {"stiffness": 2000}}, "assign": [{"part": "vent_salt*", "material": "hard"}]}

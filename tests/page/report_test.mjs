@@ -89,6 +89,8 @@ try {
   await downloads(page);
   assert.ok(await page.locator('#plan-table tbody tr').count() > 20);
   assert.match(await text(page, '#sides'), /looked at from the room .*; 1 changed\.door_panel_right: [\d,]+ triangles turned over \(seen\)/);
+  assert.ok(await page.locator('#apart-table tbody tr').count() > 3, 'pairs of materials and reliefs');
+  assert.match(await text(page, '#apart-table'), /RAII 70 to 1000 Hz .* Jones and Hunter/);
   assert.ok(await page.locator('#cards article').count() >= 4);
   const tones = await page.locator('#environment').evaluate((canvas) => new Set(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data).size);
   assert.ok(tones > 30, `the environment is a picture: ${tones} tones`);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "json/scene_json.hpp"
+#include "json/touch_json.hpp"
 
 namespace papilla::app {
 namespace {
@@ -249,6 +250,7 @@ Json survey_json(const std::string& image, const TextureSurvey& survey) {
     if (survey.groups->rosette) json["rosette"] = rosette_json(*survey.groups->rosette);
   }
   if (survey.order) add_order(json, *survey.order);
+  if (survey.touch) json["touch"] = touch_survey_json(*survey.touch);
   for (const SurveyPicture& picture : survey.pictures)
     if (picture.drawn) json["pictures"].push_back({{"name", picture.name}, {"file", picture.file}});
   return json;

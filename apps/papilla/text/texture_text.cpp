@@ -78,6 +78,17 @@ void add_written(Lines& lines, const std::string& file, bool drawn) {
     lines.add("not drawn  {}: gnuplot is not installed\n", file);
 }
 
+void add_touch(Lines& lines, const TextureSurvey& survey) {
+  const TouchSurvey& touch = *survey.touch;
+  std::string shares;
+  for (std::size_t i = 0; i < k_touch_receptors.size(); ++i)
+    shares += shown_format("{} {:.0f} %, ", k_touch_receptors[i].name, 100 * touch.receptor_shares[i]);
+  lines.add("touch      at {:g} m/s waves of {:.3g} to {:.3g} Hz; of the variance in the bands of {}faster {:.0f} %\n",
+            touch.speed_m_per_s, touch.slowest_hz, touch.fastest_hz, shares, 100 * touch.unfelt_share);
+  if (touch.needed_width < survey.width || touch.needed_height < survey.height)
+    lines.add("           {} x {} pixels are as fine as any hand feels\n", touch.needed_width, touch.needed_height);
+}
+
 void add_numbers(Lines& lines, const char* when, const PictureNumbers& n) {
   lines.add(
       "{:<10} {} x {}, contrast {:.3f}, gradient {:.2f}, contrast ratio {:.2f}, knots {}, seams {:.2f} / {:.2f}, {}\n",
@@ -104,6 +115,7 @@ std::string survey_text(const std::string& image, const TextureSurvey& survey) {
   if (!survey.no_fractal.empty()) lines.add("fractal    not measured: {}; --only fractal does\n", survey.no_fractal);
   if (survey.groups) add_groups(lines, survey);
   if (survey.order) add_order(lines, *survey.order);
+  if (survey.touch) add_touch(lines, survey);
   for (const SurveyPicture& picture : survey.pictures) {
     add_written(lines, picture.file, picture.drawn);
     if (picture.name == "symmetry")

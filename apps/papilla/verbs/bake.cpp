@@ -6,11 +6,13 @@
 #include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "json/touch_json.hpp"
 #include "option_checks.hpp"
 #include "options/material_library_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
+#include "options/touch_option.hpp"
 #include "options/unwrap_option.hpp"
 #include "page/page_report.hpp"
 #include "papilla/core/atomic_file.hpp"
@@ -20,6 +22,7 @@
 #include "scene_output.hpp"
 #include "shown_format.hpp"
 #include "text/scene_text.hpp"
+#include "text/touch_text.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
@@ -37,6 +40,7 @@ struct Options {
   PerceptionOption perception;
   SideOption sides;
   SceneOptions scene;
+  TouchOptions touch;
 
   GlbWriteOptions write_options() const {
     const auto mirrored = [&](const char* name) { return std::count(mirrors.begin(), mirrors.end(), name) > 0; };
@@ -44,15 +48,21 @@ struct Options {
   }
 };
 
-/// The page, report.json, and pictures if they are wanted; what they are and took is added to the JSON.
-void write_report(const Options& options, const BakeResult& result, const VerbContext& context, const Stopwatch& total,
-                  Json& json) {
+/// The page, report.json, what hands feel of it, and pictures if they are wanted; what they are and took is added to
+/// the JSON.
+void write_report(const Options& options, const Materials& rules, const BakeResult& result, const VerbContext& context,
+                  const Stopwatch& total, Json& json) {
   const fs::path folder = options.report;
   if (options.pictures) {
     const Stopwatch clock;
     json["pictures"] = write_bake_pictures(result, folder, context.progress);
     json["seconds"]["pictures"] = clock.seconds();
   }
+  const Stopwatch touching;
+  const TouchReport touch = report_touch(rules, result.plan.surfaces, result.grains, options.touch);
+  json["touch"] = touch_json(touch);
+  json["seconds"]["touch"] = touching.seconds();
+  context.console.print(touch_text(touch));
   const Stopwatch clock;
   write_report_page(options.output, json, result.grains, folder / "index.html", context.progress);
   json["page"] = "index.html";
@@ -100,7 +110,7 @@ Json run(const Options& options, VerbContext& context) {
   context.console.print(changes_line(result.changes));
   context.console.print(
       shown_format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
-  if (!options.report.empty()) write_report(options, result, context, total, json);
+  if (!options.report.empty()) write_report(options, rules, result, context, total, json);
   return json;
 }
 
@@ -145,6 +155,7 @@ void add_bake(CLI::App& program) {
       ->needs(report);
   options->perception.add_to(*verb);
   options->sides.add_to(*verb);
+  add_stroke_speed(*verb, options->touch);
   options->scene.add_to(*verb);
 }
 

@@ -7,10 +7,12 @@
 #include "file_options.hpp"
 #include "json/materials_json.hpp"
 #include "json/scene_json.hpp"
+#include "json/touch_json.hpp"
 #include "options/material_library_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
+#include "options/touch_option.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/pipeline/material_library.hpp"
 #include "papilla/pipeline/material_suggestion.hpp"
@@ -18,6 +20,7 @@
 #include "shown_format.hpp"
 #include "text/materials_text.hpp"
 #include "text/scene_text.hpp"
+#include "text/touch_text.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
@@ -30,6 +33,7 @@ struct Options {
   SideOption sides;
   SceneOptions scene;
   bool keep_copies = false;
+  TouchOptions touch;
 };
 
 /// What of the library may suit the surfaces that get no material; says why where the library can't be read.
@@ -60,11 +64,14 @@ Json run(const Options& options, VerbContext& context) {
   context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + grains_text(plan.grains) +
                         contact_models_text(rules, plan.surfaces) + rules_table(plan.rules, rules) +
                         sides_text(plan.sides, true) + left_out_table(plan.scene, plan.perception));
+  const TouchReport touch = report_touch(rules, plan.surfaces, {}, options.touch);
+  context.console.print(touch_text(touch));
   print_notes(plan.scene, context.console);
   Json json{{"scene", options.input}, {"materials", options.materials}, {"stages", plan_json(plan.surfaces)}};
   json["way"] = way_json(plan.way);
   json["grains"] = grain_plans_json(plan.grains);
   json["contact"] = contact_models_json(rules);
+  json["touch"] = touch_json(touch);
   json["uv"] = own_uv_json(plan.surfaces);
   json["rules"] = rules_json(plan.rules);
   json["suggestions"] = suggest(plan, options, context.console);
@@ -96,6 +103,7 @@ void add_plan(CLI::App& program) {
   verb->add_flag("--strict", options->strict, "Exit with 3 when a rule takes no surface");
   options->perception.add_to(*verb);
   options->sides.add_to(*verb);
+  add_stroke_speed(*verb, options->touch);
   options->scene.add_to(*verb);
 }
 

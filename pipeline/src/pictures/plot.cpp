@@ -138,12 +138,18 @@ std::string axes_of(const Plot& plot) {
          fmt::format(")\nset xrange [-0.6:{}]\nset boxwidth 0.7\n", static_cast<double>(plot.x_labels.size()) - 0.4);
 }
 
-std::string script_of(const Plot& plot) {
-  std::string script = fmt::format(
+std::string terminal_of(int width_px, int height_px) {
+  return fmt::format(
       "set terminal svg size {},{} dynamic enhanced background 'white' font 'sans-serif,12'\nset encoding utf8\n"
-      "set output 'plot.svg'\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n"
+      "set output 'plot.svg'\n",
+      width_px, height_px);
+}
+
+std::string commands_of(const Plot& plot) {
+  std::string script = fmt::format(
+      "set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n"
       "set key outside right top Left reverse noenhanced\n",
-      plot.width_px, plot.height_px, quoted(plot.title), quoted(plot.x_name), quoted(plot.y_name));
+      quoted(plot.title), quoted(plot.x_name), quoted(plot.y_name));
   script += axes_of(plot);
   std::string command;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
@@ -184,17 +190,30 @@ bool run_gnuplot(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<std::string> plot_svg(const Plot& plot) {
-  if (std::none_of(plot.series.begin(), plot.series.end(), [&](const PlotSeries& s) { return has_points(plot, s); }))
-    return std::nullopt;
+std::optional<std::string> plot_svg(const Plot& plot) { return plot_svg(std::span(&plot, 1)); }
+
+std::optional<std::string> plot_svg(std::span<const Plot> plots) {
+  std::vector<const Plot*> drawn;
+  int height_px = 0;
+  for (const Plot& plot : plots)
+    if (std::any_of(plot.series.begin(), plot.series.end(), [&](const PlotSeries& s) { return has_points(plot, s); })) {
+      drawn.push_back(&plot);
+      height_px += plot.height_px;
+    }
+  if (drawn.empty()) return std::nullopt;
+  std::string script = terminal_of(plots.front().width_px, height_px);
+  if (drawn.size() > 1) script += fmt::format("set multiplot layout {},1\n", drawn.size());
+  for (const Plot* plot : drawn) script += commands_of(*plot) + (drawn.size() > 1 ? "reset\n" : "");
   const TemporaryFolder folder("papilla-plot");
-  write_atomically(folder.path() / "plot.gp", script_of(plot));
+  write_atomically(folder.path() / "plot.gp", script);
   if (!run_gnuplot(folder.path())) return std::nullopt;
   return read_file(folder.path() / "plot.svg");
 }
 
-bool write_plot(const std::filesystem::path& file, const Plot& plot) {
-  const auto svg = plot_svg(plot);
+bool write_plot(const std::filesystem::path& file, const Plot& plot) { return write_plot(file, std::span(&plot, 1)); }
+
+bool write_plot(const std::filesystem::path& file, std::span<const Plot> plots) {
+  const auto svg = plot_svg(plots);
   if (svg) write_atomically(file, *svg);
   return svg.has_value();
 }

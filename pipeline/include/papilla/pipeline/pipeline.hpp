@@ -18,6 +18,7 @@
 ///   prepare_picture_file() even light, borders that match                     prepare_file.hpp
 ///   read_materials()      MATERIALS.json                                      materials.hpp
 ///   MaterialLibrary       materials of interiors by name                      material_library.hpp
+///   fit_material()        a material from a recorded stroke                    fit_material.hpp, stroke_recording.hpp
 ///   suggest_materials()   of the library, for surfaces without one            material_suggestion.hpp
 ///   plan_bake()           which stages a scene needs, and why                 bake_plan.hpp, bake_stages.hpp
 ///   bake_scene()          grain and touch onto a scene                        bake_scene.hpp, grain.hpp
@@ -35,6 +36,7 @@
 #include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
+#include "papilla/pipeline/fit_material.hpp"
 #include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/material_library.hpp"
 #include "papilla/pipeline/material_suggestion.hpp"

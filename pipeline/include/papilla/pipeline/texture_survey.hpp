@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "papilla/core/progress.hpp"
+#include "papilla/pipeline/felt_waves.hpp"
 #include "papilla/texture/fractal_readings.hpp"
 #include "papilla/texture/frieze_group.hpp"
 #include "papilla/texture/lattice_agreement.hpp"
@@ -56,6 +57,15 @@ struct PieceSurvey {
   LatticeAgreement lattice;
 };
 
+/// What hands get of a picture's waves under a stroke. Heights are not known, so nothing is said of thresholds.
+struct TouchSurvey {
+  double speed_m_per_s = 0;                                        ///< TouchOptions::speed_m_per_s.
+  double slowest_hz = 0, fastest_hz = 0;                           ///< Of the longest and the shortest wave.
+  std::array<double, k_touch_receptors.size()> receptor_shares{};  ///< Of the variance of grey, in each band.
+  double unfelt_share = 0;                                         ///< Faster than all bands.
+  int needed_width = 0, needed_height = 0;  ///< Pixels of the picture that even a slow stroke can tell apart.
+};
+
 /// A file that shows a result.
 struct SurveyPicture {
   std::string name, file;
@@ -72,6 +82,7 @@ struct TextureSurvey {
   std::optional<SymmetryAnalysis> symmetry;  ///< For the groups, the class or the pictures.
   std::optional<SymmetryGroups> groups;      ///< With SurveyOptions::symmetry.
   std::optional<OrderSurvey> order;
+  std::optional<TouchSurvey> touch;  ///< With SurveyOptions::by_class, of a picture with a pitch.
   std::vector<SurveyPicture> pictures;
 };
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,12 @@ struct Plot {
 /// @throws IoError when the temporary folder can't be written or gnuplot fails.
 std::optional<std::string> plot_svg(const Plot& plot);
 
+/// Plots one below the other in one picture as wide as the first and as high as all; those without a point are left
+/// out. Otherwise as above.
+std::optional<std::string> plot_svg(std::span<const Plot> plots);
+
 /// Writes the plot as SVG. @returns whether there is one. @throws IoError as plot_svg(), and when writing fails.
 bool write_plot(const std::filesystem::path& file, const Plot& plot);
+bool write_plot(const std::filesystem::path& file, std::span<const Plot> plots);
 
 }  // namespace papilla
