@@ -19,6 +19,7 @@ void add_height(CLI::App& program);
 void add_texture(CLI::App& program);
 void add_weather(CLI::App& program);
 void add_materials(CLI::App& program);
+void add_study(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
 void add_view(CLI::App& program);
