@@ -41,6 +41,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
   find_package(assimp REQUIRED)
   find_package(OpenImageIO REQUIRED)
+  pkg_check_modules(LCMS REQUIRED IMPORTED_TARGET lcms2)
   # Debian's target names an OpenCV include directory that need not exist.
   set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
 

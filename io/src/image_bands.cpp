@@ -30,6 +30,7 @@ struct ImageBands::State {
   std::vector<float> stored;   ///< Scratch: rows as the file stores them.
   std::vector<float> blocks;   ///< Sums of the sample's current row.
   ColorImage sample;
+  std::vector<float> curve;
 
   State(const std::filesystem::path& file, std::size_t most_pixels, int sample_side)
       : input(file, most_pixels),
@@ -37,7 +38,8 @@ struct ImageBands::State {
         height(input.height()),
         rows_at_once(std::min(height, input.tile_rows() > 0 ? input.tile_rows() : k_rows_at_once)),
         stride(static_cast<int>((std::int64_t{std::max(width, height)} + sample_side - 1) / sample_side)),
-        channels(static_cast<std::size_t>(input.channels())) {
+        channels(static_cast<std::size_t>(input.channels())),
+        curve(input.curve()) {
     sample.width = (width + stride - 1) / stride;
     blocks.assign(3 * static_cast<std::size_t>(sample.width), 0.0F);
     // Stored, waiting, and the grey rows that are returned.
@@ -96,6 +98,7 @@ ImageBands::~ImageBands() = default;
 int ImageBands::width() const noexcept { return state_->width; }
 int ImageBands::height() const noexcept { return state_->height; }
 int ImageBands::bits() const noexcept { return state_->input.bits(); }
+const std::vector<float>& ImageBands::curve() const noexcept { return state_->curve; }
 double ImageBands::pitch_mm() const noexcept { return state_->input.pitch_mm(); }
 void ImageBands::require_memory(std::size_t bytes_per_pixel) const {
   require_memory(bytes_per_pixel, io_detail::pixel_count(state_->width, state_->height));
@@ -113,7 +116,7 @@ GreyImage ImageBands::next(int rows) {
   const std::size_t wanted = io_detail::pixel_count(state_->width, taken);
   waiting.reserve(wanted + io_detail::pixel_count(state_->width, state_->rows_at_once));
   while (waiting.size() < wanted) state_->decode();
-  GreyImage band{state_->width, taken, {}, pitch_mm(), bits()};
+  GreyImage band{state_->width, taken, {}, pitch_mm(), bits(), state_->curve};
   std::vector<float> rest(waiting.begin() + static_cast<std::ptrdiff_t>(wanted), waiting.end());
   waiting.resize(wanted);
   band.pixels = std::exchange(waiting, std::move(rest));

@@ -24,6 +24,7 @@
 #include "papilla/io/picture_memory.hpp"
 #include "papilla/io/scene.hpp"
 #include "picture_input.hpp"
+#include "profile_curve.hpp"
 
 namespace papilla {
 namespace {
@@ -183,8 +184,8 @@ Picture read_picture(const fs::path& path, std::size_t bytes_per_pixel) {
 Picture read_reduced_picture(const fs::path& path, int most_side, std::size_t bytes_per_pixel) {
   ImageBands bands(path, k_max_streamed_pixels, most_side);
   const int n = (std::max(bands.width(), bands.height()) - 1) / most_side + 1;
-  GreyImage grey{
-      (bands.width() + n - 1) / n, (bands.height() + n - 1) / n, {}, n * bands.pitch_mm(), n > 1 ? 32 : bands.bits()};
+  GreyImage grey{(bands.width() + n - 1) / n, (bands.height() + n - 1) / n, {},
+                 n * bands.pitch_mm(),        n > 1 ? 32 : bands.bits(),    bands.curve()};
   bands.require_memory(bytes_per_pixel, pixel_count(grey.width, grey.height));
   for (int row = 0; row < grey.height; ++row) {
     const GreyImage band = bands.next(n);
@@ -258,6 +259,10 @@ void write_grey_image(const fs::path& path, const GreyImage& image, int bits, in
   set_pitch(spec, image.pitch_mm, image.pitch_mm);
   if (path.extension() == ".jpg" || path.extension() == ".jpeg")
     spec.attribute("Compression", fmt::format("jpeg:{}", jpeg_quality));
+  if (image.curve.size() >= 2 && path.extension() != ".exr") {
+    const std::vector<std::byte> profile = io_detail::profile_of_curve(image.curve);
+    spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
+  }
   write_bytes(path, encode(path, spec, TypeDesc::FLOAT, image.pixels.data()));
 }
 

@@ -17,6 +17,7 @@
 #include "papilla/core/units.hpp"
 #include "papilla/io/picture_memory.hpp"
 #include "picture_bytes.hpp"
+#include "profile_curve.hpp"
 
 namespace papilla::io_detail {
 namespace {
@@ -153,6 +154,13 @@ double PictureInput::pitch_mm() const noexcept {
   const double length_mm = unit == "in" || unit == "inch" ? k_mm_per_inch : unit == "cm" ? 10 : unit == "m" ? 1000 : 0;
   if (!(x > 0) || !std::isfinite(x) || !(std::abs(x - y) <= 1e-3 * x)) return 0;
   return length_mm / x;
+}
+
+std::vector<float> PictureInput::curve() const {
+  const OIIO::ParamValue* profile = spec().find_attribute("ICCProfile");
+  if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return {};
+  const auto* bytes = static_cast<const std::byte*>(profile->data());
+  return profile_curve({bytes, profile->type().size()}, channels());
 }
 
 void PictureInput::check_size(std::uintmax_t bytes, std::size_t most_pixels) const {

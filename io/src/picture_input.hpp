@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace papilla::io_detail {
 
@@ -28,6 +29,7 @@ class PictureInput {
   int channels() const noexcept { return spec().nchannels >= 3 ? 3 : 1; }  ///< Colours, or the first channel as grey.
   bool is_float() const noexcept { return spec().format.is_floating_point(); }
   int bits() const noexcept { return static_cast<int>(8 * spec().format.basesize()); }
+  std::vector<float> curve() const;  ///< As in GreyImage.
   double pitch_mm() const noexcept;  ///< From the file's resolution; 0 when it has none or pixels are not square.
   int tile_rows() const noexcept { return spec().tile_height; }  ///< 0: the picture is not tiled.
   const std::string& name() const noexcept { return name_; }

@@ -81,7 +81,8 @@ HeightFiles height_by_bands(ImageBands& bands, const fs::path& output, const Hei
   HeightOptions height = options.height;
   if (!(height.pitch_mm > 0)) height.pitch_mm = bands.pitch_mm();
   SampleFile samples(bands.width(), bands.height(), folder);
-  const HeightRows rows = height_from_rows(grey, bands.bits(), height, samples);
+  const TransferCurve curve = transfer_curve(height.transfer, bands.bits(), bands.curve());
+  const HeightRows rows = height_from_rows(grey, curve, height, samples);
   HeightFiles files{rows.result, {}, {}, {}, {}, {}};
   const auto write = [&](const fs::path& file, double factor, double offset_mm) {
     const ScaledSamples heights(samples, factor * rows.scale, rows.lowest, offset_mm);
@@ -111,8 +112,8 @@ void take_by_class(const GreyImage& image, const HeightFileOptions& options, Hei
 
 Transfer transfer_of_file(Transfer wanted, const Picture& picture) {
   const bool is_mean = picture.pixels_a_side > 1;
-  if (wanted != Transfer::automatic || !is_mean) return wanted;
-  return decodes_srgb(Transfer::automatic, picture.file_bits) ? Transfer::srgb : Transfer::linear;
+  if (wanted != Transfer::automatic || !is_mean || !picture.grey.curve.empty()) return wanted;
+  return transfer_curve(wanted, picture.file_bits).source == CurveSource::srgb ? Transfer::srgb : Transfer::linear;
 }
 
 void write_height_file(const fs::path& path, const HeightMap& map) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "papilla/io/image_file.hpp"
+#include "papilla/texture/even_light.hpp"
 #include "papilla/texture/resample.hpp"
 
 namespace papilla {
@@ -34,6 +35,7 @@ PreparedPicture prepare_picture_file(const std::filesystem::path& picture, const
     prepared.after = measure_picture(prepared.image);
     prepared.steps.push_back({"scale", true, "asked for"});
   }
+  prepared.image.curve = transfer_curve(Transfer::automatic, image.bits, image.curve).linear;
   write_grey_image(output, prepared.image, 16);
   return prepared;
 }

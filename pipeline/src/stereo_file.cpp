@@ -50,7 +50,8 @@ int width_of_picture_files(const std::vector<fs::path>& files) {
 
 namespace {
 
-std::vector<GreyImage> read_linear(const std::vector<fs::path>& files, Transfer transfer) {
+/// @param decoded what made brightness of the first one.
+std::vector<GreyImage> read_linear(const std::vector<fs::path>& files, Transfer transfer, CurveSource& decoded) {
   std::vector<GreyImage> photographs;
   for (const fs::path& file : files) {
     photographs.push_back(
@@ -60,7 +61,9 @@ std::vector<GreyImage> read_linear(const std::vector<fs::path>& files, Transfer 
       throw InvalidInput(file.string() + ": the photograph is black");
     const std::vector<float> stored = image.pixels;
     const SamplesInMemory samples(stored, image.width, image.height);
-    const EvenedSamples linear(samples, decodes_srgb(transfer, image.bits), {});
+    const TransferCurve curve = transfer_curve(transfer, image.bits, image.curve);
+    if (photographs.size() == 1) decoded = curve.source;
+    const EvenedSamples linear(samples, curve, {});
     for (int y = 0; y < image.height; ++y) linear.read(0, y, image.width, &image.at(0, y));
   }
   return photographs;
@@ -164,9 +167,8 @@ void list_measured_and_assumed(const StereoFiles& stereo, HeightResult& result) 
 StereoFiles relief_of_picture_files(const std::vector<fs::path>& files, const StereoFileOptions& options) {
   width_of_picture_files(files);  // Nothing is decoded in vain.
   const HeightOptions& height = options.files.height;
-  std::vector<GreyImage> photographs = read_linear(files, height.transfer);
   StereoFiles result;
-  result.files.result.decoded_srgb = decodes_srgb(height.transfer, photographs.front().bits);
+  std::vector<GreyImage> photographs = read_linear(files, height.transfer, result.files.result.decoded);
   PhotometricStereoOptions stereo{lights_of(options, files, photographs), height.progress};
   double pitch = height.pitch_mm > 0 ? height.pitch_mm : std::max(0.0, photographs.front().pitch_mm);
   measure_pitch(options.references, photographs.front(), pitch, result);

@@ -51,6 +51,7 @@ class MiddlePart {
     image_.height += part.height;
     image_.pitch_mm = part.pitch_mm;
     image_.bits = part.bits;
+    image_.curve = part.curve;
   }
   GreyImage take() { return std::move(image_); }
 

@@ -17,6 +17,8 @@ void report_symmetry(BenchReport& report);
 void report_bent_lattices(BenchReport& report);
 /// Depth error of shape from shading on known reliefs, and whether anything is ever not finite.
 void report_height(BenchReport& report);
+/// Correlation with the truth of reliefs from one photograph in three conditions, light given and unknown.
+void report_one_photograph(BenchReport& report);
 /// Correlation with the truth of reliefs from four photographs, lights given and unknown, still and moved.
 void report_stereo(BenchReport& report);
 /// Lattices of photographs given on the command line, and a relief that ships beside its photograph.

@@ -192,6 +192,7 @@ void body(bench::BenchReport& report) {
   bench::report_symmetry(report);
   bench::report_bent_lattices(report);
   bench::report_height(report);
+  bench::report_one_photograph(report);
   bench::report_stereo(report);
   bench::report_sizes(report);
   bench::report_photographs(report);

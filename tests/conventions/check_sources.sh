@@ -163,7 +163,8 @@ readonly library_uses='
 <boost/(asio|beast|math) Boost libboost-dev Boost::headers
 <assimp/ assimp libassimp-dev assimp::assimp
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
-<zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB'
+<zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB
+<lcms2\.h> lcms2 liblcms2-dev PkgConfig::LCMS'
 
 # The same of a program: a pattern of scripts and build files, then its names.
 readonly program_uses='

@@ -54,7 +54,7 @@ TEST_P(HeightRowsOf, AgreeWithTheHeightsInMemory) {
   const HeightResult pieces = height_from_image(image, options);
   const TemporaryFolder folder("papilla-test");
   SampleFile samples(512, 384, folder.path());
-  const HeightRows rows = height_from_rows(picture, image.bits, options, samples);
+  const HeightRows rows = height_from_rows(picture, transfer_curve(options.transfer, image.bits), options, samples);
   const ScaledSamples relief(samples, rows.scale, rows.lowest);
 
   double squares = 0, most_off_pieces = 0;
@@ -99,7 +99,8 @@ TEST(HeightFromRows, NamesTheSampleThatIsNoNumber) {
       image.at(3, 61) = value;
       const SamplesInMemory picture(image.pixels, 64, 64);
       try {
-        height_from_rows(picture, middle.bits, {.method = method, .periodic = false}, samples);
+        height_from_rows(picture, transfer_curve(Transfer::automatic, middle.bits),
+                         {.method = method, .periodic = false}, samples);
         ADD_FAILURE() << to_string(method);
       } catch (const InvalidInput& error) {
         EXPECT_STREQ(error.what(), "height_from_rows: sample [3, 61] is not a finite number");
@@ -112,8 +113,8 @@ TEST(HeightFromRows, RefusesWhatNeedsThePictureInMemory) {
   const SamplesInMemory picture(image.pixels, 64, 64);
   const TemporaryFolder folder("papilla-test");
   SampleFile samples(64, 64, folder.path());
-  EXPECT_THROW(height_from_rows(picture, image.bits, {.tile = true}, samples), InvalidInput);
-  EXPECT_THROW(height_from_rows(picture, image.bits, {.roughness = HeightRoughness::none}, samples), InvalidInput);
+  EXPECT_THROW(height_from_rows(picture, {}, {.tile = true}, samples), InvalidInput);
+  EXPECT_THROW(height_from_rows(picture, {}, {.roughness = HeightRoughness::none}, samples), InvalidInput);
 }
 
 TEST(SampleFile, GivesBackPartsOfRowsAndLeavesNoName) {

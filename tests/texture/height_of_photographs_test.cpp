@@ -48,7 +48,7 @@ TEST_P(HeightOfPhotographs, CorrelatesWithTheReliefUnderAGivenLight) {
     const HeightResult result = height_from_image(picture, {.light = light});
     EXPECT_EQ(result.method, HeightMethod::wiener);
     EXPECT_FALSE(result.ambiguous);
-    EXPECT_TRUE(result.decoded_srgb);
+    EXPECT_EQ(result.decoded, CurveSource::srgb);
     return correlation(result.map, truth);
   });
   EXPECT_GE(mean, least);

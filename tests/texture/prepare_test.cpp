@@ -10,6 +10,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/texture/grain.hpp"
 #include "papilla/texture/spectral_surface.hpp"
+#include "texture/bent_pattern.hpp"
 #include "texture/fixtures.hpp"
 
 namespace papilla {
@@ -80,6 +81,27 @@ TEST(Prepare, KnotsAreReported) {
   const PreparedPicture prepared = prepare_picture(knot, {.borders = BorderMatching::none});
   EXPECT_TRUE(std::any_of(prepared.warnings.begin(), prepared.warnings.end(),
                           [](const std::string& w) { return w.find("knot") != std::string::npos; }));
+}
+
+TEST(Prepare, StraightensALatticeThatBends) {
+  const GreyImage bent = test::bent_pattern(1);
+  PrepareOptions options{.flatten = false, .borders = BorderMatching::none, .contrast = false};
+  EXPECT_EQ(prepare_picture(bent, options).image.pixels, bent.pixels);
+  options.straighten = true;
+  const PreparedPicture prepared = prepare_picture(bent, options);
+  ASSERT_FALSE(prepared.steps.empty());
+  EXPECT_EQ(prepared.steps.front().name, "straighten");
+  EXPECT_TRUE(prepared.steps.front().run);
+  EXPECT_LT(prepared.image.width, bent.width);  // Without the rim that came from beyond the borders.
+  EXPECT_LT(test::irregularity(prepared.image), 0.5 * test::irregularity(bent));
+}
+
+TEST(Prepare, LeavesAStraightLatticeStraight) {
+  const GreyImage straight = test::bent_pattern(0);
+  const PreparedPicture prepared = prepare_picture(
+      straight, {.straighten = true, .flatten = false, .borders = BorderMatching::none, .contrast = false});
+  EXPECT_FALSE(prepared.steps.front().run);
+  EXPECT_EQ(prepared.image.pixels, straight.pixels);
 }
 
 TEST(Prepare, PlasticityRaisesContrast) {

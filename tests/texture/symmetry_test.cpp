@@ -65,7 +65,15 @@ TEST(Symmetry, NoiseHasNoLattice) {
     const SymmetryAnalysis surface = analyze_symmetry(to_grey_image(brownian_surface_exact({129, 0.4, seed}), 8));
     EXPECT_FALSE(surface.lattice.found);
     EXPECT_GT(surface.false_alarm_probability, 0.01);
+    EXPECT_EQ(surface.lattice.reason, "no wave stands out of the spectrum");
+    EXPECT_TRUE(surface.matrix.distortion.empty());
   }
+}
+
+TEST(Symmetry, NothingIsSkippedWhereALatticeIsForced) {
+  const GreyImage noise = test::noise_image(150, 110, 3);
+  EXPECT_TRUE(analyze_symmetry(noise).matrix.distortion.empty());
+  EXPECT_FALSE(analyze_symmetry(noise, {.false_alarm_rate = 1}).matrix.distortion.empty());
 }
 
 TEST(Symmetry, RefusesBadArguments) {

@@ -94,7 +94,7 @@ void draw_lattice(Panel& panel, const std::array<Vec2, 2>& vectors, const Displa
 }
 
 void draw_matrix(Panel& panel, const SymmetryAnalysis& analysis) {
-  const FeatureMatrix& matrix = analysis.matrix;
+  const FeatureMatrix matrix = analysis.matrix.distortion.empty() ? feature_matrix(analysis.picture) : analysis.matrix;
   const Range range = range_of(matrix.distortion);
   const int centre_x = panel.width() / 2, centre_y = panel.height() / 2;
   panel.fill([&](int x, int y) {

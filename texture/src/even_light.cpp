@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "checks.hpp"
 #include "papilla/core/error.hpp"
@@ -15,6 +16,7 @@ namespace papilla {
 namespace {
 
 constexpr std::array<std::string_view, 3> k_transfers = {"auto", "srgb", "linear"};
+constexpr std::array<std::string_view, 3> k_curve_sources = {"linear", "srgb", "profile"};
 
 /// Sides of the reduced copy that the quadric is fitted to; it has six values only.
 constexpr int k_reduced_px = 512;
@@ -27,18 +29,19 @@ using Terms = Eigen::Matrix<double, 6, 1>;
 Terms terms(double x, double y) { return (Terms() << 1, x, y, x * x, x * y, y * y).finished(); }
 
 /// A table of the curve is within 1e-6 of it and costs a tenth.
-constexpr int k_steps = 4096;
-
-std::vector<float> decoding_table() {
+std::vector<float> srgb_table() {
+  constexpr int k_steps = 4096;
   std::vector<float> table;
-  for (int i = 0; i <= k_steps + 1; ++i)
-    table.push_back(static_cast<float>(linear_from_srgb(std::min(1.0, static_cast<double>(i) / k_steps))));
+  for (int i = 0; i <= k_steps; ++i)
+    table.push_back(static_cast<float>(linear_from_srgb(static_cast<double>(i) / k_steps)));
   return table;
 }
 
+/// @pre the table has at least two values.
 float decode(const std::vector<float>& table, float value) {
-  const float at = std::clamp(value, 0.0F, 1.0F) * k_steps;
-  const auto step = static_cast<std::size_t>(at);
+  const std::size_t last = table.size() - 2;
+  const float at = std::clamp(value, 0.0F, 1.0F) * static_cast<float>(last + 1);
+  const std::size_t step = std::min(static_cast<std::size_t>(at), last);
   const float rest = at - static_cast<float>(step);
   return (1 - rest) * table[step] + rest * table[step + 1];
 }
@@ -51,14 +54,19 @@ Transfer transfer(std::string_view name) {
   return static_cast<Transfer>(texture_detail::index_of_name(name, k_transfers, "transfer"));
 }
 
-bool decodes_srgb(Transfer transfer, int bits) noexcept {
+std::string_view to_string(CurveSource source) noexcept { return k_curve_sources[static_cast<std::size_t>(source)]; }
+
+TransferCurve transfer_curve(Transfer transfer, int bits, const std::vector<float>& profile) {
   constexpr int k_camera_bits = 8;
-  return transfer == Transfer::srgb || (transfer == Transfer::automatic && bits == k_camera_bits);
+  const bool is_automatic = transfer == Transfer::automatic;
+  if (is_automatic && profile.size() >= 2) return {CurveSource::profile, profile};
+  if (transfer == Transfer::srgb || (is_automatic && bits == k_camera_bits)) return {CurveSource::srgb, srgb_table()};
+  return {};
 }
 
-LightField light_field(const SampleRows& picture, bool srgb) {
+LightField light_field(const SampleRows& picture, const TransferCurve& curve) {
   if (picture.width() < 1 || picture.height() < 1) throw InvalidInput("light_field: the picture is empty");
-  const EvenedSamples brightness(picture, srgb, {});
+  const EvenedSamples brightness(picture, curve, {});
   const GreyImage small = texture_detail::shrunk(brightness, k_reduced_px).image;
   double mean = 0;
   for (const float value : small.pixels) mean += static_cast<double>(value);
@@ -88,16 +96,13 @@ LightField light_field(const SampleRows& picture, bool srgb) {
   return field;
 }
 
-EvenedSamples::EvenedSamples(const SampleRows& picture, bool srgb, const LightField& field)
-    : SampleRows(picture.width(), picture.height()),
-      picture_(picture),
-      field_(field),
-      decoded_(srgb ? decoding_table() : std::vector<float>()) {}
+EvenedSamples::EvenedSamples(const SampleRows& picture, TransferCurve curve, const LightField& field)
+    : SampleRows(picture.width(), picture.height()), picture_(picture), field_(field), curve_(std::move(curve)) {}
 
 void EvenedSamples::read(int x, int y, int count, float* samples) const {
   picture_.read(x, y, count, samples);
-  if (!decoded_.empty())
-    for (int i = 0; i < count; ++i) samples[i] = decode(decoded_, samples[i]);
+  if (!curve_.linear.empty())
+    for (int i = 0; i < count; ++i) samples[i] = decode(curve_.linear, samples[i]);
   const auto& q = field_.quadric;
   if (q == LightField{}.quadric) return;
   const double v = place(y, height()), start = q[0] + v * (q[2] + v * q[5]), across = q[1] + v * q[4];

@@ -83,8 +83,6 @@ BestDimension mean_best(const std::vector<BestDimension>& pieces) {
   }
   if (has_directions) result.directional_hurst = directions;
   FractalEstimate& estimate = result.estimate.emplace(mean_estimate(estimates));
-  estimate.low = std::clamp(estimate.low, 2.0, estimate.dimension);
-  estimate.high = std::clamp(estimate.high, estimate.dimension, 3.0);
   estimate.curve = result.curve;
   result.reason =
       "a power law in " + std::to_string(lawful.size()) + " of " + std::to_string(pieces.size()) + " pieces";

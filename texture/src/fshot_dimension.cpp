@@ -167,8 +167,7 @@ void add_intervals(const std::vector<Offset>& offsets, FshotSignature& signature
         found->second[static_cast<std::size_t>(block)] = direction.hurst;
   }
   const double half_width = texture_detail::jackknife_half_width(sta);
-  signature.estimate.low = signature.estimate.dimension - half_width;
-  signature.estimate.high = signature.estimate.dimension + half_width;
+  texture_detail::set_interval(signature.estimate, half_width);
   for (DirectionalHurst& direction : signature.directions) {
     const double width = texture_detail::jackknife_half_width(
         slopes[static_cast<int>(std::lround(direction.angle_deg / k_angle_step_deg))]);
@@ -217,8 +216,7 @@ FshotSignature mean_signature(std::span<const FshotSignature> pieces) {
   signature.estimate = texture_detail::mean_estimate(estimates);
   const double half_width = signature.estimate.high - signature.estimate.dimension;
   set_ellipse(fit_ellipse(found), signature);
-  signature.estimate.low = signature.estimate.dimension - half_width;
-  signature.estimate.high = signature.estimate.dimension + half_width;
+  texture_detail::set_interval(signature.estimate, half_width);
   return signature;
 }
 

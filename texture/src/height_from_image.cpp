@@ -111,12 +111,16 @@ Statistics statistics(const SampleRows& samples, const Bounds& bounds = {}) {
 }
 
 /// Linear, evened brightness of a picture, whose samples it checks.
-EvenedSamples brightness_of(const SampleRows& picture, int bits, const HeightOptions& options, HeightResult& result) {
+EvenedSamples brightness_of(const SampleRows& picture, TransferCurve curve, HeightResult& result) {
   statistics(picture);
-  result.decoded_srgb = decodes_srgb(options.transfer, bits);
-  const LightField field = result.map.periodic ? LightField{} : light_field(picture, result.decoded_srgb);
+  result.decoded = curve.source;
+  const LightField field = result.map.periodic ? LightField{} : light_field(picture, curve);
   result.unevenness = field.unevenness;
-  return EvenedSamples(picture, result.decoded_srgb, field);
+  return EvenedSamples(picture, std::move(curve), field);
+}
+
+TransferCurve curve_of(const GreyImage& image, const HeightOptions& options) {
+  return transfer_curve(options.transfer, image.bits, image.curve);
 }
 
 void choose_light(const SampleRows& brightness, const HeightOptions& options, HeightResult& result) {
@@ -168,9 +172,10 @@ void choose_by_expectation(const SampleRows& brightness, const HeightOptions& op
   }
 }
 
-void choose_method(const SampleRows& picture, int bits, const HeightOptions& options, HeightResult& result) {
+void choose_method(const SampleRows& picture, const TransferCurve& curve, const HeightOptions& options,
+                   HeightResult& result) {
   if (options.method == HeightMethod::automatic) {
-    choose_by_expectation(brightness_of(picture, bits, options, result), options, result);
+    choose_by_expectation(brightness_of(picture, curve, result), options, result);
     return;
   }
   result.method = options.method;
@@ -215,7 +220,7 @@ ShadingResult kept(WienerShadingResult solved, const HeightOptions& options, Hei
 
 std::vector<double> height_by_shading(const GreyImage& picture, const HeightOptions& options, HeightResult& result) {
   const SamplesInMemory samples(picture.pixels, picture.width, picture.height);
-  const EvenedSamples evened = brightness_of(samples, picture.bits, options, result);
+  const EvenedSamples evened = brightness_of(samples, curve_of(picture, options), result);
   const auto shading = choose_shading(evened, options, result);
   if (!shading) return std::vector<double>(picture.pixels.size(), 0.0);
   GreyImage image{picture.width, picture.height, std::vector<float>(picture.pixels.size()), 0, 32};
@@ -298,6 +303,7 @@ Field relief_with_roughness(const GreyImage& image, const Lattice& lattice, cons
   const GreyImage& cell = options.primitive ? *options.primitive : part.primitive;
   GreyImage regular = result.tile ? fill_tile(cell, *result.tile) : part.synthesis;
   regular.bits = image.bits;  // Of the camera: the mean is as it stored the grey values.
+  regular.curve = image.curve;
   Field field = relief_of(regular, options, result);
   const double range = range_of(field);
   if (range > 0)
@@ -406,7 +412,7 @@ HeightChoice choose_height_method(const GreyImage& image, const HeightOptions& o
   require_options(options);
   HeightResult result;
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(image).tiles;
-  choose_method(SamplesInMemory(image.pixels, image.width, image.height), image.bits, options, result);
+  choose_method(SamplesInMemory(image.pixels, image.width, image.height), curve_of(image, options), options, result);
   return {result.method, result.reason};
 }
 
@@ -428,9 +434,9 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
     SymmetryAnalysis symmetry = analyze_symmetry(image, {}, FeatureKind::squared, options.progress);
     lattice = std::move(symmetry.lattice);
     if (options.tile && symmetry.deformation && symmetry.straight->pixels.size() == image.pixels.size())
-      straight = std::move(symmetry.straight);
+      straight = std::move(symmetry.straight), straight->bits = image.bits, straight->curve = image.curve;
   }
-  choose_method(SamplesInMemory(image.pixels, image.width, image.height), image.bits, options, result);
+  choose_method(SamplesInMemory(image.pixels, image.width, image.height), curve_of(image, options), options, result);
   if (options.tile) choose_tile(image, lattice, result);
   Field field;
   if (composes && lattice.found) {
@@ -452,7 +458,8 @@ HeightResult height_from_image(const GreyImage& image, const HeightOptions& opti
   return result;
 }
 
-HeightRows height_from_rows(const SampleRows& picture, int bits, const HeightOptions& options, SampleFile& relief) {
+HeightRows height_from_rows(const SampleRows& picture, const TransferCurve& curve, const HeightOptions& options,
+                            SampleFile& relief) {
   require_options(options);
   if (options.tile || options.roughness != HeightRoughness::whole || options.shortest_wavelength_mm > 0)
     throw InvalidInput(
@@ -463,7 +470,7 @@ HeightRows height_from_rows(const SampleRows& picture, int bits, const HeightOpt
   result.map.height = picture.height();
   result.map.pitch_mm_x = result.map.pitch_mm_y = options.pitch_mm;
   result.map.periodic = options.periodic ? *options.periodic : measure_tiling(picture).tiles;
-  choose_method(picture, bits, options, result);
+  choose_method(picture, curve, options, result);
 
   std::vector<float> row(static_cast<std::size_t>(picture.width()), 0.0F);
   const bool lit = result.method != HeightMethod::intensity;
@@ -472,7 +479,7 @@ HeightRows height_from_rows(const SampleRows& picture, int bits, const HeightOpt
     relief.write(y, row);
   };
   const auto solve = [&] {
-    const EvenedSamples evened = brightness_of(picture, bits, options, result);
+    const EvenedSamples evened = brightness_of(picture, curve, result);
     const auto shading = choose_shading(evened, options, result);
     if (!shading) return false;
     using Solve = ShadingResult(const SampleRows&, const ShadingOptions&, const HeightWriter&);

@@ -70,6 +70,14 @@ double jackknife_half_width(std::span<const double> values) {
   return student_quantile(static_cast<int>(values.size()) - 1) * std::sqrt(squares * (count - 1) / count);
 }
 
+void set_interval(FractalEstimate& estimate, double half_width) {
+  estimate.low = estimate.dimension - half_width;
+  estimate.high = estimate.dimension + half_width;
+  if (!estimate.is_of_surface()) return;
+  estimate.low = std::max(estimate.low, 2.0);
+  estimate.high = std::min(estimate.high, 3.0);
+}
+
 FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve) {
   std::vector<double> x, y;
   for (const ScalePoint& point : curve) {
@@ -80,8 +88,7 @@ FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve) {
   FractalEstimate estimate;
   estimate.dimension = -fit.slope;
   estimate.hurst = 3 - estimate.dimension;
-  estimate.low = estimate.dimension - fit.half_width;
-  estimate.high = estimate.dimension + fit.half_width;
+  set_interval(estimate, fit.half_width);
   estimate.curve = std::move(curve);
   return estimate;
 }
@@ -99,7 +106,8 @@ FractalEstimate mean_estimate(std::span<const FractalEstimate> pieces) {
     }
   }
   const MeanInterval mean = mean_interval(dimensions);
-  FractalEstimate result{mean.mean, 3 - mean.mean, mean.mean - mean.half_width, mean.mean + mean.half_width, {}};
+  FractalEstimate result{mean.mean, 3 - mean.mean};
+  set_interval(result, mean.half_width);
   for (const auto& [scale, sum] : logs)
     if (sum.second == pieces.size())
       result.curve.push_back({scale, std::exp(sum.first / static_cast<double>(pieces.size()))});

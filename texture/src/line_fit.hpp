@@ -29,6 +29,9 @@ MeanInterval mean_interval(const std::vector<double>& values);
 /// Half of the 95 % interval (Student) of a statistic whose values without one of n blocks each are given.
 double jackknife_half_width(std::span<const double> values);
 
+/// The estimate's interval: dimension ± half width, cut to [2, 3] where the dimension is within.
+void set_interval(FractalEstimate& estimate, double half_width);
+
 /// Dimension from a curve whose log measure falls with −D in log scale: the regression's slope and interval.
 FractalEstimate estimate_from_log_log(std::vector<ScalePoint> curve);
 

@@ -53,7 +53,7 @@ GreyImage picture_of(const Field& field, int width, int height) {
 Terms log_quadric(const Field& field, int width, int height) {
   constexpr int k_most_blocks = 64;  // Along a side.
   const GreyImage blocks = shrunk(picture_of(field, width, height), k_most_blocks).image;
-  const auto q = light_field(SamplesInMemory(blocks.pixels, blocks.width, blocks.height), false).quadric;
+  const auto q = light_field(SamplesInMemory(blocks.pixels, blocks.width, blocks.height)).quadric;
   const double side = std::max(width, height), x = side / width, y = side / height;  // From borders to the longer side.
   return (Terms() << q[0], x * q[1], y * q[2], x * x * q[3], x * y * q[4], y * y * q[5], 0, 0, 0, 0).finished();
 }

@@ -86,7 +86,7 @@ GreyImage crop(const GreyImage& image, int left, int top, int width, int height)
     throw InvalidInput("crop: " + std::to_string(width) + " x " + std::to_string(height) + " pixels from (" +
                        std::to_string(left) + ", " + std::to_string(top) + ") are not within the picture's " +
                        std::to_string(image.width) + " x " + std::to_string(image.height));
-  GreyImage part{width, height, {}, image.pitch_mm, image.bits};
+  GreyImage part{width, height, {}, image.pitch_mm, image.bits, image.curve};
   part.pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (int y = top; y < top + height; ++y) {
     const auto first = image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(left, y));

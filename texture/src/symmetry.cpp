@@ -11,6 +11,7 @@
 #include "checks.hpp"
 #include "even_contrast.hpp"
 #include "lattice_surrogates.hpp"
+#include "outstanding_wave.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/texture/lattice_agreement.hpp"
 #include "papilla/texture/resample.hpp"
@@ -178,11 +179,16 @@ SymmetryAnalysis analyze_symmetry(const GreyImage& image, const LatticeOptions& 
                        " is not within (0, 1]");
   SymmetryAnalysis analysis;
   analysis.picture = middle_part(image, k_most_side);
+  const bool bends = feature == FeatureKind::squared && options.method == LatticeMethod::best;
+  const GreyImage even = texture_detail::with_even_light(analysis.picture);
+  constexpr double k_outstanding = 1e-3;
+  if (bends && options.false_alarm_rate < 1 && texture_detail::chance_of_highest_wave(even) > k_outstanding) {
+    analysis.lattice.reason = "no wave stands out of the spectrum";
+    return analysis;
+  }
   analysis.matrix = feature == FeatureKind::squared ? feature_matrix(analysis.picture)
                                                     : absolute_feature_matrix(analysis.picture, progress);
   analysis.lattice = find_lattice(analysis.matrix, options);
-  const bool bends = feature == FeatureKind::squared && options.method == LatticeMethod::best;
-  const GreyImage even = texture_detail::with_even_light(analysis.picture);
   Candidates best;
   if (bends) {
     best = candidates(even, options);

@@ -269,7 +269,7 @@ Json height_json(const HeightFiles& files) {
   json["ambiguity"] = result.ambiguous ? "convex-concave" : "none";
   json["shadows_fraction"] = result.shadows_fraction;
   json["highlights_fraction"] = result.highlights_fraction;
-  json["decoded_srgb"] = result.decoded_srgb;
+  json["decoded"] = to_string(result.decoded);
   json["unevenness"] = result.unevenness;
   json["size"] = {result.map.width, result.map.height};
   json["pitch_mm"] = positive_or_null(result.map.pitch_mm_x);

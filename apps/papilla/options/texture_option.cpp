@@ -44,7 +44,8 @@ void HeightOption::add_to(CLI::App& verb) {
   verb.add_option("--light", light_, "Direction to the light: x right, y down, z to the viewer")
       ->type_name("X,Y,Z|{auto}")
       ->capture_default_str();
-  verb.add_option("--transfer", transfer_, "Curve of the picture, for shading; auto: sRGB with 8 bits, else linear")
+  verb.add_option("--transfer", transfer_,
+                  "Curve of the picture, for shading; auto: by its colour profile, else sRGB with 8 bits")
       ->transform(one_of({"auto", "srgb", "linear"}))
       ->capture_default_str();
   verb.add_option("--periodic", periodic_, "Whether the height shall tile; auto looks whether the picture does")

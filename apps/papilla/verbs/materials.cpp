@@ -111,7 +111,7 @@ Json run_page(const Options& options, const VerbContext& context) {
   const fs::path folder = is_file ? fs::path() : fs::path(options.output);
   const fs::path page = is_file ? fs::path(options.output) : folder / "index.html";
   if (!is_file) make_folder(folder);
-  declare_output(page, "--output");
+  if (!is_file) declare_output(page, "--output");
   require_writable(page);
   const MaterialLibrary library(options.folder());
   const std::vector<LibraryMaterial> materials = library.materials();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "papilla/texture/image.hpp"
 
@@ -29,8 +30,9 @@ class ImageBands {
 
   int width() const noexcept;
   int height() const noexcept;
-  int bits() const noexcept;         ///< As in GreyImage.
-  double pitch_mm() const noexcept;  ///< As in GreyImage.
+  int bits() const noexcept;                         ///< As in GreyImage.
+  double pitch_mm() const noexcept;                  ///< As in GreyImage.
+  const std::vector<float>& curve() const noexcept;  ///< As in GreyImage.
 
   /// @throws InvalidInput with the size of the picture when it takes more than picture_memory() at so many bytes a
   /// pixel, or when that many of its pixels do.

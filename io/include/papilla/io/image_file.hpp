@@ -81,7 +81,8 @@ struct EncodedHeight {
 /// @throws InvalidInput when the map is empty or a height is not finite.
 EncodedHeight encode_height_png16(const HeightMap& map);
 
-/// Writes a grey picture in the format of the extension; values are clamped to [0, 1] for integer formats.
+/// Writes a grey picture in the format of the extension; values are clamped to [0, 1] for integer formats. Its curve
+/// goes with it as a colour profile, but not into .exr.
 /// @param bits  8, 16, or 32 (float; EXR, TIFF).
 /// @param jpeg_quality  1 to 100, of .jpg.
 /// @throws InvalidInput when the extension names no writable format or it has not that depth; IoError when writing

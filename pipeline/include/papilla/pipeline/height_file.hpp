@@ -21,7 +21,8 @@ void write_height_file(const std::filesystem::path& path, const HeightMap& map);
 /// Memory that height_from_image() takes for a pixel, the picture and its results included, at most.
 inline constexpr std::size_t k_height_bytes_per_pixel = 96;
 
-/// The curve of a picture: what is wanted, and for `automatic` that of the file's own samples, where those are means.
+/// The curve of a picture: what is wanted, and for `automatic` that of the file's own samples, where those are means
+/// and the file has no profile.
 Transfer transfer_of_file(Transfer wanted, const Picture& picture);
 
 /// Options of height_of_picture_file().

@@ -17,7 +17,7 @@ struct ScalePoint {
 struct FractalEstimate {
   double dimension = 2;
   double hurst = 1;               ///< 3 − dimension; outside [0, 1] when the picture is no fractal surface.
-  double low = 2, high = 2;       ///< 95 % interval of the dimension; each method documents its source.
+  double low = 2, high = 2;       ///< 95 % interval, within [2, 3] where the dimension is; each method says whence.
   std::vector<ScalePoint> curve;  ///< The points of the log-log plot, by rising scale.
 
   /// Within [2, 3], as the dimension of a surface is.

@@ -100,11 +100,11 @@ struct HeightResult {
   bool ambiguous = false;
   /// With the true relief; by wiener and automatic only, where it rests on no assumption about grey.
   std::optional<double> expected_correlation;
-  double shadows_fraction = 0;     ///< Brightness below a quarter of the mean; 0 for intensity.
-  double highlights_fraction = 0;  ///< Brighter than a matt surface that faces the light; 0 for intensity.
-  bool decoded_srgb = false;       ///< The picture was taken as sRGB.
-  double unevenness = 0;           ///< LightField::unevenness that was divided out; 0 for pictures that tile.
-  double depth_mm = 0;             ///< Peak to valley; 0 for a picture without relief, else what was asked.
+  double shadows_fraction = 0;                ///< Brightness below a quarter of the mean; 0 for intensity.
+  double highlights_fraction = 0;             ///< Brighter than a matt surface that faces the light; 0 for intensity.
+  CurveSource decoded = CurveSource::linear;  ///< What made brightness of the picture; linear for intensity.
+  double unevenness = 0;  ///< LightField::unevenness that was divided out; 0 for pictures that tile.
+  double depth_mm = 0;    ///< Peak to valley; 0 for a picture without relief, else what was asked.
   double rms_mm = 0;
   HeightRoughness roughness = HeightRoughness::whole;
   double roughness_rms_mm = 0;        ///< Of the roughness added; 0 for whole and none.
@@ -141,11 +141,12 @@ struct HeightRows {
 /// wavelength. Shape from shading works in pieces, whose differences to the solve of the whole shape_from_shading.hpp
 /// states; the other results are the same. Memory: see there; with largest_piece_px = 2048 and 20000 columns about half
 /// a gigabyte on two cores.
-/// @param bits of the picture, as GreyImage::bits: pictures of 8 bits are sRGB unless the options say otherwise.
+/// @param curve of the picture: transfer_curve() of HeightOptions::transfer, which is not looked at.
 /// @param relief takes the samples; as large as the picture.
 /// @throws InvalidInput when a sample is not finite, or an option is out of range or needs the picture in memory;
 /// IoError when the disk is full.
-HeightRows height_from_rows(const SampleRows& picture, int bits, const HeightOptions& options, SampleFile& relief);
+HeightRows height_from_rows(const SampleRows& picture, const TransferCurve& curve, const HeightOptions& options,
+                            SampleFile& relief);
 
 /// The other relief that the same picture allows: h → highest + lowest − h. Light from the opposite azimuth on the
 /// inverted relief gives the same picture, R(−p, −q; −s_x, −s_y) = R(p, q; s_x, s_y), so that one picture does not

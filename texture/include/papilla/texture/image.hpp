@@ -12,6 +12,8 @@ struct GreyImage {
   std::vector<float> pixels;  ///< width * height values.
   double pitch_mm = 0;        ///< Millimetres per pixel; 0 when unknown.
   int bits = 32;              ///< Bits per sample of the file (8, 16, 32); the rounding of the values.
+  /// Linear brightness over stored values from 0 to 1 at equal steps, by the file's colour profile; empty: it has none.
+  std::vector<float> curve = {};
 
   float& at(int x, int y) { return pixels[index(x, y)]; }
   float at(int x, int y) const { return pixels[index(x, y)]; }

@@ -16,7 +16,7 @@ namespace papilla {
 /// What analyze_symmetry() returns.
 struct SymmetryAnalysis {
   GreyImage picture;     ///< The part of the picture that was analysed.
-  FeatureMatrix matrix;  ///< Of `picture`.
+  FeatureMatrix matrix;  ///< Of `picture`; empty where its spectrum is flat, so that no lattice was sought.
   Lattice lattice;       ///< Of `picture`; where it bends, with the mean cell.
   /// How often noise with the picture's spectrum, the lattice's waves taken out, repeats as well; 1 where nothing does.
   double false_alarm_probability = 1;
@@ -38,6 +38,9 @@ enum class FeatureKind { squared, absolute };
 /// spectrum reach its significance [Theiler et al., surrogate data]. Then its deformation is found
 /// (find_lattice_deformation()), and, where that explains more than chance, lattice and mean cell are those of the
 /// straightened picture. Exact lattices keep the vectors that find_lattice() gives for the whole matrix.
+/// Where no wave stands out of the spectrum (as high a one in more than 1 of 1000 noises with a spectrum that depends
+/// on the wave number alone), nothing can repeat and nothing is sought, unless the rate is 1. Lattices bent by a tenth
+/// of their cell, under light that falls off by half, blurred and with noise, have waves that one in e^40 noises has.
 /// Where none counts, the picture at half and at a quarter of its size is tried, each at a tenth of the rate.
 /// LatticeMethod::projection and FeatureKind::absolute know neither even light nor bending.
 ///
