@@ -149,8 +149,9 @@ Descent descend(const Problem& problem, Point start, std::optional<std::size_t> 
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
-  options.max_num_iterations = 60;
-  options.function_tolerance = 1e-9;
+  // Intervals are differences of deviances: far below the quantile of about 4.
+  options.max_num_iterations = 100;
+  options.function_tolerance = options.parameter_tolerance = options.gradient_tolerance = 1e-12;
   std::optional<TraceOfIterations> follower;
   if (trace != nullptr) options.callbacks.push_back(&follower.emplace(*trace));
   ceres::Solver::Summary summary;
@@ -197,15 +198,12 @@ class Profile {
 
   std::optional<double> end(bool upwards) const {
     const double bound = upwards ? problem_.most(k_) : problem_.least(k_);
-    double inner = best_.point[k_], step = 0.02;
-    Point inner_point = best_.point;
-    while (inner != bound) {
-      const double outer = upwards ? std::min(bound, inner + step) : std::max(bound, inner - step);
-      const Descent there = at(outer, inner_point);
-      if (excess(there) > 0) return root(inner, outer, inner_point, there.point);
+    Descent inner = best_;
+    for (double step = 0.02; inner.point[k_] != bound; step *= 1.6) {
+      const double value = inner.point[k_];
+      const Descent outer = at(upwards ? std::min(bound, value + step) : std::max(bound, value - step), inner.point);
+      if (excess(outer) > 0) return root(inner, outer);
       inner = outer;
-      inner_point = there.point;
-      step *= 1.6;
     }
     return std::nullopt;
   }
@@ -220,15 +218,17 @@ class Profile {
     return anew.deviance < followed.deviance ? anew : followed;
   }
 
-  double root(double inner, double outer, const Point& inner_point, const Point& outer_point) const {
+  double root(const Descent& inner, const Descent& outer) const {
     const auto f = [&](double value) {
-      const double share = (value - inner) / (outer - inner);
-      return excess(at(value, share < 0.5 ? inner_point : outer_point));
+      const double share = (value - inner.point[k_]) / (outer.point[k_] - inner.point[k_]);
+      return excess(at(value, share < 0.5 ? inner.point : outer.point));
     };
+    const auto& [low, high] = inner.point[k_] < outer.point[k_] ? std::pair<const Descent&, const Descent&>(inner, outer)
+                                                                : std::pair<const Descent&, const Descent&>(outer, inner);
     std::uintmax_t iterations = 60;
-    const double low = std::min(inner, outer), high = std::max(inner, outer);
     const auto bracket =
-        boost::math::tools::toms748_solve(f, low, high, boost::math::tools::eps_tolerance<double>(20), iterations);
+        boost::math::tools::toms748_solve(f, low.point[k_], high.point[k_], excess(low), excess(high),
+                                          boost::math::tools::eps_tolerance<double>(20), iterations);
     return (bracket.first + bracket.second) / 2;
   }
 

@@ -78,8 +78,8 @@ TEST(Psychometric, NoOtherFunctionIsMoreLikely) {
 /// Most likely log likelihood with a threshold that is held, by search.
 double profile_at(const std::vector<ChoiceLevel>& levels, double threshold) {
   double best = -INFINITY;
-  for (double s = std::log(0.05); s < std::log(5); s += 0.002)
-    for (double lapse = 0; lapse <= 0.06; lapse += 0.001) {
+  for (double s = std::log(0.05); s < std::log(5); s += 0.001)
+    for (double lapse = 0; lapse <= 0.0601; lapse += 0.001) {
       const double other = log_likelihood(levels, {PsychometricShape::logistic, threshold, std::exp(s), 0.5, lapse});
       if (other > best) best = other;
     }
