@@ -11,7 +11,8 @@ DevianceRoot deviance_root(double hits, double trials, double probability) noexc
   const double p = std::clamp(probability, k_least, 1 - k_least), misses = trials - hits;
   const double excess = hits - trials * p, variance = trials * p * (1 - p);
   // Where hits are as expected the root is (k − np)/σ, and its formula 0/0.
-  if (std::abs(excess) < 1e-6 * std::sqrt(variance)) return {excess / std::sqrt(variance), -trials / std::sqrt(variance)};
+  if (std::abs(excess) < 1e-6 * std::sqrt(variance))
+    return {excess / std::sqrt(variance), -trials / std::sqrt(variance)};
   double half = 0;
   if (hits > 0) half += hits * std::log(hits / (trials * p));
   if (misses > 0) half += misses * std::log(misses / (trials * (1 - p)));

@@ -36,8 +36,7 @@ struct Sigmoid {
 
 Sigmoid sigmoid(PsychometricShape shape, double z) {
   if (shape == PsychometricShape::normal)
-    return {0.5 * std::erfc(-z / std::numbers::sqrt2),
-            std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi)};
+    return {0.5 * std::erfc(-z / std::numbers::sqrt2), std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi)};
   const double value = 1 / (1 + std::exp(-z));
   return {value, value * (1 - value)};
 }
@@ -174,8 +173,7 @@ Point scan(const Problem& problem, Point at, std::optional<std::size_t> held) {
   for (int i = 0; i < (held == k_threshold ? 1 : k_thresholds); ++i)
     for (int j = 0; j < (held == k_spread ? 1 : k_spreads); ++j)
       for (int k = 0; k < k_lapses; ++k) {
-        const Point p{value(k_threshold, i, k_thresholds), value(k_spread, j, k_spreads),
-                      value(k_lapse, k, k_lapses)};
+        const Point p{value(k_threshold, i, k_thresholds), value(k_spread, j, k_spreads), value(k_lapse, k, k_lapses)};
         const double deviance = problem.deviance(p);
         if (deviance < least) {
           least = deviance;
@@ -223,12 +221,12 @@ class Profile {
       const double share = (value - inner.point[k_]) / (outer.point[k_] - inner.point[k_]);
       return excess(at(value, share < 0.5 ? inner.point : outer.point));
     };
-    const auto& [low, high] = inner.point[k_] < outer.point[k_] ? std::pair<const Descent&, const Descent&>(inner, outer)
-                                                                : std::pair<const Descent&, const Descent&>(outer, inner);
+    const auto& [low, high] = inner.point[k_] < outer.point[k_]
+                                  ? std::pair<const Descent&, const Descent&>(inner, outer)
+                                  : std::pair<const Descent&, const Descent&>(outer, inner);
     std::uintmax_t iterations = 60;
-    const auto bracket =
-        boost::math::tools::toms748_solve(f, low.point[k_], high.point[k_], excess(low), excess(high),
-                                          boost::math::tools::eps_tolerance<double>(20), iterations);
+    const auto bracket = boost::math::tools::toms748_solve(f, low.point[k_], high.point[k_], excess(low), excess(high),
+                                                           boost::math::tools::eps_tolerance<double>(20), iterations);
     return (bracket.first + bracket.second) / 2;
   }
 
@@ -245,8 +243,8 @@ void check(const std::vector<ChoiceLevel>& levels, const PsychometricOptions& op
     if (!(level.difference > 0) || !std::isfinite(level.difference))
       throw InvalidInput(fmt::format("fit_psychometric: levels[{}].difference {} is not above 0", i, level.difference));
     if (level.trials < 1 || level.correct < 0 || level.correct > level.trials)
-      throw InvalidInput(fmt::format("fit_psychometric: levels[{}]: {} of {} trials correct", i, level.correct,
-                                     level.trials));
+      throw InvalidInput(
+          fmt::format("fit_psychometric: levels[{}]: {} of {} trials correct", i, level.correct, level.trials));
   }
   if (!(options.guess >= 0 && options.most_lapse >= 0 && options.guess + options.most_lapse < 1))
     throw InvalidInput(fmt::format("fit_psychometric: guess {} and most_lapse {} leave nothing between", options.guess,
@@ -265,7 +263,8 @@ double p_of_deviance(const Problem& problem, const Descent& best) {
   for (int i = 0; i < problem.options().simulations; ++i) {
     for (ChoiceLevel& level : drawn) {
       level.correct = 0;
-      for (int trial = 0; trial < level.trials; ++trial) level.correct += random.uniform() < f(level.difference) ? 1 : 0;
+      for (int trial = 0; trial < level.trials; ++trial)
+        level.correct += random.uniform() < f(level.difference) ? 1 : 0;
     }
     const Problem again(drawn, problem.options());
     if (descend(again, best.point, {}).deviance >= best.deviance) ++as_bad;

@@ -141,8 +141,7 @@ class LogisticCost : public ceres::CostFunction {
     const double range = 1 - options_.guess - options_.lapse;
     for (Eigen::Index i = 0; i < rows_.y.size(); ++i) {
       const double f = 1 / (1 + std::exp(-(parameters[0][0] + rows_.x.row(i).dot(b))));
-      const study_detail::DevianceRoot root =
-          study_detail::deviance_root(rows_.y[i], 1, options_.guess + range * f);
+      const study_detail::DevianceRoot root = study_detail::deviance_root(rows_.y[i], 1, options_.guess + range * f);
       if (!std::isfinite(root.value) || !std::isfinite(root.by_probability)) return false;
       residuals[i] = root.value;
       if (jacobians == nullptr || jacobians[0] == nullptr) continue;
@@ -237,10 +236,11 @@ Regression logistic_regression(const RegressionData& data, const RegressionOptio
   constexpr const char* k_name = "logistic_regression";
   const Rows rows = checked(data, k_name);
   for (const double answer : data.answers)
-    if (answer != 0 && answer != 1) throw InvalidInput(fmt::format("{}: the answer {} is neither 0 nor 1", k_name, answer));
+    if (answer != 0 && answer != 1)
+      throw InvalidInput(fmt::format("{}: the answer {} is neither 0 nor 1", k_name, answer));
   if (!(options.guess >= 0 && options.lapse >= 0 && options.guess + options.lapse < 1))
-    throw InvalidInput(fmt::format("{}: guess {} and lapse {} leave nothing between", k_name, options.guess,
-                                   options.lapse));
+    throw InvalidInput(
+        fmt::format("{}: guess {} and lapse {} leave nothing between", k_name, options.guess, options.lapse));
   Eigen::MatrixXd with_intercept(rows.x.rows(), rows.x.cols() + 1);
   with_intercept << Eigen::VectorXd::Ones(rows.x.rows()), rows.x;
   if (const auto k = collinear_column(with_intercept, with_intercept.colwise().norm()))

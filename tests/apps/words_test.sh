@@ -105,6 +105,18 @@ grep -qF "nothing of it is applied" "$out/plan.txt" || fail "plan suggests nothi
 grep -qF '"library:carpet/' "$out/plan.json" || fail "plan: no carpet for floor_carpet"
 grep -A1 '"stage": "tag"' "$out/plan.json" | grep -q '"run": true' && fail "plan: something suggested is applied"
 
+# Studies.
+says "what: 'analys' is none of new,run,analyse,simulate; did you mean 'analyse'?" 2 "$papilla" study analys
+says "study new needs -o" 2 "$papilla" study new
+says "study run needs a STUDY.json" 2 "$papilla" study run --participant 1
+says "study run needs --participant" 2 "$papilla" study run "$out/missing.json"
+says "--page" 2 "$papilla" study run "$out/missing.json" --participant 1 --port 80
+says "$out/missing.json" 3 "$papilla" study run "$out/missing.json" --participant 1
+says "experiments: 'dimensions' is none of grains, recognisability, roughness, dimension, height; did you mean 'dimension'?" \
+  3 "$papilla" study new -o "$out/study" --experiments dimensions
+says "dimensions: 3.5 is not from 2.02 to 2.98" 3 "$papilla" study new -o "$out/study" --dimensions 2.1,3.5
+[[ ! -e $out/study ]] || fail "study new: a refused study has a folder"
+
 # Rules that take nothing: a warning, or with --strict an error.
 cat >"$out/rules.json" <<'JSON'
 {"materials": {"hard": {"stiffness": 2000}}, "assign": [{"part": "vent_salt*", "material": "hard"}]}

@@ -61,7 +61,8 @@ TEST(StudyDesign, HasTheStimuliOfTheSource) {
   for (const double height : {1.0, 2.0, 4.0}) EXPECT_TRUE(heights.contains(height));
   EXPECT_EQ(dimensions, (std::set<double>{2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7, 2.8, 2.9}));
   EXPECT_EQ(sizes, (std::set<double>{40, 80}));
-  for (const char* model : {"heightfield", "textured-normal", "orthogonal", "lateral", "graph-orthogonal", "graph-lateral"})
+  for (const char* model :
+       {"heightfield", "textured-normal", "orthogonal", "lateral", "graph-orthogonal", "graph-lateral"})
     EXPECT_TRUE(models.contains(model)) << model;
   // 2 × 5 grains; 3 × 3 × 4 and 9 × 4 ratings; 8 pairs × 2 orders × 4 models and 6 × 2 × 3 grains, each twice.
   EXPECT_EQ(study.order_of(1).size(), 10U + 36 + 36 + 128 + 72);
@@ -115,7 +116,8 @@ TEST(StudyDesign, OrdersAreRandomRepeatableAndGiveNothingAway) {
 }
 
 TEST(StudyDesign, NamesWhatCanNotBe) {
-  EXPECT_NE(complaint([] { design_study({.experiments = {"grain"}}); }).find("did you mean 'grains'?"), std::string::npos);
+  EXPECT_NE(complaint([] { design_study({.experiments = {"grain"}}); }).find("did you mean 'grains'?"),
+            std::string::npos);
   EXPECT_NE(complaint([] { design_study({.dimensions = {2.1}}); }).find("dimensions: two or more"), std::string::npos);
   EXPECT_NE(complaint([] { design_study({.dimensions = {2.1, 3}}); }).find("3 is not from"), std::string::npos);
   EXPECT_NE(complaint([] { design_study({.models = {"heightfield"}}); }).find("models"), std::string::npos);
@@ -174,8 +176,10 @@ TEST_F(StudyFile, SchemaKnowsTheReadersKeys) {
     std::set<std::string> keys;
     std::string key;
     for (const char c : text.substr(text.find(head) + head.size()) + ",")
-      if (c == ',') keys.insert(std::exchange(key, {}));
-      else if (c != ' ') key += c;
+      if (c == ',')
+        keys.insert(std::exchange(key, {}));
+      else if (c != ' ')
+        key += c;
     return keys;
   };
   const auto of_schema = [](const Json& object) {
@@ -192,7 +196,8 @@ TEST_F(StudyFile, SchemaKnowsTheReadersKeys) {
   for (const auto& key : schema["required"]) {
     Json bad = good;
     bad.erase(key.get<std::string>());
-    EXPECT_NE(complaint([&] { read(bad.dump()); }).find("'" + key.get<std::string>() + "' is missing"), std::string::npos);
+    EXPECT_NE(complaint([&] { read(bad.dump()); }).find("'" + key.get<std::string>() + "' is missing"),
+              std::string::npos);
   }
 }
 
@@ -270,8 +275,10 @@ TEST(StudyAnswers, NameFileLineAndReasonOfDamage) {
     std::vector<std::string> fields;
     std::string field;
     for (const char c : lines[line - 1] + ",")
-      if (c == ',') fields.push_back(std::exchange(field, {}));
-      else field += c;
+      if (c == ',')
+        fields.push_back(std::exchange(field, {}));
+      else
+        field += c;
     damage(fields);
     lines[line - 1].clear();
     for (std::size_t i = 0; i < fields.size(); ++i) lines[line - 1] += (i ? "," : "") + fields[i];
@@ -285,7 +292,8 @@ TEST(StudyAnswers, NameFileLineAndReasonOfDamage) {
   EXPECT_NE(said([](auto& f) { f[1] = "3"; }).find("participant: '3' is no number from 1 to 2"), std::string::npos);
   EXPECT_NE(said([](auto& f) { f[2] = "0"; }).find("trial: '0'"), std::string::npos);
   EXPECT_NE(said([](auto& f) { f[2] = "2x"; }).find("trial: '2x'"), std::string::npos);
-  EXPECT_NE(said([](auto& f) { f[3] = "height"; }).find("experiment: 'height', but the study has 'grains'"), std::string::npos);
+  EXPECT_NE(said([](auto& f) { f[3] = "height"; }).find("experiment: 'height', but the study has 'grains'"),
+            std::string::npos);
   EXPECT_NE(said([](auto& f) { f[4] = "quads9"; }).find("first: 'quads9'"), std::string::npos);
   EXPECT_NE(said([](auto& f) { f[6] = "nothing"; }).find("answer: 'nothing' is none of"), std::string::npos);
   EXPECT_NE(said([](auto& f) { f[7] = "-1"; }).find("seconds: '-1'"), std::string::npos);
@@ -377,7 +385,8 @@ TEST(StudyAnalysis, TakesWhatIsThereOfASession) {
 
 // A participant of known threshold, 8 levels of 20 choices: the interval holds the threshold in 95 of 100 runs.
 TEST(StudyPowerTest, TheIntervalOfOneParticipantHoldsTheThresholdIn95Of100Runs) {
-  const Study study = design_study({.experiments = {"dimension"}, .models = {"lateral"}, .repetitions = 10, .participants = 1});
+  const Study study =
+      design_study({.experiments = {"dimension"}, .models = {"lateral"}, .repetitions = 10, .participants = 1});
   const std::vector<StudyPower> powers = simulate_power(study, 1, {}, 100, 1);
   ASSERT_EQ(powers.size(), 1U);
   EXPECT_EQ(powers[0].runs, 100);

@@ -22,9 +22,9 @@ TEST(DevianceRoot, HalfItsSquareIsTheLossOfLogLikelihood) {
 
 TEST(DevianceRoot, DerivativeIsThatOfFiniteDifferencesAlsoWhereHitsAreAsExpected) {
   constexpr double k_step = 1e-6;
-  for (const auto& [k, n, p] : {std::array{7.0, 10.0, 0.6}, {7.0, 10.0, 0.7}, {7.0, 10.0, 0.7000001}, {0.0, 5.0, 0.2}}) {
-    const double slope =
-        (deviance_root(k, n, p + k_step).value - deviance_root(k, n, p - k_step).value) / (2 * k_step);
+  for (const auto& [k, n, p] :
+       {std::array{7.0, 10.0, 0.6}, {7.0, 10.0, 0.7}, {7.0, 10.0, 0.7000001}, {0.0, 5.0, 0.2}}) {
+    const double slope = (deviance_root(k, n, p + k_step).value - deviance_root(k, n, p - k_step).value) / (2 * k_step);
     EXPECT_NEAR(deviance_root(k, n, p).by_probability, slope, 1e-5 * std::abs(slope)) << k << " " << p;
   }
 }

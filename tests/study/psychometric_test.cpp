@@ -149,10 +149,10 @@ TEST(Psychometric, IntervalHoldsTheTruth) {
     const PsychometricFunction truth{shape, 0.25, 0.4, 0.5, 0.02};
     int held = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed)
-      held += fit_psychometric(drawn(truth, 20, seed), {.shape = shape, .simulations = 0})
-                      .threshold.covers(truth.threshold)
-                  ? 1
-                  : 0;
+      held +=
+          fit_psychometric(drawn(truth, 20, seed), {.shape = shape, .simulations = 0}).threshold.covers(truth.threshold)
+              ? 1
+              : 0;
     EXPECT_GE(held, 95) << to_string(shape);
     RecordProperty(std::string("held_") + std::string(to_string(shape)), held);
   }

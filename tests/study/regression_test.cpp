@@ -55,7 +55,8 @@ TEST(LinearRegression, ParticipantsConstantsDoNotMatter) {
       data.clusters.push_back(p);
     }
   moved = data;
-  for (std::size_t i = 0; i < moved.answers.size(); ++i) moved.answers[i] += 10 * static_cast<double>(moved.clusters[i]);
+  for (std::size_t i = 0; i < moved.answers.size(); ++i)
+    moved.answers[i] += 10 * static_cast<double>(moved.clusters[i]);
   const Regression a = linear_regression(data), b = linear_regression(moved);
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_NEAR(a.coefficients[k].value, b.coefficients[k].value, 1e-10);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-
 namespace papilla::app {
 namespace {
 
@@ -41,24 +40,26 @@ Json threshold_json(const StudyThreshold& threshold) {
                             {"high", end_json(own.threshold.high)},
                             {"determined", own.is_determined}});
   const PsychometricFit& fit = threshold.fit;
-  return {{"experiment", threshold.experiment},
-          {"factor", threshold.factor},
-          {"condition", threshold.condition},
-          {"unit", difference_unit(threshold.factor)},
-          {"value", threshold.threshold.value},
-          {"low", end_json(threshold.threshold.low)},
-          {"high", end_json(threshold.threshold.high)},
-          {"determined", threshold.threshold.is_bounded()},
-          {"shape", to_string(fit.function.shape)},
-          {"spread", fit.function.spread},
-          {"slope", estimate_json(threshold.slope)},
-          {"guess", fit.function.guess},
-          {"lapse", fit.function.lapse},
-          {"deviance", {{"value", fit.deviance}, {"degrees", fit.degrees}, {"p", fit.degrees >= 1 ? Json(fit.deviance_p) : Json()}}},
-          {"stop", to_string(fit.stop)},
-          {"trace", trace_json(fit.trace)},
-          {"levels", levels_json(threshold.levels)},
-          {"participants", std::move(participants)}};
+  return {
+      {"experiment", threshold.experiment},
+      {"factor", threshold.factor},
+      {"condition", threshold.condition},
+      {"unit", difference_unit(threshold.factor)},
+      {"value", threshold.threshold.value},
+      {"low", end_json(threshold.threshold.low)},
+      {"high", end_json(threshold.threshold.high)},
+      {"determined", threshold.threshold.is_bounded()},
+      {"shape", to_string(fit.function.shape)},
+      {"spread", fit.function.spread},
+      {"slope", estimate_json(threshold.slope)},
+      {"guess", fit.function.guess},
+      {"lapse", fit.function.lapse},
+      {"deviance",
+       {{"value", fit.deviance}, {"degrees", fit.degrees}, {"p", fit.degrees >= 1 ? Json(fit.deviance_p) : Json()}}},
+      {"stop", to_string(fit.stop)},
+      {"trace", trace_json(fit.trace)},
+      {"levels", levels_json(threshold.levels)},
+      {"participants", std::move(participants)}};
 }
 
 Json recognition_json(const StudyRecognition& r) {
@@ -79,7 +80,8 @@ Json study_design_json(const Study& study) {
   double seconds = 0;
   for (std::size_t p = 1; p <= study.participants.size(); ++p) seconds = std::max(seconds, session_seconds(study, p));
   for (const StudyStimulus& s : study.stimuli) {
-    stimuli.push_back({{"file", s.file}, {"label", s.label()}, {"depth_mm", s.depth_mm}, {"limited_share", s.limited_share}});
+    stimuli.push_back(
+        {{"file", s.file}, {"label", s.label()}, {"depth_mm", s.depth_mm}, {"limited_share", s.limited_share}});
     note(grains, s.grain);
     note(heights, s.height);
     note(models, s.model);
@@ -104,9 +106,15 @@ Json study_design_json(const Study& study) {
 }
 
 Json study_analysis_json(const StudyAnalysis& analysis, double confidence) {
-  Json json{{"participants", analysis.participants}, {"answers", analysis.answers},    {"trials", analysis.trials},
-            {"confidence", confidence},              {"thresholds", Json::array()},    {"factors", Json::array()},
-            {"regressions", Json::array()},          {"ratings", Json::array()},       {"recognitions", Json::array()}};
+  Json json{{"participants", analysis.participants},
+            {"answers", analysis.answers},
+            {"trials", analysis.trials},
+            {"confidence", confidence},
+            {"thresholds", Json::array()},
+            {"factors", Json::array()},
+            {"regressions", Json::array()},
+            {"ratings", Json::array()},
+            {"recognitions", Json::array()}};
   for (const StudyThreshold& threshold : analysis.thresholds) json["thresholds"].push_back(threshold_json(threshold));
   for (const StudyRegression& regression : analysis.regressions) {
     json["regressions"].push_back({{"experiment", regression.experiment},

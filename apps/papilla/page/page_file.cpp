@@ -34,7 +34,8 @@ std::string page_html(const PageContent& content) {
                      {"scene", content.scene},
                      {"report", content.report},
                      {"live", content.live}};
-  return fill(page, {{k_connect_marker, content.live ? "; connect-src 'self'" : ""}, {k_page_marker, embedded_json(data)}});
+  return fill(page,
+              {{k_connect_marker, content.live ? "; connect-src 'self'" : ""}, {k_page_marker, embedded_json(data)}});
 }
 
 std::size_t write_page(const PageContent& content, const std::filesystem::path& file) {

@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* k_style =
     "body{font:15px/1.45 system-ui,sans-serif;margin:2em;max-width:80rem}table{border-collapse:collapse;"
-    "font-variant-numeric:tabular-nums}td,th{padding:2px 10px;text-align:left;vertical-align:top;border-bottom:1px solid "
+    "font-variant-numeric:tabular-nums}td,th{padding:2px 10px;text-align:left;vertical-align:top;border-bottom:1px "
+    "solid "
     "#8886}td.n{text-align:right}svg{max-width:100%;height:auto;display:block;margin:1em 0}.soft{opacity:.75}";
 
 std::string cell(const std::string& text) { return "<td>" + html_text(text); }
@@ -31,8 +32,9 @@ std::string thresholds_table(const StudyAnalysis& analysis) {
             number(t.fit.deviance) + number(t.fit.degrees) +
             (t.fit.degrees >= 1 ? number(t.fit.deviance_p) : cell("-")) + number(choices) + "</tr>\n";
   }
-  html += "</table><h3>By participant</h3><table><tr><th>experiment<th>condition<th>participant<th>threshold"
-          "<th>choices</tr>\n";
+  html +=
+      "</table><h3>By participant</h3><table><tr><th>experiment<th>condition<th>participant<th>threshold"
+      "<th>choices</tr>\n";
   for (const StudyThreshold& t : analysis.thresholds)
     for (const ParticipantThreshold& own : t.participants)
       html += "<tr>" + cell(t.experiment) + cell(t.condition) + number(static_cast<double>(own.participant)) +
@@ -43,8 +45,10 @@ std::string thresholds_table(const StudyAnalysis& analysis) {
 
 std::string effects_table(const StudyAnalysis& analysis) {
   std::string html =
-      "<h2>Effects of factors</h2><p>Each with the others as they are. Ratings in steps of their scale, right answers in "
-      "log odds.</p><table><tr><th>experiment<th>factor<th>level<th>against<th>effect<th>answers<th>participants</tr>\n";
+      "<h2>Effects of factors</h2><p>Each with the others as they are. Ratings in steps of their scale, right answers "
+      "in "
+      "log "
+      "odds.</p><table><tr><th>experiment<th>factor<th>level<th>against<th>effect<th>answers<th>participants</tr>\n";
   for (const StudyRegression& r : analysis.regressions) {
     if (!r.problem.empty())
       html += "<tr>" + cell(r.experiment) + "<td colspan=\"6\">" + html_text("none: " + r.problem) + "</tr>\n";
@@ -69,10 +73,11 @@ std::string ratings_table(const StudyAnalysis& analysis) {
 std::string recognition_tables(const StudyAnalysis& analysis) {
   std::string html;
   for (const StudyRecognition& r : analysis.recognitions) {
-    html += fmt::format("<h2>Grains on {:g} mm</h2><p>Right {}, right shape {}, coarse or fine right {}. Rows: "
-                        "presented; columns: answered.</p><table><tr><th>",
-                        r.size_mm, html_text(estimate_text(r.right)), html_text(estimate_text(r.shape)),
-                        html_text(estimate_text(r.fineness)));
+    html += fmt::format(
+        "<h2>Grains on {:g} mm</h2><p>Right {}, right shape {}, coarse or fine right {}. Rows: "
+        "presented; columns: answered.</p><table><tr><th>",
+        r.size_mm, html_text(estimate_text(r.right)), html_text(estimate_text(r.shape)),
+        html_text(estimate_text(r.fineness)));
     for (const std::string& label : r.labels) html += "<th>" + html_text(label);
     html += "</tr>\n";
     for (std::size_t i = 0; i < r.labels.size(); ++i) {

@@ -51,16 +51,15 @@ struct Shared {
 };
 
 Json state_of(Shared& shared) {
-  return {{"place", shared.session.next()},
-          {"playing", shared.player.is_playing()},
-          {"failure", shared.player.failure()}};
+  return {
+      {"place", shared.session.next()}, {"playing", shared.player.is_playing()}, {"failure", shared.player.failure()}};
 }
 
 PageAnswer take_answer(Shared& shared, const std::string& body) {
   const Json said = Json::parse(body);
   try {
-    const std::string why = shared.session.record(said.at("place").get<std::size_t>(),
-                                                  said.at("answer").get<std::string>(), said.at("seconds").get<double>());
+    const std::string why = shared.session.record(
+        said.at("place").get<std::size_t>(), said.at("answer").get<std::string>(), said.at("seconds").get<double>());
     if (!why.empty()) return refusal(why);
   } catch (const IoError&) {
     shared.failure = std::current_exception();  // A full disk is the end, not a message only.
@@ -87,14 +86,17 @@ PageRoutes routes_of(Shared& shared) {
   PageRoutes routes;
   routes.get["/"] = [page] { return PageAnswer{k_ok, "text/html; charset=utf-8", page}; };
   routes.get["/state"] = [&shared] { return json_answer(state_of(shared)); };
-  routes.post["/answer"] = [&shared](const std::string& body) { return told([&] { return take_answer(shared, body); }); };
+  routes.post["/answer"] = [&shared](const std::string& body) {
+    return told([&] { return take_answer(shared, body); });
+  };
   routes.post["/play"] = [&shared](const std::string& body) { return told([&] { return play(shared, body); }); };
   routes.post["/stop"] = [&shared](const std::string&) {
     shared.player.stop();
     return json_answer(state_of(shared));
   };
   std::set<std::string> pictures;
-  for (const StudyTrial& trial : shared.session.study().trials) pictures.insert(trial.pictures.begin(), trial.pictures.end());
+  for (const StudyTrial& trial : shared.session.study().trials)
+    pictures.insert(trial.pictures.begin(), trial.pictures.end());
   for (const std::string& picture : pictures) {
     const auto bytes = std::make_shared<const std::string>(read_file(shared.session.file(picture)));
     routes.get["/" + picture] = [bytes] { return PageAnswer{k_ok, "image/png", bytes}; };

@@ -207,7 +207,9 @@ Json answers_of(const StudyExperiment& e) {
   Json answers = Json::array();
   if (e.kind != StudyAnswerKind::rating) {
     for (std::size_t i = 0; i < e.labels.size(); ++i)
-      answers.push_back({{"value", e.kind == StudyAnswerKind::identification ? e.labels[i] : i == 0 ? "first" : "second"},
+      answers.push_back({{"value", e.kind == StudyAnswerKind::identification ? e.labels[i]
+                                   : i == 0                                  ? "first"
+                                                                             : "second"},
                          {"name", fmt::format("{} {}", i + 1, e.labels[i])},
                          {"key", i + 1}});
     return answers;
@@ -225,8 +227,8 @@ Json answers_of(const StudyExperiment& e) {
 
 Json data_of(const StudySession& session, const StimulusPlayer& player) {
   const Study& study = session.study();
-  Json data{{"place", session.next()},        {"plays", player.plays()}, {"words", words_of(study.language)},
-            {"experiments", Json::array()},   {"blocks", Json::array()}, {"trials", Json::array()},
+  Json data{{"place", session.next()},      {"plays", player.plays()}, {"words", words_of(study.language)},
+            {"experiments", Json::array()}, {"blocks", Json::array()}, {"trials", Json::array()},
             {"commands", Json::object()}};
   for (const StudyExperiment& e : study.experiments)
     data["experiments"].push_back({{"kind", to_string(e.kind)},

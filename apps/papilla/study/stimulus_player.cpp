@@ -52,9 +52,8 @@ void StimulusPlayer::start(const fs::path& file) {
   stop();
   const std::scoped_lock lock(mutex_);
   failure_.clear();
-  std::vector<std::string> words = {player_program(), fs::absolute(file).string(), "--device",
-                                    device_,          "--seconds",                 plain_number(seconds_),
-                                    "--quiet"};
+  std::vector<std::string> words = {player_program(), fs::absolute(file).string(), "--device", device_,
+                                    "--seconds",      plain_number(seconds_),      "--quiet"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

@@ -22,14 +22,14 @@ fs::path answers_path(const fs::path& folder, std::size_t participant, const fs:
 
 const Study& with_participant(const Study& study, std::size_t participant, const fs::path& file) {
   if (participant < 1 || participant > study.participants.size())
-    throw InvalidInput(fmt::format("{}: has participants 1 to {}, not {}", file.string(), study.participants.size(),
-                                   participant));
+    throw InvalidInput(
+        fmt::format("{}: has participants 1 to {}, not {}", file.string(), study.participants.size(), participant));
   return study;
 }
 
 std::string now_utc() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(
-                                                  std::chrono::system_clock::now())));
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
 }  // namespace

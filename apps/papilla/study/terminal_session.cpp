@@ -31,9 +31,8 @@ std::string meant(const StudyExperiment& experiment, const std::string& typed) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(typed.data(), typed.data() + typed.size(), number);
   const bool is_number = error == std::errc() && end == typed.data() + typed.size();
-  if (experiment.kind == StudyAnswerKind::choice) return is_number && number == 1   ? "first"
-                                                         : is_number && number == 2 ? "second"
-                                                                                    : typed;
+  if (experiment.kind == StudyAnswerKind::choice)
+    return is_number && number == 1 ? "first" : is_number && number == 2 ? "second" : typed;
   return is_number && number >= 1 && number <= experiment.labels.size() ? experiment.labels[number - 1] : typed;
 }
 

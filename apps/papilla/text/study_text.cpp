@@ -19,7 +19,8 @@ std::string threshold_line(const StudyThreshold& threshold) {
   std::string line = shown_format("  {:<12} {:<18} {} {}", threshold.experiment, threshold.condition,
                                   estimate_text(threshold.threshold), std::string(difference_unit(threshold.factor)));
   line += shown_format("; slope {}, lapses {:.1f} %", estimate_text(threshold.slope), 100 * fit.function.lapse);
-  if (fit.degrees >= 1) line += shown_format("; deviance {:.3g} on {}, p {:.2g}", fit.deviance, fit.degrees, fit.deviance_p);
+  if (fit.degrees >= 1)
+    line += shown_format("; deviance {:.3g} on {}, p {:.2g}", fit.deviance, fit.degrees, fit.deviance_p);
   return line + (threshold.threshold.is_bounded() ? "\n" : "; the levels do not determine it\n");
 }
 
@@ -51,8 +52,8 @@ std::string study_design_text(const std::string& file, const Study& study) {
                          k_minutes_before_boredom);
   for (const StudyStimulus& stimulus : study.stimuli)
     if (stimulus.limited_share > 0)
-      text += shown_format("  {}: {:.2g} % of the relief were too steep for a probe and are gentler\n", stimulus.label(),
-                           100 * stimulus.limited_share);
+      text += shown_format("  {}: {:.2g} % of the relief were too steep for a probe and are gentler\n",
+                           stimulus.label(), 100 * stimulus.limited_share);
   return text;
 }
 

@@ -105,9 +105,8 @@ Json run_analyse(const Options& options, const VerbContext& context) {
     throw UsageError("study analyse: -o must be an .html file");
   StudyAnalysisOptions analysis_options = options.analysis;
   analysis_options.seed = context.seed;
-  const StudyAnalysis analysis =
-      analyse_study(study, read_answers(study, {options.files.begin() + 1, options.files.end()}), analysis_options,
-                    context.progress);
+  const StudyAnalysis analysis = analyse_study(
+      study, read_answers(study, {options.files.begin() + 1, options.files.end()}), analysis_options, context.progress);
   context.console.print(study_analysis_text(analysis, analysis_options.confidence));
   Json json = study_analysis_json(analysis, analysis_options.confidence);
   if (!is_page && options.pictures.empty()) return json;
@@ -131,8 +130,8 @@ Json run_analyse(const Options& options, const VerbContext& context) {
 Json run_simulate(const Options& options, const VerbContext& context) {
   options.require_only_study();
   const Study study = read_study(options.study());
-  const auto participants = static_cast<std::size_t>(
-      options.participants.value_or(static_cast<int>(study.participants.size())));
+  const auto participants =
+      static_cast<std::size_t>(options.participants.value_or(static_cast<int>(study.participants.size())));
   if (participants < 1 || participants > study.participants.size())
     throw UsageError("--participants: the study has " + std::to_string(study.participants.size()));
   if (options.output.empty() && options.runs < 1) throw UsageError("study simulate needs -o: a folder, or --runs");
@@ -206,8 +205,9 @@ void add_session_options(CLI::App& verb, Options& options) {
                          "CSV that the answers are added to; default answers/participant-NNN.csv beside STUDY.json"))
       ->type_name("FILE")
       ->group("Run");
-  verb.add_option("--device", options.device,
-                  "Play each plate on it by papilla-player: sim[:PRESET] or hid[:VID:PID]; without it commands are shown")
+  verb.add_option(
+          "--device", options.device,
+          "Play each plate on it by papilla-player: sim[:PRESET] or hid[:VID:PID]; without it commands are shown")
       ->type_name("DEVICE")
       ->group("Run");
   verb.add_option("--play-seconds", options.play_seconds, "How long a plate is played")
@@ -247,7 +247,8 @@ void add_analysis_options(CLI::App& verb, Options& options) {
 
 void add_simulation_options(CLI::App& verb, Options& options) {
   SimulatedParticipant& truth = options.truth;
-  verb.add_option("--runs", options.runs, "Simulate the study so often and count how often the interval holds the truth")
+  verb.add_option("--runs", options.runs,
+                  "Simulate the study so often and count how often the interval holds the truth")
       ->type_name("N")
       ->check(in_range(1, 100000))
       ->group("Simulate");
@@ -283,7 +284,8 @@ void add_study(CLI::App& program) {
   writes_if_file(verb->add_option("-o,--output", options->output,
                                   "New: the study's folder. Analyse: an .html file. Simulate: folder of the answers"))
       ->type_name("OUT");
-  verb->add_option("--participants", options->participants, "New: how many, default 20. Simulate: how many, default all")
+  verb->add_option("--participants", options->participants,
+                   "New: how many, default 20. Simulate: how many, default all")
       ->type_name("N")
       ->check(in_range(1, 10000));
   add_design_options(*verb, *options);

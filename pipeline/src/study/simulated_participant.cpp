@@ -40,7 +40,8 @@ std::string recognised(const StudyExperiment& experiment, const StudyStimulus& s
                        const SimulatedParticipant& truth, SeededRandom& random) {
   const std::string& presented = stimulus.grain;
   const std::size_t split = presented.find_last_not_of("0123456789") + 1;
-  const bool knows_shape = random.uniform() < truth.right_shape, knows_fineness = random.uniform() < truth.right_fineness;
+  const bool knows_shape = random.uniform() < truth.right_shape,
+             knows_fineness = random.uniform() < truth.right_fineness;
   std::vector<std::string> possible;
   for (const std::string& label : experiment.labels)
     if ((!knows_shape || label.starts_with(presented.substr(0, split))) &&

@@ -172,7 +172,9 @@ std::vector<Factor> factors_of(const Study& study, const StudyExperiment& experi
   const Factor grain{"grain", [](const Row& row) { return row.first->grain; }, {}, {}};
   const Factor model{"model", [](const Row& row) { return row.first->model; }, {}, {}};
   if (experiment.kind == StudyAnswerKind::choice)
-    return {{"difference", {}, [&study](const Row& row) { return std::log2(*study.difference_of(*row.trial)); },
+    return {{"difference",
+             {},
+             [&study](const Row& row) { return std::log2(*study.difference_of(*row.trial)); },
              "per doubling"},
             grain,
             model};
@@ -247,8 +249,8 @@ StudyRegression regression_of(const Study& study, const StudyExperiment& experim
     options.guess = 1 / static_cast<double>(experiment.labels.size());
   }
   try {
-    const Regression fit = result.is_logistic ? logistic_regression(design.data, options)
-                                              : linear_regression(design.data, options);
+    const Regression fit =
+        result.is_logistic ? logistic_regression(design.data, options) : linear_regression(design.data, options);
     for (std::size_t k = 0; k < design.effects.size(); ++k) {
       design.effects[k].effect = fit.coefficients[k];
       design.effects[k].is_determined = fit.is_determined[k];
@@ -289,8 +291,7 @@ void add_ratings(const StudyExperiment& experiment, const std::vector<Row>& rows
     }
     rating.mean = sum / rating.answers;
     if (rating.answers > 1)
-      rating.deviation =
-          std::sqrt(std::max(0.0, (squares - sum * rating.mean) / (rating.answers - 1)));
+      rating.deviation = std::sqrt(std::max(0.0, (squares - sum * rating.mean) / (rating.answers - 1)));
     analysis.ratings.push_back(std::move(rating));
   }
 }
@@ -337,7 +338,8 @@ void add_recognitions(const StudyExperiment& experiment, const std::vector<Row>&
     recognition.labels = experiment.labels;
     recognition.counts.assign(experiment.labels.size(), std::vector<int>(experiment.labels.size(), 0));
     for (const Row& row : own) ++recognition.counts[index(row.first->grain)][index(row.answer)];
-    recognition.right = share_of(own, [](const Row& row) { return row.is_right; }, confidence);
+    recognition.right = share_of(
+        own, [](const Row& row) { return row.is_right; }, confidence);
     recognition.shape = share_of(
         own, [](const Row& row) { return shape_of(row.answer) == shape_of(row.first->grain); }, confidence);
     recognition.fineness = share_of(

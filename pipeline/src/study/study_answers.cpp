@@ -122,9 +122,10 @@ std::vector<StudyAnswer> parse_answers(const Study& study, std::string_view text
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
     if (end == std::string_view::npos)
-      throw InvalidInput(fmt::format("{}: line {}: has no end, it was cut off; papilla study run takes it away and asks "
-                                     "again",
-                                     name, number));
+      throw InvalidInput(
+          fmt::format("{}: line {}: has no end, it was cut off; papilla study run takes it away and asks "
+                      "again",
+                      name, number));
     std::string_view line = text.substr(0, end);
     text.remove_prefix(end + 1);
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
@@ -147,8 +148,8 @@ std::vector<StudyAnswer> read_answers(const Study& study, const std::vector<std:
     for (StudyAnswer& answer : parse_answers(study, text, file.string())) {
       const auto [known, is_new] = file_of.emplace(answer.participant, file.string());
       if (known->second != file.string())
-        throw InvalidInput(fmt::format("{}: participant {} is in {}, too", file.string(), answer.participant,
-                                       known->second));
+        throw InvalidInput(
+            fmt::format("{}: participant {} is in {}, too", file.string(), answer.participant, known->second));
       last[{answer.participant, answer.place}] = std::move(answer);
     }
   }

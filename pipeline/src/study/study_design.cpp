@@ -37,18 +37,20 @@ StudyExperiment experiment_of(std::string_view id, const std::string& language) 
   made.id = id;
   if (id == "grains") {
     made.kind = StudyAnswerKind::identification;
-    made.instructions = in({"The pictures show six grains. Feel each plate without seeing it and say which grain it is. "
-                            "What is tested is the simulation, not you.",
-                            "Die Bilder zeigen sechs Narbungen. Fühlen Sie jede Platte, ohne sie zu sehen, und sagen "
-                            "Sie, welche Narbung es ist. Geprüft wird die Simulation, nicht Sie."});
+    made.instructions =
+        in({"The pictures show six grains. Feel each plate without seeing it and say which grain it is. "
+            "What is tested is the simulation, not you.",
+            "Die Bilder zeigen sechs Narbungen. Fühlen Sie jede Platte, ohne sie zu sehen, und sagen "
+            "Sie, welche Narbung es ist. Geprüft wird die Simulation, nicht Sie."});
     made.question = in({"Which grain is it?", "Welche Narbung ist es?"});
     made.labels.assign(k_recognised_grains.begin(), k_recognised_grains.end());
     made.seconds = 30;
   } else if (id == "recognisability") {
-    made.instructions = in({"You see a grain and feel it. How well do you recognise by touch what you see? Your own "
-                            "judgement is asked.",
-                            "Sie sehen eine Narbung und fühlen sie. Wie gut erkennen Sie im Gefühlten, was Sie sehen? "
-                            "Gefragt ist Ihr persönliches Urteil."});
+    made.instructions =
+        in({"You see a grain and feel it. How well do you recognise by touch what you see? Your own "
+            "judgement is asked.",
+            "Sie sehen eine Narbung und fühlen sie. Wie gut erkennen Sie im Gefühlten, was Sie sehen? "
+            "Gefragt ist Ihr persönliches Urteil."});
     made.question = in({"The grain in the picture is …", "Die Narbung im Bild ist …"});
     for (const Words& step : {Words{"not recognisable", "nicht erkennbar"},
                               {"imaginably recognisable", "vorstellbar erkennbar"},
@@ -57,10 +59,11 @@ StudyExperiment experiment_of(std::string_view id, const std::string& language) 
                               {"perfectly recognisable", "perfekt erkennbar"}})
       made.labels.push_back(in(step));
   } else if (id == "roughness") {
-    made.instructions = in({"First feel the smoothest and the roughest plate of this block. Then give each plate a "
-                            "number from 1, smooth, to 20, rough.",
-                            "Fühlen Sie zuerst die glatteste und die raueste Platte dieses Blocks. Geben Sie dann jeder "
-                            "Platte eine Zahl von 1, glatt, bis 20, rau."});
+    made.instructions =
+        in({"First feel the smoothest and the roughest plate of this block. Then give each plate a "
+            "number from 1, smooth, to 20, rough.",
+            "Fühlen Sie zuerst die glatteste und die raueste Platte dieses Blocks. Geben Sie dann jeder "
+            "Platte eine Zahl von 1, glatt, bis 20, rau."});
     made.question = in({"How rough is it?", "Wie rau ist sie?"});
     made.labels = {in({"smooth", "glatt"}), in({"rough", "rau"})};
     made.high = 20;
@@ -98,7 +101,8 @@ void require_known(const std::vector<std::string>& list, const std::string& opti
   for (const std::string& name : list)
     if (std::find(known.begin(), known.end(), name) == known.end())
       refuse(option, fmt::format("'{}' is none of {}{}", name, fmt::join(known, ", "), did_you_mean(name, known)));
-  if (std::set<std::string>(list.begin(), list.end()).size() != list.size()) refuse(option, "a name stands there twice");
+  if (std::set<std::string>(list.begin(), list.end()).size() != list.size())
+    refuse(option, "a name stands there twice");
 }
 
 void check(const StudyDesignOptions& options) {

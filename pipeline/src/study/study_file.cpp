@@ -28,12 +28,9 @@ Json stimulus_json(const StudyStimulus& s) {
 }
 
 Json experiment_json(const StudyExperiment& e) {
-  Json json{{"id", e.id},
-            {"kind", to_string(e.kind)},
-            {"instructions", e.instructions},
-            {"question", e.question},
-            {"labels", e.labels},
-            {"seconds", e.seconds}};
+  Json json{
+      {"id", e.id},         {"kind", to_string(e.kind)}, {"instructions", e.instructions}, {"question", e.question},
+      {"labels", e.labels}, {"seconds", e.seconds}};
   if (e.kind == StudyAnswerKind::rating) json["range"] = {e.low, e.high};
   if (e.kind == StudyAnswerKind::choice) json["factor"] = e.factor;
   return json;
@@ -106,7 +103,8 @@ StudyStimulus read_stimulus(const JsonValue& value) {
   s.model = model.text();
   if (!force_model(s.model)) model.fail("'" + s.model + "' is no force model");
   if (const auto v = value.get("dimension")) s.dimension = v->number(2, 3);
-  if (s.dimension.has_value() != (s.grain == "fractal")) value.fail("'dimension' is of the grain \"fractal\", and needed there");
+  if (s.dimension.has_value() != (s.grain == "fractal"))
+    value.fail("'dimension' is of the grain \"fractal\", and needed there");
   s.size_mm = value.require("size_mm").number(1, 1e4);
   s.depth_mm = value.require("depth_mm").number(0, 1e3);
   s.limited_share = value.require("limited_share").number(0, 1);
@@ -154,7 +152,8 @@ StudyTrial read_trial(const JsonValue& value, const Study& study) {
   t.stimuli = read_indices(stimuli, study.stimuli.size(), "stimuli");
   const StudyExperiment& experiment = study.experiments[t.experiment];
   const std::size_t wanted = experiment.kind == StudyAnswerKind::choice ? 2 : 1;
-  if (t.stimuli.size() != wanted) stimuli.fail("must be " + std::to_string(wanted) + " for a " + std::string(to_string(experiment.kind)));
+  if (t.stimuli.size() != wanted)
+    stimuli.fail("must be " + std::to_string(wanted) + " for a " + std::string(to_string(experiment.kind)));
   if (const auto v = value.get("pictures"))
     for (const JsonValue& picture : v->list()) t.pictures.push_back(read_name(picture));
   if (const auto difference = study.difference_of(t); difference && !(*difference > 0))
@@ -184,7 +183,8 @@ std::vector<StudyBlock> read_participant(const JsonValue& value, const Study& st
 Study read_study(const std::filesystem::path& path) {
   const Json json = read_json(path);
   const JsonValue root(json, path.string(), "");
-  root.expect_keys({"$schema", "$comment", "version", "id", "seed", "language", "experiments", "stimuli", "trials", "participants"});
+  root.expect_keys(
+      {"$schema", "$comment", "version", "id", "seed", "language", "experiments", "stimuli", "trials", "participants"});
   if (const JsonValue version = root.require("version"); version.number(0, k_most) != k_version)
     version.fail("only version 1 is known");
   Study study;

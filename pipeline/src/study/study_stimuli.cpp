@@ -113,8 +113,8 @@ void write_pictures(const Study& study, const fs::path& folder, int side_px) {
       if (!written.insert(name).second) continue;
       make_folder((folder / name).parent_path());
       const GrainKind kind = grain_kind(fs::path(name).stem().string());
-      write_grey_image(folder / name, synthesize_texture({.grain = kind, .size_px = side_px, .seed = study.seed}).picture,
-                       8);
+      write_grey_image(folder / name,
+                       synthesize_texture({.grain = kind, .size_px = side_px, .seed = study.seed}).picture, 8);
     }
 }
 

@@ -54,9 +54,9 @@ struct PsychometricFit {
   /// Whether threshold and slope lie within what the levels can say. If not, an interval is open: all levels are too
   /// easy, or too hard, or there is one.
   bool is_determined = false;
-  double deviance = 0;      ///< 2·Σ [k·ln(k/(nψ)) + (n − k)·ln((n − k)/(n(1 − ψ)))].
-  int degrees = 0;          ///< Levels less the parameters fitted; no test of fit where it is below 1.
-  double deviance_p = 1;    ///< Share of simulated data sets of `function` that fit as badly or worse.
+  double deviance = 0;    ///< 2·Σ [k·ln(k/(nψ)) + (n − k)·ln((n − k)/(n(1 − ψ)))].
+  int degrees = 0;        ///< Levels less the parameters fitted; no test of fit where it is below 1.
+  double deviance_p = 1;  ///< Share of simulated data sets of `function` that fit as badly or worse.
   StopReason stop = StopReason::direct;
   Trace trace;  ///< Half the deviance by iteration.
 };

@@ -10,23 +10,23 @@ namespace papilla {
 
 /// Answers and what they may depend on.
 struct RegressionData {
-  std::size_t columns = 0;             ///< Of each row, without an intercept.
-  std::vector<double> predictors;      ///< Row by row.
-  std::vector<double> answers;         ///< Per row; of a logistic regression 0 or 1.
-  std::vector<std::size_t> clusters;   ///< Per row: the participant.
+  std::size_t columns = 0;            ///< Of each row, without an intercept.
+  std::vector<double> predictors;     ///< Row by row.
+  std::vector<double> answers;        ///< Per row; of a logistic regression 0 or 1.
+  std::vector<std::size_t> clusters;  ///< Per row: the participant.
 };
 
 struct RegressionOptions {
   double confidence = 0.95;
-  double guess = 0;   ///< γ of a logistic regression: the share that is right by chance.
-  double lapse = 0;   ///< λ of it: the share that is wrong whatever is presented.
+  double guess = 0;  ///< γ of a logistic regression: the share that is right by chance.
+  double lapse = 0;  ///< λ of it: the share that is wrong whatever is presented.
 };
 
 struct Regression {
   std::vector<Estimate> coefficients;  ///< Per column.
   std::size_t rows = 0, clusters = 0;
-  double residual = 0;                ///< Linear: standard deviation of what is left. Logistic: deviance.
-  std::vector<bool> is_determined;    ///< Per column; false where no finite value fits best, and no interval is given.
+  double residual = 0;              ///< Linear: standard deviation of what is left. Logistic: deviance.
+  std::vector<bool> is_determined;  ///< Per column; false where no finite value fits best, and no interval is given.
 };
 
 /// Least squares of y = u_g + x·b with a constant u_g a participant, which is taken out by subtracting each

@@ -20,7 +20,7 @@ struct SimulatedParticipant {
   PsychometricShape shape = PsychometricShape::logistic;
   double dimension_threshold = 0.25, height_threshold = 0.5;  ///< α of choices, in the unit of the difference.
   double spread = 0.4, lapse = 0.02;                          ///< β and λ of choices.
-  double between = 0;  ///< Standard deviation of ln α among participants.
+  double between = 0;                                         ///< Standard deviation of ln α among participants.
   double rating_noise = 0.15;
   double right_shape = 0.55, right_fineness = 0.75;  ///< Shares; the rest is guessed.
 };
@@ -33,11 +33,11 @@ std::vector<StudyAnswer> simulate_answers(const Study& study, std::size_t partic
 /// How well a study finds a threshold that is known.
 struct StudyPower {
   std::string experiment, condition;
-  double truth = 0;          ///< The threshold simulated: the median one of participants.
+  double truth = 0;           ///< The threshold simulated: the median one of participants.
   int runs = 0, covered = 0;  ///< Covered: the interval holds the truth. An open interval that does counts.
-  int determined = 0;        ///< Runs with an interval of two ends.
-  double median = 0;         ///< Of the estimates.
-  double median_ratio = 0;   ///< Of high over low, of the determined intervals; 0 when there are none.
+  int determined = 0;         ///< Runs with an interval of two ends.
+  double median = 0;          ///< Of the estimates.
+  double median_ratio = 0;    ///< Of high over low, of the determined intervals; 0 when there are none.
 };
 
 /// Simulates the study `runs` times with seeds from `seed` on, and analyses each by analyse_study(), without tests of

@@ -13,14 +13,14 @@ namespace papilla {
 
 /// What is felt: a plate with a relief, as a tagged GLB file of a name that gives nothing away.
 struct StudyStimulus {
-  std::string file;               ///< Relative to STUDY.json.
-  std::string grain;              ///< A GrainKind's name, or "fractal".
-  double height = 1;              ///< Factor of the relief, and of the force of models that add one.
-  std::string model;              ///< A force model's name.
+  std::string file;                      ///< Relative to STUDY.json.
+  std::string grain;                     ///< A GrainKind's name, or "fractal".
+  double height = 1;                     ///< Factor of the relief, and of the force of models that add one.
+  std::string model;                     ///< A force model's name.
   std::optional<double> dimension = {};  ///< Of a fractal: of the surface, or 1 more than that of its graph.
-  double size_mm = 40;            ///< Side of the plate.
-  double depth_mm = 0;            ///< Of the relief as it was baked, peak to valley.
-  double limited_share = 0;       ///< Of the relief that was steeper than the probe may meet.
+  double size_mm = 40;                   ///< Side of the plate.
+  double depth_mm = 0;                   ///< Of the relief as it was baked, peak to valley.
+  double limited_share = 0;              ///< Of the relief that was steeper than the probe may meet.
 
   /// "spheres6 x2 heightfield", "2.3 lateral".
   std::string label() const;
@@ -38,32 +38,32 @@ std::string_view to_string(StudyAnswerKind kind) noexcept;
 
 /// Trials with one question.
 struct StudyExperiment {
-  std::string id;            ///< grains, recognisability, roughness, dimension or height; unique.
+  std::string id;  ///< grains, recognisability, roughness, dimension or height; unique.
   StudyAnswerKind kind = StudyAnswerKind::rating;
   std::string instructions;  ///< Before each block.
   std::string question;
   std::vector<std::string> labels;
-  int low = 1, high = 5;     ///< Of a rating.
-  std::string factor;        ///< Of a choice: what the stimuli differ in, "dimension" or "height".
-  double seconds = 8;        ///< That a trial takes, for the length of a session.
+  int low = 1, high = 5;  ///< Of a rating.
+  std::string factor;     ///< Of a choice: what the stimuli differ in, "dimension" or "height".
+  double seconds = 8;     ///< That a trial takes, for the length of a session.
 };
 
 /// What is asked once.
 struct StudyTrial {
   std::size_t experiment = 0;
-  std::vector<std::size_t> stimuli;    ///< One, or of a choice two in the order in which they are felt.
-  std::vector<std::string> pictures;   ///< Shown with it, relative to STUDY.json.
+  std::vector<std::size_t> stimuli;   ///< One, or of a choice two in the order in which they are felt.
+  std::vector<std::string> pictures;  ///< Shown with it, relative to STUDY.json.
 };
 
 /// Trials in one go, after their instructions.
 struct StudyBlock {
-  std::vector<std::size_t> shown;   ///< Stimuli to get used to before.
+  std::vector<std::size_t> shown;  ///< Stimuli to get used to before.
   std::vector<std::size_t> trials;
 };
 
 /// An experiment with people: stimuli, questions, and for every participant the order of the trials.
 struct Study {
-  std::string id;        ///< Of stimuli, trials and orders: answers carry it.
+  std::string id;  ///< Of stimuli, trials and orders: answers carry it.
   std::uint64_t seed = 1;
   std::string language = "en";  ///< Of the texts.
   std::vector<StudyExperiment> experiments;
@@ -97,7 +97,7 @@ struct StudyDesignOptions {
   std::vector<double> dimensions = {2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7, 2.8, 2.9};
   std::vector<std::string> grain_models = {"heightfield", "textured-normal", "orthogonal", "lateral"};
   std::vector<std::string> models = {"orthogonal", "lateral", "graph-orthogonal", "graph-lateral"};
-  int repetitions = 2;        ///< Of the blocks of choices; each has every pair in both orders.
+  int repetitions = 2;  ///< Of the blocks of choices; each has every pair in both orders.
   int participants = 20;
   std::string language = "en";  ///< "en", "de".
   std::uint64_t seed = 1;
@@ -111,8 +111,8 @@ std::vector<std::string_view> study_experiments();
 /// which grain of the six is left out goes round. Stimuli have no files yet, but names.
 /// Deterministic for given options.
 /// @throws InvalidInput naming the option and value that cannot be.
-/// Sources: M. Schulze, Von computergraphischen zu haptischen Texturen, dissertation, Hannover 2005, 6.4 and 8.2 to 8.5;
-/// G. T. Fechner, Elemente der Psychophysik, 1860 (constant stimuli, both orders).
+/// Sources: M. Schulze, Von computergraphischen zu haptischen Texturen, dissertation, Hannover 2005, 6.4 and 8.2
+/// to 8.5; G. T. Fechner, Elemente der Psychophysik, 1860 (constant stimuli, both orders).
 Study design_study(const StudyDesignOptions& options = {});
 
 /// Seconds that a participant's session takes, by StudyExperiment::seconds.

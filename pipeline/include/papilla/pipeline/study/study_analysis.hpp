@@ -17,8 +17,8 @@ namespace papilla {
 struct StudyAnalysisOptions {
   PsychometricShape shape = PsychometricShape::logistic;
   double confidence = 0.95;
-  int simulations = 400;   ///< Of each deviance; 0: none.
-  std::uint64_t seed = 1;  ///< Of those.
+  int simulations = 400;        ///< Of each deviance; 0: none.
+  std::uint64_t seed = 1;       ///< Of those.
   bool of_participants = true;  ///< A function for every participant, too.
 };
 
@@ -32,8 +32,8 @@ struct ParticipantThreshold {
 
 /// The difference that is told in three of four choices, under one condition.
 struct StudyThreshold {
-  std::string experiment, factor;  ///< "dimension" or "height".
-  std::string condition;           ///< The force model of dimensions, the grain of heights.
+  std::string experiment, factor;   ///< "dimension" or "height".
+  std::string condition;            ///< The force model of dimensions, the grain of heights.
   std::vector<ChoiceLevel> levels;  ///< Of all participants.
   PsychometricFit fit;              ///< Of all participants' choices as if they were one's.
   /// With several participants the interval holds that of `fit` and that of the jackknife over participants.
