@@ -130,13 +130,13 @@ struct Descent {
   StopReason stop = StopReason::direct;
 };
 
-/// Least deviance from `start`, with parameter `held` as it is.
-Descent descend(const Problem& problem, Point start, std::optional<std::size_t> held, Trace* trace = nullptr) {
+/// Least deviance from `start`, with the parameters of `held` as they are.
+Descent descend_with(const Problem& problem, Point start, const std::array<bool, 3>& held, Trace* trace) {
   ceres::Problem solved;
   for (std::size_t k = 0; k < start.size(); ++k) {
     start[k] = std::clamp(start[k], problem.least(k), problem.most(k));
     solved.AddParameterBlock(&start[k], 1);
-    if (held == k || problem.least(k) == problem.most(k)) {
+    if (held[k]) {
       solved.SetParameterBlockConstant(&start[k]);
     } else {
       solved.SetParameterLowerBound(&start[k], 0, problem.least(k));
@@ -160,6 +160,27 @@ Descent descend(const Problem& problem, Point start, std::optional<std::size_t> 
     throw SolverFailure("fit_psychometric: the deviance is not finite");
   if (summary.termination_type == ceres::NO_CONVERGENCE) end.stop = StopReason::iteration_limit;
   return end;
+}
+
+/// Least deviance from `start`, with parameter `held` as it is. Most often lapses are none or as many as may be, where
+/// a descent against the bound stalls: both are held, too, and the best of the three is taken.
+Descent descend(const Problem& problem, const Point& start, std::optional<std::size_t> held, Trace* trace = nullptr) {
+  const bool has_lapses = problem.most(k_lapse) > problem.least(k_lapse);
+  std::array<bool, 3> fixed{held == k_threshold, held == k_spread, !has_lapses};
+  Descent best = descend_with(problem, start, fixed, trace);
+  if (!has_lapses) return best;
+  fixed[k_lapse] = true;
+  for (const double lapse : {problem.least(k_lapse), problem.most(k_lapse)}) {
+    Point at_bound = best.point;
+    at_bound[k_lapse] = lapse;
+    Trace further;
+    const Descent other = descend_with(problem, at_bound, fixed, trace != nullptr ? &further : nullptr);
+    if (other.deviance >= best.deviance) continue;
+    best = other;
+    const double before = further.empty() ? 0 : trace->back().seconds;
+    for (const TraceSample& sample : further) trace->push_back({before + sample.seconds, sample.error});
+  }
+  return best;
 }
 
 /// The best of a grid, with parameter `held` as it is in `at`.
