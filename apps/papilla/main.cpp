@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   add_weather(program);
   add_materials(program);
   add_fit(program);
+  add_study(program);
   add_plan(program);
   add_bake(program);
   add_view(program);

@@ -20,6 +20,7 @@ void add_texture(CLI::App& program);
 void add_weather(CLI::App& program);
 void add_materials(CLI::App& program);
 void add_fit(CLI::App& program);
+void add_study(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
 void add_view(CLI::App& program);

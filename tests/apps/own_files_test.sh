@@ -47,6 +47,7 @@ printf 't,x,y,z\n0,0,0,0.01\n0.01,0,0,0.01\n' >hand.csv
 printf 'ISO-10303-21;\n' >part.step
 printf '{}' >own.json
 printf 't,x,y,z,force_x,force_y,force_z\n0,0,0,0,0,0,0\n1,0,0,0,0,0,1\n' >stroke.csv
+printf '{}' >study.json && printf 'study\n' >answers.csv
 
 # What each verb reads and writes: VERB | arguments | inputs among them | option of each output.
 table='inspect    | one.obj --reach volume.json --view volume2.json  | one.obj volume.json volume2.json | --picture --json
@@ -65,6 +66,7 @@ fit        | stroke.csv                                      | stroke.csv       
 plan       | scene.glb -m rules.json --reach volume.json --view volume2.json | scene.glb rules.json volume.json volume2.json | --json
 bake       | scene.glb -m rules.json --library lib.recipes --reach volume.json --view volume2.json | scene.glb rules.json lib.recipes volume.json volume2.json | --output --json
 materials  | check own.json                                  | own.json                         | --output --picture --json
+study      | analyse study.json answers.csv                  | study.json answers.csv           | --output --answers --json
 view       | scene.glb --tags scene2.glb --no-open           | scene.glb scene2.glb             | --output --json
 evaluate   | param one.obj  -o made                          | one.obj                          | --json'
 cp volume.json volume2.json

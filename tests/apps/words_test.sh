@@ -119,6 +119,17 @@ says "hand.csv:1: the heading has no column force_x" 3 "$papilla" fit "$out/hand
 head -n 200 "$out/stroke.csv" >"$out/air.csv"
 says "air.csv: the stroke never presses" 3 "$papilla" fit "$out/air.csv"
 says "--surface: 'plan' is none of auto,recorded,plane; did you mean 'plane'?" 2 "$papilla" fit a.csv --surface plan
+# Studies.
+says "what: 'analys' is none of new,run,analyse,simulate; did you mean 'analyse'?" 2 "$papilla" study analys
+says "study new needs -o" 2 "$papilla" study new
+says "study run needs a STUDY.json" 2 "$papilla" study run --participant 1
+says "study run needs --participant" 2 "$papilla" study run "$out/missing.json"
+says "--page" 2 "$papilla" study run "$out/missing.json" --participant 1 --port 80
+says "$out/missing.json" 3 "$papilla" study run "$out/missing.json" --participant 1
+says "experiments: 'dimensions' is none of grains, recognisability, roughness, dimension, height; did you mean 'dimension'?" \
+  3 "$papilla" study new -o "$out/study" --experiments dimensions
+says "dimensions: 3.5 is not from 2.02 to 2.98" 3 "$papilla" study new -o "$out/study" --dimensions 2.1,3.5
+[[ ! -e $out/study ]] || fail "study new: a refused study has a folder"
 
 # Rules that take nothing: a warning, or with --strict an error.
 cat >"$out/rules.json" <<'JSON'

@@ -131,6 +131,9 @@ for program in "$@"; do
     expect 'grain fractal photo' "$program" synthesize ''
     expect 'list show search check page' "$program" materials ''
     expect 'show search' "$program" materials s
+    expect 'new run analyse simulate' "$program" study ''
+    expect 'analyse' "$program" study an
+    expect 'logistic normal' "$program" study --shape ''
   fi
   expect '--help' "$program" --hel
   for verb in $(completed "$program" ''); do

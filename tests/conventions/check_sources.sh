@@ -44,7 +44,7 @@ licences() {
 }
 
 # Folders of libraries, and all folders with C++ files.
-readonly libraries=(core meshing param texture procedural haptic io pipeline)
+readonly libraries=(core meshing param texture procedural haptic io study pipeline)
 readonly all_cpp=("${libraries[@]}" apps tests data examples)
 
 readonly gpl_headers=' <(CGAL/|fftw3)'
@@ -95,7 +95,8 @@ allowed_modules() {
     procedural) echo 'core|texture|procedural' ;;
     haptic) echo 'core|haptic|texture' ;;
     io) echo 'core|haptic|texture|meshing|io' ;;
-    pipeline) echo 'core|haptic|texture|meshing|io|param|procedural|pipeline' ;;
+    study) echo 'core|study' ;;
+    pipeline) echo 'core|haptic|texture|meshing|io|param|procedural|study|pipeline' ;;
     apps/player) echo 'core|haptic|io' ;;
   esac
 }
@@ -159,7 +160,7 @@ readonly library_uses='
 \.hxx> OpenCASCADE libocct-data-exchange-dev libfontconfig-dev papilla_occt
 <fftw3 fftw3 libfftw3-dev PkgConfig::FFTW
 <ceres/ Ceres libceres-dev Ceres::ceres
-<boost/(asio|beast) Boost libboost-dev Boost::headers
+<boost/(asio|beast|math) Boost libboost-dev Boost::headers
 <assimp/ assimp libassimp-dev assimp::assimp
 <OpenImageIO/ OpenImageIO libopenimageio-dev OpenImageIO::OpenImageIO
 <zlib\.h> ZLIB zlib1g-dev ZLIB::ZLIB

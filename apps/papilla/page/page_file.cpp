@@ -4,25 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "json/embedded_json.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 
 namespace papilla::app {
 namespace {
-
-/// JSON that may stand in a script element: no "<" in it.
-std::string embedded(const Json& json) {
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<')
-      out += "\\u003c";
-    else
-      out += c;
-  }
-  return out;
-}
 
 /// The template with texts in place of its markers, which come in this order.
 std::string fill(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& texts) {
@@ -47,7 +34,8 @@ std::string page_html(const PageContent& content) {
                      {"scene", content.scene},
                      {"report", content.report},
                      {"live", content.live}};
-  return fill(page, {{k_connect_marker, content.live ? "; connect-src 'self'" : ""}, {k_page_marker, embedded(data)}});
+  return fill(page,
+              {{k_connect_marker, content.live ? "; connect-src 'self'" : ""}, {k_page_marker, embedded_json(data)}});
 }
 
 std::size_t write_page(const PageContent& content, const std::filesystem::path& file) {

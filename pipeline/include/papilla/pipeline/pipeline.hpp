@@ -25,7 +25,8 @@
 ///   synthesize_texture()  fractal surfaces and grains by formula             synthesis.hpp
 ///   write_texture_files() a recipe's channels as pictures                    texture_files.hpp, contact_sheet.hpp
 ///   evaluate()            error against run time of a method                 evaluate/evaluation.hpp, stability.hpp
-///   weather_scene()       dirt, rust, snow and wear over its materials        weather_scene.hpp
+///   design_study(), analyse_study() experiments with people                   study/study.hpp,
+///   study/study_analysis.hpp weather_scene()       dirt, rust, snow and wear over its materials weather_scene.hpp
 ///   write_scene()         Scene -> GLB, OBJ, PLY, STL, OFF                    io/scene_file.hpp
 ///
 /// Units: millimetres, SI units in haptic tags. Errors: InvalidInput, IoError, SolverFailure, one line each that names
@@ -47,6 +48,11 @@
 #include "papilla/pipeline/repair_scene.hpp"
 #include "papilla/pipeline/scene_sides.hpp"
 #include "papilla/pipeline/simplify_scene.hpp"
+#include "papilla/pipeline/study/simulated_participant.hpp"
+#include "papilla/pipeline/study/study.hpp"
+#include "papilla/pipeline/study/study_analysis.hpp"
+#include "papilla/pipeline/study/study_answers.hpp"
+#include "papilla/pipeline/study/study_stimuli.hpp"
 #include "papilla/pipeline/synthesis.hpp"
 #include "papilla/pipeline/texture_files.hpp"
 #include "papilla/pipeline/texture_survey.hpp"
