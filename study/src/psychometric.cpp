@@ -274,6 +274,18 @@ void check(const std::vector<ChoiceLevel>& levels, const PsychometricOptions& op
     throw InvalidInput(fmt::format("fit_psychometric: confidence {} is not between 0 and 1", options.confidence));
 }
 
+double dispersion_of(const Problem& problem, const Descent& best, int degrees) {
+  if (degrees < 1) return 1;
+  const PsychometricFunction f = problem.function(best.point);
+  double sum = 0;
+  for (const ChoiceLevel& level : problem.levels()) {
+    constexpr double k_least = 1e-9;  // Of a variance: shares that are certain scatter nothing.
+    const double p = f(level.difference), excess = level.correct - level.trials * p;
+    sum += excess * excess / std::max(k_least, level.trials * p * (1 - p));
+  }
+  return std::max(1.0, sum / degrees);
+}
+
 /// Share of data sets drawn from the fitted function whose deviance is that of the data or more [Wichmann and Hill
 /// 2001, I].
 double p_of_deviance(const Problem& problem, const Descent& best) {
@@ -322,7 +334,8 @@ PsychometricFit fit_psychometric(const std::vector<ChoiceLevel>& levels, const P
   fit.deviance = best.deviance;
   fit.degrees = static_cast<int>(levels.size()) - (options.most_lapse > 0 ? 3 : 2);
 
-  const double more = boost::math::quantile(boost::math::chi_squared(1), options.confidence);
+  fit.dispersion = dispersion_of(problem, best, fit.degrees);
+  const double more = fit.dispersion * boost::math::quantile(boost::math::chi_squared(1), options.confidence);
   const Profile threshold(problem, best, k_threshold, more), spread(problem, best, k_spread, more);
   const auto exponential = [](const std::optional<double>& x) {
     return x ? std::optional(std::exp(*x)) : std::nullopt;

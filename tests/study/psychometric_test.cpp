@@ -90,10 +90,10 @@ TEST(Psychometric, IntervalEndsWhereTheProfileHasLostHalfTheQuantile) {
   const std::vector<ChoiceLevel> levels = drawn({PsychometricShape::logistic, 0.25, 0.4, 0.5, 0.02}, 30, 5);
   const PsychometricFit fit = fit_psychometric(levels, {.simulations = 0});
   ASSERT_TRUE(fit.is_determined);
-  constexpr double k_quantile = 3.841459;  // χ²₁(0.95)
+  const double quantile = 3.841459 * fit.dispersion;  // χ²₁(0.95)
   const double best = log_likelihood(levels, fit.function);
   for (const double end : {*fit.threshold.low, *fit.threshold.high})
-    EXPECT_NEAR(2 * (best - profile_at(levels, end)), k_quantile, 0.02) << end;
+    EXPECT_NEAR(2 * (best - profile_at(levels, end)), quantile, 0.02) << end;
 }
 
 TEST(Psychometric, ShapesAgreeOnAThreshold) {
@@ -132,6 +132,24 @@ TEST(Psychometric, DevianceOfWhatFitsIsLikelyAndOfWhatDoesNotIsNot) {
   const PsychometricFit fit = fit_psychometric(bad);
   EXPECT_LT(fit.deviance_p, 0.01);
   EXPECT_EQ(fit.degrees, 5);
+}
+
+// Pearson's statistic of shares that a function can't follow, against the same sum written out.
+TEST(Psychometric, ScatterBeyondThatOfChoicesWidensTheInterval) {
+  std::vector<ChoiceLevel> levels = drawn({PsychometricShape::logistic, 0.25, 0.4, 0.5, 0.02}, 40, 11);
+  const PsychometricFit even = fit_psychometric(levels, {.simulations = 0});
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    levels[i].correct += i % 2 == 0 ? -6 : (levels[i].correct < 34 ? 6 : 0);
+  const PsychometricFit uneven = fit_psychometric(levels, {.simulations = 0});
+  double pearson = 0;
+  for (const ChoiceLevel& level : levels) {
+    const double p = uneven.function(level.difference);
+    pearson += std::pow(level.correct - level.trials * p, 2) / (level.trials * p * (1 - p));
+  }
+  EXPECT_NEAR(uneven.dispersion, pearson / 5, 1e-9);
+  EXPECT_GT(uneven.dispersion, 1.5);
+  EXPECT_GE(even.dispersion, 1);
+  EXPECT_EQ(fit_psychometric({{0.1, 1000, 600}, {0.4, 1000, 900}}, {.simulations = 0}).dispersion, 1);
 }
 
 TEST(Psychometric, IsDeterministicAndFollowed) {

@@ -44,26 +44,29 @@ std::optional<Plot> curves_of(const StudyExperiment& experiment, const StudyAnal
   return plot;
 }
 
-/// Effects side by side, with their intervals upright.
+/// Effects side by side as level strokes, with their intervals upright.
 std::optional<Plot> effects_of(const StudyRegression& regression) {
   if (regression.effects.empty()) return std::nullopt;
   Plot plot{.title = regression.experiment + ": effects",
             .y_name = regression.is_logistic ? "log odds of a right answer" : "steps of the scale"};
-  PlotSeries values{"effect", {}, Style::points, 1};
-  std::vector<PlotSeries> intervals;
+  constexpr double k_half_stroke = 0.15;
+  std::vector<PlotSeries> strokes, intervals;
   for (std::size_t i = 0; i < regression.effects.size(); ++i) {
     const StudyEffect& effect = regression.effects[i];
     const double x = static_cast<double>(i);
     plot.x_labels.push_back(effect.factor + " " + effect.level);
     if (!effect.is_determined) continue;
-    values.points.push_back({x, effect.effect.value});
+    const double value = effect.effect.value;
+    strokes.push_back(
+        {strokes.empty() ? "effect" : "", {{x - k_half_stroke, value}, {x + k_half_stroke, value}}, Style::line, 1});
     if (effect.effect.is_bounded())
-      intervals.push_back({"", {{x, *effect.effect.low}, {x, *effect.effect.high}}, Style::line, 0});
+      intervals.push_back(
+          {intervals.empty() ? "interval" : "", {{x, *effect.effect.low}, {x, *effect.effect.high}}, Style::line, 0});
   }
   const double last = static_cast<double>(regression.effects.size()) - 1;
   plot.series.push_back({"none", {{-0.5, 0}, {last + 0.5, 0}}, Style::line, 7});
-  for (PlotSeries& interval : intervals) plot.series.push_back(std::move(interval));
-  plot.series.push_back(std::move(values));
+  for (auto* list : {&intervals, &strokes})
+    for (PlotSeries& series : *list) plot.series.push_back(std::move(series));
   return plot;
 }
 

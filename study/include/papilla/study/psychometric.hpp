@@ -57,19 +57,23 @@ struct PsychometricFit {
   double deviance = 0;    ///< 2·Σ [k·ln(k/(nψ)) + (n − k)·ln((n − k)/(n(1 − ψ)))].
   int degrees = 0;        ///< Levels less the parameters fitted; no test of fit where it is below 1.
   double deviance_p = 1;  ///< Share of simulated data sets of `function` that fit as badly or worse.
+  /// How much more the shares scatter than independent choices do: the mean of (k − nψ)²/(nψ(1 − ψ)) per degree of
+  /// freedom, at least 1. People learn and tire.
+  double dispersion = 1;
   StopReason stop = StopReason::direct;
   Trace trace;  ///< Half the deviance by iteration.
 };
 
 /// The most likely psychometric function, by non-linear least squares of the signed roots of the deviance from the best
 /// point of a scan. The interval of a parameter holds the values that, with the others refitted, cost at most
-/// χ²₁(confidence) more deviance. Trials count as independent, so several participants need a jackknife beside it
-/// (jackknife_interval()). Deterministic. Cost: about 10 ms, and 0.2 ms a simulation.
+/// dispersion · χ²₁(confidence) more deviance. Trials count as independent otherwise, so several participants need a
+/// jackknife beside it (jackknife_interval()). Deterministic. Cost: about 10 ms, and 0.2 ms a simulation.
 /// @throws InvalidInput when there is no level, a difference is not above 0, or counts do not fit; SolverFailure when a
 /// value becomes infinite.
 /// Sources: F. A. Wichmann, N. J. Hill, The psychometric function I and II, Perception & Psychophysics 63, 2001;
 /// A. Meeker, L. Escobar, Teaching about approximate confidence regions based on maximum likelihood estimation, The
-/// American Statistician 49, 1995.
+/// American Statistician 49, 1995; P. McCullagh, J. A. Nelder, Generalized Linear Models, 2nd ed. 1989, 4.5
+/// (dispersion).
 PsychometricFit fit_psychometric(const std::vector<ChoiceLevel>& levels, const PsychometricOptions& options = {});
 
 /// The function alone, without intervals and test.
