@@ -73,13 +73,12 @@ class MeanPower {
 }  // namespace
 
 double chance_of_highest_wave(const GreyImage& image) {
-  constexpr double k_spread = 2.25;  // Waves that Hann's window makes one of, 1.5 a direction.
   const std::vector<Wave> waves = waves_of(image);
   const MeanPower mean(waves);
   if (!mean.is_known()) return 1;
   double highest = 0;
   for (const Wave& wave : waves) highest = std::max(highest, wave.power / std::exp(mean.at(wave.log_frequency)));
-  return -std::expm1(-static_cast<double>(waves.size()) / k_spread * std::exp(-highest));
+  return -std::expm1(-static_cast<double>(waves.size()) * std::exp(-highest));
 }
 
 }  // namespace papilla::texture_detail
