@@ -75,13 +75,13 @@ TEST(FractalReadings, HalfOfThePiecesDecideOnThePowerLaw) {
 }
 
 TEST(FractalReadings, IntervalIsThatOfTheMean) {
-  // Student's 97.5 % quantile for one degree of freedom is 12.706; deviation of {2, 2.2} over √2 is 0.1.
+  // Student's 97.5 % quantile for one degree of freedom is 12.706; deviation of {2.49, 2.51} over √2 is 0.01.
   FractalReadings a, b;
-  a.box = FractalEstimate{2.0, 1.0, 1.9, 2.1, {{8, 100}, {16, 25}}};
-  b.box = FractalEstimate{2.2, 0.8, 2.1, 2.3, {{8, 400}}};
+  a.box = FractalEstimate{2.49, 0.51, 2.4, 2.6, {{8, 100}, {16, 25}}};
+  b.box = FractalEstimate{2.51, 0.49, 2.4, 2.6, {{8, 400}}};
   const FractalEstimate mean = *mean_readings(std::vector{a, b}).box;
-  EXPECT_NEAR(mean.dimension, 2.1, 1e-12);
-  EXPECT_NEAR(mean.high - mean.low, 2 * 1.2706, 1e-3);
+  EXPECT_NEAR(mean.dimension, 2.5, 1e-12);
+  EXPECT_NEAR(mean.high - mean.low, 2 * 0.12706, 1e-4);
   ASSERT_EQ(mean.curve.size(), 1U);  // Only one scale is common.
   EXPECT_NEAR(mean.curve[0].measure, 200, 1e-9);
 }
