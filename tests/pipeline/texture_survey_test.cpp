@@ -28,8 +28,10 @@ TEST(Survey, PiecesFindWhatTheWholeFinds) {
       test::make_image(400, 300,
                        [&](int x, int y) { return grain(x, y) + 0.1 * static_cast<double>(noise.at(x, y)) - 0.05; }),
       8);
-  const TextureSurvey whole = survey_picture(folder / "a.png", {}, {}),
-                      pieces = survey_picture(folder / "a.png", in_pieces(), {});
+  SurveyOptions all, cut = in_pieces();
+  all.by_class = cut.by_class = false;  // The dimension of a lattice, too.
+  const TextureSurvey whole = survey_picture(folder / "a.png", all, {}),
+                      pieces = survey_picture(folder / "a.png", cut, {});
   EXPECT_FALSE(whole.pieces);
   ASSERT_TRUE(pieces.pieces);
   EXPECT_EQ(pieces.pieces->columns, 4);
@@ -37,6 +39,7 @@ TEST(Survey, PiecesFindWhatTheWholeFinds) {
   EXPECT_EQ(pieces.pieces->lattice.same, 12);
   EXPECT_EQ(pieces.middle.width, 128);
   EXPECT_TRUE(is_same_lattice(pieces.symmetry->lattice, whole.symmetry->lattice));
+  ASSERT_TRUE(whole.fractal && pieces.fractal);
   EXPECT_FALSE(whole.fractal->best->power_law());  // A lattice.
   EXPECT_FALSE(pieces.fractal->best->power_law());
   EXPECT_EQ(pieces.order->kind.kind, whole.order->kind.kind);

@@ -280,9 +280,9 @@ TEST(Weather, FrictionAndStiffnessAreFeltWhereTheyAre) {
     ContactConstants there;
     there.static_friction = felt.static_friction, there.dynamic_friction = felt.dynamic_friction;
     maps->apply({u, 0.5}, there);
-    EXPECT_NEAR(there.dynamic_friction, u < 0.5 ? 0.8 : 0.1, 2e-3) << u;
+    EXPECT_NEAR(there.dynamic_friction, u < 0.5 ? 0.1 : 0.8, 2e-3) << u;  // step(x, .5) is 1 where x >= .5.
     EXPECT_NEAR(there.static_friction, there.dynamic_friction * 0.5 / 0.4, 2e-3) << u;
-    EXPECT_NEAR(there.stiffness, u < 0.5 ? 900 : 300, 3) << u;
+    EXPECT_NEAR(there.stiffness, u < 0.5 ? 300 : 900, 3) << u;
   }
   // Where nothing differs there is no map; a second ageing says that it takes the first one for constant.
   config.layers = {{"base|bumpblend=off|frictionfunction=.8", {"*"}}};
