@@ -43,6 +43,20 @@ function(papilla_module name)
   set_property(GLOBAL APPEND PROPERTY PAPILLA_COMPONENTS ${name})
 endfunction()
 
+# papilla_plugin(NAME SOURCES ... LIBRARIES ...)
+# papilla_NAME.so, which papilla::plugin loads when it is needed: what links heavy libraries. Its one symbol is the
+# variable papilla_NAME.
+function(papilla_plugin name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  set(target papilla_${name}_plugin)
+  add_library(${target} MODULE ${ARG_SOURCES})
+  set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME papilla_${name} CXX_VISIBILITY_PRESET hidden
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin/${PAPILLA_PLUGIN_FOLDER})
+  target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} papilla_build_options)
+  target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL)
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/papilla)
+endfunction()
+
 # papilla_types(NAME DIRECTORY dir FILES header... [PUBLIC libs])
 # A header-only papilla::NAME: the few types of a toolkit folder that the player side shares.
 function(papilla_types name)

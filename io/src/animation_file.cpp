@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/animation_file.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include <cmath>
 #include <vector>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/core/one_line.hpp"
+#include "picture_codec.hpp"
 
 namespace papilla {
 namespace {
@@ -35,22 +31,9 @@ void check(const fs::path& path, std::span<const ColorImage> frames, double per_
 
 void write_animation(const fs::path& path, std::span<const ColorImage> frames, double per_second) {
   check(path, frames, per_second);
-  OIIO::ImageSpec spec(frames.front().width, frames.front().height, 3, OIIO::TypeDesc::UINT8);
-  const int rate[2] = {static_cast<int>(std::lround(per_second * 100)), 100};
-  spec.attribute("FramesPerSecond", OIIO::TypeRational, rate);
-  spec.attribute("gif:LoopCount", 0);
-  const std::vector<OIIO::ImageSpec> specs(frames.size() + k_held, spec);
-  OIIO::Filesystem::IOVecOutput memory;
-  const auto out = OIIO::ImageOutput::create(path.string());
-  bool good =
-      out && out->set_ioproxy(&memory) && out->open(path.string(), static_cast<int>(specs.size()), specs.data());
-  for (std::size_t k = 0; good && k < specs.size(); ++k) {
-    if (k > 0) good = out->open(path.string(), specs[k], OIIO::ImageOutput::AppendSubimage);
-    good = good && out->write_image(OIIO::TypeDesc::UINT8, frames[std::min(k, frames.size() - 1)].pixels.data());
-  }
-  if (!good || !out->close())
-    throw IoError(path.string() + ": cannot be encoded: " + first_line(out ? out->geterror() : OIIO::geterror()));
-  write_atomically(path, {reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size()});
+  const std::vector<unsigned char> bytes =
+      io_detail::pictures_plugin().encode_animation(path.string(), frames, per_second, k_held);
+  write_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace papilla

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/io/image_file.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <limits>
 #include <memory>
 #include <ostream>
@@ -18,11 +15,10 @@
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/core/one_line.hpp"
-#include "papilla/core/units.hpp"
 #include "papilla/io/image_bands.hpp"
 #include "papilla/io/picture_memory.hpp"
 #include "papilla/io/scene.hpp"
+#include "picture_codec.hpp"
 #include "picture_input.hpp"
 #include "profile_curve.hpp"
 
@@ -31,10 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using io_detail::PictureInput;
+using io_detail::PictureToStore;
 using io_detail::pixel_count;
-using OIIO::ImageOutput;
-using OIIO::ImageSpec;
-using OIIO::TypeDesc;
+using io_detail::SampleType;
 
 ColorImage read_rgb(PictureInput& input, std::size_t bytes_per_pixel) {
   const auto channels = static_cast<std::size_t>(input.channels());
@@ -51,103 +46,23 @@ ColorImage read_rgb(PictureInput& input, std::size_t bytes_per_pixel) {
   return image;
 }
 
-/// Whether the format can store the type. Checked first, because libpng prints to stderr about a file that is opened
-/// and not written.
-bool can_hold(const ImageOutput& output, TypeDesc type) {
-  const std::string_view format = output.format_name();
-  if (format == "png") return type != TypeDesc::FLOAT;
-  if (format == "jpeg") return type == TypeDesc::UINT8;
-  return format != "openexr" || type == TypeDesc::FLOAT;
-}
-
-std::unique_ptr<ImageOutput> make_output(const fs::path& path, const ImageSpec& spec) {
-  auto output = ImageOutput::create(path.string());
-  if (!output || !output->supports("ioproxy")) {
-    OIIO::geterror();
-    throw InvalidInput(path.string() + ": pictures can be written as .png, .tif, .exr and .jpg");
-  }
-  if (!can_hold(*output, spec.format))
-    throw InvalidInput(fmt::format("{}: the format cannot hold {}", path.string(), spec.format.c_str()));
-  return output;
-}
-
 /// The file's bytes; `path` only names it and chooses the format.
-std::vector<unsigned char> encode(const fs::path& path, const ImageSpec& spec, TypeDesc source, const void* pixels) {
-  OIIO::Filesystem::IOVecOutput memory;  // Before the output, whose destructor may write into it.
-  const auto output = make_output(path, spec);
-  if (!output->set_ioproxy(&memory) || !output->open(path.string(), spec))
-    throw InvalidInput(path.string() + ": " + first_line(output->geterror()));
-  if (!output->write_image(source, pixels) || !output->close())
-    throw IoError(path.string() + ": " + first_line(output->geterror()));
-  return memory.buffer();
+std::vector<unsigned char> encode(const fs::path& path, const PictureToStore& picture, SampleType source,
+                                  const void* pixels) {
+  return io_detail::pictures_plugin().encoder(path.string(), picture)->encode(source, pixels);
 }
-
-/// Lets OpenImageIO write into a stream. What the stream throws is kept, because it must not pass through C libraries.
-class StreamOutput final : public OIIO::Filesystem::IOProxy {
- public:
-  StreamOutput(const std::string& name, std::ostream& out) : IOProxy(name, Write), out_(out) {}
-
-  const char* proxytype() const override { return "stream"; }
-  bool seek(int64_t offset) override {
-    m_pos = offset;
-    return true;
-  }
-  size_t write(const void* bytes, size_t count) override {
-    if (failure_) return 0;
-    try {
-      if (m_pos != written_to_) out_.seekp(m_pos);
-      out_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
-    } catch (...) {
-      failure_ = std::current_exception();
-      return 0;
-    }
-    written_to_ = m_pos += static_cast<int64_t>(count);
-    size_ = std::max(size_, m_pos);
-    return count;
-  }
-  size_t size() const override { return static_cast<size_t>(size_); }
-
-  void rethrow() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  std::ostream& out_;
-  std::exception_ptr failure_;
-  int64_t written_to_ = 0, size_ = 0;
-};
 
 /// Writes row by row what read(y, row) gives, values of type T.
 template <class T, class Read>
-void write_rows(const fs::path& path, const ImageSpec& spec, const Read& read) {
-  auto made = make_output(path, spec);
+void write_rows(const fs::path& path, const PictureToStore& picture, const Read& read) {
+  const auto encoder = io_detail::pictures_plugin().encoder(path.string(), picture);
   write_atomically(path, [&](std::ostream& out) {
-    StreamOutput stream(path.string(), out);  // Before the output, whose destructor may write into it.
-    const auto output = std::move(made);
-    std::vector<T> row(static_cast<std::size_t>(spec.width));
-    const auto require = [&](bool done) {
-      stream.rethrow();
-      if (!done) throw IoError(path.string() + ": " + first_line(output->geterror()));
-    };
-    require(output->set_ioproxy(&stream) && output->open(path.string(), spec));
-    for (int y = 0; y < spec.height; ++y) {
-      read(y, row.data());
-      require(output->write_scanline(y, 0, spec.format, row.data()));
-    }
-    require(output->close());
+    encoder->encode_rows(out, [&](int y, void* row) { read(y, static_cast<T*>(row)); });
   });
 }
 
 void write_bytes(const fs::path& path, const std::vector<unsigned char>& data) {
   write_atomically(path, {reinterpret_cast<const char*>(data.data()), data.size()});
-}
-
-void set_pitch(ImageSpec& spec, double pitch_mm_x, double pitch_mm_y) {
-  if (!(pitch_mm_x > 0) || !(pitch_mm_y > 0)) return;
-  spec.attribute("ResolutionUnit", "in");  // OpenEXR knows no other unit.
-  spec.attribute("XResolution", static_cast<float>(k_mm_per_inch / pitch_mm_x));
-  spec.attribute("YResolution", static_cast<float>(k_mm_per_inch / pitch_mm_y));
-  spec.attribute("PixelAspectRatio", static_cast<float>(pitch_mm_x / pitch_mm_y));
 }
 
 void check_pixels(int width, int height, std::size_t values, std::size_t channels, const char* function) {
@@ -229,8 +144,7 @@ ColorImage decode_image(const Scene& scene, std::size_t image) {
 
 std::vector<std::byte> encode_png(const ColorImage& image) {
   check_pixels(image.width, image.height, image.pixels.size(), 3, "encode_png");
-  const ImageSpec spec(image.width, image.height, 3, TypeDesc::UINT8);
-  return to_bytes(encode("picture.png", spec, TypeDesc::UINT8, image.pixels.data()));
+  return to_bytes(encode("picture.png", {image.width, image.height, 3}, SampleType::byte, image.pixels.data()));
 }
 
 EncodedHeight encode_height_png16(const HeightMap& map) {
@@ -245,8 +159,8 @@ EncodedHeight encode_height_png16(const HeightMap& map) {
   std::vector<std::uint16_t> samples(map.mm.size());
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = static_cast<std::uint16_t>(std::lround((double{map.mm[i]} - result.offset_mm) * steps_per_mm));
-  const ImageSpec spec(map.width, map.height, 1, TypeDesc::UINT16);
-  result.png = to_bytes(encode("height.png", spec, TypeDesc::UINT16, samples.data()));
+  result.png =
+      to_bytes(encode("height.png", {map.width, map.height, 1, SampleType::word}, SampleType::word, samples.data()));
   return result;
 }
 
@@ -254,37 +168,33 @@ void write_grey_image(const fs::path& path, const GreyImage& image, int bits, in
   check_pixels(image.width, image.height, image.pixels.size(), 1, "write_grey_image");
   if (bits != 8 && bits != 16 && bits != 32)
     throw InvalidInput(fmt::format("write_grey_image: bits = {} is not 8, 16 or 32", bits));
-  const TypeDesc type = bits == 8 ? TypeDesc::UINT8 : bits == 16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
-  ImageSpec spec(image.width, image.height, 1, type);
-  set_pitch(spec, image.pitch_mm, image.pitch_mm);
-  if (path.extension() == ".jpg" || path.extension() == ".jpeg")
-    spec.attribute("Compression", fmt::format("jpeg:{}", jpeg_quality));
-  if (image.curve.size() >= 2 && path.extension() != ".exr") {
-    const std::vector<std::byte> profile = io_detail::profile_of_curve(image.curve);
-    spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(profile.size())), profile.data());
-  }
-  write_bytes(path, encode(path, spec, TypeDesc::FLOAT, image.pixels.data()));
+  const SampleType type = bits == 8 ? SampleType::byte : bits == 16 ? SampleType::word : SampleType::real;
+  PictureToStore picture{image.width, image.height, 1, type, image.pitch_mm, image.pitch_mm};
+  picture.jpeg_quality = jpeg_quality;
+  std::vector<std::byte> profile;
+  if (image.curve.size() >= 2 && path.extension() != ".exr") profile = io_detail::profile_of_curve(image.curve);
+  picture.profile = profile;
+  write_bytes(path, encode(path, picture, SampleType::real, image.pixels.data()));
 }
 
 void write_height_float(const fs::path& path, const HeightMap& map) {
   check_pixels(map.width, map.height, map.mm.size(), 1, "write_height_float");
-  ImageSpec spec(map.width, map.height, 1, TypeDesc::FLOAT);
-  set_pitch(spec, map.pitch_mm_x, map.pitch_mm_y);
-  write_bytes(path, encode(path, spec, TypeDesc::FLOAT, map.mm.data()));
+  const PictureToStore picture{map.width, map.height, 1, SampleType::real, map.pitch_mm_x, map.pitch_mm_y};
+  write_bytes(path, encode(path, picture, SampleType::real, map.mm.data()));
 }
 
 void write_height_rows(const fs::path& path, const SampleRows& heights_mm, double depth_mm, double pitch_mm) {
   const int width = heights_mm.width();
-  ImageSpec spec(width, heights_mm.height(), 1, TypeDesc::FLOAT);
+  PictureToStore picture{width, heights_mm.height(), 1, SampleType::real};
   if (path.extension() != ".png") {
-    set_pitch(spec, pitch_mm, pitch_mm);
-    write_rows<float>(path, spec, [&](int y, float* row) { heights_mm.read(0, y, width, row); });
+    picture.pitch_mm_x = picture.pitch_mm_y = pitch_mm;
+    write_rows<float>(path, picture, [&](int y, float* row) { heights_mm.read(0, y, width, row); });
     return;
   }
-  spec.set_format(TypeDesc::UINT16);
+  picture.type = SampleType::word;
   std::vector<float> heights(static_cast<std::size_t>(width));
   const double steps_per_mm = depth_mm > 0 ? 65535 / depth_mm : 0;
-  write_rows<std::uint16_t>(path, spec, [&](int y, std::uint16_t* row) {
+  write_rows<std::uint16_t>(path, picture, [&](int y, std::uint16_t* row) {
     heights_mm.read(0, y, width, heights.data());
     for (const float height : heights)
       *row++ = static_cast<std::uint16_t>(std::lround(std::clamp(double{height} * steps_per_mm, 0.0, 65535.0)));
@@ -293,8 +203,7 @@ void write_height_rows(const fs::path& path, const SampleRows& heights_mm, doubl
 
 void write_color_image(const fs::path& path, const ColorImage& image) {
   check_pixels(image.width, image.height, image.pixels.size(), 3, "write_color_image");
-  const ImageSpec spec(image.width, image.height, 3, TypeDesc::UINT8);
-  write_bytes(path, encode(path, spec, TypeDesc::UINT8, image.pixels.data()));
+  write_bytes(path, encode(path, {image.width, image.height, 3}, SampleType::byte, image.pixels.data()));
 }
 
 }  // namespace papilla

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <mutex>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -23,8 +23,6 @@ namespace papilla::io_detail {
 namespace {
 
 namespace fs = std::filesystem;
-using OIIO::ImageInput;
-using OIIO::ImageSpec;
 
 /// No compression that is read here stores more than this many pixels in a byte: deflate packs 1032 bytes
 /// into one, and a byte holds at most 8 pixels. A file that claims more is damaged or hostile.
@@ -73,25 +71,20 @@ PictureFormat checked_format(const fs::path& path) {
 
 /// Opens with the reader of one format. Readers that hold whole pictures look at the size that is announced before they
 /// take memory.
-std::unique_ptr<ImageInput> open_input(const PictureFormat& format, const std::string& name,
-                                       OIIO::Filesystem::IOProxy* proxy) {
-  static std::mutex mutex;  // The limit is one for the process.
-  const std::scoped_lock lock(mutex);
+std::unique_ptr<PictureDecoder> open_decoder(const PictureFormat& format, const std::string& name,
+                                             std::optional<std::span<const std::byte>> bytes) {
   constexpr std::uint64_t k_most = 1U << 30U;
   const std::uint64_t most = std::clamp<std::uint64_t>(picture_memory() >> 20U, 1, k_most);
-  OIIO::attribute("limits:imagesize_MB", format.in_rows ? 0 : static_cast<int>(most));
-  OIIO::attribute("tiff:multithread", 0);  // With threads a tile that can't be decompressed is black, and no error.
-  ImageSpec spec, wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);  // Values as they are stored, not multiplied by alpha.
-  auto input = ImageInput::create(std::string(format.name));
+  const PicturesPlugin& plugin = pictures_plugin();
+  std::string reason;
   try {
-    if (input && (!proxy || input->set_ioproxy(proxy)) && input->open(name, spec, wishes)) return input;
+    if (auto decoder = plugin.open(format.name, name, bytes, format.in_rows ? 0 : static_cast<int>(most), reason))
+      return decoder;
   } catch (const std::bad_alloc&) {
     throw InvalidInput(name + ": no memory is left to open it");
   } catch (const std::length_error&) {
     throw InvalidInput(name + ": announces more than its reader can hold");
   }
-  const std::string reason = input ? input->geterror() : OIIO::geterror();
   if (reason.find("limits:imagesize_MB") != std::string::npos)
     throw InvalidInput(fmt::format("{}: takes more than the {:.1f} MB of memory that --max-memory allows", name,
                                    megabytes(picture_memory())));
@@ -99,25 +92,26 @@ std::unique_ptr<ImageInput> open_input(const PictureFormat& format, const std::s
 }
 
 /// Pixels of the tiles that cover `rows` rows, whole ones, or of the rows themselves.
-std::size_t stored_pixels(const ImageSpec& spec, int rows) {
+std::size_t stored_pixels(const StoredPicture& stored, int rows) {
   const auto whole = [](int side, int tile) {
     return tile > 0 ? (static_cast<std::size_t>(side) + static_cast<std::size_t>(tile) - 1) /
                           static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)
                     : static_cast<std::size_t>(side);
   };
-  return whole(spec.width, spec.tile_width) * whole(rows, spec.tile_height);
+  return whole(stored.width, stored.tile_width) * whole(rows, stored.tile_height);
 }
 
-/// What OpenImageIO, or the library below it, holds of a picture while it is read.
-std::uint64_t held_bytes(const PictureFormat& format, const ImageSpec& spec) {
-  const std::uint64_t pixels = pixel_count(spec.width, spec.height);
-  const auto channels = static_cast<std::uint64_t>(spec.nchannels);
+/// What the library that decodes holds of a picture while it is read.
+std::uint64_t held_bytes(const PictureFormat& format, const StoredPicture& stored) {
+  const std::uint64_t pixels = pixel_count(stored.width, stored.height);
+  const auto channels = static_cast<std::uint64_t>(stored.channels);
+  const auto bytes = static_cast<std::uint64_t>(stored.sample_bytes);
   if (format.name == "jpeg" && !format.in_rows) return pixels * channels * sizeof(std::int16_t);
   // libtiff turns what is neither grey, RGB, a palette nor CMYK into RGBA as a whole.
   constexpr int k_cmyk = 5;
-  if (format.name == "tiff" && spec.get_int_attribute("tiff:PhotometricInterpretation") > k_cmyk) return 4 * pixels;
-  if (!format.in_rows) return pixels * channels * spec.format.size();
-  return stored_pixels(spec, 1) * channels * spec.format.size();
+  if (format.name == "tiff" && stored.photometric > k_cmyk) return 4 * pixels;
+  if (!format.in_rows) return pixels * channels * bytes;
+  return stored_pixels(stored, 1) * channels * bytes;
 }
 
 }  // namespace
@@ -131,9 +125,9 @@ PictureInput::PictureInput(const fs::path& path, std::size_t most_pixels) : name
   const std::uintmax_t bytes = fs::file_size(path);
   if (bytes == 0) throw InvalidInput(name_ + ": is empty");
   const PictureFormat format = checked_format(path);
-  input_ = open_input(format, name_, nullptr);
+  decoder_ = open_decoder(format, name_, std::nullopt);
   check_size(bytes, most_pixels);
-  held_bytes_ = held_bytes(format, spec());
+  held_bytes_ = held_bytes(format, stored());
 }
 
 PictureInput::PictureInput(std::span<const std::byte> bytes, const std::string& name, std::size_t most_pixels)
@@ -141,31 +135,27 @@ PictureInput::PictureInput(std::span<const std::byte> bytes, const std::string& 
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const PictureFormat format = checked_format(text.substr(0, k_first_bytes), source_of(text), name);
   if (format.name != "png" && format.name != "jpeg") throw InvalidInput(name + ": is neither PNG nor JPEG");
-  memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(bytes.data()), bytes.size());
-  input_ = open_input(format, name_, memory_.get());
+  decoder_ = open_decoder(format, name_, bytes);
   check_size(bytes.size(), most_pixels);
-  held_bytes_ = held_bytes(format, spec());
+  held_bytes_ = held_bytes(format, stored());
 }
 
 double PictureInput::pitch_mm() const noexcept {
-  const double x = double{spec().get_float_attribute("XResolution")},
-               y = double{spec().get_float_attribute("YResolution", static_cast<float>(x))};
-  const std::string unit(spec().get_string_attribute("ResolutionUnit"));
+  const double x = double{stored().x_resolution}, y = double{stored().y_resolution};
+  const std::string& unit = stored().resolution_unit;
   const double length_mm = unit == "in" || unit == "inch" ? k_mm_per_inch : unit == "cm" ? 10 : unit == "m" ? 1000 : 0;
   if (!(x > 0) || !std::isfinite(x) || !(std::abs(x - y) <= 1e-3 * x)) return 0;
   return length_mm / x;
 }
 
 std::vector<float> PictureInput::curve() const {
-  const OIIO::ParamValue* profile = spec().find_attribute("ICCProfile");
-  if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return {};
-  const auto* bytes = static_cast<const std::byte*>(profile->data());
-  return profile_curve({bytes, profile->type().size()}, channels());
+  if (stored().profile.empty()) return {};
+  return profile_curve(stored().profile, channels());
 }
 
 void PictureInput::check_size(std::uintmax_t bytes, std::size_t most_pixels) const {
-  const ImageSpec& s = spec();
-  if (s.width < 1 || s.height < 1 || s.depth > 1 || s.nchannels < 1 || s.deep)
+  const StoredPicture& s = stored();
+  if (s.width < 1 || s.height < 1 || s.depth > 1 || s.channels < 1 || s.is_deep)
     throw InvalidInput(name_ + ": is no flat picture");
   const std::size_t most = std::min<std::size_t>(most_pixels, k_free_pixels + k_max_pixels_per_byte * bytes);
   if (stored_pixels(s, s.height) <= most) return;
@@ -180,41 +170,36 @@ void PictureInput::require_memory(std::uint64_t bytes) const {
     throw InvalidInput(
         fmt::format("{}: {} x {} pixels of {} channels take {:.1f} MB of memory, more than the {:.1f} MB "
                     "that --max-memory allows",
-                    name_, width(), height(), spec().nchannels, megabytes(needed), megabytes(most)));
+                    name_, width(), height(), stored().channels, megabytes(needed), megabytes(most)));
 }
 
-bool PictureInput::read_native(int top, int rows, OIIO::TypeDesc type, void* values) {
-  const ImageSpec& s = spec();
-  if (s.tile_height > 0)
-    return input_->read_tiles(0, 0, s.x, s.x + s.width, top, top + rows, s.z, s.z + 1, 0, channels(), type, values);
-  return input_->read_scanlines(0, 0, top, top + rows, s.z, 0, channels(), type, values);
-}
-
-void PictureInput::read(int top, int rows, OIIO::TypeDesc type, void* values) {
+void PictureInput::read(int top, int rows, SampleType type, std::size_t sample_bytes, void* values) {
   // OpenImageIO decompresses the strips of a TIFF itself when it is asked for several rows, and takes what it can't
   // decompress for black; row by row libtiff does it, and says so.
-  const bool row_by_row = spec().tile_height == 0 && std::string_view(input_->format_name()) == "tiff";
-  const std::size_t row_bytes = pixel_count(width(), channels()) * type.size();
+  const bool row_by_row = stored().tile_height == 0 && stored().format == "tiff";
+  const std::size_t row_bytes = pixel_count(width(), channels()) * sample_bytes;
   const int step = row_by_row ? 1 : rows;
   for (int row = 0; row < rows; row += step) {
     try {
-      const bool read = read_native(spec().y + top + row, step, type,
-                                    static_cast<unsigned char*>(values) + static_cast<std::size_t>(row) * row_bytes);
-      if (read && !input_->has_error()) continue;
+      if (decoder_->read(top + row, step, channels(), type,
+                         static_cast<unsigned char*>(values) + static_cast<std::size_t>(row) * row_bytes))
+        continue;
     } catch (const std::bad_alloc&) {
       throw InvalidInput(
           fmt::format("{}: no memory is left at row {} of {} x {} pixels", name_, top + row, width(), height()));
     } catch (const std::length_error&) {
       throw InvalidInput(fmt::format("{}: {} x {} pixels are more than its reader can hold", name_, width(), height()));
     }
-    std::string reason = first_line(input_->geterror());
+    std::string reason = first_line(decoder_->error());
     if (reason.empty()) reason = "its data end or make no sense there";
     throw InvalidInput(fmt::format("{}: is damaged at row {}: {}", name_, top + row, reason));
   }
 }
 
-void PictureInput::read(int top, int rows, float* values) { read(top, rows, OIIO::TypeDesc::FLOAT, values); }
+void PictureInput::read(int top, int rows, float* values) { read(top, rows, SampleType::real, sizeof *values, values); }
 
-void PictureInput::read(int top, int rows, unsigned char* values) { read(top, rows, OIIO::TypeDesc::UINT8, values); }
+void PictureInput::read(int top, int rows, unsigned char* values) {
+  read(top, rows, SampleType::byte, sizeof *values, values);
+}
 
 }  // namespace papilla::io_detail

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +8,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "picture_codec.hpp"
 
 namespace papilla::io_detail {
 
@@ -24,14 +23,14 @@ class PictureInput {
   /// A picture in memory, PNG or JPEG, which must outlive it; `name` only names it in messages.
   PictureInput(std::span<const std::byte> bytes, const std::string& name, std::size_t most_pixels);
 
-  int width() const noexcept { return spec().width; }
-  int height() const noexcept { return spec().height; }
-  int channels() const noexcept { return spec().nchannels >= 3 ? 3 : 1; }  ///< Colours, or the first channel as grey.
-  bool is_float() const noexcept { return spec().format.is_floating_point(); }
-  int bits() const noexcept { return static_cast<int>(8 * spec().format.basesize()); }
+  int width() const noexcept { return stored().width; }
+  int height() const noexcept { return stored().height; }
+  int channels() const noexcept { return stored().channels >= 3 ? 3 : 1; }  ///< Colours, or the first channel as grey.
+  bool is_float() const noexcept { return stored().is_float; }
+  int bits() const noexcept { return 8 * stored().sample_bytes; }
   std::vector<float> curve() const;  ///< As in GreyImage.
   double pitch_mm() const noexcept;  ///< From the file's resolution; 0 when it has none or pixels are not square.
-  int tile_rows() const noexcept { return spec().tile_height; }  ///< 0: the picture is not tiled.
+  int tile_rows() const noexcept { return stored().tile_height; }  ///< 0: the picture is not tiled.
   const std::string& name() const noexcept { return name_; }
 
   /// @throws InvalidInput when `bytes` and what the reader of the format holds are more than picture_memory().
@@ -44,14 +43,12 @@ class PictureInput {
   void read(int top, int rows, unsigned char* values);
 
  private:
-  const OIIO::ImageSpec& spec() const noexcept { return input_->spec(); }
+  const StoredPicture& stored() const noexcept { return decoder_->stored(); }
   void check_size(std::uintmax_t bytes, std::size_t most_pixels) const;
-  void read(int top, int rows, OIIO::TypeDesc type, void* values);
-  bool read_native(int top, int rows, OIIO::TypeDesc type, void* values);
+  void read(int top, int rows, SampleType type, std::size_t sample_bytes, void* values);
 
   std::string name_;
-  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;
-  std::unique_ptr<OIIO::ImageInput> input_;
+  std::unique_ptr<PictureDecoder> decoder_;
   std::uint64_t held_bytes_ = 0;
 };
 

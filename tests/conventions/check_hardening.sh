@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Programs are built so that a fault of memory is hard to use: position independent, full RELRO, no executable stack, stack
+# Programs and plug-ins are built so that a fault of memory is hard to use: position independent, full RELRO, no executable stack, stack
 # protectors, _FORTIFY_SOURCE, and on x86-64 landing pads for indirect jumps. usage: check_hardening.sh PROGRAM...
 set -euo pipefail
 

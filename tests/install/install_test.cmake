@@ -11,6 +11,16 @@ if(EXISTS ${WORK_DIR}/prefix/bin/papilla)
   if(NOT library MATCHES "${WORK_DIR}/prefix/share/papilla/materials")
     message(FATAL_ERROR "the installed program does not find the installed material library")
   endif()
+  # The plug-ins are found where they are installed, not in the build tree.
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_DEBUG=files ${WORK_DIR}/prefix/bin/papilla inspect ${CAD_FILE}
+    OUTPUT_QUIET ERROR_VARIABLE loaded COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_DEBUG=files ${WORK_DIR}/prefix/bin/papilla synthesize grain
+    --kind leather --size 64 -o ${WORK_DIR}/grain.png OUTPUT_QUIET ERROR_VARIABLE more COMMAND_ERROR_IS_FATAL ANY)
+  foreach(plugin cad pictures)
+    if(NOT "${loaded}${more}" MATCHES "calling init: ${WORK_DIR}/prefix/lib[^ \n]*/papilla/papilla_${plugin}.so")
+      message(FATAL_ERROR "the installed program does not load the installed papilla_${plugin}.so")
+    endif()
+  endforeach()
   foreach(schema materials library-material)
     if(NOT EXISTS ${WORK_DIR}/prefix/share/papilla/schema/${schema}.schema.json)
       message(FATAL_ERROR "${schema}.schema.json is not installed")

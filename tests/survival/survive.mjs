@@ -64,13 +64,16 @@ function differences(before, after) {
   return felt.map((_, i) => rms(before[i].map((f, k) => f.map((value, axis) => value - after[i][k][axis]))) / rms(before[i]));
 }
 
-/** Plays it, again when the machine paused the player: the force fades in anew after that. */
-function play(tool, left = 5) {
+/** Plays it, again when the machine paused the player, as it does under load: the force fades in anew after that. */
+function play(tool, left = 60) {
   const run = spawnSync(player, [output, '-q', '--trajectory', way, '--record', record, ...(tool.tags ? ['--tags', input] : []), '--json', '-'], { encoding: 'utf8' });
   if (run.status === 3) return { refusal: run.stderr.trim().split(': ').pop() };
   if (run.status !== 0) throw new Error(run.stderr.trim());
   const report = JSON.parse(run.stdout);
-  if (report.pauses.count > 0 && left > 0) return play(tool, left - 1);
+  if (report.pauses.count > 0) {
+    if (left === 0) throw new Error('the machine paused the player in every run');
+    return play(tool, left - 1);
+  }
   return { report, forces: forcesOf(readFileSync(record, 'utf8')) };
 }
 

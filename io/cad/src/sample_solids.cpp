@@ -11,9 +11,9 @@
 #include <gp_Trsf.hxx>
 #include <sstream>
 
-#include "papilla/core/atomic_file.hpp"
+#include "cad_plugin.hpp"
 
-namespace papilla {
+namespace papilla::cad {
 namespace {
 
 TopoDS_Shape moved_along_x(const TopoDS_Shape& shape, double by) {
@@ -24,7 +24,7 @@ TopoDS_Shape moved_along_x(const TopoDS_Shape& shape, double by) {
 
 }  // namespace
 
-void write_sample_solids(const std::filesystem::path& path) {
+std::string sample_solids_text() {
   using namespace sample_solids;
   constexpr double ring_radius = k_ring_radius + k_tube_radius;
   constexpr double ring_x = 2 * k_ball_radius + ring_radius, cone_x = ring_x + ring_radius + 2 * k_cone_radius;
@@ -37,7 +37,7 @@ void write_sample_solids(const std::filesystem::path& path) {
               moved_along_x(BRepPrimAPI_MakeCone(k_cone_radius, k_cone_top_radius, k_cone_height).Shape(), cone_x));
   std::ostringstream text;
   BRepTools::Write(all, text);
-  write_atomically(path, text.str());
+  return text.str();
 }
 
-}  // namespace papilla
+}  // namespace papilla::cad

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "papilla/io/cad_reader.hpp"
-
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "cad_document.hpp"
 #include "cad_parallel.hpp"
+#include "cad_plugin.hpp"
 #include "cad_tessellate.hpp"
 #include "cad_tree.hpp"
 #include "occt_session.hpp"
@@ -208,8 +204,8 @@ Scene read_in_this_process(const std::filesystem::path& path, const CadReadOptio
 
 }  // namespace
 
-Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options, CadReport* report,
-               const ProgressCallback& progress) {
+Scene cad::read_file(const std::filesystem::path& path, const CadReadOptions& options, CadReport* report,
+                     const ProgressCallback& progress) {
   check_options(options);
   const cad::OcctSession session;
   CadReport own;
@@ -225,15 +221,6 @@ Scene read_cad(const std::filesystem::path& path, const CadReadOptions& options,
                 [&](int pipe) { send(pipe, scene, filled); }, [&](int pipe) { receive(pipe, scene, filled); }},
                progress);
   return scene;
-}
-
-bool is_cad_extension(const std::filesystem::path& path) {
-  static constexpr std::array<std::string_view, 7> k_extensions = {".step", ".stp",  ".p21", ".iges",
-                                                                   ".igs",  ".brep", ".brp"};
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(k_extensions.begin(), k_extensions.end(), extension) != k_extensions.end();
 }
 
 }  // namespace papilla
