@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "papilla/core/temporary_folder.hpp"
@@ -66,14 +67,18 @@ void report_one_photograph(BenchReport& report) {
       {"condition", "photographs", "light given", "light unknown", "axis", "grey"},
       {}};
   const TemporaryFolder folder("papilla-bench");
-  const std::uint64_t seeds = report.options().quick ? 1 : 8;
+  const bool quick = report.options().quick;
+  const std::uint64_t seeds = quick ? 1 : 8;
+  std::vector<std::string_view> reliefs = test_relief_names();
+  if (quick) reliefs.resize(1);
+  const auto holds = [quick](bool value) { return quick ? std::nullopt : std::optional(value); };
   Means all;
   for (const auto& [condition, name, least] :
        {Condition{PhotographCondition::clean, "clean", 0.80},
         Condition{PhotographCondition::spotted, "8 % spots, uneven light of 15 %", 0.50},
         Condition{PhotographCondition::glossy, "darker valleys, highlights", 0.75}}) {
     Means means;
-    for (const std::string_view relief : test_relief_names())
+    for (const std::string_view relief : reliefs)
       for (std::uint64_t seed = 101; seed < 101 + seeds; ++seed)
         means.add(measured(relief, condition, seed, folder.path()));
     table.rows.push_back({name, std::to_string(means.count), fmt::format("{:.3f}", means.mean(means.given)),
@@ -81,16 +86,16 @@ void report_one_photograph(BenchReport& report) {
                           fmt::format("{:.1f}°", means.mean(means.axis_deg)),
                           fmt::format("{:.3f}", means.mean(means.grey))});
     report.target({fmt::format("one photograph, light given, {}: mean correlation at least {:.2f}", name, least),
-                   fmt::format("{:.3f}", means.mean(means.given)), means.mean(means.given) >= least});
+                   fmt::format("{:.3f}", means.mean(means.given)), holds(means.mean(means.given) >= least)});
     all.add(means);
   }
   report.table(std::move(table));
   report.target({"one photograph, light given: mean correlation at least 0.70",
-                 fmt::format("{:.3f}", all.mean(all.given)), all.mean(all.given) >= 0.70});
+                 fmt::format("{:.3f}", all.mean(all.given)), holds(all.mean(all.given) >= 0.70)});
   report.target({"one photograph, light unknown: mean |correlation| at least 0.65",
-                 fmt::format("{:.3f}", all.mean(all.unknown)), all.mean(all.unknown) >= 0.65});
+                 fmt::format("{:.3f}", all.mean(all.unknown)), holds(all.mean(all.unknown) >= 0.65)});
   report.target({"one photograph, light unknown: its axis within 8 degrees in the mean",
-                 fmt::format("{:.1f}", all.mean(all.axis_deg)), all.mean(all.axis_deg) <= 8});
+                 fmt::format("{:.1f}", all.mean(all.axis_deg)), holds(all.mean(all.axis_deg) <= 8)});
 }
 
 }  // namespace papilla::bench

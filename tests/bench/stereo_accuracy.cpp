@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "papilla/core/srgb.hpp"
 #include "papilla/core/units.hpp"
@@ -106,11 +107,15 @@ void report_stereo(BenchReport& report) {
       "the albedo, uneven light of 15 %), lights 25 to 55 degrees high; moved: by up to 5 pixels.",
       {"lights", "photographs", "mean", "worst tenth", "slopes"},
       {}};
-  const std::uint64_t seeds = report.options().quick ? 1 : 3;
+  const bool quick = report.options().quick;
+  const std::uint64_t seeds = quick ? 1 : 3;
+  std::vector<std::string_view> reliefs = test_relief_names();
+  if (quick) reliefs.resize(1);
+  const auto holds = [quick](bool value) { return quick ? std::nullopt : std::optional(value); };
   const auto measured = [&](bool known, int moved_px) {
     Score score;
     for (std::uint64_t seed = 501; seed < 501 + seeds; ++seed)
-      for (const std::string_view name : test_relief_names()) {
+      for (const std::string_view name : reliefs) {
         Scene scene = photographed(name, seed, moved_px);
         if (moved_px > 0) scene.photographs = register_photographs(scene.photographs).photographs;
         const PhotometricStereoResult found =
@@ -129,15 +134,15 @@ void report_stereo(BenchReport& report) {
   measured(false, 5);
   report.table(std::move(table));
   report.target({"four photographs, lights given: mean correlation at least 0.95", fmt::format("{:.3f}", known.mean()),
-                 known.mean() >= 0.95});
+                 holds(known.mean() >= 0.95)});
   report.target({"four photographs, lights given: the worst tenth at least 0.85",
-                 fmt::format("{:.3f}", known.worst_tenth()), known.worst_tenth() >= 0.85});
+                 fmt::format("{:.3f}", known.worst_tenth()), holds(known.worst_tenth() >= 0.85)});
   report.target({"four photographs, lights given: correlation of the slopes at least 0.97",
-                 fmt::format("{:.3f}", known.mean_slopes()), known.mean_slopes() >= 0.97});
+                 fmt::format("{:.3f}", known.mean_slopes()), holds(known.mean_slopes() >= 0.97)});
   report.target({"four photographs, lights unknown: mean |correlation| at least 0.85",
-                 fmt::format("{:.3f}", unknown.mean()), unknown.mean() >= 0.85});
+                 fmt::format("{:.3f}", unknown.mean()), holds(unknown.mean() >= 0.85)});
   report.target({"four photographs moved by pixels: within 0.02 of those that are still",
-                 fmt::format("{:.3f}", known.mean() - moved.mean()), known.mean() - moved.mean() <= 0.02});
+                 fmt::format("{:.3f}", known.mean() - moved.mean()), holds(known.mean() - moved.mean() <= 0.02)});
 }
 
 }  // namespace papilla::bench

@@ -148,7 +148,7 @@ void camera_table(BenchReport& report) {
       {"seen", "side", "pictures", "rms error", "within", "refused", "D 2.1", "D 2.5", "D 2.9"},
       {}};
   for (CameraGoal goal : camera_goals()) {
-    if (report.options().quick && goal.side > 257) continue;
+    if (report.options().quick && !table.rows.empty()) break;
     const int seeds = report.options().quick ? 1 : goal.seeds;
     double squares = 0;
     int count = 0, within = 0, refused = 0;
@@ -412,7 +412,7 @@ void report_dimension_error(BenchReport& report) {
 
 void report_symmetry(BenchReport& report) {
   constexpr double k_noise[] = {0, 0.25, 0.5, 1};
-  const int per_group = report.options().quick ? 1 : 25;
+  const int per_group = report.options().quick ? 1 : 25, step = report.options().quick ? 8 : 1;
   EvidenceTable table{
       "Lattices and groups of generated pictures",
       "256 x 256 pixels, 8 bits, all 17 groups, cells of 22 to 66 pixels at any angle, oblique and "
@@ -424,7 +424,7 @@ void report_symmetry(BenchReport& report) {
   std::map<std::string, int> wrong;
   for (const double noise : k_noise) {
     SymmetryCount count;
-    for (int g = 0; g < k_groups; ++g)
+    for (int g = 0; g < k_groups; g += step)
       for (int i = 0; i < per_group; ++i) {
         const auto group = static_cast<WallpaperGroup>(g);
         const int before = count.groups;
@@ -476,10 +476,11 @@ void report_bent_lattices(BenchReport& report) {
   };
   constexpr std::uint64_t k_first_seed = 9000;
   const std::uint64_t seeds = report.options().quick ? 1 : 4;
+  const int step = report.options().quick ? 8 : 1;
   for (const Level& level : {Level{"5 % of the cell", test::k_bent_photo, 97, 94},
                              Level{"10 % of the cell", test::k_badly_bent_photo, 80, 65}}) {
     int pictures = 0, lattices = 0, groups = 0;
-    for (int g = 0; g < k_groups; ++g)
+    for (int g = 0; g < k_groups; g += step)
       for (std::uint64_t seed = k_first_seed; seed < k_first_seed + seeds; ++seed) {
         const auto group = static_cast<WallpaperGroup>(g);
         const test::WallpaperPattern pattern = test::photographed_pattern(group, seed, level.photo, 256);
