@@ -121,13 +121,13 @@ TEST_F(StudySessionTest, AThresholdThatNothingBoundsHasNoNumber) {
   EXPECT_EQ(threshold_text({43.7, {}, {}}), "not determined");
   EXPECT_EQ(threshold_text({0.25, {}, 0.5}), "0.25 (… to 0.5), not determined");
   EXPECT_EQ(threshold_text({0.25, 0.125, 0.5}), "0.25 (0.125 to 0.5)");
-  // Only the first plate, whatever is there: right and wrong by chance at every level.
-  std::vector<StudyAnswer> answers;
-  for (std::size_t place = 1; place <= study_.order_of(1).size(); ++place)
-    answers.push_back(
-        {1, place, study_.trials[study_.order_of(1)[place - 1]].stimuli.size() > 1 ? "first" : right(place), 1, ""});
-  const std::string text = study_analysis_text(analyse_study(study_, answers, {.simulations = 10}), 0.95);
+  StudyAnalysis analysis;
+  StudyThreshold& threshold = analysis.thresholds.emplace_back();
+  threshold.experiment = "dimension", threshold.condition = "lateral";
+  threshold.threshold = {43.7, {}, {}};
+  const std::string text = study_analysis_text(analysis, 0.95);
   EXPECT_NE(text.find("not determined by the levels and answers"), std::string::npos) << text;
+  EXPECT_EQ(text.find("43.7"), std::string::npos) << text;
 }
 
 TEST_F(StudySessionTest, AnalysisIsShownWithItsOpenEnds) {
