@@ -408,7 +408,11 @@ int main(int argc, char** argv) {
       ->transform(app::one_of({"virtual", "real"}))
       ->capture_default_str();
   const auto points = [&](const char* name, std::vector<double>& values, const char* what) {
-    program.add_option(name, values, what)->type_name("X,Y,Z,X,Y,Z,X,Y,Z [m]")->delimiter(',')->expected(9);
+    program.add_option(name, values, what)
+        ->type_name("X,Y,Z,X,Y,Z,X,Y,Z [m]")
+        ->delimiter(',')
+        ->expected(9)
+        ->check(app::in_range(-1e6, 1e6));
   };
   points("--touched", options.real.touched,
          "Where the tip touched three points of the real part, as --record has them");

@@ -19,6 +19,7 @@ oiiotool --pattern constant:color=1,1,1 1800x1163 3 \
 cp "$runs/meshing/charts.png" "$out/charts.png"
 cp "$runs/texture/grain/symmetry.png" "$out/symmetry.png"
 cp "$runs/param/evaluate-param-1.svg" "$out/evaluate-param.svg"
+cp "$runs/study/pictures/dimension-psychometric.svg" "$out/study.svg"
 for sheet in types library; do
   "$bin/papilla" texture --sheet "$sheet" -o "$runs/sheet-$sheet" --quiet
   oiiotool "$runs/sheet-$sheet/sheet.png" --compression jpeg:90 -o "$out/texture-$sheet.jpg"

@@ -69,3 +69,8 @@ for device in $("$bin/papilla-player" --list-devices --json - | sed -n 's/.*"dev
 done
 node "$make/devices_csv.mjs" "$out/contact/devices.csv" "${reports[@]}"
 node "$make/devices_csv.mjs" "$out/contact/controlled.csv" "${controlled[@]}"
+
+# Three simulated participants of known thresholds choose the rougher of two surfaces.
+papilla study new -o "$out/study" --experiments dimension --models lateral,orthogonal --repetitions 8 --participants 3
+papilla study simulate "$out/study/STUDY.json" -o "$out/study/simulated" --seed 7
+papilla study analyse "$out/study/STUDY.json" "$out"/study/simulated/*.csv --pictures "$out/study/pictures"

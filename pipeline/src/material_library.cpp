@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "papilla/core/near_name.hpp"
@@ -45,11 +46,57 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
+/// Endings of German adjectives: "weiches" is asked, "weich" is written.
+constexpr std::array<std::string_view, 6> k_endings{"es", "er", "en", "em", "e", ""};
+constexpr std::size_t k_letters_of_stem = 4;  ///< Fewer are within words by chance.
+
+/// A word without the endings it may have, shortest last.
+std::vector<std::string> forms_of(const std::string& word) {
+  std::vector<std::string> forms{word};
+  for (const std::string_view ending : k_endings)
+    if (!ending.empty() && word.ends_with(ending) && word.size() >= ending.size() + k_letters_of_stem)
+      forms.push_back(word.substr(0, word.size() - ending.size()));
+  return forms;
+}
+
+bool has_form(const std::vector<std::string>& forms, std::string_view of) {
+  return std::find(forms.begin(), forms.end(), of) != forms.end();
+}
+
+/// A word of a search. "soft" and "hard" are also said by the stiffness of a material.
+struct SearchWord {
+  std::vector<std::string> forms;
+  bool is_soft, is_hard;
+  bool is_known = false;  ///< A material has it, so that what is only near is something else.
+
+  explicit SearchWord(const std::string& word)
+      : forms(forms_of(word)),
+        is_soft(has_form(forms, "soft") || has_form(forms, "weich")),
+        is_hard(has_form(forms, "hard") || has_form(forms, "hart")) {}
+
+  /// How much it says beside others: of "soft wood", wood.
+  std::size_t letters() const { return is_soft || is_hard ? 1 : forms.front().size(); }
+  bool is_in(const std::string& term) const {
+    return std::any_of(forms.begin(), forms.end(),
+                       [&](const std::string& form) { return term.find(form) != std::string::npos; });
+  }
+  bool is_near(const std::string& term) const {
+    const std::vector<std::string> parts = words_of(term);
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const std::string& part) { return !did_you_mean(forms.front(), {part}).empty(); });
+  }
+  bool is_word_of(const std::string& term) const {
+    const std::vector<std::string> parts = words_of(term);
+    return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return has_form(forms, part); });
+  }
+};
+
 /// What a material is called, as it is compared.
 struct FoldedTerms {
   std::vector<std::string> names, ids, categories, uses;
+  double stiffness;
 
-  explicit FoldedTerms(const LibraryMaterial& material) {
+  explicit FoldedTerms(const LibraryMaterial& material) : stiffness(material.stiffness.value) {
     names = {folded(material.name_en), folded(material.name_de)};
     add(material.aliases, names);
     ids = {folded(material.id)};
@@ -62,38 +109,65 @@ struct FoldedTerms {
       for (const std::string& word : *list) terms.push_back(folded(word));
   }
 
-  /// @param has  whether a term has the word.
-  template <class Has>
-  int score(const Has& has) const {
+  /// 3 where a name, the id or the stiffness has the word, 2 a category, 1 a use.
+  /// @param near  whether a word of these need only be near.
+  int score(const SearchWord& word, bool near) const {
     const auto any = [&](const std::vector<std::string>& terms) {
-      return std::any_of(terms.begin(), terms.end(), has);
+      return std::any_of(terms.begin(), terms.end(), [&](const std::string& term) {
+        return word.is_in(term) || (near && !word.is_known && word.is_near(term));
+      });
     };
+    const bool is_soft = stiffness <= k_soft_stiffness;
+    if ((word.is_soft && is_soft) || (word.is_hard && !is_soft)) return 3;
     return any(names) || any(ids) ? 3 : any(categories) ? 2 : any(uses) ? 1 : 0;
+  }
+
+  /// 2 where the word is a category, 1 where it is a whole word of a name: leather before what is like leather.
+  /// "Soft" and "hard" are no kinds.
+  int closeness(const SearchWord& word) const {
+    if (word.is_soft || word.is_hard) return 0;
+    const auto is_category = [&](const std::string& term) { return has_form(word.forms, term); };
+    if (std::any_of(categories.begin(), categories.end(), is_category)) return 2;
+    return std::any_of(names.begin(), names.end(), [&](const std::string& term) { return word.is_word_of(term); });
   }
 };
 
-/// 4 where the whole search is a name; else the least score of its words.
-int score_of(const FoldedTerms& terms, const std::vector<std::string>& words) {
+/// The words of a search.
+struct Search {
   std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
-  if (std::find(terms.names.begin(), terms.names.end(), all) != terms.names.end()) return 4;
-  int least = std::numeric_limits<int>::max();
-  for (const std::string& word : words)
-    least = std::min(least, terms.score([&](const std::string& term) { return term.find(word) != std::string::npos; }));
-  return words.empty() ? 0 : least;
-}
+  std::vector<SearchWord> words;
+  std::size_t letters = 0;
+  int softer_first = 0;  ///< 1 where "soft" is asked, -1 where "hard" is.
 
-bool is_near(const std::string& word, const std::string& term) {
-  const std::vector<std::string> parts = words_of(term);
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const std::string& part) { return !did_you_mean(word, {part}).empty(); });
-}
+  explicit Search(std::string_view text) {
+    for (const std::string& word : words_of(text)) {
+      all += (all.empty() ? "" : " ") + word;
+      words.emplace_back(word);
+      letters += words.back().letters();
+      softer_first += static_cast<int>(words.back().is_soft) - static_cast<int>(words.back().is_hard);
+    }
+  }
+};
 
-int near_score(const FoldedTerms& terms, const std::vector<std::string>& words) {
-  int least = std::numeric_limits<int>::max();
-  for (const std::string& word : words)
-    least = std::min(least, terms.score([&](const std::string& term) { return is_near(word, term); }));
-  return words.empty() ? 0 : least;
+/// How well a material fits a search.
+struct Rank {
+  int score = 0;            ///< As MaterialHit::score.
+  std::size_t letters = 0;  ///< Of the words that it has.
+  int closeness = 0;        ///< Summed over the words.
+};
+
+/// @param part  whether words may be missing: the score is then the least of the others.
+Rank rank_of(const FoldedTerms& terms, const Search& search, bool near, bool part) {
+  Rank rank{.score = std::numeric_limits<int>::max()};
+  for (const SearchWord& word : search.words) {
+    const int score = terms.score(word, near);
+    rank.closeness += terms.closeness(word);
+    if (score > 0) rank.letters += word.letters();
+    if (score > 0 || !part) rank.score = std::min(rank.score, score);
+  }
+  if (rank.letters == 0) return {};
+  if (std::find(terms.names.begin(), terms.names.end(), search.all) != terms.names.end()) rank.score = 4;
+  return rank;
 }
 
 }  // namespace
@@ -160,18 +234,33 @@ std::string folded(std::string_view text) {
 }
 
 std::vector<MaterialHit> search_materials(const std::vector<LibraryMaterial>& materials, std::string_view words) {
-  const std::vector<std::string> wanted = words_of(words);
+  Search search(words);
   std::vector<FoldedTerms> terms;
   for (const LibraryMaterial& material : materials) terms.emplace_back(material);
-  std::vector<MaterialHit> hits;
-  for (const bool near : {false, true}) {
+  for (SearchWord& word : search.words)
+    word.is_known =
+        std::any_of(terms.begin(), terms.end(), [&](const FoldedTerms& of) { return of.score(word, false) > 0; });
+  struct Found {
+    MaterialHit hit;
+    Rank rank;
+  };
+  std::vector<Found> found;
+  // All words as they are, then all or near ones, then the longer part of them.
+  for (const auto& [near, part] : {std::pair{false, false}, std::pair{true, false}, std::pair{true, true}}) {
     for (std::size_t i = 0; i < materials.size(); ++i)
-      if (const int score = near ? near_score(terms[i], wanted) : score_of(terms[i], wanted); score > 0)
-        hits.push_back({i, score, near});
-    if (!hits.empty()) break;
+      if (const Rank rank = rank_of(terms[i], search, near, part); rank.score > 0 && 2 * rank.letters >= search.letters)
+        found.push_back({{i, rank.score, near}, rank});
+    if (!found.empty()) break;
   }
-  std::stable_sort(hits.begin(), hits.end(),
-                   [](const MaterialHit& a, const MaterialHit& b) { return a.score > b.score; });
+  std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
+    const auto order = [&](const Found& f) {
+      return std::tuple{-static_cast<double>(f.rank.letters), -f.rank.score, -f.rank.closeness,
+                        search.softer_first * terms[f.hit.material].stiffness};
+    };
+    return order(a) < order(b);
+  });
+  std::vector<MaterialHit> hits;
+  for (const Found& f : found) hits.push_back(f.hit);
   return hits;
 }
 

@@ -13,4 +13,6 @@ check(r.lost_contact_ticks === 0, "no contact lost");
 check(r.max_force_n > 0 && r.max_force_n <= 3.4, "force within the limit of the device");
 check(r.height_maps.loaded > 0 && r.height_maps.missing === 0, "every height map found");
 ' "$json"
+said=$("$1" "$2" --surface real --touched 1e30,0,0,0,1e30,0,0,0,1e30 2>&1) && { echo "FAILED: a place beyond 1000 km is taken"; exit 1; }
+[[ $said == *"--touched: 1e30 is not from"* ]] || { echo "FAILED: $said"; exit 1; }
 echo "contact as expected"

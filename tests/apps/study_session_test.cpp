@@ -117,6 +117,19 @@ TEST_F(StudySessionTest, CommandsAreQuotedForAShell) {
   EXPECT_EQ(player.command("it's/s 1.glb"), "papilla-player 'it'\\''s/s 1.glb' --device hid --seconds 8");
 }
 
+TEST_F(StudySessionTest, AThresholdThatNothingBoundsHasNoNumber) {
+  EXPECT_EQ(threshold_text({43.7, {}, {}}), "not determined");
+  EXPECT_EQ(threshold_text({0.25, {}, 0.5}), "0.25 (… to 0.5), not determined");
+  EXPECT_EQ(threshold_text({0.25, 0.125, 0.5}), "0.25 (0.125 to 0.5)");
+  StudyAnalysis analysis;
+  StudyThreshold& threshold = analysis.thresholds.emplace_back();
+  threshold.experiment = "dimension", threshold.condition = "lateral";
+  threshold.threshold = {43.7, {}, {}};
+  const std::string text = study_analysis_text(analysis, 0.95);
+  EXPECT_NE(text.find("not determined by the levels and answers"), std::string::npos) << text;
+  EXPECT_EQ(text.find("43.7"), std::string::npos) << text;
+}
+
 TEST_F(StudySessionTest, AnalysisIsShownWithItsOpenEnds) {
   std::vector<StudyAnswer> answers;
   for (std::size_t place = 1; place <= study_.order_of(1).size(); ++place)

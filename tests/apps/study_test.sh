@@ -20,8 +20,18 @@ lines() { tail -n +2 made/answers/participant-001.csv | wc -l; }
 # Ten grains, then four pairs: a wrong word, a number, a name, back, again, stop.
 printf '\nbanana\n1\nquads8\nb\n2\nr\n3\nq\n' | "$papilla" study run made/STUDY.json --participant 1 -q 2>said.txt ||
   fail "study run: exit $?"
-grep -q "'banana' is none of" said.txt || fail "no reason: $(cat said.txt)"
+grep -q "'banana' is none of 1 to 6 and r, b, q" said.txt || fail "no reason: $(cat said.txt)"
 [[ $(lines) == 4 ]] || fail "four answers, one of them a correction: $(cat made/answers/participant-001.csv)"
+
+# A study whose answers are there is not written over, and a plate that cannot be played takes no answer.
+"$papilla" study new -o made --experiments dimension -q 2>said.txt
+[[ $? == 3 ]] && grep -q 'participant-001.csv: is of the study that is there' said.txt || fail "written over: $(cat said.txt)"
+diff made/STUDY.json again/STUDY.json >/dev/null || fail "STUDY.json has changed"
+rm again/stimuli/*.glb
+printf '\n1\nq\n' | "$papilla" study run again/STUDY.json --participant 1 --device sim --play-seconds 0.1 -q 2>said.txt ||
+  fail "study run: exit $?"
+grep -q 'a plate was not there, so that no answer is taken' said.txt || fail "taken: $(cat said.txt)"
+[[ $(wc -l <again/answers/participant-001.csv) -le 1 ]] || fail "taken: $(cat again/answers/participant-001.csv)"
 
 # Killed between answers: what was answered is there, and the next one is asked.
 mkfifo typed

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "papilla/core/error.hpp"
+#include "papilla/haptic/channel_average.hpp"
 
 namespace papilla {
 namespace {
@@ -43,6 +44,53 @@ TEST(ChannelField, IsTheTexelAtItsCentre) {
       EXPECT_NEAR(found.dynamic_friction, 0.1 + 0.5 * texel[1] / 65535.0, 1e-12);
       EXPECT_NEAR(found.damping, 3 - 2 * texel[2] / 65535.0, 1e-12);
     }
+}
+
+std::vector<ChannelField::Texel> as_felt(const std::vector<ChannelField::Texel>& texels, int width, double radius_m,
+                                         Vec2 metres_per_uv) {
+  return average_texels(texels, width, static_cast<int>(texels.size()) / width, {}, {Wrap::repeat, Wrap::repeat},
+                        radius_m, metres_per_uv);
+}
+
+TEST(AverageTexels, ABallFeelsMeans) {
+  // A square wave of 16 texels of 0.1 mm, black from texel 0 and white from 8 on: a ball of 0.3 mm feels ramps of
+  // seven.
+  constexpr int k_size = 16;
+  std::vector<ChannelField::Texel> texels(k_size * 2);
+  for (int i = 0; i < 2 * k_size; ++i)
+    if (i % k_size >= 8) texels[static_cast<std::size_t>(i)] = {63000, 7000, 21};
+  const auto ball = as_felt(texels, k_size, 3e-4, {1.6e-3, 1.0});
+  for (int x = 0; x < k_size; ++x) {
+    int white = 0;
+    for (int i = -3; i <= 3; ++i) white += (x + i + k_size) % k_size >= 8;
+    for (const int y : {0, 1}) {
+      const auto& texel = ball[static_cast<std::size_t>(y * k_size + x)];
+      EXPECT_EQ(texel[0], 9000 * white) << x;
+      EXPECT_EQ(texel[1], 1000 * white) << x;
+      EXPECT_EQ(texel[2], 3 * white) << x;
+    }
+  }
+  EXPECT_EQ(as_felt(texels, k_size, 0, {1.6e-3, 1.0}), texels) << "a point";
+  EXPECT_EQ(as_felt(texels, k_size, 3e-4, {}), texels) << "of no known size";
+  // Wider than the map: 8 or 9 of 17 texels are white, once round.
+  for (const auto& texel : as_felt(texels, k_size, 1, {1.6e-3, 0})) {
+    EXPECT_GE(texel[0], 63000 * 8 / 17);
+    EXPECT_LE(texel[0], 63000 * 9 / 17 + 1);
+  }
+  EXPECT_EQ(as_felt(texels, k_size, -1, {1.6e-3, 1.0}), texels);
+  EXPECT_EQ(as_felt(texels, k_size, std::numeric_limits<double>::quiet_NaN(), {1.6e-3, 1.0}), texels);
+}
+
+TEST(AverageTexels, KeepTheMeanAndBoundTheSlope) {
+  const auto texels = noise(8 * 8, 7), ball = as_felt(texels, 8, 2.0 / 8, {1, 1});
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < texels.size(); ++i) before += texels[i][0], after += ball[i][0];
+  EXPECT_NEAR(after / 64, before / 64, 0.5);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      EXPECT_LE(std::abs(ball[static_cast<std::size_t>(8 * y + (x + 1) % 8)][1] -
+                         ball[static_cast<std::size_t>(8 * y + x)][1]),
+                65535 / 5 + 2);
 }
 
 /// The closed form of four corners.

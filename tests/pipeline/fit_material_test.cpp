@@ -66,6 +66,7 @@ TEST(FitMaterial, ARecordingGivesTheMaterialBack) {
     expect_material(fit, truth, 0.02);
     EXPECT_LE(relative(fit.stribeck_velocity, truth.stribeck_velocity), 0.05);
     EXPECT_FALSE(fit.roughness);
+    EXPECT_TRUE(fit.warnings.empty()) << fit.warnings.front();
     EXPECT_EQ(fit.stop, StopReason::converged);
     ASSERT_FALSE(fit.trace.empty());
     EXPECT_LT(fit.trace.back().error, fit.trace.front().error);
@@ -166,6 +167,55 @@ TEST(FitMaterial, AStrokeThatNeverPressesIsRefused) {
     EXPECT_NE(std::string(error.what()).find("air.csv: the stroke never presses"), std::string::npos) << error.what();
   }
   EXPECT_THROW(fit_material(std::span(stroke).first(20), {}, "short"), InvalidInput);
+}
+
+bool has_warning(const MaterialFit& fit, const std::string& text) {
+  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
+TEST(FitMaterial, ForcesWithoutAnyDepthIdentifyNothing) {
+  std::vector<StrokeSample> stroke;
+  for (int i = 0; i < 100; ++i) stroke.push_back({1e-3 * i, {1, 1, 1}, {1, 1, 1}, Vec3{1, 1, 1}, {}});
+  const MaterialFit fit = fit_material(stroke, {}, "r.csv");
+  EXPECT_FALSE(fit.stiffness);
+  EXPECT_FALSE(fit.damping);
+  EXPECT_FALSE(fit.dynamic_friction);
+}
+
+TEST(FitMaterial, ForcesOnTheSurfaceAreRefused) {
+  auto stroke = stroke_on(materials()[0]);
+  for (StrokeSample& sample : stroke) sample.force_n = -1.0 * sample.force_n;
+  try {
+    fit_material(stroke, {}, "r.csv");
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("r.csv: the forces point into the surface"), std::string::npos);
+  }
+}
+
+TEST(FitMaterial, PlacesInMillimetresAreNoticed) {
+  auto stroke = stroke_on(materials()[0], {.presses = false, .rests = false, .crawls = false, .steadily = true});
+  EXPECT_FALSE(has_warning(fit_material(stroke, {}, "r.csv"), "faster than a hand"));
+  for (StrokeSample& sample : stroke) sample.probe_m = 1e3 * sample.probe_m, *sample.proxy_m = 1e3 * *sample.proxy_m;
+  EXPECT_TRUE(has_warning(fit_material(stroke, {}, "r.csv"), "faster than a hand"));
+}
+
+TEST(FitMaterial, APlayerThatLetTheProbeGoIsNoticed) {
+  auto stroke = stroke_on(materials()[0]);
+  const auto deep = std::find_if(stroke.begin(), stroke.end(), [](const StrokeSample& sample) {
+    return sample.t_s > 1 && norm(*sample.proxy_m - sample.probe_m) > 1e-3;
+  });
+  ASSERT_NE(deep, stroke.end());
+  for (auto after = deep; after != stroke.end(); ++after) after->proxy_m = after->probe_m, after->force_n = {};
+  EXPECT_TRUE(has_warning(fit_material(stroke, {}, "r.csv"), "lets the probe go"));
+}
+
+TEST(FitMaterial, AModelThatLeavesMuchOfTheForceSaysSo) {
+  auto stroke = stroke_on(materials()[0]);
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    stroke[i].force_n = (1 + 0.5 * std::sin(0.02 * static_cast<double>(i))) * stroke[i].force_n;
+  EXPECT_TRUE(has_warning(fit_material(stroke, {}, "r.csv"), "of the force unexplained"));
 }
 
 TEST(FitMaterial, WithoutSlidingThereIsNoFriction) {

@@ -128,6 +128,49 @@ TEST(MaterialLibrary, TheBestHitsComeFirst) {
   EXPECT_TRUE(std::is_sorted(hits.begin(), hits.end(), [](auto a, auto b) { return a.score > b.score; }));
 }
 
+std::vector<std::string> first(std::vector<std::string> ids, std::size_t count) {
+  ids.resize(std::min(ids.size(), count));
+  return ids;
+}
+
+TEST(MaterialLibrary, SoftAndHardAreSaidByTheStiffness) {
+  EXPECT_EQ(found("gummi weich").front(), "rubber/foam-seal");
+  EXPECT_EQ(found("weicher Gummi"), found("gummi weich"));
+  EXPECT_EQ(found("soft rubber").front(), "rubber/foam-seal");
+  EXPECT_FALSE(has(found("soft rubber"), "rubber/smooth")) << "2100 N/m";
+  EXPECT_TRUE(has(found("harter Gummi"), "rubber/smooth"));
+  EXPECT_FALSE(has(found("harter Gummi"), "rubber/foam-seal"));
+  for (const char* words : {"soft leather", "weiches Leder", "Leder weich"}) {
+    const std::vector<std::string> ids = found(words);
+    ASSERT_GT(ids.size(), 6U) << words;
+    EXPECT_EQ(ids.front(), "leather/quilted") << words << ": the softest";
+    EXPECT_TRUE(has(first(ids, 8), "leather/nappa-fine")) << words;
+    EXPECT_FALSE(has(ids, "leather/saddle")) << words << ": 2000 N/m";
+    EXPECT_FALSE(has(ids, "hard-grain/leather-fine")) << words;
+  }
+  EXPECT_EQ(found("hard leather").front(), "leather/saddle") << "the hardest";
+  EXPECT_TRUE(has(found("soft-touch"), "soft-skin/paint")) << "so called, at 2300 N/m";
+  EXPECT_DOUBLE_EQ(k_soft_stiffness, rendered_stiffness(1e30) / 2);
+}
+
+TEST(MaterialLibrary, WhatIsOfTheKindComesBeforeWhatIsLikeIt) {
+  EXPECT_EQ(found("leder fein").front(), "leather/nappa-fine");
+  EXPECT_EQ(found("feines Leder").front(), "leather/nappa-fine");
+  EXPECT_TRUE(has(found("leder fein"), "hard-grain/leather-fine")) << "a grain like leather, later";
+  EXPECT_EQ(found("glas").front().substr(0, 6), "glass/");
+}
+
+TEST(MaterialLibrary, OfASentenceMostWordsAreFound) {
+  const std::vector<MaterialHit> hits = search_materials(all(), "soft-touch grain, like the old dashboard");
+  ASSERT_FALSE(hits.empty());
+  EXPECT_TRUE(hits.front().is_near);
+  EXPECT_EQ(all()[hits.front().material].id, "soft-skin/slush-grained");
+  EXPECT_TRUE(has(found("wie das alte Armaturenbrett"), "soft-skin/slush-grained"));
+  EXPECT_TRUE(found("xyzzyqwert leather").empty()) << "less than half";
+  EXPECT_EQ(found("soft wood").front(), "wood/cork") << "none is soft: the softest";
+  for (const std::string& id : found("soft wood")) EXPECT_EQ(id.substr(0, 5), "wood/");
+}
+
 TEST(MaterialLibrary, NearWordsAreFoundWhereNoneFits) {
   const std::vector<MaterialHit> hits = search_materials(all(), "velurs");
   ASSERT_FALSE(hits.empty());

@@ -36,6 +36,13 @@ TEST(StrokeRecording, ReadsColumnsInAnyOrder) {
   EXPECT_FALSE(stroke[1].proxy_m);
 }
 
+TEST(StrokeRecording, TakesTheByteOrderMarkOfSpreadsheets) {
+  const auto stroke = parse_stroke_recording(
+      "\xef\xbb\xbft,x,y,z,force_x,force_y,force_z\r\n0,1,2,3,4,5,6\r\n1,1,2,3,4,5,6\r\n", "r.csv");
+  ASSERT_EQ(stroke.size(), 2U);
+  EXPECT_EQ(stroke[1].t_s, 1);
+}
+
 TEST(StrokeRecording, NamesThePlaceOfWhatIsWrong) {
   const std::string heading = "t,probe_x,probe_y,probe_z,force_x,force_y,force_z\n";
   const auto says = [](const std::string& csv, const std::string& text) {
@@ -57,6 +64,12 @@ TEST(StrokeRecording, NamesThePlaceOfWhatIsWrong) {
   says(heading + "0,0,0,0,nan,0,0\n", "r.csv:2: column 5 (force_x) is not finite");
   says(heading + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n", "r.csv:3: the time does not increase");
   says(heading + "0,1e9,0,0,0,0,0\n", "r.csv:2: a position is farther than 1000 km");
+  says(heading + "0,0,0,0,0,0,0,0\n", "r.csv:2: has 8 values, and the heading 7 columns");
+  says("t,t,x,y,z,force_x,force_y,force_z\n", "r.csv:1: the heading has the column t twice");
+  says("t;x;y;z;force_x;force_y;force_z\n", "r.csv:1: the heading has no column t; commas must separate columns");
+  // A probe that is misspelt must not give way to the hand, nor half a proxy to none.
+  says("t,x,y,z,probex,probe_y,probe_z,force_x,force_y,force_z\n", "has no column probe_x; did you mean 'probex'?");
+  says("t,x,y,z,proxyx,proxy_y,proxy_z,force_x,force_y,force_z\n", "has no column proxy_x; did you mean 'proxyx'?");
 }
 
 }  // namespace

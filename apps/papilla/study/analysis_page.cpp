@@ -27,7 +27,7 @@ std::string thresholds_table(const StudyAnalysis& analysis) {
   for (const StudyThreshold& t : analysis.thresholds) {
     int choices = 0;
     for (const ChoiceLevel& level : t.levels) choices += level.trials;
-    html += "<tr>" + cell(t.experiment) + cell(t.condition) + cell(estimate_text(t.threshold)) +
+    html += "<tr>" + cell(t.experiment) + cell(t.condition) + cell(threshold_text(t.threshold)) +
             cell(std::string(difference_unit(t.factor))) + cell(estimate_text(t.slope)) + number(t.fit.function.lapse) +
             number(t.fit.deviance) + number(t.fit.degrees) +
             (t.fit.degrees >= 1 ? number(t.fit.deviance_p) : cell("-")) + number(choices) + "</tr>\n";
@@ -38,8 +38,7 @@ std::string thresholds_table(const StudyAnalysis& analysis) {
   for (const StudyThreshold& t : analysis.thresholds)
     for (const ParticipantThreshold& own : t.participants)
       html += "<tr>" + cell(t.experiment) + cell(t.condition) + number(static_cast<double>(own.participant)) +
-              cell(estimate_text(own.threshold) + (own.is_determined ? "" : ", not determined")) + number(own.trials) +
-              "</tr>\n";
+              cell(threshold_text(own.threshold)) + number(own.trials) + "</tr>\n";
   return html + "</table>\n";
 }
 

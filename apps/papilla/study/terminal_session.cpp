@@ -49,6 +49,12 @@ std::string choices_text(const StudyExperiment& experiment) {
   return text;
 }
 
+/// What may be typed as an answer: numbers.
+std::string answers_text(const StudyExperiment& experiment) {
+  if (experiment.kind == StudyAnswerKind::rating) return shown_format("{} to {}", experiment.low, experiment.high);
+  return shown_format("1 to {}", experiment.labels.size());
+}
+
 /// The terminal side of one session.
 class Terminal {
  public:
@@ -109,10 +115,12 @@ class Terminal {
       say("\n");
     }
     const auto feel_all = [&] {
+      bool all = true;
       for (std::size_t i = 0; i < trial.stimuli.size(); ++i)
-        feel(trial.stimuli[i], trial.stimuli.size() < 2 ? "" : i == 0 ? "first: " : "second: ");
+        all &= feel(trial.stimuli[i], trial.stimuli.size() < 2 ? "" : i == 0 ? "first: " : "second: ");
+      return all;
     };
-    feel_all();
+    bool is_felt = feel_all();
     const Stopwatch clock;
     for (;;) {
       say(shown_format("{}\n", experiment.question) + choices_text(experiment) + "> ");
@@ -120,25 +128,30 @@ class Terminal {
       if (!line || *line == "q") return End::stop;
       if (*line == "b") return End::back;
       if (*line == "r") {
-        feel_all();
+        is_felt = feel_all();
         continue;
       }
-      const std::string why = session_.record(place, meant(experiment, *line), clock.seconds());
-      if (why.empty()) return End::answered;
-      say(shown_format("{}\n", why));
+      if (!is_felt) {
+        say("a plate was not there, so that no answer is taken: r tries again, q stops\n");
+        continue;
+      }
+      if (session_.record(place, meant(experiment, *line), clock.seconds()).empty()) return End::answered;
+      say(shown_format("'{}' is none of {} and r, b, q\n", *line, answers_text(experiment)));
     }
   }
 
-  void feel(std::size_t stimulus, const std::string& which) {
+  /// @returns whether the plate was there, or a command to play it was shown.
+  bool feel(std::size_t stimulus, const std::string& which) {
     const std::filesystem::path file = session_.file(session_.study().stimuli[stimulus].file);
     if (!player_.plays()) {
       say(shown_format("{}{}\n", which, player_.command(file)));
-      return;
+      return true;
     }
     say(shown_format("{}plate is there ...", which));
     player_.start(file);
     const std::string why = player_.wait();
     say(why.empty() ? std::string(" gone\n") : shown_format(" {}; r tries again\n", why));
+    return why.empty();
   }
 
   const StudyExperiment& experiment_of(std::size_t place) const {

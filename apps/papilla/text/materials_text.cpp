@@ -70,11 +70,13 @@ std::string library_check_text(const LibraryCheck& check) {
 
 std::string suggestions_text(const std::vector<MaterialSuggestion>& suggestions) {
   if (suggestions.empty()) return "";
+  std::size_t width = 0;
+  for (const MaterialSuggestion& suggestion : suggestions) width = std::max(width, suggestion.material.size());
   std::string out = "\nsuggested from the material library for surfaces without a material; nothing of it is applied\n";
   for (std::size_t i = 0; i < suggestions.size(); ++i) {
     const bool is_first = i == 0 || suggestions[i].surface != suggestions[i - 1].surface;
-    out += shown_format("  {:<32}  library:{:<30}  {}\n", is_first ? suggestions[i].surface : "",
-                        suggestions[i].material, suggestions[i].reason);
+    out += shown_format("  {:<32}  library:{:<{}}  {}\n", is_first ? suggestions[i].surface : "",
+                        suggestions[i].material, width, suggestions[i].reason);
   }
   return out;
 }

@@ -14,10 +14,13 @@ constexpr double k_minutes_before_boredom = 45;  // Schulze 2005, 8.2.
 
 std::string end_text(const std::optional<double>& end) { return end ? shown_format("{:.3g}", *end) : "…"; }
 
+bool is_open(const Estimate& estimate) { return !estimate.low && !estimate.high; }
+
 std::string threshold_line(const StudyThreshold& threshold) {
   const PsychometricFit& fit = threshold.fit;
-  std::string line = shown_format("  {:<12} {:<18} {} {}", threshold.experiment, threshold.condition,
-                                  estimate_text(threshold.threshold), std::string(difference_unit(threshold.factor)));
+  std::string line = shown_format("  {:<12} {:<18} ", threshold.experiment, threshold.condition);
+  if (is_open(threshold.threshold)) return line + "not determined by the levels and answers\n";
+  line += shown_format("{} {}", estimate_text(threshold.threshold), std::string(difference_unit(threshold.factor)));
   line += shown_format("; slope {}, lapses {:.1f} %", estimate_text(threshold.slope), 100 * fit.function.lapse);
   if (fit.degrees >= 1)
     line += shown_format("; deviance {:.3g} on {}, p {:.2g}", fit.deviance, fit.degrees, fit.deviance_p);
@@ -34,6 +37,11 @@ std::string effect_line(const StudyEffect& effect) {
 
 std::string estimate_text(const Estimate& estimate) {
   return shown_format("{:.3g} ({} to {})", estimate.value, end_text(estimate.low), end_text(estimate.high));
+}
+
+std::string threshold_text(const Estimate& threshold) {
+  if (is_open(threshold)) return "not determined";
+  return estimate_text(threshold) + (threshold.is_bounded() ? "" : ", not determined");
 }
 
 std::string study_design_text(const std::string& file, const Study& study) {

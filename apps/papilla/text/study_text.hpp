@@ -12,6 +12,9 @@ namespace papilla::app {
 /// "0.25 (0.21 to 0.3)"; an open end is "…".
 std::string estimate_text(const Estimate& estimate);
 
+/// estimate_text(), and whether both ends are known. Where neither is, no number: every one fits as well.
+std::string threshold_text(const Estimate& threshold);
+
 /// Stimuli, trials and how long a session takes; reliefs that were too steep.
 std::string study_design_text(const std::string& file, const Study& study);
 /// Thresholds, effects, recognitions.

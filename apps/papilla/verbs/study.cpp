@@ -52,6 +52,16 @@ struct Options {
   }
 };
 
+/// Answers are to the study that lies beside them: another one in its place would make them worthless.
+void require_no_answers(const fs::path& folder) {
+  const fs::path answers = folder / "answers";
+  std::error_code error;
+  if (!fs::is_directory(answers, error)) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(answers, error))
+    if (entry.path().extension() == ".csv")
+      throw InvalidInput(entry.path().string() + ": is of the study that is there; give -o another folder");
+}
+
 Json run_new(const Options& options, const VerbContext& context) {
   if (options.output.empty()) throw UsageError("study new needs -o: a folder");
   if (!options.files.empty()) throw UsageError("study new takes no '" + options.files.front() + "'");
@@ -60,6 +70,7 @@ Json run_new(const Options& options, const VerbContext& context) {
   design.seed = context.seed;
   const fs::path folder = options.output, file = folder / "STUDY.json";
   Study study = design_study(design);
+  require_no_answers(folder);
   make_folder(folder);
   declare_output(file, "--output");
   require_writable(file);

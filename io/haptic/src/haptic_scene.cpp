@@ -163,7 +163,8 @@ class Builder {
   std::optional<std::uint32_t> add_channels(const MaterialTag& tag, std::size_t material,
                                             std::vector<HapticWarning>& warnings) {
     if (!tag.maps) return std::nullopt;
-    std::optional<ChannelField> field = find_maps(*tag.maps, scene_, file_, material, warnings);
+    std::optional<ChannelField> field = find_maps(*tag.maps, scene_, file_, material, warnings, options_.probe_radius_m,
+                                                  tag.height ? tag.height->metres_per_uv : Vec2{});
     ++(field ? result.channels_loaded : result.channels_missing);
     if (!field) {
       warnings.push_back({"maps_lost", "the maps of stiffness, friction and damping are lost, the constants are used"});

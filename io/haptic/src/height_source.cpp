@@ -8,6 +8,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/referenced_file.hpp"
+#include "papilla/haptic/channel_average.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/decode_grey16.hpp"
 
@@ -129,11 +130,14 @@ std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& sc
 }
 
 std::optional<ChannelField> find_maps(const MapsTag& tag, const Scene& scene, const std::filesystem::path& file,
-                                      std::size_t material, std::vector<HapticWarning>& warnings) {
+                                      std::size_t material, std::vector<HapticWarning>& warnings, double probe_radius_m,
+                                      Vec2 metres_per_uv) {
   const Finder finder(tag, k_maps, warnings);
   return finder.decoded(scene, file, material, [&](std::span<const std::byte> bytes, const std::string& name) {
     Rgb16 rgb = decode_rgb16(bytes, name);
     finder.check(rgb.width, rgb.height, rgb.bits >= 8, rgb.bits);
+    rgb.values = average_texels(std::move(rgb.values), rgb.width, rgb.height, tag.uv_transform, tag.wrap,
+                                probe_radius_m, metres_per_uv);
     return ChannelField(rgb.width, rgb.height, std::move(rgb.values), {tag.channels, tag.uv_transform, tag.wrap});
   });
 }

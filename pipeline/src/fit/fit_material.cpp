@@ -254,14 +254,16 @@ class Uncertainty {
       if (at == fit_.free.end()) return std::numeric_limits<double>::infinity();
       pick[at - fit_.free.begin()] = 1;
     }
-    return k_deviations * std::sqrt(std::max({0.0, pick.dot(independent_ * pick), pick.dot(hanging_ * pick)}));
+    const double independent = pick.dot(independent_ * pick), hanging = pick.dot(hanging_ * pick);
+    if (!std::isfinite(independent) || !std::isfinite(hanging)) return std::numeric_limits<double>::infinity();
+    return k_deviations * std::sqrt(std::max({0.0, independent, hanging}));
   }
 
  private:
   /// Of a matrix whose rows have different units. What nothing depends on becomes as good as unknown.
   static Eigen::MatrixXd scaled_inverse(const Eigen::MatrixXd& information) {
     constexpr double k_least = 1e-12;
-    const double largest = std::max(information.diagonal().maxCoeff(), 1e-300);
+    const double largest = std::max(information.diagonal().maxCoeff(), 1e-200);
     const Eigen::VectorXd scale =
         information.diagonal().cwiseMax(k_least * k_least * largest).cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * information * scale.asDiagonal());
@@ -512,6 +514,62 @@ void judge_roughness(MaterialFit& result, const Fit& fit, const std::vector<Mode
   if (!found.no_hurst.empty()) verdicts.leave_out("hurst", found.no_hurst);
 }
 
+/// Whether the forces are those on the surface, not on the hand: they press the probe from its proxies.
+bool points_inwards(std::span<const StrokeSample> stroke) {
+  double sum = 0;
+  for (const StrokeSample& sample : stroke)
+    if (sample.proxy_m) sum += dot(sample.force_n, *sample.proxy_m - sample.probe_m);
+  return sum < 0;
+}
+
+/// Where a contact of the player ends though the probe is as deep as before: a player that stands still lets it go.
+std::optional<double> let_go_s(std::span<const StrokeSample> stroke) {
+  constexpr double k_least_depth_m = 5e-5, k_still_deep = 0.5, k_rounding_m = 1e-9;
+  for (std::size_t i = 1; i < stroke.size(); ++i) {
+    const StrokeSample &before = stroke[i - 1], &now = stroke[i];
+    if (!before.proxy_m || !now.proxy_m) continue;
+    const Vec3 behind = *before.proxy_m - before.probe_m;
+    if (norm(behind) < k_least_depth_m || norm(*now.proxy_m - now.probe_m) > k_rounding_m) continue;
+    if (dot(normalized(behind), *before.proxy_m - now.probe_m) > k_still_deep * norm(behind)) return now.t_s;
+  }
+  return std::nullopt;
+}
+
+/// Nine of ten speeds of the probe are below, where there is force.
+double high_speed(std::span<const StrokeSample> stroke, double contact_n) {
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    if (norm(stroke[i].force_n) >= contact_n)
+      speeds.push_back(norm(stroke[i].probe_m - stroke[i - 1].probe_m) / (stroke[i].t_s - stroke[i - 1].t_s));
+  return speeds.empty() ? 0 : quantile(sorted(std::move(speeds)), 0.9);
+}
+
+/// What makes the intervals say too much.
+/// @param rms_force_n  of all samples.
+void warn_of_recording(MaterialFit& result, const FitOptions& options, std::span<const StrokeSample> stroke,
+                       double contact_n, double rms_force_n) {
+  constexpr double k_fastest_hand = 5;                    // m/s
+  constexpr double k_unexplained = 0.1, k_far_off = 0.2;  // Of the force, of the samples.
+  if (const double speed = high_speed(stroke, contact_n); speed > k_fastest_hand)
+    result.warnings.push_back(fmt::format(
+        "while it presses the probe moves at {:.3g} m/s and more in a tenth of the samples, faster than a hand: places "
+        "are in metres and times in seconds",
+        speed));
+  if (const auto at = let_go_s(stroke); at && options.forces != StrokeForces::sensor)
+    result.warnings.push_back(fmt::format(
+        "at {:.4g} s the surface lets the probe go while it is deep: the player stood still, or the part "
+        "ends there; what comes after may be of its other side (papilla-player --watchdog keeps a recording "
+        "whole)",
+        *at));
+  const double left = result.rms_residual_n / rms_force_n;
+  const double far_off = static_cast<double>(result.outliers) / static_cast<double>(result.samples);
+  if (left > k_unexplained || far_off > k_far_off)
+    result.warnings.push_back(
+        fmt::format("the model leaves {:.0f} % of the force unexplained, and {:.0f} % of the samples are far off: the "
+                    "numbers are less certain than their intervals say",
+                    100 * left, 100 * far_off));
+}
+
 std::vector<FittedForce> fitted_forces(const Fit& fit, const std::vector<ModelForce>& forces) {
   std::vector<FittedForce> fitted;
   for (std::size_t i = 0; i < forces.size(); ++i) {
@@ -569,7 +627,12 @@ MaterialFit fit_material(std::span<const StrokeSample> stroke, const FitOptions&
     stroke = stroke.first(options.most_samples);
   }
   const double contact_n = contact_force(stroke, name);
-  double squares = 0, contacts = 0;
+  if (points_inwards(stroke))
+    throw InvalidInput(name +
+                       ": the forces point into the surface: force_x, force_y, force_z are those on the hand, "
+                       "of the opposite sign");
+  double all_squares = 0, squares = 0, contacts = 0;
+  for (const StrokeSample& sample : stroke) all_squares += dot(sample.force_n, sample.force_n);
   for (const StrokeSample& sample : stroke)
     if (norm(sample.force_n) >= contact_n) squares += dot(sample.force_n, sample.force_n), ++contacts;
   Fit fit(StrokeModel(stroke, surface_of(stroke, options, name), contact_n, guard_of(stroke, options)),
@@ -597,6 +660,7 @@ MaterialFit fit_material(std::span<const StrokeSample> stroke, const FitOptions&
   }
   result.rms_residual_n = std::sqrt(sum / static_cast<double>(forces.size()));
   result.forces = fitted_forces(fit, forces);
+  warn_of_recording(result, options, stroke, contact_n, std::sqrt(all_squares / static_cast<double>(stroke.size())));
   if (by_speed && result.surface == StrokeSurface::plane && sticks_and_slips(fit.parameters, facts))
     result.warnings.push_back(
         "friction falls so fast with speed that the contact sticks and slips: without recorded proxies static friction "

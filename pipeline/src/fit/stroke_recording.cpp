@@ -42,16 +42,19 @@ class Heading {
   std::optional<std::size_t> find(const std::string& name) const {
     const auto at = std::find(names_.begin(), names_.end(), name);
     if (at == names_.end()) return std::nullopt;
+    if (std::find(at + 1, names_.end(), name) != names_.end())
+      throw InvalidInput(place_ + "the heading has the column " + name + " twice");
     return static_cast<std::size_t>(at - names_.begin());
   }
   std::size_t require(const std::string& name) const {
-    const auto at = find(name);
-    if (!at) throw InvalidInput(place_ + "the heading has no column " + name + did_you_mean(name, names_));
-    return *at;
+    if (const auto at = find(name)) return *at;
+    const bool is_of_others = names_.size() == 1 && names_.front().find_first_of(";\t") != std::string_view::npos;
+    throw InvalidInput(place_ + "the heading has no column " + name +
+                       (is_of_others ? "; commas must separate columns" : did_you_mean(name, names_)));
   }
-  /// The three columns of that prefix; nothing when there is not even the first one.
+  /// The three columns of that prefix; nothing when there is none of them.
   std::optional<Columns> find_vector(const std::string& prefix) const {
-    if (!find(prefix + "x")) return std::nullopt;
+    if (!find(prefix + "x") && !find(prefix + "y") && !find(prefix + "z")) return std::nullopt;
     return require_vector(prefix);
   }
   Columns require_vector(const std::string& prefix) const {
@@ -68,10 +71,14 @@ class Heading {
 struct Layout {
   explicit Layout(const Heading& heading)
       : t(heading.require("t")),
-        probe(heading.find("probe_x") ? heading.require_vector("probe_") : heading.require_vector("")),
+        probe(probe_of(heading)),
         force(heading.require_vector("force_")),
         proxy(heading.find_vector("proxy_")),
         velocity(heading.find_vector("velocity_")) {}
+  static Columns probe_of(const Heading& heading) {
+    const auto columns = heading.find_vector("probe_");
+    return columns ? *columns : heading.require_vector("");
+  }
   std::size_t t;
   Columns probe, force;
   std::optional<Columns> proxy, velocity;
@@ -80,7 +87,11 @@ struct Layout {
 class Line {
  public:
   Line(std::string_view line, const Heading& heading, std::string place)
-      : fields_(fields_of(line)), heading_(heading), place_(std::move(place)) {}
+      : fields_(fields_of(line)), heading_(heading), place_(std::move(place)) {
+    if (fields_.size() > heading.names().size())
+      throw InvalidInput(
+          fmt::format("{}has {} values, and the heading {} columns", place_, fields_.size(), heading.names().size()));
+  }
 
   double number(std::size_t column) const {
     const std::string_view name = heading_.names()[column];
@@ -122,6 +133,8 @@ StrokeSample sample_of(const Line& line, const Layout& layout) {
 }  // namespace
 
 std::vector<StrokeSample> parse_stroke_recording(std::string_view csv, const std::string& name) {
+  constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";  // Spreadsheets write it.
+  if (csv.starts_with(k_byte_order_mark)) csv.remove_prefix(k_byte_order_mark.size());
   std::vector<StrokeSample> samples;
   std::unique_ptr<const Heading> heading;
   std::unique_ptr<const Layout> layout;

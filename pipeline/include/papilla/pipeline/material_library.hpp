@@ -51,14 +51,21 @@ std::string folded(std::string_view text);
 /// A material that a search found.
 struct MaterialHit {
   std::size_t material = 0;  ///< Its place in the list.
-  int score = 0;  ///< 4 where a word is a name or alias in full, 3 in part of these or the id, 2 of a category, 1 of a
-                  ///< use; the least of all words.
-  bool is_near = false;  ///< The words are only near some of the material's.
+  int score = 0;  ///< 4 where the search is a name or alias in full, 3 where a word is in part of these, the id or the
+                  ///< stiffness, 2 of a category, 1 of a use; the least of all words that are found.
+  bool is_near = false;  ///< Words are only near some of the material's, or missing.
 };
 
-/// The materials whose names, aliases, ids, categories or uses have all the words, in any language; the best first,
-/// then in the order of the list. Upper and lower case, umlauts and their spellings are alike. Where none has them,
-/// those with near words (near_name.hpp). Cost: words of the search x words of the library.
+/// The stiffness [N/m] up to which a material is "soft" in a search, and above which it is "hard": it yields as much as
+/// the wall of rendered_stiffness().
+inline constexpr double k_soft_stiffness = 1250;
+
+/// The materials whose names, aliases, ids, categories or uses have all the words, in any language. Upper and lower
+/// case, umlauts and their spellings and endings of German adjectives are alike; "soft", "weich", "hard" and "hart" are
+/// had by stiffness, too. Where none has them all: those with near words (near_name.hpp) for words that no material
+/// has, and where there is none either, those with words of at least half of the letters. The best first: by letters
+/// found, score, words that are a category or a whole word of a name, then the softest where "soft" is asked, the
+/// hardest where "hard" is, then in the order of the list. Cost: words of the search x words of the library.
 std::vector<MaterialHit> search_materials(const std::vector<LibraryMaterial>& materials, std::string_view words);
 
 /// What is wrong with a file.

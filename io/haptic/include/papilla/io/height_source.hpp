@@ -33,8 +33,10 @@ std::optional<HeightField> find_height_map(const HeightTag& tag, const Scene& sc
                                            std::size_t material, std::vector<HapticWarning>& warnings);
 
 /// The decoded maps; further warnings: maps_bits, maps_size, and maps_image when the bytes are no picture.
+/// @param probe_radius_m maps as a ball feels them (channel_average.hpp), with the length of a unit of uv; 0: a point.
 /// @throws InvalidInput, IoError as find_height_bytes().
 std::optional<ChannelField> find_maps(const MapsTag& tag, const Scene& scene, const std::filesystem::path& file,
-                                      std::size_t material, std::vector<HapticWarning>& warnings);
+                                      std::size_t material, std::vector<HapticWarning>& warnings,
+                                      double probe_radius_m = 0, Vec2 metres_per_uv = {});
 
 }  // namespace papilla
