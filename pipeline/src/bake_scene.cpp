@@ -109,6 +109,7 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   work.unwrap = part.solve_seconds;
   work.report.method = part.method;
   work.report.reason = !part.reason.empty() ? part.reason
+                       : wanted == "levy"   ? "as the material says, " + charts_by_method(part.choices)
                        : wanted != "auto"   ? "as the material says"
                                             : charts_by_method(part.choices);
   work.report.stop = part.flattening.stop;

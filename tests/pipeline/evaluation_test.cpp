@@ -161,7 +161,7 @@ TEST(EvaluateParam, HasTheSourcesMethodsAsTheyAreWritten) {
   }
   double start = 0;
   for (const char* from : {"conformal", "planar"}) {
-    const std::string solver = std::string("gradient-descent, phi 0.5, as written from ") + from;
+    const std::string solver = std::string("as written from ") + from;
     const EvaluationRun& own = find(solver, "Maillot energy");
     ASSERT_GE(own.trace.size(), 2U) << solver;
     EXPECT_NE(own.trace.front().error, start);  // each from its own start

@@ -149,8 +149,7 @@ std::vector<Variant> maillot_variants() {
       all.push_back(maillot(fmt::format("{}, phi {:g}", name, phi), options));
     }
   for (const auto& [name, start] : {std::pair{"conformal", MaillotStart::conformal}, {"planar", MaillotStart::planar}})
-    all.push_back(
-        maillot(fmt::format("gradient-descent, phi 0.5, as written from {}", name), maillot_as_written(start)));
+    all.push_back(maillot(fmt::format("as written from {}", name), maillot_as_written(start)));
   return all;
 }
 
@@ -258,7 +257,7 @@ std::vector<Variant> variants(bool has_cad_parameters) {
 /// Many cheap steps, or as CGAL does them.
 bool is_slow(const Variant& v) {
   return v.method == UnwrapMethod::arap || v.solver.starts_with("gauss-seidel") ||
-         v.solver.starts_with("gradient-descent");
+         v.solver.starts_with("gradient-descent") || v.solver.starts_with("as written");
 }
 
 bool is_valid(const DistortionReport& r) {
