@@ -78,15 +78,6 @@ Flatness flatness_of(const ChartSurface& chart) {
   return flatness;
 }
 
-std::vector<Vec2> project(const ChartSurface& chart, Vec3 normal) {
-  const Vec3 other = std::abs(normal.z) < 0.8 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
-  const Vec3 u = normalized(cross(other, normal)), v = cross(normal, u);
-  std::vector<Vec2> uv;
-  uv.reserve(chart.positions.size());
-  for (const Vec3& p : chart.positions) uv.push_back({dot(u, p), dot(v, p)});
-  return uv;
-}
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -109,7 +100,7 @@ class ChartMapper {
     }
     const Flatness flatness = flatness_of(chart_);
     if (flatness.largest_deg <= options_.flat_deg &&
-        take(project(to_unit(chart_).surface, flatness.normal), k_no_limit,
+        take(projected(to_unit(chart_).surface, flatness.normal), k_no_limit,
              {"planar", "normals are within " + number(flatness.largest_deg) + "° of their mean"}))
       return std::move(result_);
     return best(defect);
@@ -160,9 +151,7 @@ AutomaticResult flatten_automatic(const TriangleMesh& mesh, const ChartSet& char
   AutomaticResult result;
   result.flattening = flatten_charts(
       mesh, charts, [&](const ChartSurface& chart) { return ChartMapper(chart, options, mapped).run(); }, driver);
-  for (std::uint32_t c = 0; c < charts.count; ++c)
-    if (!choices[c].method.empty())
-      result.choices.push_back({c, std::move(choices[c].method), std::move(choices[c].reason)});
+  result.choices = choices_of_charts(std::move(choices));
   return result;
 }
 

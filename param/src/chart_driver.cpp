@@ -116,6 +116,13 @@ Trace add_up(const std::vector<MappedChart>& mapped, bool per_area) {
 
 }  // namespace
 
+std::vector<ChartChoice> choices_of_charts(std::vector<MethodChoice> choices) {
+  std::vector<ChartChoice> result;
+  for (std::uint32_t c = 0; c < choices.size(); ++c)
+    if (!choices[c].method.empty()) result.push_back({c, std::move(choices[c].method), std::move(choices[c].reason)});
+  return result;
+}
+
 Flattening flatten_charts(const TriangleMesh& mesh, const ChartSet& charts, const ChartMethod& method,
                           const DriverOptions& options) {
   check_mesh(mesh, options.function);

@@ -8,6 +8,7 @@
 
 #include "disk_chart.hpp"
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_choice.hpp"
 #include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
@@ -61,6 +62,9 @@ DriverOptions driver_options(std::string_view function, const Options& options) 
   driver.memory = options.memory;
   return driver;
 }
+
+/// One for every chart that has a choice, in order.
+std::vector<ChartChoice> choices_of_charts(std::vector<MethodChoice> choices);
 
 /// Maps every chart on its own, in parallel, and puts the maps together. The trace is the sum over the charts as if
 /// they had run at the same time.

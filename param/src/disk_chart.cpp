@@ -144,6 +144,15 @@ std::string map_failure(const ChartSurface& chart, const std::vector<Vec2>& uv) 
   return overlaps_itself(sheet) ? "the chart overlaps itself" : "";
 }
 
+std::vector<Vec2> projected(const ChartSurface& chart, Vec3 normal) {
+  const Vec3 other = std::abs(normal.z) < 0.8 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  const Vec3 u = normalized(cross(other, normal)), v = cross(normal, u);
+  std::vector<Vec2> uv;
+  uv.reserve(chart.positions.size());
+  for (const Vec3& p : chart.positions) uv.push_back({dot(u, p), dot(v, p)});
+  return uv;
+}
+
 UnitChart to_unit(const ChartSurface& chart) {
   UnitChart unit{chart, 1};
   const double area = area_of(chart);

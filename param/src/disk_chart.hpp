@@ -25,6 +25,9 @@ void normalise(const ChartSurface& chart, UpAxis up, bool scale, std::vector<Vec
 /// How the map fails to be a valid one (finite, no flipped triangle, no overlap), or nothing.
 std::string map_failure(const ChartSurface& chart, const std::vector<Vec2>& uv);
 
+/// The parallel projection along a normal of length 1, in true size.
+std::vector<Vec2> projected(const ChartSurface& chart, Vec3 normal);
+
 /// The chart moved to the origin and scaled to area 1: what solvers with absolute tolerances want.
 struct UnitChart {
   ChartSurface surface;

@@ -177,8 +177,8 @@ class Mapper {
     }
   }
 
+  /// One face of the box for the whole triangle.
   CornerUv map_box(std::size_t t) const {
-    // One face of the box for the whole triangle.
     Vec3 middle, normal;
     for (const Index v : mesh_.triangles[t]) {
       middle = middle + (1.0 / 3) * to_own(mesh_.positions[v]);
@@ -187,12 +187,11 @@ class Mapper {
     if (options_.rule == IntermediateRule::intermediate_normal) {
       const Vec3 face =
           turn(normalized(cross(mesh_.corner(t, 1) - mesh_.corner(t, 0), mesh_.corner(t, 2) - mesh_.corner(t, 0))));
-      if (norm(face) > 0) return project(t, face);
-      return project(t, middle);
+      return lay_on_face(t, norm(face) > 0 ? face : middle);
     }
     const Ray r = ray(middle, normalized(normal));
     const Vec3 q = r.origin + hit_box(r) * r.direction;
-    return project(t, {q.x / around_.half.x, q.y / around_.half.y, q.z / around_.half.z});
+    return lay_on_face(t, {q.x / around_.half.x, q.y / around_.half.y, q.z / around_.half.z});
   }
 
   double hit_box(const Ray& r) const {
@@ -206,21 +205,35 @@ class Mapper {
     return std::isfinite(least) ? std::max(least, 0.0) : 0;
   }
 
-  /// Onto the face of the box that `towards` looks at most.
-  CornerUv project(std::size_t t, Vec3 towards) const {
+  /// On the face of the box that `towards` looks at most.
+  CornerUv lay_on_face(std::size_t t, Vec3 towards) const {
     const std::array<double, 3> c{towards.x, towards.y, towards.z};
-    int axis = 0;
-    for (int a = 1; a < 3; ++a)
-      if (std::abs(c[static_cast<std::size_t>(a)]) > (1 + 1e-9) * std::abs(c[static_cast<std::size_t>(axis)])) axis = a;
-    const ProjectionAxes axes = projection_axes(axis, c[static_cast<std::size_t>(axis)] < 0, UpAxis::z);
+    std::size_t axis = 0;
+    for (std::size_t a = 1; a < 3; ++a)
+      if (std::abs(c[a]) > (1 + 1e-9) * std::abs(c[axis])) axis = a;
+    const double sign = c[axis] < 0 ? -1 : 1;
+    const ProjectionAxes axes = projection_axes(static_cast<int>(axis), sign < 0, UpAxis::z);
     CornerUv uv;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 p = to_own(mesh_.corner(t, static_cast<int>(k)));
+      const Vec3 p = meet_face(mesh_.triangles[t][k], axis, sign);
       const std::array<double, 3> q{p.x, p.y, p.z};
       uv[k] = {axes.u_sign * q[static_cast<std::size_t>(axes.u_axis)],
                axes.v_sign * q[static_cast<std::size_t>(axes.v_axis)]};
     }
     return uv;
+  }
+
+  /// Where the vertex's ray meets the plane of a face; the foot of its perpendicular where it does not.
+  Vec3 meet_face(Index vertex, std::size_t axis, double sign) const {
+    const Vec3 p = to_own(mesh_.positions[vertex]);
+    if (options_.rule == IntermediateRule::intermediate_normal) return p;
+    const Ray r = ray(p, turn(normals_[vertex]));
+    const auto across = [axis](Vec3 q) { return std::array<double, 3>{q.x, q.y, q.z}[axis]; };
+    const double distance = sign * across(around_.half) - across(r.origin), approach = across(r.direction);
+    const double s = approach * sign > 0 ? distance / approach : -1;
+    // What lies on the face is there, up to rounding.
+    const double least = -1e-9 * norm(around_.half), reach = s * norm(r.direction);
+    return reach >= least && reach <= k_reach * norm(around_.half) ? r.origin + s * r.direction : p;
   }
 
   const TriangleMesh& mesh_;

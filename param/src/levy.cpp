@@ -50,6 +50,14 @@ void check_pins(const LevyOptions& options, std::size_t vertices) {
            std::to_string(options.pins.size()) + " that do not");
 }
 
+/// What keeps a chart from the conformal coupling, or nothing.
+std::string conformal_obstacle(const LevyOptions& options, bool has_lines) {
+  if (options.border != LevyBorder::free) return "the border is not free from the start";
+  if (options.solver != LevySolver::direct) return "the solver is Gauss-Seidel";
+  if (has_lines) return "iso lines are held";
+  return {};
+}
+
 void check(const LevyOptions& options, std::size_t vertices) {
   const auto weight = [](double value, const char* name) {
     if (!(value >= 0 && value <= 1e12))
@@ -65,6 +73,11 @@ void check(const LevyOptions& options, std::size_t vertices) {
   if (options.length_rounds < 0)
     refuse("length_rounds is " + std::to_string(options.length_rounds) + ", it must not be negative");
   if (options.max_sweeps < 1) refuse("max_sweeps is " + std::to_string(options.max_sweeps) + ", it must be at least 1");
+  if (options.border == LevyBorder::released && options.orthogonality == 0 && options.length == 0)
+    refuse("a released border needs a weight on orthogonality or length");
+  if (options.coupling == LevyCoupling::conformal)
+    if (const std::string obstacle = conformal_obstacle(options, !options.iso_lines.empty()); !obstacle.empty())
+      refuse("the coupling can't be conformal, " + obstacle + ": it can be orthogonal");
   check_pins(options, vertices);
 }
 
@@ -227,7 +240,7 @@ class LevyMap {
       : chart_(chart),
         options_(options),
         held_(std::move(held)),
-        smoothness_(options.smoothness > 0 || options.border == LevyBorder::convex
+        smoothness_(options.smoothness > 0 || options.border != LevyBorder::free
                         ? smoothness_rows(chart, options.weights)
                         : LinearRows{}),
         length_(options.length > 0 ? length_rows(chart) : LinearRows{}),
@@ -236,17 +249,19 @@ class LevyMap {
 
   ChartMap run(Sums& sums) {
     ChartMap map;
+    map.choice = choice();
     if (is_conformal()) {
       map.failure = solve_conformal();
       if (map.failure.empty() && options_.length > 0 && options_.length_rounds > 0)
         map.stop = even_then_long(map.trace);
       else
         map.trace.push_back({clock_.seconds(), total()});
+      if (map.failure.empty() && held_.points.size() == 1) move_to_pin();
     } else if (options_.border == LevyBorder::convex) {
       map.failure = start_convex();
       if (map.failure.empty()) map.stop = is_linear() ? linear(map.trace) : alternate(map.trace);
     } else {
-      map.failure = start_free();
+      map.failure = options_.border == LevyBorder::released ? start_released() : start_free();
       if (map.failure.empty()) map.stop = alternate(map.trace);
       if (free_scale_ && held_.points.empty()) scale_apart(chart_, uv_);
     }
@@ -257,19 +272,37 @@ class LevyMap {
 
  private:
   bool is_conformal() const {
-    return options_.border == LevyBorder::free && options_.coupling == LevyCoupling::conformal &&
-           options_.solver == LevySolver::direct && held_.lines.empty() &&
-           (held_.points.empty() || held_.points.size() >= 2);
+    return options_.coupling != LevyCoupling::orthogonal && conformal_obstacle(options_, !held_.lines.empty()).empty();
+  }
+
+  MethodChoice choice() const {
+    if (is_conformal()) return {"levy conformal", "one linear system"};
+    if (options_.border == LevyBorder::convex && is_linear()) return {"levy smooth", "smoothness alone has a weight"};
+    return {"levy orthogonal", options_.coupling == LevyCoupling::orthogonal
+                                   ? "as asked"
+                                   : conformal_obstacle(options_, !held_.lines.empty())};
+  }
+
+  /// Those that fix a map's scale: one alone only fixes its place.
+  std::vector<std::pair<Index, Vec2>> scaling_pins() const {
+    return held_.points.size() >= 2 ? held_.points : std::vector<std::pair<Index, Vec2>>{};
   }
 
   std::string solve_conformal() {
     const ConformalTerms terms{options_.smoothness, options_.orthogonality, options_.length, &smoothness_, &length_};
-    return solve_conformal_terms(chart_, terms, held_.points, uv_) ? std::string() : "the Hermitian system is singular";
+    return solve_conformal_terms(chart_, terms, scaling_pins(), uv_) ? std::string()
+                                                                     : "the Hermitian system is singular";
+  }
+
+  void move_to_pin() {
+    normalise(chart_, options_.up, true, uv_);
+    const Vec2 miss = held_.points.front().second - uv_[held_.points.front().first];
+    for (Vec2& p : uv_) p = p + miss;
   }
 
   /// Lengths along the directions of the map that is even.
   StopReason even_then_long(Trace& trace) {
-    LengthRounds rounds(chart_, options_.smoothness, smoothness_, held_.points, uv_);
+    LengthRounds rounds(chart_, options_.smoothness, smoothness_, scaling_pins(), uv_);
     trace.push_back({clock_.seconds(), rounds.length_error()});
     StopReason stop = StopReason::iteration_limit;
     for (int round = 0; round < options_.length_rounds && stop == StopReason::iteration_limit; ++round) {
@@ -297,6 +330,19 @@ class LevyMap {
     SolvedMap map = solve_lscm_hermitian(chart_);
     if (!map.failure.empty()) return map.failure;
     uv_ = std::move(map.uv);
+    hold_freely();
+    return {};
+  }
+
+  std::string start_released() {
+    std::string failure = start_convex();
+    fixed_.assign(fixed_.size(), 0);
+    if (failure.empty()) hold_freely();
+    return failure;
+  }
+
+  /// Puts the start of a free border where pins and lines want it, and holds what else has to be.
+  void hold_freely() {
     normalise(chart_, options_.up, true, uv_);
     if (held_.points.size() >= 2) {
       fit(held_.points[0].first, held_.points[1].first, held_.points[0].second, held_.points[1].second, uv_);
@@ -308,7 +354,6 @@ class LevyMap {
       }
       for (const bool is_u : {true, false}) hold_extremes(is_u);
     }
-    return {};
   }
 
   /// Unless two values are given: the vertices that lie farthest out, of those on no line, keep the coordinate that
@@ -428,6 +473,19 @@ class LevyMap {
 
 }  // namespace
 
+LevyOptions levy_as_written(LevyBorder border, LevySolver solver) {
+  LevyOptions options;
+  options.weights = LevyWeights::uniform;
+  options.border = border;
+  options.coupling = LevyCoupling::orthogonal;
+  options.solver = solver;
+  options.smoothness = options.orthogonality = options.length = 1;
+  options.tolerance = 1e-6;
+  options.max_rounds = 100;
+  options.max_sweeps = 20;  // u and v take turns: neither has to be at its own minimum in between
+  return options;
+}
+
 LevyResult flatten_levy(const TriangleMesh& mesh, const ChartSet& charts, const LevyOptions& options) {
   check(options, mesh.positions.size());
   LevyResult result;
@@ -450,7 +508,10 @@ LevyResult flatten_levy(const TriangleMesh& mesh, const ChartSet& charts, const 
   };
   DriverOptions driver = driver_options(k_function, options);
   driver.error_per_area = false;
+  std::vector<MethodChoice> choices(charts.count);
+  driver.choices = &choices;
   result.flattening = flatten_charts(mesh, charts, method, driver);
+  result.choices = choices_of_charts(std::move(choices));
   std::sort(of_charts.begin(), of_charts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [position, sums] : of_charts) {
     result.smoothness += sums.smoothness;

@@ -2,8 +2,10 @@
 #include "papilla/param/maillot.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "chart_driver.hpp"
@@ -38,22 +40,46 @@ void check(const MaillotOptions& options) {
 
 struct StartMap {
   std::vector<Vec2> uv;
-  std::string failure;
+  std::string failure, name;
 };
 
+SolvedMap conformal_start(const ChartSurface& unit) {
+  SolvedMap map = solve_lscm_hermitian(unit);
+  if (map.failure.empty()) normalise(unit, UpAxis::z, true, map.uv);
+  return map;
+}
+
+SolvedMap planar_start(const ChartSurface& unit) {
+  Vec3 normal;
+  for (const Triangle& t : unit.triangles)
+    normal = normal + cross(unit.positions[t[1]] - unit.positions[t[0]], unit.positions[t[2]] - unit.positions[t[0]]);
+  if (!(norm(normal) > 0)) return {{}, "the chart has no mean normal"};
+  return {projected(unit, normalized(normal)), {}};
+}
+
+/// The start that was asked for, or the one that is valid on every disk where that is none.
 StartMap start_map(const ChartSurface& unit, const MaillotOptions& options) {
-  if (options.start == MaillotStart::conformal) {
-    SolvedMap map = solve_lscm_hermitian(unit);
-    if (map.failure.empty()) {
-      normalise(unit, UpAxis::z, true, map.uv);
-      if (map_failure(unit, map.uv).empty()) return {std::move(map.uv), {}};
-    }
+  std::string name = "from coarse to fine";
+  if (options.start != MaillotStart::coarse_to_fine) {
+    const bool is_planar = options.start == MaillotStart::planar;
+    const std::string asked = is_planar ? "the planar map" : "the conformal map";
+    SolvedMap map = is_planar ? planar_start(unit) : conformal_start(unit);
+    if (map.failure.empty() && !options.allow_flips) map.failure = map_failure(unit, map.uv);
+    if (map.failure.empty()) return {std::move(map.uv), {}, "from " + asked};
+    name += ", as " + asked + " is none (" + map.failure + ")";
   }
   MultilevelOptions coarse;
   coarse.deadline = options.deadline;
   coarse.only_when_rough = true;  // the energy has no wall: from a bad map it leads to another bad one
   MultilevelMap map = map_multilevel(unit, coarse);
-  return {std::move(map.uv), std::move(map.failure)};
+  return {std::move(map.uv), std::move(map.failure), std::move(name)};
+}
+
+/// What the start and what the descent did.
+std::string told_shares(const StartMap& start, double before, double after) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), ": E %.4g mm² before the descent, %.4g mm² after", before, after);
+  return start.name + text.data();
 }
 
 /// The symmetric Dirichlet energy of the map after scaling it to the area of the surface.
@@ -108,6 +134,7 @@ ChartMap map_chart(const ChartSurface& chart, const MaillotOptions& options) {
   map.stop = result.stop;
   for (const TraceSample& s : result.trace) map.trace.push_back({started + s.seconds, square_mm * s.error});
   for (Vec2& p : map.uv) p = (1 / unit.scale) * p;
+  map.choice = {"maillot", told_shares(start, map.trace.front().error, map.trace.back().error)};
   return map;
 }
 
@@ -129,6 +156,16 @@ void measure(const TriangleMesh& mesh, MaillotResult& result) {
 
 }  // namespace
 
+MaillotOptions maillot_as_written(MaillotStart start, double length_weight) {
+  MaillotOptions options;
+  options.start = start;
+  options.length_weight = length_weight;
+  options.solver = MaillotSolver::gradient_descent;
+  options.distortion_limit = 0;
+  options.allow_flips = true;
+  return options;
+}
+
 MaillotResult flatten_maillot(const TriangleMesh& mesh, const ChartSet& charts, const MaillotOptions& options) {
   check(options);
   std::atomic<std::size_t> overlapping{0};
@@ -141,8 +178,13 @@ MaillotResult flatten_maillot(const TriangleMesh& mesh, const ChartSet& charts, 
   driver.scale_to_area = false;
   driver.allow_flips = options.allow_flips;
   driver.error_per_area = false;
+  std::vector<MethodChoice> choices(charts.count);
+  driver.choices = &choices;
   MaillotResult result;
   result.flattening = flatten_charts(mesh, charts, method, driver);
+  result.start_energy = result.flattening.trace.front().error;
+  result.end_energy = result.flattening.trace.back().error;
+  result.choices = choices_of_charts(std::move(choices));
   result.invalid_charts = overlapping;
   measure(mesh, result);
   return result;

@@ -40,6 +40,38 @@ Image image_of(const TriangleMesh& mesh, const CornerAttribute<Vec2>& uv, std::s
   return {(norm(tangential) / size) * image, 0.5 * std::sqrt(square)};
 }
 
+/// @param direction_of of length 1 for every triangle.
+template <class DirectionOf>
+CornerAttribute<Vec2> turned(const TriangleMesh& mesh, const Flattening& flattening, DirectionOf direction_of) {
+  const auto& chart_of = flattening.charts.of_triangle;
+  std::vector<Vec2> mean(flattening.charts.count);
+  std::vector<double> area(flattening.charts.count, 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Image image = image_of(mesh, flattening.uv, t, direction_of(t));
+    mean[chart_of[t]] = mean[chart_of[t]] + image.area * image.direction;
+    area[chart_of[t]] += image.area;
+  }
+  CornerAttribute<Vec2> uv = flattening.uv;
+  std::vector<char> done(uv.values.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const Index i : uv.indices[t]) {
+      const Vec2 m = mean[chart_of[t]];
+      const double length = norm(m);
+      if (done[i] || !(length > k_least_mean * area[chart_of[t]])) continue;
+      done[i] = 1;
+      // Turns m to (0, 1): multiplication with (m.y + i m.x) / length.
+      const Vec2 p = uv.values[i];
+      uv.values[i] = {(p.x * m.y - p.y * m.x) / length, (p.x * m.x + p.y * m.y) / length};
+    }
+  return uv;
+}
+
+void check(const TriangleMesh& mesh, const Flattening& flattening) {
+  check_mesh(mesh, k_function);
+  check_charts(mesh, flattening.charts, k_function);
+  check_uv(mesh, flattening.uv, k_function);
+}
+
 }  // namespace
 
 Vec3 longest_direction(const TriangleMesh& mesh) {
@@ -74,33 +106,19 @@ Vec3 longest_direction(const TriangleMesh& mesh) {
 }
 
 CornerAttribute<Vec2> turn_to_grain(const TriangleMesh& mesh, const Flattening& flattening, Vec3 direction) {
-  check_mesh(mesh, k_function);
-  check_charts(mesh, flattening.charts, k_function);
-  check_uv(mesh, flattening.uv, k_function);
+  check(mesh, flattening);
   if (!is_finite(direction) || !(norm(direction) > 0))
     throw InvalidInput(std::string(k_function) + ": direction is not a finite vector with a length");
   direction = normalized(direction);
-  const auto& chart_of = flattening.charts.of_triangle;
-  std::vector<Vec2> mean(flattening.charts.count);
-  std::vector<double> area(flattening.charts.count, 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Image image = image_of(mesh, flattening.uv, t, direction);
-    mean[chart_of[t]] = mean[chart_of[t]] + image.area * image.direction;
-    area[chart_of[t]] += image.area;
-  }
-  CornerAttribute<Vec2> uv = flattening.uv;
-  std::vector<char> done(uv.values.size(), 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const Index i : uv.indices[t]) {
-      const Vec2 m = mean[chart_of[t]];
-      const double length = norm(m);
-      if (done[i] || !(length > k_least_mean * area[chart_of[t]])) continue;
-      done[i] = 1;
-      // Turns m to (0, 1): multiplication with (m.y + i m.x) / length.
-      const Vec2 p = uv.values[i];
-      uv.values[i] = {(p.x * m.y - p.y * m.x) / length, (p.x * m.x + p.y * m.y) / length};
-    }
-  return uv;
+  return turned(mesh, flattening, [direction](std::size_t) { return direction; });
+}
+
+CornerAttribute<Vec2> turn_to_grain(const TriangleMesh& mesh, const Flattening& flattening, const EdgeLoop& loop) {
+  check(mesh, flattening);
+  if (loop.points.size() < 2) throw InvalidInput(std::string(k_function) + ": the loop has fewer than two points");
+  return turned(mesh, flattening, [&](std::size_t t) {
+    return direction_near(loop, (1.0 / 3) * (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)));
+  });
 }
 
 }  // namespace papilla

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "papilla/io/node_places.hpp"
+
 namespace papilla {
 namespace {
 
@@ -29,6 +31,16 @@ std::size_t first_fitting(const Materials& rules, const SurfacePlace& place) {
   return static_cast<std::size_t>(std::find_if(rules.assign.begin(), rules.assign.end(),
                                                [&](const AssignRule& rule) { return fits(rule, place); }) -
                                   rules.assign.begin());
+}
+
+/// Which parts' patterns in the rules' unwrap mean the part of this name: parts that differ there are unwrapped apart.
+std::string named_by_unwrap(const std::vector<const MaterialRule*>& rules, const std::string& part) {
+  std::string named;
+  for (const MaterialRule* rule : rules)
+    if (rule && rule->unwrap_options)
+      for (const std::string& pattern : named_parts(*rule->unwrap_options))
+        named += is_for_part(pattern, part) ? '1' : '0';
+  return named;
 }
 
 }  // namespace
@@ -82,9 +94,11 @@ Assignment assign_materials(Scene& scene, const Materials& rules, std::span<Gltf
 }
 
 std::vector<SharedPart> share_identical_parts(Scene& scene, Assignment& assignment) {
-  std::map<std::vector<const MaterialRule*>, std::uint64_t> numbers;
+  std::map<std::pair<std::vector<const MaterialRule*>, std::string>, std::uint64_t> numbers;
   const std::vector<SharedPart> shared = share_identical_parts(scene, [&](std::uint32_t part) {
-    return numbers.try_emplace(assignment.parts.at(part).rules, numbers.size()).first->second;
+    const std::vector<const MaterialRule*>& rules = assignment.parts.at(part).rules;
+    return numbers.try_emplace({rules, named_by_unwrap(rules, shown_name(scene.parts[part]))}, numbers.size())
+        .first->second;
   });
   std::set<std::uint32_t> copies;
   for (const SharedPart& part : shared) copies.insert(part.number);

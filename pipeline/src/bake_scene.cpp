@@ -93,6 +93,12 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   const std::string wanted = is_method ? work.rule->unwrap : "auto";
   context.part = work.surface->label;
   context.tile_mm = options.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
+  if (work.rule->unwrap_options) {
+    const MethodOptions common = std::exchange(options.method, *work.rule->unwrap_options);
+    options.method.effort = common.effort;
+    options.method.deadline = common.deadline;
+    options.method.progress = common.progress;
+  }
   options.method.method = unwrap_methods().at(wanted);
   options.layout = UvLayout::tile;
   options.repair = runs(*work.surface, Stage::repair);
@@ -103,6 +109,7 @@ void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, cons
   work.unwrap = part.solve_seconds;
   work.report.method = part.method;
   work.report.reason = !part.reason.empty() ? part.reason
+                       : wanted == "levy"   ? "as the material says, " + charts_by_method(part.choices)
                        : wanted != "auto"   ? "as the material says"
                                             : charts_by_method(part.choices);
   work.report.stop = part.flattening.stop;
@@ -393,6 +400,8 @@ void find_equal(std::vector<Work>& works) {
   std::map<std::tuple<const MaterialRule*, std::size_t, double>, std::vector<const Work*>> known;
   for (Work& work : works) {
     if (!runs(*work.surface, Stage::unwrap)) continue;
+    // Equal parts of different names may be meant to differ.
+    if (work.rule->unwrap_options && !named_parts(*work.rule->unwrap_options).empty()) continue;
     double sum = 0;
     for (const Vec3& p : work.mesh.positions) sum += p.x + 2 * p.y + 3 * p.z;
     std::vector<const Work*>& candidates = known[{work.rule, work.mesh.triangles.size(), sum}];
@@ -404,6 +413,22 @@ void find_equal(std::vector<Work>& works) {
     else
       work.equal_to = *equal;
   }
+}
+
+/// Patterns of a material's unwrap that fit none of the parts that it gives new uv.
+std::vector<std::string> warn_of_unmatched_parts(const std::vector<Work>& works) {
+  std::map<const MaterialRule*, std::vector<std::string>> labels;
+  for (const Work& work : works)
+    if (runs(*work.surface, Stage::unwrap)) labels[work.rule].push_back(work.surface->label);
+  std::set<std::string> warnings;  // in the order of names, not of addresses
+  for (const auto& [rule, parts] : labels) {
+    if (!rule->unwrap_options) continue;
+    for (const std::string& pattern : named_parts(*rule->unwrap_options))
+      if (std::none_of(parts.begin(), parts.end(), [&](const auto& part) { return is_for_part(pattern, part); }))
+        warnings.insert(fmt::format("material '{}': its unwrap names part '{}', but it gives no such part new uv",
+                                    rule->name, pattern));
+  }
+  return {warnings.begin(), warnings.end()};
 }
 
 void take_over(const Work& source, Work& work) {
@@ -489,6 +514,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
     const std::vector<std::uint32_t>& own = work.surface->triangles;
     work.mesh = own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own);
   }
+  for (std::string& warning : warn_of_unmatched_parts(works)) result.scene.warnings.push_back(std::move(warning));
   if (options.plan.in_place && !options.plan.keep_copies) find_equal(works);
   UnwrapOptions in_time = options.unwrap;
   in_time.method.deadline = options.unwrap.method.deadline.earlier_by(k_seconds_to_finish * triangles);

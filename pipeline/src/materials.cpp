@@ -13,6 +13,7 @@
 #include "papilla/haptic/stimulus.hpp"
 #include "papilla/pipeline/library_material.hpp"
 #include "papilla/pipeline/material_library.hpp"
+#include "unwrap_value.hpp"
 
 namespace papilla {
 namespace {
@@ -259,8 +260,7 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
     rule.backing = v->json().is_null() ? std::nullopt : std::optional(read_backing(*v));
   if (const auto v = value.get("fineRoughness"))
     rule.fine_roughness = v->json().is_null() ? std::nullopt : std::optional(read_fine_roughness(*v));
-  if (const auto v = value.get("unwrap"))
-    rule.unwrap = v->one_of({"auto", "keep", "new", "best", "triplanar", "lscm", "levy", "maillot", "natural"});
+  if (const auto v = value.get("unwrap")) read_unwrap(*v, rule);
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
   if (const auto v = value.get("color")) rule.color = v->hex_colour();
   return rule;

@@ -67,6 +67,27 @@ bool is_for_part(const std::string& pattern, const std::string& part) {
   return pattern.empty() || matches_glob(pattern, part);
 }
 
+PlacedGrain grain_of(const std::vector<PlacedGrain>& grains, const std::string& part) {
+  const auto find = [&](bool by_name) {
+    return std::find_if(grains.begin(), grains.end(), [&](const PlacedGrain& grain) {
+      return grain.part.empty() != by_name && is_for_part(grain.part, part);
+    });
+  };
+  auto grain = find(true);
+  if (grain == grains.end()) grain = find(false);
+  return grain == grains.end() ? PlacedGrain{} : *grain;
+}
+
+std::vector<std::string> named_parts(const MethodOptions& options) {
+  std::vector<std::string> patterns;
+  const auto add = [&](const auto& placed) {
+    for (const auto& p : placed)
+      if (!p.part.empty()) patterns.push_back(p.part);
+  };
+  add(options.grains), add(options.pins), add(options.iso_lines);
+  return patterns;
+}
+
 LevyPin pin_on(const TriangleMesh& mesh, const PlacedPin& pin) { return {nearest_vertex(mesh, pin.position), pin.uv}; }
 
 LevyIsoLine iso_line_on(const TriangleMesh& mesh, const PlacedIsoLine& line) {

@@ -13,6 +13,7 @@
 #include "papilla/meshing/uv_charts.hpp"
 #include "papilla/param/chart_memory.hpp"
 #include "papilla/param/components.hpp"
+#include "papilla/param/edge_loop.hpp"
 #include "papilla/param/grain_direction.hpp"
 #include "papilla/param/grain_frame.hpp"
 #include "papilla/param/seam_choice.hpp"
@@ -49,7 +50,8 @@ void set_effort(MethodOptions& o) {
 MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, const PartContext& context) {
   MethodOptions o = given;
   const UpAxis up = context.up;
-  if (o.grain == GrainSource::longest) o.grain_direction = longest_direction(mesh);
+  o.grains = {grain_of(given.grains, context.part)};
+  if (o.grains.front().source == GrainSource::longest) o.grains.front().vector = longest_direction(mesh);
   o.triplanar.up = up;
   o.triplanar.tile_mm = context.tile_mm;
   o.planar.up = o.intermediate.up = o.environment.up = up;
@@ -85,8 +87,16 @@ MethodOptions prepare(const TriangleMesh& mesh, const MethodOptions& given, cons
 Flattening map_charts(const TriangleMesh& mesh, const ChartSet& charts, const MethodOptions& o,
                       std::vector<ChartChoice>& choices) {
   switch (o.method) {
-    case UnwrapMethod::maillot: return flatten_maillot(mesh, charts, o.maillot).flattening;
-    case UnwrapMethod::levy: return flatten_levy(mesh, charts, o.levy).flattening;
+    case UnwrapMethod::maillot: {
+      MaillotResult result = flatten_maillot(mesh, charts, o.maillot);
+      choices = std::move(result.choices);
+      return std::move(result.flattening);
+    }
+    case UnwrapMethod::levy: {
+      LevyResult result = flatten_levy(mesh, charts, o.levy);
+      choices = std::move(result.choices);
+      return std::move(result.flattening);
+    }
     case UnwrapMethod::lscm: return flatten_lscm(mesh, charts, o.lscm);
     case UnwrapMethod::best: return flatten_best(mesh, charts, o.best);
     case UnwrapMethod::automatic: {
@@ -106,10 +116,17 @@ SegmentationOptions segmentation_of(const MethodOptions& o, const PartContext& c
                          (o.method == UnwrapMethod::levy && o.levy.border == LevyBorder::convex);
   segmentation.disks = on_circle;
   if (!(context.tile_mm.x > 0 && context.tile_mm.y > 0)) return segmentation;
-  if (o.grain == GrainSource::up)
-    segmentation.grain = [up = context.up](Vec3 normal) { return grain_direction(normal, up); };
-  else
-    segmentation.grain = [d = normalized(o.grain_direction)](Vec3 normal) { return d - dot(d, normal) * normal; };
+  const PlacedGrain& grain = o.grains.front();
+  switch (grain.source) {
+    case GrainSource::up:
+      segmentation.grain = [up = context.up](Vec3 normal) { return grain_direction(normal, up); };
+      break;
+    case GrainSource::longest:
+    case GrainSource::direction:
+      segmentation.grain = [d = normalized(grain.vector)](Vec3 normal) { return d - dot(d, normal) * normal; };
+      break;
+    case GrainSource::edge_loop: break;  // its direction does not follow from a normal
+  }
   return segmentation;
 }
 
@@ -203,45 +220,6 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
 
 }  // namespace
 
-const std::map<std::string, UnwrapMethod>& unwrap_methods() {
-  static const std::map<std::string, UnwrapMethod> names{{"natural", UnwrapMethod::natural},
-                                                         {"intermediate", UnwrapMethod::intermediate},
-                                                         {"planar", UnwrapMethod::planar},
-                                                         {"environment", UnwrapMethod::environment},
-                                                         {"triplanar", UnwrapMethod::triplanar},
-                                                         {"maillot", UnwrapMethod::maillot},
-                                                         {"levy", UnwrapMethod::levy},
-                                                         {"tutte", UnwrapMethod::tutte},
-                                                         {"mvc", UnwrapMethod::mvc},
-                                                         {"lscm", UnwrapMethod::lscm},
-                                                         {"arap", UnwrapMethod::arap},
-                                                         {"best", UnwrapMethod::best},
-                                                         {"auto", UnwrapMethod::automatic}};
-  return names;
-}
-
-const std::map<std::string, UnwrapEffort>& unwrap_efforts() {
-  static const std::map<std::string, UnwrapEffort> names{
-      {"fast", UnwrapEffort::fast}, {"normal", UnwrapEffort::normal}, {"best", UnwrapEffort::best}};
-  return names;
-}
-
-std::string unwrap_method_name(UnwrapMethod method) {
-  const auto& names = unwrap_methods();
-  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == method; })->first;
-}
-
-const std::map<std::string, ChartSource>& chart_sources() {
-  static const std::map<std::string, ChartSource> names{
-      {"auto", ChartSource::automatic}, {"keep", ChartSource::keep}, {"uv", ChartSource::uv}};
-  return names;
-}
-
-std::string chart_source_name(ChartSource source) {
-  const auto& names = chart_sources();
-  return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.second == source; })->first;
-}
-
 ChartSet given_charts(const TriangleMesh& mesh, ChartSource source) {
   if (source == ChartSource::uv) return open_closed_charts(mesh, uv_charts(mesh));
   require_manifold(mesh);
@@ -260,6 +238,17 @@ bool takes_charts(UnwrapMethod method) {
 }
 
 namespace {
+
+void turn_part(const TriangleMesh& mesh, const PlacedGrain& grain, Flattening& flattening) {
+  switch (grain.source) {
+    case GrainSource::up: break;  // as the methods leave it
+    case GrainSource::longest:
+    case GrainSource::direction: flattening.uv = turn_to_grain(mesh, flattening, grain.vector); break;
+    case GrainSource::edge_loop:
+      flattening.uv = turn_to_grain(mesh, flattening, edge_loop_near(mesh, grain.vector));
+      break;
+  }
+}
 
 /// Planar projections, which take next to no time.
 void project_for_want_of_time(const TriangleMesh& mesh, MethodOptions& o, FlattenedPart& part) {
@@ -290,8 +279,7 @@ FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context,
     }
   }
   part.method = unwrap_method_name(o.method);
-  if (o.grain != GrainSource::up && o.method != UnwrapMethod::environment)
-    part.flattening.uv = turn_to_grain(mesh, part.flattening, o.grain_direction);
+  if (o.method != UnwrapMethod::environment) turn_part(mesh, o.grains.front(), part.flattening);
   return part;
 }
 

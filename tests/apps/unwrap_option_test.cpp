@@ -25,6 +25,54 @@ TEST(UnwrapOption, ReadsPlacesLinesAndParts) {
     EXPECT_THROW(parse_iso_line(bad), UsageError) << bad;
 }
 
+TEST(UnwrapOption, ReadsGrains) {
+  EXPECT_EQ(parse_grain("up").source, GrainSource::up);
+  EXPECT_EQ(parse_grain("longest@door").source, GrainSource::longest);
+  EXPECT_EQ(parse_grain("longest@door").part, "door");
+  EXPECT_EQ(parse_grain("0,2,0").source, GrainSource::direction);
+  EXPECT_EQ(parse_grain("0,2,0").vector, (Vec3{0, 2, 0}));
+  const PlacedGrain edge = parse_grain("edge:0,0,0@rim*");
+  EXPECT_EQ(edge.source, GrainSource::edge_loop);
+  EXPECT_EQ(edge.vector, (Vec3{}));
+  EXPECT_EQ(edge.part, "rim*");
+  for (const char* bad : {"", "0,0,0", "along", "edge:", "edge:1,2", "1,2@x"})
+    EXPECT_THROW(parse_grain(bad), UsageError) << bad;
+}
+
+/// The message with which these options of unwrap are refused; empty: they are not.
+std::string complaint(const std::string& line) {
+  CLI::App app;
+  UnwrapOption options;
+  options.add_to(app);
+  app.parse(line);
+  try {
+    options.options();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(UnwrapOption, OptionsOfOtherMethodsAreRefused) {
+  EXPECT_EQ(complaint("--method maillot --phi 0.3 --start planar --distortion-limit 0"), "");
+  EXPECT_EQ(complaint("--method best --phi 0.3"), "--phi: it is of maillot, not of best");
+  EXPECT_EQ(complaint("--shape cone"), "--shape: it is of intermediate, not of auto");
+  EXPECT_EQ(complaint("--method lscm --iso-line u:0,0,0;1,0,0"), "--iso-line: it is of levy, not of lscm");
+  EXPECT_EQ(complaint("--method planar --eye 1,2,3"), "--eye: it is of environment, intermediate, not of planar");
+  EXPECT_EQ(complaint("--method auto --iterations 5"), "");
+  EXPECT_NE(complaint("--method maillot --distortion-limit 0.5").find("at least 1"), std::string::npos);
+  EXPECT_NE(complaint("--method lscm --solver direct").find("no such solver"), std::string::npos);
+}
+
+TEST(UnwrapOption, ACouplingThatCantBeKeptIsRefused) {
+  const std::string levy = "--method levy --coupling conformal ";
+  EXPECT_EQ(complaint(levy), "");
+  for (const char* other :
+       {"--border convex", "--border released", "--solver gauss-seidel", "--iso-line u:0,0,0;1,0,0"})
+    EXPECT_NE(complaint(levy + other).find("--coupling conformal: it needs"), std::string::npos) << other;
+  EXPECT_EQ(complaint("--method levy --coupling auto --border convex"), "");
+}
+
 TEST(UnwrapOption, PartsWithoutANameAreHeldByTheirPath) {
   Scene scene;
   scene.parts.resize(2);

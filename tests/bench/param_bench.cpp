@@ -77,6 +77,31 @@ void add_triplanar(const Disk& disk, BenchReport& report) {
   });
 }
 
+/// The sources' own functionals, starts and steps: rows that small disks have.
+struct WrittenRow {
+  const char *method, *solver, *error;
+  MapMethod map;
+};
+
+const std::vector<WrittenRow>& written_rows() {
+  static const auto levy_row = [](const char* solver, LevyBorder border, LevySolver by) {
+    return WrittenRow{"levy", solver, "sum of Lévy's conditions [mm²]",
+                      [border, by](const TriangleMesh& m) { return levy_written(m, border, by); }};
+  };
+  static const auto maillot_row = [](const char* solver, MaillotStart start) {
+    return WrittenRow{"maillot", solver, "Maillot's energy [mm²]",
+                      [start](const TriangleMesh& m) { return maillot_written(m, start); }};
+  };
+  static const std::vector<WrittenRow> rows{
+      levy_row("direct, as written", LevyBorder::convex, LevySolver::direct),
+      levy_row("gauss-seidel, as written", LevyBorder::convex, LevySolver::gauss_seidel),
+      levy_row("direct, as written, border released", LevyBorder::released, LevySolver::direct),
+      levy_row("gauss-seidel, as written, border released", LevyBorder::released, LevySolver::gauss_seidel),
+      maillot_row("as written from conformal", MaillotStart::conformal),
+      maillot_row("as written from planar", MaillotStart::planar)};
+  return rows;
+}
+
 void add_speed(const std::vector<Disk>& all, BenchReport& report) {
   for (const Disk& disk : all) {
     add_triplanar(disk, report);
@@ -90,6 +115,7 @@ void add_speed(const std::vector<Disk>& all, BenchReport& report) {
         disk, "lscm", "cgal", "mean of (σ1 - σ2)²",
         [](const TriangleMesh& m) { return lscm_with(m, LscmSolver::cgal); }, report);
     if (disk.size == Disk::large || disk.name.starts_with("needle")) continue;
+    for (const WrittenRow& row : written_rows()) add_method(disk, row.method, row.solver, row.error, row.map, report);
     add_method(disk, "arap", "cgal", "mean symmetric Dirichlet energy", arap, report);
   }
   report.compare("lscm/hermitian", "lscm/cgal", "cpu_seconds");
@@ -104,13 +130,20 @@ void report_methods(const std::vector<Disk>& all, const Medians& of, BenchReport
                       "Medians over the repeats; CPU of the whole process.",
                       {"disk", "method", "CPU s", "symmetric Dirichlet", "Maillot", "flipped / degenerate / fell back"},
                       {}};
+  std::vector<std::string> subjects{"triplanar",
+                                    "lscm/cgal",
+                                    "lscm/hermitian",
+                                    "levy/direct",
+                                    "levy/direct, lengths",
+                                    "arap/cgal",
+                                    "maillot/gauss-newton",
+                                    "best"};
+  for (const WrittenRow& row : written_rows()) subjects.push_back(std::string(row.method) + "/" + row.solver);
   for (const Disk& disk : all)
-    for (const char* subject : {"triplanar", "lscm/cgal", "lscm/hermitian", "levy/direct", "levy/direct, lengths",
-                                "arap/cgal", "maillot/gauss-newton", "best"}) {
-      const std::string name = subject;
-      if (disk.size == Disk::huge && (name.ends_with("cgal") || name.starts_with("maillot"))) continue;
-      if (std::string(subject) == "arap/cgal" && (disk.size != Disk::small || disk.name.starts_with("needle")))
-        continue;
+    for (const std::string& subject : subjects) {
+      if (disk.size == Disk::huge && (subject.ends_with("cgal") || subject.starts_with("maillot"))) continue;
+      const bool is_slow = subject == "arap/cgal" || subject.find("as written") != std::string::npos;
+      if (is_slow && (disk.size != Disk::small || disk.name.starts_with("needle"))) continue;
       table.rows.push_back({disk.name, subject, fmt::format("{:.4f}", of.cpu(subject, disk.name)),
                             fmt::format("{:.5f}", of.energy(subject, disk.name)),
                             fmt::format("{:.4g}", of(subject, disk.name, "maillot_length")),

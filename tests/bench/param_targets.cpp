@@ -11,8 +11,6 @@
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/best.hpp"
 #include "papilla/param/components.hpp"
-#include "papilla/param/levy.hpp"
-#include "papilla/param/maillot.hpp"
 #include "papilla/param/reference_maps.hpp"
 #include "support/formula_meshes.hpp"
 
@@ -37,6 +35,14 @@ Flattening levy_conformal(const TriangleMesh& mesh) {
 }
 
 Flattening levy(const TriangleMesh& mesh) { return flatten_levy(mesh, test::one_chart(mesh)).flattening; }
+Flattening levy_written(const TriangleMesh& mesh, LevyBorder border, LevySolver solver) {
+  return flatten_levy(mesh, test::one_chart(mesh), levy_as_written(border, solver)).flattening;
+}
+
+Flattening maillot_written(const TriangleMesh& mesh, MaillotStart start) {
+  return flatten_maillot(mesh, test::one_chart(mesh), maillot_as_written(start)).flattening;
+}
+
 Flattening maillot(const TriangleMesh& mesh) { return flatten_maillot(mesh, test::one_chart(mesh)).flattening; }
 Flattening best(const TriangleMesh& mesh) { return flatten_best(mesh, test::one_chart(mesh)); }
 

@@ -12,7 +12,9 @@
 #include "bench/param_meshes.hpp"
 #include "bench/param_peer.hpp"
 #include "papilla/param/flattening.hpp"
+#include "papilla/param/levy.hpp"
 #include "papilla/param/lscm.hpp"
+#include "papilla/param/maillot.hpp"
 #include "papilla/param/measure.hpp"
 
 namespace papilla::bench {
@@ -25,7 +27,9 @@ Flattening lscm_hermitian(const TriangleMesh& mesh);
 Flattening arap(const TriangleMesh& mesh);            ///< CGAL's.
 Flattening levy_conformal(const TriangleMesh& mesh);  ///< Without lengths: least squares conformality, linear as lscm.
 Flattening levy(const TriangleMesh& mesh);
+Flattening levy_written(const TriangleMesh& mesh, LevyBorder border, LevySolver solver);
 Flattening maillot(const TriangleMesh& mesh);
+Flattening maillot_written(const TriangleMesh& mesh, MaillotStart start);
 Flattening best(const TriangleMesh& mesh);
 
 /// A mesh that methods are compared on.

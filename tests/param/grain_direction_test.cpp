@@ -5,11 +5,16 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
+#include "papilla/param/lscm.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla/param/triplanar.hpp"
 #include "papilla_test/shapes.hpp"
+#include "support/formula_meshes.hpp"
 
 namespace papilla {
 namespace {
@@ -29,7 +34,7 @@ TEST(GrainDirection, LongestDirectionOfABar) {
 TEST(GrainDirection, VGrowsAlongItOnAllChartsThatHaveIt) {
   const TriangleMesh mesh = test::cube(4);
   const Flattening f = flatten_triplanar(mesh).flattening;
-  const CornerAttribute<Vec2> uv = turn_to_grain(mesh, f, {3, 0, 0});
+  const CornerAttribute<Vec2> uv = turn_to_grain(mesh, f, Vec3{3, 0, 0});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 n = cross(mesh.corner(t, 1) - mesh.corner(t, 0), mesh.corner(t, 2) - mesh.corner(t, 0));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -48,12 +53,63 @@ TEST(GrainDirection, VGrowsAlongItOnAllChartsThatHaveIt) {
   EXPECT_NEAR(d.symmetric_dirichlet.max, 4, 1e-9);
 }
 
+TEST(EdgeLoop, RimOfACylinderIsClosed) {
+  const TriangleMesh mesh = test::cylinder(10, 30, 64, 12);  // open at both ends
+  const EdgeLoop rim = edge_loop_near(mesh, {20, 0, 100});
+  EXPECT_TRUE(rim.is_closed);
+  ASSERT_EQ(rim.points.size(), 64u);
+  double length = 0;
+  for (std::size_t i = 0; i < rim.points.size(); ++i) {
+    EXPECT_NEAR(rim.points[i].z, rim.points[0].z, 1e-9);
+    length += norm(rim.points[(i + 1) % 64] - rim.points[i]);
+  }
+  EXPECT_NEAR(length, 2 * 64 * 10 * std::sin(std::numbers::pi / 64), 1e-9);
+  EXPECT_NEAR(std::abs(direction_near(rim, {50, 0, 0}).y), 1, 0.06);
+}
+
+TEST(EdgeLoop, EdgeOfABoxEndsAtItsCorners) {
+  const TriangleMesh mesh = test::cube(4);
+  const Bounds3 bounds = bounds_of(mesh);
+  const EdgeLoop edge = edge_loop_near(mesh, {bounds.high.x + 1, bounds.middle().y, bounds.high.z + 1});
+  EXPECT_FALSE(edge.is_closed);
+  ASSERT_EQ(edge.points.size(), 2u);
+  EXPECT_EQ(edge.points[0], (Vec3{bounds.high.x, bounds.low.y, bounds.high.z}));
+  EXPECT_EQ(edge.points[1], bounds.high);
+  EdgeLoopOptions around;
+  around.most_turn_deg = 91;
+  EXPECT_TRUE(edge_loop_near(mesh, bounds.high, around).is_closed);
+  EXPECT_THROW(edge_loop_near(test::uv_sphere(10, 32, 64), {0, 0, 0}), InvalidInput);
+  EXPECT_THROW(edge_loop_near(mesh, {std::nan(""), 0, 0}), InvalidInput);
+}
+
+TEST(GrainDirection, FollowsAnEdgeLoop) {
+  // The wall of a cylinder, unrolled: v runs along the rim, not up.
+  const TriangleMesh mesh = test::grid_mesh(64, 30, test::open_cylinder);
+  const ChartSet chart{std::vector<std::uint32_t>(mesh.triangles.size(), 0), 1};
+  const Flattening f = flatten_lscm(mesh, chart);
+  const EdgeLoop rim = edge_loop_near(mesh, mesh.positions[32]);
+  const CornerAttribute<Vec2> uv = turn_to_grain(mesh, f, rim);
+  double along = 0, across = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int next = static_cast<int>((k + 1) % 3);
+      const Vec3 e = mesh.corner(t, next) - mesh.corner(t, static_cast<int>(k));
+      const Vec3 d = direction_near(rim, mesh.corner(t, 0));
+      const Vec2 m = uv.values[uv.indices[t][(k + 1) % 3]] - uv.values[uv.indices[t][k]];
+      if (std::abs(dot(normalized(e), d)) < 0.9) continue;
+      along += dot(e, d) * m.y, across += std::abs(m.x);
+    }
+  EXPECT_GT(along, 0);
+  EXPECT_LT(across, 1e-3 * std::sqrt(along * static_cast<double>(mesh.triangles.size())));
+  EXPECT_THROW(turn_to_grain(mesh, f, EdgeLoop{}), InvalidInput);
+}
+
 TEST(GrainDirection, BadInputIsNamed) {
   const TriangleMesh mesh = test::cube(4);
   const Flattening f = flatten_triplanar(mesh).flattening;
-  EXPECT_THROW(turn_to_grain(mesh, f, {}), InvalidInput);
-  EXPECT_THROW(turn_to_grain(mesh, f, {std::numeric_limits<double>::quiet_NaN(), 0, 1}), InvalidInput);
-  EXPECT_THROW(turn_to_grain(test::plane(1, 1, 1, 1), f, {1, 0, 0}), InvalidInput);
+  EXPECT_THROW(turn_to_grain(mesh, f, Vec3{}), InvalidInput);
+  EXPECT_THROW(turn_to_grain(mesh, f, Vec3{std::numeric_limits<double>::quiet_NaN(), 0, 1}), InvalidInput);
+  EXPECT_THROW(turn_to_grain(test::plane(1, 1, 1, 1), f, Vec3{1, 0, 0}), InvalidInput);
 }
 
 }  // namespace

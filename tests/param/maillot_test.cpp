@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "papilla/core/error.hpp"
 #include "papilla/param/measure.hpp"
@@ -133,6 +136,70 @@ TEST(Maillot, ConformalStart) {
   options.start = MaillotStart::coarse_to_fine;
   EXPECT_NEAR(flatten_maillot(mesh, test::one_chart(mesh), options).length_energy, from_conformal,
               1e-3 * from_conformal);
+}
+
+TEST(Maillot, PlanarStartHasTheEnergyOfTheProjection) {
+  // A paraboloid's shallow cap over a square: uv of the start are x and y, so that E follows from lengths and areas.
+  TriangleMesh mesh = test::plane(20, 20, 10, 10);
+  for (Vec3& p : mesh.positions) p.z = 0.02 * ((p.x - 10) * (p.x - 10) + (p.y - 10) * (p.y - 10));
+  double length = 0, area = 0;
+  std::map<std::pair<Index, Index>, bool> seen;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!seen.try_emplace(std::minmax(t[k], t[(k + 1) % 3])).second) continue;
+      const Vec3 e = mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]];
+      length += e.z * e.z * e.z * e.z / dot(e, e);
+    }
+    const Vec3 n = cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
+    area += (n.z - norm(n)) * (n.z - norm(n)) / norm(n);
+  }
+  MaillotOptions options = maillot_as_written(MaillotStart::planar, 0.25);
+  options.max_iterations = 0;
+  const MaillotResult start = flatten_maillot(mesh, test::one_chart(mesh), options);
+  EXPECT_NEAR(start.start_energy, 0.25 * length + 0.75 * area, 1e-9 * start.start_energy);
+  EXPECT_EQ(start.end_energy, start.start_energy);
+  options.max_iterations = 500;
+  const MaillotResult r = flatten_maillot(mesh, test::one_chart(mesh), options);
+  EXPECT_EQ(r.start_energy, start.start_energy);
+  EXPECT_LT(r.end_energy, 0.5 * r.start_energy);
+  EXPECT_NEAR(r.end_energy, 0.25 * r.length_energy + 0.75 * r.area_energy, 1e-6 * r.end_energy);
+  ASSERT_EQ(r.choices.size(), 1u);
+  EXPECT_TRUE(r.choices.front().reason.starts_with("from the planar map: E ")) << r.choices.front().reason;
+}
+
+TEST(Maillot, AsWrittenFindsTheMinimumFromBothStarts) {
+  const TriangleMesh mesh = test::spherical_cap(10, 0.7, 5, 12);
+  MaillotOptions fast;
+  fast.distortion_limit = 0;
+  fast.tolerance = 1e-12;
+  const double least = flatten_maillot(mesh, test::one_chart(mesh), fast).end_energy;
+  std::vector<double> starts;
+  for (const MaillotStart start : {MaillotStart::conformal, MaillotStart::planar}) {
+    MaillotOptions options = maillot_as_written(start);
+    options.tolerance = 1e-9;
+    options.max_iterations = 20000;
+    const MaillotResult r = flatten_maillot(mesh, test::one_chart(mesh), options);
+    EXPECT_NEAR(r.end_energy, least, 1e-4 * least);
+    starts.push_back(r.start_energy);
+  }
+  EXPECT_GT(std::abs(starts[0] - starts[1]), 0.01 * starts[0]);
+}
+
+TEST(Maillot, SaysWhereAStartIsNoMap) {
+  // Beyond half a sphere the projection turns triangles over.
+  const TriangleMesh mesh = test::spherical_cap(10, 2.2, 10, 24);
+  MaillotOptions options;
+  options.start = MaillotStart::planar;
+  const MaillotResult valid = flatten_maillot(mesh, test::one_chart(mesh), options);
+  ASSERT_EQ(valid.choices.size(), 1u);
+  EXPECT_TRUE(valid.choices.front().reason.starts_with("from coarse to fine, as the planar map is none ("))
+      << valid.choices.front().reason;
+  EXPECT_EQ(valid.flipped, 0u);
+  options = maillot_as_written(MaillotStart::planar);
+  options.max_iterations = 0;
+  const MaillotResult literal = flatten_maillot(mesh, test::one_chart(mesh), options);
+  EXPECT_TRUE(literal.choices.front().reason.starts_with("from the planar map: E ")) << literal.choices.front().reason;
+  EXPECT_GT(literal.flipped, 0u);
 }
 
 TEST(Maillot, BadInputIsNamed) {

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla_test/shapes.hpp"
 #include "support/formula_meshes.hpp"
@@ -88,6 +91,58 @@ TEST(Intermediate, BoxOnACubeIsAnIsometry) {
   EXPECT_NEAR(measure_distortion(mesh, r.flattening.uv).symmetric_dirichlet.max, 4, 1e-9);
 }
 
+TEST(Intermediate, BoxHasUvWhereTheRayMeetsIt) {
+  // A small tilted triangle inside of a cube of half extent 10, whose +x face all rules find: there u = y, v = z.
+  TriangleMesh mesh = test::cube(20);
+  const Bounds3 bounds = bounds_of(mesh);
+  for (Vec3& p : mesh.positions) p = p - bounds.middle();
+  const Vec3 n = normalized(Vec3{1, -0.2, 0.5}), a = normalized(cross(n, Vec3{0, 0, 1})), b = cross(n, a);
+  const Vec3 middle{5, 1, 2};
+  const auto first = static_cast<Index>(mesh.positions.size());
+  const std::array<Vec3, 3> corners{middle + a, middle - 0.5 * a + b, middle - 0.5 * a - b};
+  mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  ASSERT_GT(dot(n, cross(corners[1] - corners[0], corners[2] - corners[0])), 0);
+  const Vec3 eye{40, 1, 20};
+  const auto expected = [&](IntermediateRule rule, Vec3 p) -> Vec2 {
+    switch (rule) {
+      case IntermediateRule::object_normal: return {p.y + (10 - p.x) / n.x * n.y, p.z + (10 - p.x) / n.x * n.z};
+      case IntermediateRule::object_centroid: return {10 / p.x * p.y, 10 / p.x * p.z};
+      case IntermediateRule::reflected_ray: {
+        const Vec3 view = normalized(p - eye), r = view - 2 * dot(view, n) * n;
+        return {p.y + (10 - p.x) / r.x * r.y, p.z + (10 - p.x) / r.x * r.z};
+      }
+      case IntermediateRule::intermediate_normal: break;
+    }
+    return {p.y, p.z};
+  };
+  std::vector<Vec2> of_first_corner;
+  for (const auto rule : {IntermediateRule::reflected_ray, IntermediateRule::object_normal,
+                          IntermediateRule::object_centroid, IntermediateRule::intermediate_normal}) {
+    IntermediateOptions options;
+    options.rule = rule;
+    options.eye = eye;
+    const CornerAttribute<Vec2> uv = flatten_intermediate(mesh, options).flattening.uv;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 own = uv.values[uv.indices.back()[k]], wanted = expected(rule, corners[k]);
+      EXPECT_NEAR(own.x, wanted.x, 1e-9) << static_cast<int>(rule);
+      EXPECT_NEAR(own.y, wanted.y, 1e-9) << static_cast<int>(rule);
+    }
+    of_first_corner.push_back(uv.values[uv.indices.back()[0]]);
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT(norm(of_first_corner[i] - of_first_corner[j]), 0.1);
+}
+
+TEST(Intermediate, BoxOnItselfIsAnIsometryByTheCentreToo) {
+  const TriangleMesh mesh = test::cube(4);
+  IntermediateOptions options;
+  options.rule = IntermediateRule::object_centroid;
+  const ProjectionResult r = flatten_intermediate(mesh, options);
+  EXPECT_EQ(r.flattening.charts.count, 6u);
+  EXPECT_NEAR(measure_distortion(mesh, r.flattening.uv).symmetric_dirichlet.max, 4, 1e-9);
+}
+
 TEST(Intermediate, EveryShapeAndRuleGivesFiniteUvOfTheRightHand) {
   const TriangleMesh mesh = test::torus(30, 10, 24, 12);
   for (const auto shape :
@@ -119,6 +174,61 @@ TEST(Environment, LooksBackWhereTheSurfaceFacesTheEye) {
     EXPECT_NEAR(uv.values[v].x, 0.5 + 0.5 * n.x, 0.02);
     EXPECT_NEAR(uv.values[v].y, 0.5 + 0.5 * n.z, 0.02);
   }
+}
+
+TEST(Environment, PanoramaIsTheSourcesFormula) {
+  // A far eye in front of a sphere, y up: r = view - 2 (view·n) n with view = (0, 0, -1).
+  TriangleMesh mesh = test::uv_sphere(10, 32, 64);
+  for (Vec3& p : mesh.positions) p = {p.x, p.z, -p.y};
+  EnvironmentOptions options;
+  options.up = UpAxis::y;
+  options.map = EnvironmentMap::equal_area;
+  options.eye = Vec3{0, 0, 1e9};
+  const CornerAttribute<Vec2> uv = environment_uv(mesh, options);
+  ASSERT_EQ(uv.indices.size(), mesh.triangles.size());
+  std::size_t checked = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 n = normalized(mesh.positions[mesh.triangles[t][k]]);
+      const Vec3 r{2 * n.z * n.x, 2 * n.z * n.y, 2 * n.z * n.z - 1};
+      if (std::hypot(r.x, r.z) < 0.05 || n.z < 0.05) continue;
+      const Vec2 own = uv.values[uv.indices[t][k]];
+      const double u = 0.5 * (1 + std::atan2(r.x, r.z) / std::numbers::pi);
+      EXPECT_NEAR(std::remainder(own.x - u, 1), 0, 0.02);
+      EXPECT_NEAR(own.y, 0.5 * (r.y + 1), 0.02);
+      ++checked;
+    }
+  EXPECT_GT(checked, mesh.triangles.size() / 2);
+  const auto at = [&](Vec3 normal) {  // the vertex with this normal
+    std::size_t best = 0;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      if (dot(mesh.positions[v], normal) > dot(mesh.positions[best], normal)) best = v;
+    return uv.values[best];
+  };
+  // Facing the eye it shows what is behind the eye: the middle. Turned by 45° to the right and up: right, up.
+  const double root = std::sqrt(0.5);
+  EXPECT_NEAR(at({0, 0, 1}).x, 0.5, 1e-4);
+  EXPECT_NEAR(at({0, 0, 1}).y, 0.5, 1e-4);
+  EXPECT_NEAR(at({root, 0, root}).x, 0.75, 1e-4);
+  EXPECT_NEAR(at({-root, 0, root}).x, 0.25, 1e-4);
+  EXPECT_NEAR(at({0, root, root}).y, 1, 1e-4);
+}
+
+TEST(Environment, PanoramaRunsOnOverItsEnds) {
+  const TriangleMesh mesh = test::uv_sphere(10, 32, 64);
+  EnvironmentOptions options;
+  options.map = EnvironmentMap::equal_area;
+  const CornerAttribute<Vec2> uv = environment_uv(mesh, options);
+  EXPECT_GT(uv.values.size(), mesh.positions.size());  // some triangles lie across the back
+  double most = 0;
+  for (const Triangle& t : uv.indices)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 p = uv.values[t[k]];
+      EXPECT_GE(p.x, 0);
+      EXPECT_LT(p.x, 2);
+      most = std::max(most, std::abs(p.x - uv.values[t[(k + 1) % 3]].x));
+    }
+  EXPECT_LE(most, 2.0 / 3);  // three corners leave a gap of a third of the circle at least
 }
 
 TEST(Projections, BadInputIsNamed) {

@@ -350,6 +350,38 @@ TEST_F(BakeTest, MapsAsUnwrapDoes) {
   }
 }
 
+TEST_F(BakeTest, UnwrapsAsTheMaterialSays) {
+  MaterialRule& rule = rules_.materials.at("grain");
+  rule.unwrap = "planar";
+  MethodOptions options;
+  options.planar.direction = Vec3{0, 0, 1};
+  options.grains = {{GrainSource::direction, {1, 0, 0}},
+                    {GrainSource::edge_loop, {130, 50, 0}, "dash_e*"},
+                    {GrainSource::longest, {}, "dash_missing"}};
+  rule.unwrap_options = options;
+  const BakeResult result = run(scene_of({square("dash_axis"), square("dash_edge")}));
+  ASSERT_EQ(result.surfaces.size(), 2U);
+  for (const BakedSurface& surface : result.surfaces) {
+    EXPECT_EQ(surface.method, "planar");
+    EXPECT_EQ(surface.reason, "as the material says");
+  }
+  // v grows along x, and along the edge at x = 100, by a repeat every 20 mm.
+  for (const std::size_t p : {0U, 1U}) {
+    const TriangleMesh& mesh = result.scene.parts[p].mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t l = (k + 1) % 3;
+        const Vec3 edge = mesh.corner(t, static_cast<int>(l)) - mesh.corner(t, static_cast<int>(k));
+        const double v = (mesh.uv.values[mesh.uv.indices[t][l]] - mesh.uv.values[mesh.uv.indices[t][k]]).y;
+        EXPECT_NEAR(v, (p == 0 ? edge.x : edge.y) / 20, 1e-9);
+      }
+  }
+  const std::string warning =
+      "material 'grain': its unwrap names part 'dash_missing', but it gives no such part new uv";
+  EXPECT_NE(std::find(result.scene.warnings.begin(), result.scene.warnings.end(), warning),
+            result.scene.warnings.end());
+}
+
 TEST_F(BakeTest, CancelEndsTheWork) {
   int calls = 0;
   EXPECT_THROW(bake_scene(scene_of({square("dash")}), rules_, {}, [&](const Progress&) { return ++calls < 2; }),

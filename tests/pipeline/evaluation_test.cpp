@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "evaluate/kinds.hpp"
@@ -126,10 +128,50 @@ TriangleMesh dome(int n, double height) {
 }
 
 TEST(EvaluateEnvironment, ErrsLessOnFinerMeshes) {
-  const auto last = [](int n) { return environment_run(dome(n, 4), "dome", Budget()).trace.back().error; };
-  const double coarse = last(8), fine = last(32);
-  EXPECT_GT(coarse, 0);
-  EXPECT_NEAR(coarse / fine, 4, 1.5);  // by the length of the edges
+  for (const auto& [name, map] : environment_maps()) {
+    const auto last = [&](int n) {
+      return environment_run(dome(n, 4), map, name, "dome", Budget()).trace.back().error;
+    };
+    const double coarse = last(8), fine = last(32);
+    EXPECT_GT(coarse, 0) << name;
+    EXPECT_NEAR(coarse / fine, 4, 1.5) << name;  // by the length of the edges
+  }
+}
+
+TEST(EvaluateParam, HasTheSourcesMethodsAsTheyAreWritten) {
+  const TemporaryFolder folder("papilla-test");
+  Part part;
+  part.mesh = dome(10, 4);
+  const std::string file = (folder.path() / "dome.ply").string();
+  write_scene(single_part_scene(std::move(part), "PLY"), file);
+  EvaluationInput input{file, "dome.ply", {}, {}};
+  input.param.methods = {UnwrapMethod::levy, UnwrapMethod::maillot};
+  const std::vector<EvaluationRun> runs = evaluate_param(input);
+  const auto find = [&](const std::string& solver, const std::string& error) -> const EvaluationRun& {
+    return *std::find_if(runs.begin(), runs.end(), [&](const EvaluationRun& run) {
+      return run.solver == solver && run.error_name.starts_with(error);
+    });
+  };
+  for (const char* solver : {"direct, as written", "gauss-seidel, as written", "direct, as written, border released",
+                             "gauss-seidel, as written, border released"}) {
+    const EvaluationRun& own = find(solver, "Lévy");
+    ASSERT_GE(own.trace.size(), 2U) << solver;
+    EXPECT_LT(own.trace.back().error, own.trace.front().error) << solver;
+    EXPECT_TRUE(find(solver, "symmetric").map->valid) << solver;
+  }
+  double start = 0;
+  for (const char* from : {"conformal", "planar"}) {
+    const std::string solver = std::string("as written from ") + from;
+    const EvaluationRun& own = find(solver, "Maillot energy");
+    ASSERT_GE(own.trace.size(), 2U) << solver;
+    EXPECT_NE(own.trace.front().error, start);  // each from its own start
+    EXPECT_LT(own.trace.back().error, 0.9 * own.trace.front().error) << solver;
+    start = own.trace.front().error;
+    const EvaluationRun& dirichlet = find(solver, "symmetric");
+    EXPECT_GT(dirichlet.trace.front().error, dirichlet.trace.back().error) << solver;  // the first is the start's
+    EXPECT_NE(dirichlet.notes.find(fmt::format("Maillot energy [mm²]: {:.5g} at the start", start)), std::string::npos)
+        << dirichlet.notes;
+  }
 }
 
 TEST(EvaluateCharts, SeamsOfASheetAreNotWorthIt) {

@@ -21,10 +21,9 @@ class MaterialsSchemaTest : public testing::Test {
  protected:
   MaterialsSchemaTest() {
     fs::create_directories(folder_);
-    schema_ = Json::parse(std::ifstream(PAPILLA_SCHEMAS "/materials.schema.json"))
-                  .at("$defs")
-                  .at("material")
-                  .at("properties");
+    const Json definitions = Json::parse(std::ifstream(PAPILLA_SCHEMAS "/materials.schema.json")).at("$defs");
+    schema_ = definitions.at("material").at("properties");
+    unwrap_ = definitions.at("unwrap").at("properties");
   }
   ~MaterialsSchemaTest() override { fs::remove_all(folder_); }
 
@@ -90,13 +89,42 @@ class MaterialsSchemaTest : public testing::Test {
   }
 
   const fs::path folder_ = fs::temp_directory_path() / ("papilla-schema-" + std::to_string(::getpid()));
-  Json schema_;
+  Json schema_, unwrap_;
 };
 
 TEST_F(MaterialsSchemaTest, HasTheKeysOfTheReader) {
   EXPECT_EQ(known(""), keys_of(schema_));
   for (const char* object : {"forceModel", "frictionModel", "height", "backing", "fineRoughness"})
     EXPECT_EQ(known(object), keys_of(schema_.at(object).at("properties"))) << object;
+  EXPECT_EQ(known("unwrap"), keys_of(unwrap_));
+}
+
+/// A method that an option of unwrap is of.
+std::string method_of(const std::string& option) {
+  const std::vector<UnwrapMethod>& methods = methods_of_option(option);
+  return methods.empty() ? "lscm" : unwrap_method_name(methods.back());
+}
+
+TEST_F(MaterialsSchemaTest, HasTheUnwrapOptionsOfTheReader) {
+  for (const Json& word : schema_.at("unwrap").at("anyOf").at(0).at("enum"))
+    EXPECT_EQ(complaint({{"unwrap", word}}), "") << word;
+  for (const auto& [key, rule] : unwrap_.items()) {
+    if (!rule.contains("enum") || key == "solver") continue;
+    for (const Json& word : rule["enum"]) {
+      Json unwrap{{"method", method_of(key)}};
+      unwrap[key] = word;
+      EXPECT_EQ(complaint({{"unwrap", unwrap}}), "") << key << " " << word;
+    }
+    Json unwrap{{"method", method_of(key)}};
+    unwrap[key] = "spoon";
+    EXPECT_NE(complaint({{"unwrap", unwrap}}), "") << key;
+  }
+  for (const Json& solver : unwrap_.at("solver").at("enum")) {
+    int known_by = 0;
+    for (const auto& [name, unused] : unwrap_methods())
+      known_by += complaint({{"unwrap", {{"method", name}, {"solver", solver}}}}).empty();
+    EXPECT_EQ(known_by, 1) << solver;
+  }
 }
 
 TEST_F(MaterialsSchemaTest, HasTheValuesOfTheReader) {

@@ -253,6 +253,26 @@ TEST_F(MaterialsTest, RangesAreWrittenAsPeopleDo) {
   EXPECT_NE(complaint(R"({"materials": {"a": {"stribeckVelocity": 0}}})").find("0 must be from 0.000001 to 10"),
             std::string::npos);
   EXPECT_NE(complaint(R"({"materials": {"a": {"unwrap": "lscn"}}})").find("; did you mean 'lscm'?"), std::string::npos);
+  const auto expect = [&](const std::string& unwrap, const std::string& words) {
+    const std::string text = complaint(R"({"materials": {"a": {"unwrap": )" + unwrap + "}}}");
+    EXPECT_NE(text.find(words), std::string::npos) << unwrap << ": " << text;
+  };
+  expect(R"({"method": "best", "phi": 0.5})", "at /materials/a/unwrap/phi: is of maillot, not of best");
+  expect(R"({"phi": 0.5})", "is of maillot, not of auto");
+  expect(R"({"method": "maillot", "distortion_limit": 0.5})", "/distortion_limit: must be 0 or at least 1");
+  expect(R"({"method": "maillot", "solver": "direct"})", "maillot has no solver 'direct'");
+  expect(R"({"method": "planar", "charts": "keep"})", "/charts: planar makes its own charts");
+  expect(R"({"method": "levy", "coupling": "conformal", "border": "convex"})", "/coupling: can't be kept");
+  expect(R"("environment")", "moves with the eye");
+  expect(R"({"method": "environment"})", "/unwrap/method: 'environment' moves with the eye");
+  expect(R"({"method": "keep"})", "must be one of");
+  expect(R"({"grain": "sideways"})", "must be one of up, longest");
+  expect(R"({"grain": [0, 0, 0]})", "/grain: has no length");
+  expect(R"({"grain": 3})", "/grain: must be");
+  expect(R"({"grain_of": {"rim": {"edge": [1, 2]}}})", "/grain_of/rim/edge: must be [x, y, z]");
+  expect(R"({"method": "levy", "pins": [{"at": [0, 0, 0]}]})", "/pins/0: 'uv' is missing");
+  expect(R"({"method": "levy", "iso_lines": [{"of": "u", "through": [[0, 0, 0]]}]})", "two places or more");
+  expect("3", "must be a word or an object");
 }
 
 TEST_F(MaterialsTest, NamesTheJsonPointerOfWhatIsWrong) {

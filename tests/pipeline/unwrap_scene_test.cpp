@@ -126,7 +126,7 @@ TEST(Unwrap, GrainRunsAlongThePart) {
   TriangleMesh bar = test::cube(10);
   for (Vec3& p : bar.positions) p.x *= 8;
   UnwrapOptions options = options_of(UnwrapMethod::triplanar);
-  options.method.grain = GrainSource::longest;
+  options.method.grains = {{GrainSource::longest}};
   options.layout = UvLayout::tile;
   Scene scene = scene_of(bar);
   scene = unwrap_scene(scene, options).scene;
@@ -139,6 +139,30 @@ TEST(Unwrap, GrainRunsAlongThePart) {
         EXPECT_NEAR(edge.y, in_space.x, 1e-9);
       }
     }
+}
+
+TEST(Unwrap, EveryPartHasItsOwnGrain) {
+  const std::vector<PlacedGrain> grains{{GrainSource::direction, {1, 0, 0}}, {GrainSource::longest, {}, "bar*"}};
+  EXPECT_EQ(grain_of(grains, "bar 2").source, GrainSource::longest);  // by name goes before for all
+  EXPECT_EQ(grain_of(grains, "door").source, GrainSource::direction);
+  EXPECT_EQ(grain_of({}, "door").source, GrainSource::up);
+  // The wall of a tube, with its rim picked: v runs around.
+  UnwrapOptions options = options_of(UnwrapMethod::lscm);
+  options.layout = UvLayout::tile;
+  options.method.grains = {{GrainSource::edge_loop, {30, 0, 200}, "part"}};
+  Scene scene = scene_of(test::cylinder(30, 80, 24, 6));
+  scene = unwrap_scene(scene, options).scene;
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  std::size_t upright = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 in_space = mesh.corner(t, static_cast<int>((k + 1) % 3)) - mesh.corner(t, static_cast<int>(k));
+      const Vec2 edge = mesh.uv.values[mesh.uv.indices[t][(k + 1) % 3]] - mesh.uv.values[mesh.uv.indices[t][k]];
+      if (std::hypot(in_space.x, in_space.y) > 1e-9) continue;
+      EXPECT_NEAR(std::abs(edge.x), std::abs(in_space.z), 1e-6);
+      ++upright;
+    }
+  EXPECT_GT(upright, 100U);
 }
 
 TEST(Unwrap, ASecondSetOfUvOverlapsNowhere) {
@@ -170,6 +194,22 @@ TEST(Unwrap, ASecondSetOfUvOverlapsNowhere) {
   EXPECT_EQ(r.overlapping_triangles, 0u);
   EXPECT_EQ(r.mirrored_charts, 0u);
   EXPECT_NEAR(area[0], 4 * area[1], 1e-9);  // twice the density
+}
+
+TEST(Unwrap, ChartsSayHowLevyAndMaillotMappedThem) {
+  UnwrapOptions options = options_of(UnwrapMethod::levy);
+  options.method.charts = ChartSource::keep;
+  options.method.levy.solver = LevySolver::gauss_seidel;
+  const Scene scene = scene_of(test::plane(40, 30, 8, 6));
+  const UnwrapResult levy = unwrap_scene(scene, options);
+  ASSERT_EQ(levy.parts[0].choices.size(), 1U);
+  EXPECT_EQ(levy.parts[0].choices[0].method, "levy orthogonal");
+  EXPECT_EQ(levy.parts[0].choices[0].reason, "the solver is Gauss-Seidel");
+  options.method.method = UnwrapMethod::maillot;
+  options.method.maillot.start = MaillotStart::planar;
+  const UnwrapResult maillot = unwrap_scene(scene, options);
+  ASSERT_EQ(maillot.parts[0].choices.size(), 1U);
+  EXPECT_TRUE(maillot.parts[0].choices[0].reason.starts_with("from the planar map: E "));
 }
 
 TEST(Unwrap, PinsHoldTheNearestVertex) {

@@ -11,6 +11,12 @@ Json choices_json(const std::vector<ChartChoice>& choices) {
   return json;
 }
 
+/// What the method minimises, in its own unit: how much of it the start had, and how much is left.
+Json error_json(const Trace& trace) {
+  if (trace.empty()) return {};
+  return {{"start", trace.front().error}, {"end", trace.back().error}};
+}
+
 Json parts_json(const UnwrapResult& result) {
   Json parts = Json::array();
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
@@ -23,6 +29,7 @@ Json parts_json(const UnwrapResult& result) {
                      {"reason", part.reason.empty() ? Json() : Json(part.reason)},
                      {"charts", part.flattening.charts.count},
                      {"choices", choices_json(part.choices)},
+                     {"error", error_json(part.flattening.trace)},
                      {"seam_length_mm", part.flattening.charts.seam_length_mm},
                      {"grain_continued_mm", part.grain_continued_mm},
                      {"seam_visibility", seams_json(part.seams)},

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
+#include <string_view>
 
 #include "exit_code.hpp"
 #include "option_checks.hpp"
@@ -32,28 +32,10 @@ bool read_number(const std::string& text, double& value) {
   return error == std::errc() && rest == end && std::isfinite(value);
 }
 
-/// The solvers of the methods that have several.
-void choose_solver(const std::string& name, MethodOptions& method) {
-  if (name.empty()) return;
-  const auto pick = [&]<class Value>(const std::map<std::string, Value>& choices, Value& value) {
-    const auto found = choices.find(name);
-    if (found != choices.end()) value = found->second;
-    return found != choices.end();
-  };
-  using Lscm = LscmSolver;
-  using Maillot = MaillotSolver;
-  using Levy = LevySolver;
-  bool known = false;
-  if (method.method == UnwrapMethod::lscm)
-    known = pick(std::map<std::string, Lscm>{{"cgal", Lscm::cgal}, {"hermitian", Lscm::hermitian}}, method.lscm.solver);
-  if (method.method == UnwrapMethod::maillot)
-    known = pick(std::map<std::string, Maillot>{{"gradient-descent", Maillot::gradient_descent},
-                                                {"gauss-newton", Maillot::gauss_newton}},
-                 method.maillot.solver);
-  if (method.method == UnwrapMethod::levy)
-    known = pick(std::map<std::string, Levy>{{"gauss-seidel", Levy::gauss_seidel}, {"direct", Levy::direct}},
-                 method.levy.solver);
-  if (!known) throw UsageError("--solver " + name + ": " + unwrap_method_name(method.method) + " has no such solver");
+/// The name on the command line of an option in MATERIALS.json.
+std::string flag_of(std::string option) {
+  std::replace(option.begin(), option.end(), '_', '-');
+  return "--" + option;
 }
 
 MethodOptions method_options(const UnwrapOption& options) {
@@ -61,20 +43,22 @@ MethodOptions method_options(const UnwrapOption& options) {
   if (!takes_charts(method.method) && method.charts != ChartSource::automatic)
     throw UsageError("--charts " + chart_source_name(method.charts) + ": " + unwrap_method_name(method.method) +
                      " makes its own charts");
-  choose_solver(options.solver, method);
-  if (method.method != UnwrapMethod::levy) {
-    if (!options.pins.empty()) throw UsageError("--pin needs --method levy");
-    if (!options.iso_lines.empty()) throw UsageError("--iso-line needs --method levy");
-  }
+  if (!options.solver.empty() && !choose_solver(options.solver, method))
+    throw UsageError("--solver " + options.solver + ": " + unwrap_method_name(method.method) + " has no such solver");
+  for (const auto& [name, option] : options.of_methods)
+    if (const std::string reason = foreign_option(name, method.method); option->count() > 0 && !reason.empty())
+      throw UsageError(flag_of(name) + ": it " + reason);
   for (const std::string& text : options.pins) method.pins.push_back(parse_pin(text));
   for (const std::string& text : options.iso_lines) method.iso_lines.push_back(parse_iso_line(text));
-  if (options.grain == "longest") {
-    method.grain = GrainSource::longest;
-  } else if (options.grain != "up") {
-    method.grain = GrainSource::direction;
-    method.grain_direction = parse_vector("--grain", options.grain);
-    if (!(norm(method.grain_direction) > 0)) throw UsageError("--grain " + options.grain + ": it has no length");
-  }
+  for (const std::string& text : options.grains) method.grains.push_back(parse_grain(text));
+  const MaillotOptions& maillot = method.maillot;
+  if (maillot.distortion_limit > 0 && maillot.distortion_limit < 1)
+    throw UsageError(
+        fmt::format("--distortion-limit {:g}: it must be 0, no limit, or at least 1", maillot.distortion_limit));
+  const LevyOptions& levy = method.levy;
+  if (levy.coupling == LevyCoupling::conformal &&
+      (levy.border != LevyBorder::free || levy.solver != LevySolver::direct || !method.iso_lines.empty()))
+    throw UsageError("--coupling conformal: it needs a free border, the direct solver and no iso line");
   if (!options.direction.empty()) method.planar.direction = parse_vector("--direction", options.direction);
   if (!options.eye.empty()) method.intermediate.eye = method.environment.eye = parse_vector("--eye", options.eye);
   return method;
@@ -107,54 +91,55 @@ void check_part(const std::string& option, const std::string& pattern, const std
 /// What only some methods know; the help names them.
 void add_method_options(CLI::App& verb, UnwrapOption& options) {
   MethodOptions& m = options.unwrap.method;
-  verb.add_option("--iterations", m.iterations, "Of best, maillot, levy (rounds), arap: at most so many")
-      ->check(not_negative());
-  verb.add_option("--tolerance", m.tolerance, "Of the same: stop when the error falls by less than this fraction")
+  const auto add = [&](const char* option, auto& value, const char* help) {
+    CLI::Option* added = verb.add_option(flag_of(option), value, help);
+    options.of_methods.emplace_back(option, added);
+    return added;
+  };
+  const auto choose = [&](const char* option, auto& value, const auto& names, const char* help) {
+    options.of_methods.emplace_back(option, add_choice(verb, flag_of(option), value, names, help));
+  };
+  add("iterations", m.iterations, "Of best, maillot, levy (rounds), arap: at most so many")->check(not_negative());
+  add("tolerance", m.tolerance, "Of the same: stop when the error falls by less than this fraction")
       ->check(in_range(1e-15, 0.999));
-  verb.add_option("--phi", m.maillot.length_weight, "Of maillot: weight of lengths against areas")
+  add("phi", m.maillot.length_weight, "Of maillot: weight of lengths against areas")
       ->check(in_range(0.0, 1.0))
       ->capture_default_str();
-  verb.add_flag("--allow-flips", m.maillot.allow_flips, "Of maillot: let triangles turn over, as the source does");
-  add_choice<MaillotStart>(verb, "--start", m.maillot.start,
-                           {{"coarse-to-fine", MaillotStart::coarse_to_fine}, {"conformal", MaillotStart::conformal}},
-                           "Of maillot: the map to start from; coarse-to-fine (default) is valid on every disk");
-  add_choice<LevyWeights>(verb, "--weights", m.levy.weights,
-                          {{"uniform", LevyWeights::uniform},
-                           {"cotangent", LevyWeights::cotangent},
-                           {"mean-value", LevyWeights::mean_value}},
-                          "Of levy's smoothness; default: mean-value");
-  add_choice<LevyBorder>(verb, "--border", m.levy.border, {{"convex", LevyBorder::convex}, {"free", LevyBorder::free}},
-                         "Of levy; default: free");
-  add_choice<LevyCoupling>(verb, "--coupling", m.levy.coupling,
-                           {{"conformal", LevyCoupling::conformal}, {"orthogonal", LevyCoupling::orthogonal}},
-                           "Of levy: conformal (default) is linear, orthogonal alternates between u and v");
+  options.of_methods.emplace_back(
+      "allow_flips",
+      verb.add_flag("--allow-flips", m.maillot.allow_flips, "Of maillot: let triangles turn over, as the source does"));
+  choose("start", m.maillot.start, maillot_starts(),
+         "Of maillot: the map to start from; coarse-to-fine (default) is valid on every disk, and taken where another "
+         "one is none");
+  add("distortion_limit", m.maillot.distortion_limit,
+      "Of maillot: end where the mean symmetric Dirichlet energy would rise above this multiple of the start's; 0: no "
+      "limit")
+      ->check(not_negative())
+      ->capture_default_str();
+  choose("weights", m.levy.weights, levy_weights(), "Of levy's smoothness; default: mean-value");
+  choose("border", m.levy.border, levy_borders(),
+         "Of levy: free (default), convex: on a circle, released: on a circle until the map is smooth, then free");
+  choose("coupling", m.levy.coupling, levy_couplings(),
+         "Of levy: conformal is linear, orthogonal alternates between u and v; auto (default): conformal where the "
+         "border is free, the solver direct and no iso line held");
   const auto weight = [&](const char* name, double& value, const char* help) {
-    verb.add_option(name, value, help)->check(not_negative())->capture_default_str();
+    add(name, value, help)->check(not_negative())->capture_default_str();
   };
-  weight("--smoothness", m.levy.smoothness, "Of levy: weight of smooth interpolation");
-  weight("--orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
-  weight("--length", m.levy.length, "Of levy: weight of even lengths");
-  verb.add_option("--pin", options.pins, "Of levy: the vertex nearest to a place gets these uv; two or more")
+  weight("smoothness", m.levy.smoothness, "Of levy: weight of smooth interpolation");
+  weight("orthogonality", m.levy.orthogonality, "Of levy: weight of right angles");
+  weight("length", m.levy.length, "Of levy: weight of even lengths");
+  add("pin", options.pins, "Of levy: the vertex nearest to a place gets these uv; two or more")
       ->type_name("X,Y,Z=U,V[@PART]");
-  verb.add_option("--iso-line", options.iso_lines,
-                  "Of levy: the vertices on the shortest path of edges through these places share their u, or v")
+  add("iso_line", options.iso_lines,
+      "Of levy: the vertices on the shortest path of edges through these places share their u, or v")
       ->type_name("u|v[=MM]:X,Y,Z;X,Y,Z...[@PART]");
-  add_choice<IntermediateShape>(verb, "--shape", m.intermediate.shape,
-                                {{"sphere", IntermediateShape::sphere},
-                                 {"cylinder", IntermediateShape::cylinder},
-                                 {"cone", IntermediateShape::cone},
-                                 {"box", IntermediateShape::box}},
-                                "Of intermediate; default: box");
-  add_choice<IntermediateRule>(verb, "--rule", m.intermediate.rule,
-                               {{"reflected-ray", IntermediateRule::reflected_ray},
-                                {"object-normal", IntermediateRule::object_normal},
-                                {"object-centroid", IntermediateRule::object_centroid},
-                                {"intermediate-normal", IntermediateRule::intermediate_normal}},
-                               "Of intermediate: how points find the shape; default: intermediate-normal");
-  verb.add_option("--direction", options.direction, "Of planar: outward direction; default: the dominant normal")
-      ->type_name("X,Y,Z");
-  verb.add_option("--eye", options.eye, "Of environment and of reflected-ray; default: in front of each part")
-      ->type_name("X,Y,Z");
+  choose("shape", m.intermediate.shape, intermediate_shapes(), "Of intermediate; default: box");
+  choose("rule", m.intermediate.rule, intermediate_rules(),
+         "Of intermediate: how points find the shape; default: intermediate-normal");
+  add("direction", options.direction, "Of planar: outward direction; default: the dominant normal")->type_name("X,Y,Z");
+  choose("environment_map", m.environment.map, environment_maps(),
+         "Of environment: sphere (default): a mirroring ball; equal-area: a cylindrical panorama of the surroundings");
+  add("eye", options.eye, "Of environment and of reflected-ray; default: in front of each part")->type_name("X,Y,Z");
 }
 
 }  // namespace
@@ -170,6 +155,23 @@ PlacedPin parse_pin(const std::string& text) {
     throw UsageError("--pin '" + text + "': expected X,Y,Z=U,V or X,Y,Z=U,V@PART");
   pin.position = parse_vector("--pin", rest.substr(0, equals));
   return pin;
+}
+
+PlacedGrain parse_grain(const std::string& text) {
+  constexpr std::string_view k_edge = "edge:";
+  PlacedGrain grain;
+  std::string rest = text;
+  grain.part = take_part(rest);
+  if (rest == "up") return grain;
+  if (rest == "longest") {
+    grain.source = GrainSource::longest;
+    return grain;
+  }
+  const bool is_edge = rest.starts_with(k_edge);
+  grain.source = is_edge ? GrainSource::edge_loop : GrainSource::direction;
+  grain.vector = parse_vector("--grain", is_edge ? rest.substr(k_edge.size()) : rest);
+  if (!is_edge && !(norm(grain.vector) > 0)) throw UsageError("--grain " + text + ": it has no length");
+  return grain;
 }
 
 PlacedIsoLine parse_iso_line(const std::string& text) {
@@ -208,7 +210,7 @@ void UnwrapOption::add_to(CLI::App& verb) {
       "auto (default): chart by chart, the cheapest that does it well; best: lowest distortion, no flips, no "
       "overlap; lscm, levy: conformal; maillot, arap: lengths and areas; tutte, mvc: border on a circle; natural: the "
       "CAD surface's parameters; "
-      "triplanar, planar, intermediate: projections; environment: sphere map, for previews");
+      "triplanar, planar, intermediate: projections; environment: what mirrors the surroundings, for previews");
   add_effort(verb, unwrap.method.effort);
   add_choice<ChartSource>(verb, "--charts", unwrap.method.charts, chart_sources(),
                           "auto (default): segment the surface; keep: each component is one chart; uv: the file's own "
@@ -239,8 +241,11 @@ void UnwrapOption::add_to(CLI::App& verb) {
       ->expected(2)
       ->check(in_range(0.0, 1e6))
       ->type_name("MM");
-  verb.add_option("--grain", grain, "Direction of the grain: up (default), longest: along each part, or a vector")
-      ->type_name("X,Y,Z|{up,longest}");
+  verb.add_option(
+          "--grain", grains,
+          "Direction of the grain: up (default), longest: along each part, a vector, or edge: along the line of "
+          "border or bent edges nearest to a place; @PART: on these parts only")
+      ->type_name("X,Y,Z|edge:X,Y,Z|{up,longest}[@PART]");
   verb.add_option("--grain-size", unwrap.grain_mm,
                   "Size of one grain, by which seams are judged; default: an eighth of the tile")
       ->check(in_range(1e-6, 1e6))
@@ -273,6 +278,8 @@ UnwrapOptions UnwrapOption::options() const {
 void check_held_parts(const MethodOptions& method, const std::string& file, const Scene& scene) {
   for (const PlacedPin& pin : method.pins) check_part("--pin", pin.part, file, scene);
   for (const PlacedIsoLine& line : method.iso_lines) check_part("--iso-line", line.part, file, scene);
+  for (const PlacedGrain& grain : method.grains)
+    if (!grain.part.empty()) check_part("--grain", grain.part, file, scene);
 }
 
 }  // namespace papilla::app

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "papilla/pipeline/unwrap_scene.hpp"
@@ -16,11 +17,13 @@ void add_effort(CLI::App& verb, UnwrapEffort& effort);
 struct UnwrapOption {
   UnwrapOptions unwrap;
   std::string solver, direction, eye;  ///< Empty: the method's own.
-  std::string grain = "up";
+  std::vector<std::string> grains;
   int texture_px = 0;  ///< 0: no second set of uv.
   double gutter_px = 4;
   std::vector<std::string> density, pins, iso_lines;
   std::vector<double> tile{0, 0};
+  /// Options of some methods only, by the names that foreign_option() has for them.
+  std::vector<std::pair<std::string, const CLI::Option*>> of_methods;
 
   void add_to(CLI::App& verb);
   /// @throws UsageError for options that contradict each other, and for texts that are none of what they should be.
@@ -34,7 +37,11 @@ PlacedPin parse_pin(const std::string& text);
 /// @throws UsageError quoting the text when it is nothing such.
 PlacedIsoLine parse_iso_line(const std::string& text);
 
-/// Pins and lines that are held must name a part of the scene when it has several.
+/// "up", "longest", "X,Y,Z" or "edge:X,Y,Z", and "@PART" behind it, as the direction of the grain.
+/// @throws UsageError quoting the text when it is nothing such.
+PlacedGrain parse_grain(const std::string& text);
+
+/// Pins and lines that are held must name a part of the scene when it has several; parts that are named must exist.
 /// @throws UsageError naming the option.
 void check_held_parts(const MethodOptions& method, const std::string& file, const Scene& scene);
 

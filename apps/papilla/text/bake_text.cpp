@@ -158,10 +158,10 @@ std::string bake_table(const BakeResult& result) {
     material_width = std::clamp(surface.material.size(), material_width, std::size_t{24});
   }
   std::string out =
-      shown_format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
+      shown_format("{:<{}}  {:<{}}  {:<12}  {:>6}  {:>9}  {:>7}  {:>6}  {:>7}\n", "part", width, "material",
                    material_width, "unwrap", "charts", "triangles", "sym.D", "angle°", "flipped");
   for (const BakedSurface& surface : result.surfaces) {
-    out += shown_format("{:<{}}  {:<{}}  {:<9}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
+    out += shown_format("{:<{}}  {:<{}}  {:<12}  {:>6}  {:>9}  {:>7.3f}  {:>6.2f}  {:>7}\n", surface.label, width,
                         surface.material, material_width, surface.method, surface.distortion.charts,
                         surface.distortion.triangles, surface.distortion.symmetric_dirichlet.mean,
                         surface.distortion.angle_error_deg.mean, surface.distortion.flipped);

@@ -42,7 +42,8 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input);
 /// computed at vertices and interpolated between them. The error is the mean over the area of the distance in uv
 /// between the interpolated value in the middle of a triangle and that of the triangle's own normal; it falls with the
 /// length of the edges where the surface is smooth.
-EvaluationRun environment_run(const TriangleMesh& mesh, const std::string& input, const Budget& budget);
+EvaluationRun environment_run(const TriangleMesh& mesh, EnvironmentMap map, const std::string& map_name,
+                              const std::string& input, const Budget& budget);
 
 /// All estimators of the fractal dimension on growing middle parts of a picture: the interval's half width.
 std::vector<EvaluationRun> evaluate_fractal(const EvaluationInput& input);

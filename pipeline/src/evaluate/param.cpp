@@ -54,6 +54,7 @@ struct Variant {
   std::function<Flattening(const Charts&, std::optional<int> iterations)> run;  ///< Not given: as many as by default.
   bool keeps_trace = false;                                                     ///< Draw its own error over time too.
   std::string own_error = {};
+  bool has_start = false;  ///< No iterations leave the map that the method starts from: the first sample.
 };
 
 /// Charts of a mesh with vertices of their own, in the order of `numbers`.
@@ -127,24 +128,38 @@ Charts charts_of(TriangleMesh mesh, ChartSource source) {
   return result;
 }
 
-Variant maillot(double phi, MaillotSolver solver, const char* name) {
-  const auto run = [phi, solver](const Charts& charts, std::optional<int> iterations) {
-    MaillotOptions options;
-    options.length_weight = phi;
-    options.solver = solver;
-    if (iterations) options.max_iterations = *iterations;
-    options.fall_back = charts.may_replace;
-    return flatten_maillot(charts.mesh, charts.set, options).flattening;
+Variant maillot(const std::string& name, const MaillotOptions& options) {
+  const auto run = [options](const Charts& charts, std::optional<int> iterations) {
+    MaillotOptions own = options;
+    if (iterations) own.max_iterations = *iterations;
+    own.fall_back = charts.may_replace;
+    return flatten_maillot(charts.mesh, charts.set, own).flattening;
   };
-  return {UnwrapMethod::maillot, fmt::format("{}, phi {:g}", name, phi), true, run, true, "Maillot energy [mm²]"};
+  return {UnwrapMethod::maillot, name, true, run, true, "Maillot energy [mm²]", true};
+}
+
+std::vector<Variant> maillot_variants() {
+  std::vector<Variant> all;
+  for (const double phi : {0.5, 1.0})
+    for (const auto& [name, solver] : {std::pair{"gauss-newton", MaillotSolver::gauss_newton},
+                                       {"gradient-descent", MaillotSolver::gradient_descent}}) {
+      MaillotOptions options;
+      options.length_weight = phi;
+      options.solver = solver;
+      all.push_back(maillot(fmt::format("{}, phi {:g}", name, phi), options));
+    }
+  for (const auto& [name, start] : {std::pair{"conformal", MaillotStart::conformal}, {"planar", MaillotStart::planar}})
+    all.push_back(maillot(fmt::format("as written from {}", name), maillot_as_written(start)));
+  return all;
 }
 
 Variant levy(const std::string& name, const LevyOptions& options, bool iterates) {
   const auto run = [options](const Charts& charts, std::optional<int> iterations) {
     LevyOptions own = options;
     own.fall_back = charts.may_replace;
-    if (iterations && own.solver == LevySolver::gauss_seidel) own.max_sweeps = k_sweeps * *iterations;
-    if (iterations && own.solver == LevySolver::direct) own.max_rounds = *iterations;
+    // Without the coupling all sweeps are of one round.
+    if (iterations && own.orthogonality == 0) own.max_sweeps = k_sweeps * *iterations;
+    if (iterations && own.orthogonality > 0) own.max_rounds = *iterations;
     return flatten_levy(charts.mesh, charts.set, own).flattening;
   };
   return {UnwrapMethod::levy, name, iterates, run, iterates, "Lévy's sum [mm²]"};
@@ -180,8 +195,13 @@ std::vector<Variant> levy_variants() {
   descent.solver = LevySolver::gauss_seidel;
   descent.tolerance = 1e-9;
   return {levy("direct, conformal and length", conformal, false),
-          levy("direct, orthogonal and length", alternating, true), levy("direct, smooth on a circle", convex, false),
-          levy("gauss-seidel, smooth on a circle", descent, true)};
+          levy("direct, orthogonal and length", alternating, true),
+          levy("direct, smooth on a circle", convex, false),
+          levy("gauss-seidel, smooth on a circle", descent, true),
+          levy("direct, as written", levy_as_written(LevyBorder::convex, LevySolver::direct), true),
+          levy("gauss-seidel, as written", levy_as_written(LevyBorder::convex), true),
+          levy("direct, as written, border released", levy_as_written(LevyBorder::released, LevySolver::direct), true),
+          levy("gauss-seidel, as written, border released", levy_as_written(LevyBorder::released), true)};
 }
 
 Variant best() {
@@ -225,10 +245,7 @@ std::vector<Variant> variants(bool has_cad_parameters) {
                            lscm(LscmSolver::cgal, "cgal"), lscm(LscmSolver::hermitian, "hermitian"),
                            reference(UnwrapMethod::arap, ReferenceMap::arap, true)};
   for (Variant& v : levy_variants()) all.push_back(std::move(v));
-  for (const double phi : {0.5, 1.0}) {
-    all.push_back(maillot(phi, MaillotSolver::gauss_newton, "gauss-newton"));
-    all.push_back(maillot(phi, MaillotSolver::gradient_descent, "gradient-descent"));
-  }
+  for (Variant& v : maillot_variants()) all.push_back(std::move(v));
   all.push_back(best());
   all.push_back({UnwrapMethod::automatic, "", false, [](const Charts& charts, std::optional<int>) {
                    return flatten_automatic(charts.mesh, charts.set).flattening;
@@ -240,7 +257,7 @@ std::vector<Variant> variants(bool has_cad_parameters) {
 /// Many cheap steps, or as CGAL does them.
 bool is_slow(const Variant& v) {
   return v.method == UnwrapMethod::arap || v.solver.starts_with("gauss-seidel") ||
-         v.solver.starts_with("gradient-descent");
+         v.solver.starts_with("gradient-descent") || v.solver.starts_with("as written");
 }
 
 bool is_valid(const DistortionReport& r) {
@@ -314,6 +331,7 @@ class VariantRuns {
   void run_ladder(const Budget& budget) {
     if (!variant_.iterates) return;
     Ladder ladder(budget, k_growth);
+    if (variant_.has_start && (!ladder.next() || !add(sample_with(0), "0 iterations"))) return;
     for (const int iterations : k_iterations)
       if (!ladder.next() || !add(sample_with(iterations), fmt::format("{} iterations", iterations))) break;
   }
@@ -370,12 +388,20 @@ class VariantRuns {
       dirichlet_.trace.push_back({sample.seconds, error});
       lengths_.trace.push_back({sample.seconds, report.maillot_length});
     }
-    set_stop(std::string(to_string(flattening.stop)), describe(report, flattening) + "; " + charts_.notes);
+    set_stop(std::string(to_string(flattening.stop)),
+             describe(report, flattening) + descent_of(flattening.trace) + "; " + charts_.notes);
     dirichlet_.valid = lengths_.valid = is_valid(report);
     dirichlet_.shares = shares_of(report);
     if (flattening.charts.count > charts_.set.count) dirichlet_.input = lengths_.input = name_ + ", in several pieces";
     own_ = flattening.trace;
     return !same;
+  }
+
+  /// How much of the method's own error its start has, and how much the end.
+  std::string descent_of(const Trace& trace) const {
+    if (!variant_.keeps_trace || trace.size() < 2) return {};
+    return fmt::format("; {}: {:.5g} at the start, {:.5g} at the end", variant_.own_error, trace.front().error,
+                       trace.back().error);
   }
 
   const Variant& variant_;
@@ -422,7 +448,8 @@ std::vector<EvaluationRun> evaluate_param(const EvaluationInput& input) {
     of_variants[i].move_to(runs);
   }
   if (input.param.has(UnwrapMethod::environment) && input.param.charts == ChartSource::automatic)
-    runs.push_back(environment_run(charts.mesh, name, input.budget));
+    for (const auto& [map, value] : environment_maps())
+      runs.push_back(environment_run(charts.mesh, value, map, name, input.budget));
   return runs;
 }
 

@@ -23,20 +23,33 @@ struct Variant {
 /// Slow convergence on a million triangles ends with the result so far.
 constexpr double k_time_limit_s = 120;
 
+void add_levy_as_written(MethodOptions options, std::vector<Variant>& all) {
+  options.levy = levy_as_written(LevyBorder::convex, LevySolver::direct);
+  all.push_back({"levy, as written", options});
+  options.levy = levy_as_written(LevyBorder::released, LevySolver::direct);
+  all.push_back({"levy, as written, border released", options});
+}
+
+void add_maillot(MethodOptions options, std::vector<Variant>& all) {
+  for (const double phi : {0.0, 0.5, 1.0}) {
+    options.maillot.length_weight = phi;
+    all.push_back({fmt::format("maillot, φ = {:g}", phi), options});
+  }
+  options.maillot = maillot_as_written(MaillotStart::conformal);
+  all.push_back({"maillot, φ = 0.5, as written from conformal", options});
+  options.maillot = maillot_as_written(MaillotStart::planar);
+  all.push_back({"maillot, φ = 0.5, as written from planar", options});
+}
+
 std::vector<Variant> variants() {
   std::vector<Variant> all;
   for (const auto& [name, method] : unwrap_methods()) {
     MethodOptions options;
     options.method = method;
     options.charts = ChartSource::keep;
-    if (method != UnwrapMethod::maillot) {
-      all.push_back({name, options});
-      continue;
-    }
-    for (const double phi : {0.0, 0.5, 1.0}) {
-      options.maillot.length_weight = phi;
-      all.push_back({fmt::format("{}, φ = {:g}", name, phi), options});
-    }
+    if (method != UnwrapMethod::maillot) all.push_back({name, options});
+    if (method == UnwrapMethod::levy) add_levy_as_written(options, all);
+    if (method == UnwrapMethod::maillot) add_maillot(options, all);
   }
   return all;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "papilla/param/best.hpp"
+#include "papilla/param/chart_choice.hpp"
 #include "papilla/param/flattening.hpp"
 
 namespace papilla {
@@ -21,12 +20,6 @@ struct AutomaticOptions {
   /// 8° shorten lengths by 1 % at most.
   double flat_deg = 8;
   BestOptions best;  ///< For all other charts; its `up` is taken from here.
-};
-
-struct ChartChoice {
-  std::uint32_t chart = 0;  ///< Number in the chart set that was given.
-  std::string method;       ///< "exact", "planar" or "best".
-  std::string reason;       ///< One line, with the number that decided.
 };
 
 struct AutomaticResult {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "papilla/param/edge_loop.hpp"
 #include "papilla/param/flattening.hpp"
 
 namespace papilla {
@@ -19,5 +20,10 @@ Vec3 longest_direction(const TriangleMesh& mesh);
 /// @return its uv, turned.
 /// @throws InvalidInput when the flattening does not fit the mesh, or the direction is not finite or has no length.
 CornerAttribute<Vec2> turn_to_grain(const TriangleMesh& mesh, const Flattening& flattening, Vec3 direction);
+
+/// The same with the direction that the loop has nearest to each triangle's middle. Charts around which the loop runs
+/// have no mean direction and stay as they are. O(triangles · points).
+/// @throws as above; InvalidInput for a loop of fewer than two points.
+CornerAttribute<Vec2> turn_to_grain(const TriangleMesh& mesh, const Flattening& flattening, const EdgeLoop& loop);
 
 }  // namespace papilla

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_choice.hpp"
 #include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
@@ -19,12 +20,14 @@ enum class LevyWeights {
 };
 
 enum class LevyBorder {
-  convex,  ///< On a circle of the chart's area, in proportion to its length.
-  free,    ///< Released; two or more pins fix position and scale.
+  convex,    ///< On a circle of the chart's area, in proportion to its length.
+  released,  ///< As convex until R = 0, then free: the source's two stages.
+  free,      ///< From the start; two or more pins fix position and scale.
 };
 
 /// How u and v are kept at right angles.
 enum class LevyCoupling {
+  automatic,  ///< Conformal in charts where it can be solved for (free border, direct, no iso line), else orthogonal.
   conformal,  ///< Σ A |∇v - ∇u turned by 90°|²: right angles and gradients of equal length; linear in u and v together.
   orthogonal,  ///< The source's Σ A (∇u·∇v)²; bilinear: rounds.
 };
@@ -51,7 +54,7 @@ struct LevyOptions {
   UpAxis up = UpAxis::z;
   LevyWeights weights = LevyWeights::mean_value;
   LevyBorder border = LevyBorder::free;
-  LevyCoupling coupling = LevyCoupling::conformal;
+  LevyCoupling coupling = LevyCoupling::automatic;
   LevySolver solver = LevySolver::direct;
   double smoothness = 0;     ///< Weight of R; not negative.
   double orthogonality = 1;  ///< Weight of the coupling; not negative.
@@ -78,7 +81,13 @@ struct LevyResult {
   /// The parts of F at the end, without their weights, in mm²; 0 where the weight is 0 (smoothness: and the border
   /// free).
   double smoothness = 0, orthogonality = 0, length = 0;
+  /// Per chart "levy conformal", "levy orthogonal" or "levy smooth" (R alone), and why.
+  std::vector<ChartChoice> choices;
 };
+
+/// The source's functional and way: F with all three weights 1, c(i,k) = 1, right angles as (∇u·∇v)², from R = 0 on the
+/// convex border, one unknown after the other, u and v in turn.
+LevyOptions levy_as_written(LevyBorder border = LevyBorder::convex, LevySolver solver = LevySolver::gauss_seidel);
 
 /// Smooth interpolation of Lévy and Mallet: u and v minimise
 ///     F = smoothness R + orthogonality O + length S L,
@@ -91,7 +100,8 @@ struct LevyResult {
 /// chart's area.
 ///
 /// Free border, conformal, direct, no iso lines: one Hermitian system. All terms are homogeneous, so without pins the
-/// map is the one of least F among those of given inertia about their middle (inverse iteration, three solves).
+/// map is the one of least F among those of given inertia about their middle (inverse iteration, three solves). A chart
+/// with one pin of several gets that map, too, moved to the pin: F does not change with it.
 /// F makes lengths even, not right. Then each of `length_rounds` asks for lengths along the directions that it finds:
 ///     Σ_T A |∇m - λ R_T|² + smoothness R  ->  least,
 /// R_T the rotation nearest to ∇m before the round, λ the mean length of the first map's gradients. This is linear, one
@@ -99,21 +109,21 @@ struct LevyResult {
 /// raise the symmetric Dirichlet energy is not taken, and is the last.
 /// Convex border without coupling and length, no pins: the minimum is R = 0, found from one linear system.
 /// Else: u is found with v held, then v with u held, in rounds, O being (∇u·∇v)². Rounds on a free border start from
-/// the least squares conformal map; without pins the vertices that are farthest out keep the coordinate they are
-/// extreme in, and u and v are scaled in the end, each so that Σ A (|∇u|² + |∇u|⁻²) is least. Guarantees: what
-/// Flattening promises; no triangle flipped, no overlap, else the chart falls back. Convex border, uniform or
-/// mean-value weights and no other condition: valid on every disk, up to rounding. Breaks down: charts beyond half a
-/// sphere, where conformal starts flip or shrink without bound; large `length` on strongly curved charts, which have no
-/// map of constant gradient; uniform weights with a free border on uneven meshes. Gauss-Seidel needs O(n) sweeps; it is
-/// there to be compared with. Cost: O(n^1.5) per round. Result independent of the number of threads. Papers: B. Lévy,
-/// J.-L. Mallet, Non-distorted texture mapping for sheared triangulated meshes, SIGGRAPH 1998; L. Liu et al., A
-/// local/global approach to mesh parameterization, 2008 (the rounds of lengths); M. Floater, Mean value
-/// coordinates, 2003.
+/// the least squares conformal map, those on a released one from R = 0 on the circle; without pins the vertices that
+/// are farthest out keep the coordinate they are extreme in, and u and v are scaled in the end, each so that Σ A (|∇u|²
+/// + |∇u|⁻²) is least. Guarantees: what Flattening promises; no triangle flipped, no overlap, else the chart falls
+/// back. Convex border, uniform or mean-value weights and no other condition: valid on every disk, up to rounding.
+/// Breaks down: charts beyond half a sphere, where conformal starts flip or shrink without bound; large `length` on
+/// strongly curved charts, which have no map of constant gradient; uniform weights with a free border on uneven meshes.
+/// Gauss-Seidel needs O(n) sweeps; it is there to be compared with. Cost: O(n^1.5) per round. Result independent of the
+/// number of threads. Papers: B. Lévy, J.-L. Mallet, Non-distorted texture mapping for sheared triangulated meshes,
+/// SIGGRAPH 1998; L. Liu et al., A local/global approach to mesh parameterization, 2008 (the rounds of lengths); M.
+/// Floater, Mean value coordinates, 2003.
 ///
 /// @param charts one number below charts.count for every triangle.
-/// @throws InvalidInput for a mesh, chart set, pin, line or option that breaks these preconditions; without fall_back
-///         also for a chart of the wrong topology, naming chart and triangle; SolverFailure for one without a valid
-///         map.
+/// @throws InvalidInput for a mesh, chart set, pin, line or option that breaks these preconditions; for conformal
+///         where it can't be kept; without fall_back also for a chart of the wrong topology, naming chart and triangle;
+///         SolverFailure for one without a valid map.
 LevyResult flatten_levy(const TriangleMesh& mesh, const ChartSet& charts, const LevyOptions& options = {});
 
 }  // namespace papilla

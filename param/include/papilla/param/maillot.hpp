@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "papilla/core/deadline.hpp"
+#include "papilla/param/chart_choice.hpp"
 #include "papilla/param/chart_memory.hpp"
 #include "papilla/param/flattening.hpp"
 #include "papilla/param/triplanar.hpp"
@@ -18,13 +21,16 @@ enum class MaillotSolver {
 enum class MaillotStart {
   coarse_to_fine,  ///< As flatten_best() has it, before its last iterations where these change little: valid on every
                    ///< disk.
-  conformal,       ///< Least squares conformal; coarse_to_fine where that flips a triangle.
+  conformal,       ///< Least squares conformal.
+  planar,          ///< Projection along the chart's mean normal, in true size.
 };
 
 struct MaillotOptions {
   UpAxis up = UpAxis::z;
   double length_weight = 0.5;  ///< φ, in [0, 1].
   MaillotSolver solver = MaillotSolver::gauss_newton;
+  /// Where the start is no valid map of a chart, the descent starts from coarse_to_fine there, and `choices` says so;
+  /// with allow_flips it starts from what was asked for all the same.
   MaillotStart start = MaillotStart::coarse_to_fine;
   double tolerance = 1e-3;   ///< Stop when E falls by less than this fraction in an iteration, or below 1e-12 of the
                              ///< area; in (0, 1).
@@ -40,13 +46,22 @@ struct MaillotOptions {
 };
 
 struct MaillotResult {
-  Flattening flattening;           ///< Trace: error = E in mm², over all charts.
+  /// Trace: error = E in mm², over all charts; its first sample is the start's.
+  Flattening flattening;
+  double start_energy = 0;         ///< E of the start in mm², over the charts that the method mapped.
+  double end_energy = 0;           ///< And of the result: what the descent gained is the difference.
   double length_energy = 0;        ///< E_l in mm², over all charts.
   double area_energy = 0;          ///< E_f in mm².
   double squared_edges = 0;        ///< Σ D² in mm²: E_l divided by it is the usual relative measure.
   std::size_t flipped = 0;         ///< Triangles that are turned over (only with allow_flips).
   std::size_t invalid_charts = 0;  ///< Charts with such triangles, or that overlap themselves (only with allow_flips).
+  std::vector<ChartChoice> choices;  ///< Per chart: where the descent started, and E before and after it.
 };
+
+/// The source literally: gradient descent with line search, from its own start, triangles may turn over, no limit of
+/// distortion.
+/// @param start conformal or planar.
+MaillotOptions maillot_as_written(MaillotStart start, double length_weight = 0.5);
 
 /// Maps every chart by lowering the energy of Maillot, Yahia and Verroust,
 ///     E = φ E_l + (1-φ) E_f,

@@ -11,6 +11,7 @@
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
+#include "papilla/pipeline/unwrap_method.hpp"
 #include "papilla/texture/part_roughness.hpp"
 #include "papilla/texture/picture_relief.hpp"
 
@@ -64,6 +65,8 @@ struct MaterialRule {
   std::optional<bool> force_shading;
   HeightRule height;
   std::string unwrap = "auto";  ///< auto, keep, new, or a method of unwrap_methods(), which gives new uv.
+  /// Of new uv: the method's options and the grain's direction, where the file has any.
+  std::optional<MethodOptions> unwrap_options;
   std::string show = "auto";  ///< auto (coloured pictures), picture (as base colour), relief (keep the part's colour).
   std::optional<std::string> color;  ///< "#RRGGBB" base colour instead of the scene's own.
   std::optional<double> roughness, metallic;

@@ -46,6 +46,25 @@ LevyPin pin_on(const TriangleMesh& mesh, const PlacedPin& pin);
 /// @throws InvalidInput, naming the point, when no path of edges leads to it from the one before.
 LevyIsoLine iso_line_on(const TriangleMesh& mesh, const PlacedIsoLine& line);
 
+/// Along what the grain runs.
+enum class GrainSource {
+  up,         ///< Upright: grain_direction().
+  longest,    ///< Along the part: longest_direction().
+  direction,  ///< As given.
+  edge_loop,  ///< Along the edge_loop_near() a place.
+};
+
+/// The direction of the grain on some parts.
+struct PlacedGrain {
+  GrainSource source = GrainSource::up;
+  Vec3 vector{0, 0, 1};   ///< Of direction: it; of edge_loop: the place [mm], in the part's coordinates.
+  std::string part = {};  ///< As in PlacedPin.
+};
+
+/// What is meant for the part of this name: the first grain that names it by a pattern, else the first for every part;
+/// upright when there is none.
+PlacedGrain grain_of(const std::vector<PlacedGrain>& grains, const std::string& part);
+
 enum class UnwrapMethod {
   natural,
   intermediate,
@@ -62,6 +81,8 @@ enum class UnwrapMethod {
   automatic
 };
 
+struct MethodOptions;
+
 /// The methods by the names that the command line has for them.
 const std::map<std::string, UnwrapMethod>& unwrap_methods();
 std::string unwrap_method_name(UnwrapMethod method);
@@ -75,6 +96,28 @@ enum class UnwrapEffort {
   normal,  ///< As the methods' options say; two seam costs on parts of up to 50,000 triangles.
   best,    ///< Two seam costs on every part, Newton steps on all charts until they gain less than 1e-5.
 };
+
+/// Names of what the methods' options can be, on the command line and in MATERIALS.json.
+const std::map<std::string, LscmSolver>& lscm_solvers();
+const std::map<std::string, MaillotSolver>& maillot_solvers();
+const std::map<std::string, MaillotStart>& maillot_starts();
+const std::map<std::string, LevySolver>& levy_solvers();
+const std::map<std::string, LevyWeights>& levy_weights();
+const std::map<std::string, LevyBorder>& levy_borders();
+const std::map<std::string, LevyCoupling>& levy_couplings();
+const std::map<std::string, IntermediateShape>& intermediate_shapes();
+const std::map<std::string, IntermediateRule>& intermediate_rules();
+const std::map<std::string, EnvironmentMap>& environment_maps();
+
+/// Gives a method of several solvers the one of this name. @return whether it has one so named.
+bool choose_solver(const std::string& name, MethodOptions& options);
+
+/// The methods that an option is of, by its name in MATERIALS.json ("distortion_limit"; on the command line with -);
+/// empty for one that all methods have.
+const std::vector<UnwrapMethod>& methods_of_option(const std::string& option);
+
+/// Why the option means nothing to the method: "is of maillot, not of best"; empty when it does.
+std::string foreign_option(const std::string& option, UnwrapMethod method);
 
 /// The efforts by the names that the command line has for them.
 const std::map<std::string, UnwrapEffort>& unwrap_efforts();
@@ -96,13 +139,6 @@ std::string chart_source_name(ChartSource source);
 /// @throws InvalidInput for triangles without uv; for components that are no surface.
 ChartSet given_charts(const TriangleMesh& mesh, ChartSource source);
 
-/// Along what the grain runs.
-enum class GrainSource {
-  up,         ///< Upright: grain_direction().
-  longest,    ///< Along the part: longest_direction().
-  direction,  ///< As given.
-};
-
 /// What a part is beside others, and what its grain is: automatic decides by it.
 struct PartContext {
   UpAxis up = UpAxis::z;
@@ -116,8 +152,7 @@ struct PartContext {
 struct MethodOptions {
   UnwrapMethod method = UnwrapMethod::automatic;
   UnwrapEffort effort = UnwrapEffort::normal;
-  GrainSource grain = GrainSource::up;
-  Vec3 grain_direction{0, 0, 1};  ///< Of GrainSource::direction.
+  std::vector<PlacedGrain> grains;  ///< As grain_of() takes them.
   ChartSource charts = ChartSource::automatic;
   SegmentationOptions segmentation;
   bool choose_seam_cost = true;  ///< choose_seam_cost() where the effort allows it; false: as segmentation says.
@@ -142,10 +177,13 @@ struct MethodOptions {
   Deadline deadline;
 };
 
+/// The patterns of part names that the grains, pins and lines have.
+std::vector<std::string> named_parts(const MethodOptions& options);
+
 struct FlattenedPart {
   Flattening flattening;             ///< uv in millimetres (environment: in textures), not placed yet.
   std::string method, reason;        ///< Of the part: the method that was taken, and, when it was chosen, why.
-  std::vector<ChartChoice> choices;  ///< Of automatic: per chart.
+  std::vector<ChartChoice> choices;  ///< Of automatic, levy and maillot: per chart.
   double segment_seconds = 0;
 };
 
