@@ -35,7 +35,7 @@ const JsonGrammar& materials_grammar() {
           "dynamicFriction":0.35,"stribeckVelocity":0.01,"frictionModel":{"name":"bristle","stiffness":300},"backing":{"stiffness":1800,"depth_mm":2},
           "maps":{"stiffness":"a.png","friction":{"picture":"noise","range":[0,2]},"range":[0.5,1.5]},
           "fineRoughness":{"hurst":0.5,"rms":1e-6,"wavelength_range":[1e-5,1e-3]},
-          "forceShading":true,"height":{"method":"auto","depth_mm":0.3,"scale":1,"max_slope":0.5},"unwrap":{"method":"levy","border":"free","pins":[{"at":[0,0,0],"uv":[1,2],"part":"p"}],"grain":"up","grain_of":{"q*":{"edge":[1,2,3]}}},
+          "forceShading":true,"height":{"method":"auto","depth_mm":0.3,"scale":1,"max_slope":0.5},"unwrap":{"method":"best","grain":"up","grain_of":{"q*":{"edge":[1,2,3]}}},
           "show":"picture","color":"#808080","roughness":0.5,"metallic":0,"$comment":"c"},
         "chrome":{"stiffness":2000,"color":"#808080"}},
         "assign":[{"part":"*","cad_colour":"#ffffff","gltf_material":"*","node":"**","not":{"layer":"hidden"},
