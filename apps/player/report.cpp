@@ -32,8 +32,8 @@ double peak_rss_mib() {
 }
 
 std::string clamp_line(const StabilityClamp& clamp, const std::string& name) {
-  std::string line =
-      app::shown_format("  {}: stiffness {:.0f} -> {:.0f} N/m", name, clamp.stiffness_wanted, clamp.stiffness);
+  std::string line = app::shown_format("  {}: {:.0f} -> {:.0f} N/m where it is stiffest", name, clamp.stiffness_wanted,
+                                       clamp.stiffness);
   if (clamp.damping < clamp.damping_wanted)
     line += app::shown_format(", damping {:.3g} -> {:.3g} N s/m", clamp.damping_wanted, clamp.damping);
   return line + ", so that the device stays stable\n";

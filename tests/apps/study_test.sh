@@ -56,7 +56,7 @@ grep -q '"done": true' run.json || fail "run.json: $(cat run.json)"
 session=$!
 until grep -q 'http:' page.txt; do kill -0 $session || break; done
 python3 - "$(grep -o 'http:[^ ]*' page.txt)" <<'PYTHON' || fail "the page: $(cat page.txt page.err)"
-import json, sys, time, urllib.error, urllib.request
+import json, os, sys, time, urllib.error, urllib.request
 base, token = sys.argv[1].split("/?")
 def ask(path, body=None):
     data = None if body is None else json.dumps(body).encode()
@@ -71,10 +71,19 @@ assert status == 200 and len(data["trials"]) == 14 and data["place"] == 1 and da
 assert ask("pictures/ovals8.png")[1][:4] == b"\x89PNG"
 assert ask("pictures/../STUDY.json")[0] == 404
 assert ask("play", {"file": "../STUDY.json"})[0] == 409
-assert ask("play", {"file": data["trials"][0]["files"][0]})[0] == 200
-while json.loads(ask("state")[1])["playing"]:
-    time.sleep(0.05)
-assert json.loads(ask("state")[1])["failure"] == "", ask("state")
+first = data["trials"][0]["files"][0]
+def play_first():
+    assert ask("play", {"file": first})[0] == 200
+    while json.loads(ask("state")[1])["playing"]:
+        time.sleep(0.05)
+    return json.loads(ask("state")[1])["failure"]
+os.rename("made/" + first, "away.glb")
+assert "ended with 3" in play_first(), ask("state")
+answers = data["experiments"][data["blocks"][data["trials"][0]["block"]]["experiment"]]["answers"]
+status, said = ask("answer", {"place": 1, "answer": answers[0]["value"], "seconds": 1})
+assert status == 409 and b"no answer is taken" in said, (status, said)
+os.rename("away.glb", "made/" + first)
+assert play_first() == "", ask("state")
 assert ask("answer", {"place": 1, "answer": "banana", "seconds": 1})[0] == 409
 assert ask("answer", "no object")[0] != 200
 for place, trial in enumerate(data["trials"], 1):

@@ -367,7 +367,10 @@ TEST_F(Player, ForceFadesInAgainAfterASigstop) {
   }
   const double full = 0.55;  // N, at most: 400 N/m and the hand's 1000 N/m share 1.5 mm, and the relief rises.
   for (int k = 0; k < 50; ++k) EXPECT_LE(norm(paused[i + static_cast<std::size_t>(k)].force), full * (k + 1) / 50) << k;
-  EXPECT_GT(norm(paused[i + 200].force), 0.1);
+  // The hand may be about to leave the plate, but presses again within half a second.
+  const auto feels = [](const RecordedTick& tick) { return norm(tick.force) > 0.1; };
+  const auto next = paused.begin() + static_cast<std::ptrdiff_t>(i);
+  EXPECT_TRUE(std::any_of(next + 50, next + 600, feels));
 }
 
 /// Tags that ask for more than a device can do.

@@ -57,6 +57,9 @@ Json state_of(Shared& shared) {
 
 PageAnswer take_answer(Shared& shared, const std::string& body) {
   const Json said = Json::parse(body);
+  shared.player.is_playing();  // A player that has ended tells how.
+  if (const std::string failure = shared.player.failure(); !failure.empty())
+    return refusal("a plate was not there, so that no answer is taken, play it again: " + failure);
   try {
     const std::string why = shared.session.record(
         said.at("place").get<std::size_t>(), said.at("answer").get<std::string>(), said.at("seconds").get<double>());
