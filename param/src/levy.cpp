@@ -12,6 +12,7 @@
 #include "chart_solvers.hpp"
 #include "levy_systems.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/param/levy_coupling.hpp"
 #include "rest_shape.hpp"
 
 namespace papilla {
@@ -48,14 +49,6 @@ void check_pins(const LevyOptions& options, std::size_t vertices) {
   if (!differ(&Vec2::x) || !differ(&Vec2::y))
     refuse("a free border needs two pins or more that differ in u and in v, there are " +
            std::to_string(options.pins.size()) + " that do not");
-}
-
-/// What keeps a chart from the conformal coupling, or nothing.
-std::string conformal_obstacle(const LevyOptions& options, bool has_lines) {
-  if (options.border != LevyBorder::free) return "the border is not free from the start";
-  if (options.solver != LevySolver::direct) return "the solver is Gauss-Seidel";
-  if (has_lines) return "iso lines are held";
-  return {};
 }
 
 void check(const LevyOptions& options, std::size_t vertices) {
@@ -472,6 +465,13 @@ class LevyMap {
 };
 
 }  // namespace
+
+std::string conformal_obstacle(const LevyOptions& options, bool has_iso_lines) {
+  if (options.border != LevyBorder::free) return "the border is not free from the start";
+  if (options.solver != LevySolver::direct) return "the solver is Gauss-Seidel";
+  if (has_iso_lines) return "iso lines are held";
+  return {};
+}
 
 LevyOptions levy_as_written(LevyBorder border, LevySolver solver) {
   LevyOptions options;

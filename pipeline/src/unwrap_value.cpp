@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "papilla/param/levy_coupling.hpp"
+
 namespace papilla {
 namespace {
 
@@ -131,9 +133,9 @@ void read_options(const JsonValue& value, MethodOptions& o) {
     for (const JsonValue& pin : v->list()) o.pins.push_back(read_pin(pin));
   if (const auto v = of.get("iso_lines", "iso_line"))
     for (const JsonValue& line : v->list()) o.iso_lines.push_back(read_iso_line(line));
-  if (o.levy.coupling == LevyCoupling::conformal &&
-      (o.levy.border != LevyBorder::free || o.levy.solver != LevySolver::direct || !o.iso_lines.empty()))
-    of.get("coupling")->fail("can't be kept: conformal needs a free border, the direct solver and no iso line");
+  if (o.levy.coupling == LevyCoupling::conformal)
+    if (const std::string obstacle = conformal_obstacle(o.levy, !o.iso_lines.empty()); !obstacle.empty())
+      of.get("coupling")->fail("can't be conformal: " + obstacle);
   of.choice("shape", o.intermediate.shape, intermediate_shapes());
   of.choice("rule", o.intermediate.rule, intermediate_rules());
   if (const auto v = of.get("eye")) o.intermediate.eye = read_place(*v);

@@ -69,7 +69,7 @@ TEST(UnwrapOption, ACouplingThatCantBeKeptIsRefused) {
   EXPECT_EQ(complaint(levy), "");
   for (const char* other :
        {"--border convex", "--border released", "--solver gauss-seidel", "--iso-line u:0,0,0;1,0,0"})
-    EXPECT_NE(complaint(levy + other).find("--coupling conformal: it needs"), std::string::npos) << other;
+    EXPECT_NE(complaint(levy + other).find("--coupling conformal: "), std::string::npos) << other;
   EXPECT_EQ(complaint("--method levy --coupling auto --border convex"), "");
 }
 

@@ -262,7 +262,8 @@ TEST_F(MaterialsTest, RangesAreWrittenAsPeopleDo) {
   expect(R"({"method": "maillot", "distortion_limit": 0.5})", "/distortion_limit: must be 0 or at least 1");
   expect(R"({"method": "maillot", "solver": "direct"})", "maillot has no solver 'direct'");
   expect(R"({"method": "planar", "charts": "keep"})", "/charts: planar makes its own charts");
-  expect(R"({"method": "levy", "coupling": "conformal", "border": "convex"})", "/coupling: can't be kept");
+  expect(R"({"method": "levy", "coupling": "conformal", "border": "convex"})",
+         "/coupling: can't be conformal: the border is not free");
   expect(R"("environment")", "moves with the eye");
   expect(R"({"method": "environment"})", "/unwrap/method: 'environment' moves with the eye");
   expect(R"({"method": "keep"})", "must be one of");

@@ -13,6 +13,7 @@
 #include "options/vector_option.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/io/node_places.hpp"
+#include "papilla/param/levy_coupling.hpp"
 
 namespace papilla::app {
 namespace {
@@ -56,9 +57,9 @@ MethodOptions method_options(const UnwrapOption& options) {
     throw UsageError(
         fmt::format("--distortion-limit {:g}: it must be 0, no limit, or at least 1", maillot.distortion_limit));
   const LevyOptions& levy = method.levy;
-  if (levy.coupling == LevyCoupling::conformal &&
-      (levy.border != LevyBorder::free || levy.solver != LevySolver::direct || !method.iso_lines.empty()))
-    throw UsageError("--coupling conformal: it needs a free border, the direct solver and no iso line");
+  if (levy.coupling == LevyCoupling::conformal)
+    if (const std::string obstacle = conformal_obstacle(levy, !method.iso_lines.empty()); !obstacle.empty())
+      throw UsageError("--coupling conformal: " + obstacle);
   if (!options.direction.empty()) method.planar.direction = parse_vector("--direction", options.direction);
   if (!options.eye.empty()) method.intermediate.eye = method.environment.eye = parse_vector("--eye", options.eye);
   return method;

@@ -216,8 +216,8 @@ std::string unwrap_remarks(const UnwrapResult& result) {
           shown_name(result.scene.parts[p]), part.opposed_edges);
     if (!part.reason.empty() && part.failure.empty()) text += shown_format("{}: {}\n", part.method, part.reason);
     if (!part.choices.empty() && (part.method == "levy" || part.method == "maillot")) {
-      text += shown_format("{}: {}", part.choices.front().method, part.choices.front().reason);
-      text += part.choices.size() > 1 ? shown_format("; so the first of {} charts\n", part.choices.size()) : "\n";
+      if (part.choices.size() > 1) text += shown_format("the first of {} charts: ", part.choices.size());
+      text += shown_format("{}: {}\n", part.choices.front().method, part.choices.front().reason);
     }
     if (!part.failure.empty()) text += shown_format("not unwrapped: {}\n", part.failure);
     if (!part.flattening.notes.empty())
