@@ -6,13 +6,12 @@
 #include <numeric>
 
 #include "papilla/core/error.hpp"
+#include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/procedural/preview.hpp"
 #include "papilla/procedural/reference.hpp"
 
 namespace papilla {
 namespace {
-
-constexpr unsigned k_lit_channels =
-    1U << static_cast<unsigned>(Channel::color) | 1U << static_cast<unsigned>(Channel::bump);
 
 std::size_t index_of(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -45,7 +44,9 @@ bool is_modifier(const std::string& recipe) { return recipe.find("ismodifier=tru
 
 /// A recipe that an ageing recipe can be shown on: one for its idmaterial, else plaster.
 std::string base_for(const std::string& recipe, const RecipeLibrary& library) {
-  if (const std::string material = value_of(recipe, "idmaterial="); !material.empty()) {
+  std::string material = value_of(recipe, "idmaterial=");
+  if (material.empty()) material = value_of(recipe, "matid=");
+  if (!material.empty()) {
     for (const std::string& name : suggest_recipes(material, library))
       if (!is_modifier(*library.find(name)) && library.find(name)->find("idtype=aged") == std::string::npos)
         return name;
@@ -54,29 +55,6 @@ std::string base_for(const std::string& recipe, const RecipeLibrary& library) {
 }
 
 }  // namespace
-
-ColorImage light_texture(const RenderedTexture& texture, double relief) {
-  const auto& color = texture.values[Channel::color];
-  const auto& bump = texture.values[Channel::bump];
-  std::vector<unsigned char> pixels;
-  pixels.reserve(color.size());
-  const auto height = [&](int x, int y) {
-    return static_cast<double>(
-        bump[index_of(std::clamp(x, 0, texture.width - 1), std::clamp(y, 0, texture.height - 1), texture.width)]);
-  };
-  for (int y = 0; y < texture.height; ++y)
-    for (int x = 0; x < texture.width; ++x) {
-      const double sx = relief * (height(x + 1, y) - height(x - 1, y)) / 2,
-                   sy = relief * (height(x, y + 1) - height(x, y - 1)) / 2;
-      const double light = (1 + sx * 0.6 + sy * 0.6) / std::sqrt(1 + sx * sx + sy * sy) / 1.05;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double c = static_cast<double>(color[3 * index_of(x, y, texture.width) + k]);
-        pixels.push_back(
-            static_cast<unsigned char>(std::lround(255 * std::clamp(c * std::clamp(light, 0.15, 1.8), 0.0, 1.0))));
-      }
-    }
-  return {texture.width, texture.height, std::move(pixels)};
-}
 
 ContactSheet make_contact_sheet(const std::vector<NamedRecipe>& recipes, const RecipeLibrary& library,
                                 const CompileOptions& options, int side, const ProgressCallback& progress) {
@@ -97,7 +75,7 @@ ContactSheet make_contact_sheet(const std::vector<NamedRecipe>& recipes, const R
     try {
       const ProceduralTexture texture = compile_texture(recipe, library, options);
       RenderOptions render;
-      render.width = render.height = side, render.channels = k_lit_channels;
+      render.width = render.height = side, render.channels = k_preview_channels;
       const RenderedTexture picture = render_texture(texture, render);
       const auto& bump = picture.values[Channel::bump];
       const auto [low, high] = std::minmax_element(bump.begin(), bump.end());
@@ -105,7 +83,7 @@ ContactSheet make_contact_sheet(const std::vector<NamedRecipe>& recipes, const R
       entry.low = static_cast<double>(*low), entry.high = static_cast<double>(*high);
       entry.mean = std::accumulate(bump.begin(), bump.end(), 0.0) / static_cast<double>(bump.size());
       entry.seam = seam_ratio(bump, side, side);
-      const ColorImage tile = light_texture(picture, side / 24.0);
+      const ColorImage tile = to_color_image(light_texture(texture, picture, side / 24.0), side, side);
       for (int y = 0; y < side; ++y)
         std::copy_n(tile.pixels.begin() + static_cast<std::ptrdiff_t>(3 * index_of(0, y, side)), 3 * side,
                     sheet.picture.pixels.begin() +

@@ -10,8 +10,8 @@
 #include "papilla/core/trace.hpp"
 #include "papilla/io/animation_file.hpp"
 #include "papilla/io/image_file.hpp"
-#include "papilla/pipeline/contact_sheet.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/procedural/preview.hpp"
 #include "papilla/texture/normal_map.hpp"
 
 namespace papilla {
@@ -24,7 +24,7 @@ constexpr unsigned bit(Channel channel) { return 1U << static_cast<unsigned>(cha
 unsigned rendered_channels(const TextureFileOptions& options) {
   unsigned bits = 0;
   if (options.normal_map) bits |= bit(Channel::bump);
-  if (options.video) bits |= bit(Channel::color) | bit(Channel::bump);
+  if (options.video || options.preview) bits |= k_preview_channels;
   for (const Channel channel : options.channels) bits |= bit(channel);
   return bits;
 }
@@ -74,6 +74,7 @@ TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary&
     CompileOptions compile = recipe_options(".");
     compile.time = is_series ? static_cast<double>(step) / (options.steps - 1) : options.time;
     compile.seamless = options.seamless;
+    compile.target_px = std::min(options.width, options.height);
     compile.seed = static_cast<std::uint32_t>(options.seed - 1);
     const Stopwatch clock;
     files.texture = compile_texture(files.recipe, library, compile);
@@ -86,7 +87,15 @@ TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary&
       if (is_series) files.channels.back().time = compile.time;
     }
     if (options.normal_map) files.normal_maps.push_back(write_normal_map(rendered, suffix, folder, options));
-    if (options.video) frames.push_back(light_texture(rendered, options.depth_mm / (options.size_mm / rendered.width)));
+    if (options.video || options.preview) {
+      const double relief = options.depth_mm / (options.size_mm / rendered.width);
+      ColorImage lit = to_color_image(light_texture(*files.texture, rendered, relief), rendered.width, rendered.height);
+      if (options.preview) {
+        files.previews.push_back("preview" + suffix + ".png");
+        write_color_image(folder / files.previews.back(), lit);
+      }
+      if (options.video) frames.push_back(std::move(lit));
+    }
     report_progress(options.progress, "texture", (step + 1.0) / options.steps);
   }
   if (options.video) {

@@ -3,17 +3,34 @@
 #include <nlohmann/json.hpp>
 
 #include "json_value.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/pipeline/weather_scene.hpp"
+#include "papilla/procedural/ageing.hpp"
 
 namespace papilla {
 namespace {
 
-WeatherLayer read_layer(const JsonValue& value) {
+/// The layer of a recipe, or those that words of ageing stand for.
+std::vector<WeatherLayer> read_layers(const JsonValue& value) {
   WeatherLayer layer;
-  layer.where = read_selector(value, {"recipe", "materials", "not", "$comment"});
-  layer.recipe = value.require("recipe").text();
+  layer.where = read_selector(value, {"recipe", "age", "materials", "not", "$comment"});
   if (const auto v = value.get("materials")) layer.materials = v->texts();
-  return layer;
+  const auto age = value.get("age");
+  if (!age) {
+    layer.recipe = value.require("recipe").text();
+    return {layer};
+  }
+  if (value.get("recipe")) age->fail("stands beside a recipe; one layer has one of them");
+  std::vector<WeatherLayer> layers;
+  try {
+    for (const AgeingLayer& ageing : ageing_layers(age->text())) {
+      layer.recipe = ageing.text();
+      layers.push_back(layer);
+    }
+  } catch (const InvalidInput& refusal) {
+    age->fail(refusal.what());
+  }
+  return layers;
 }
 
 }  // namespace
@@ -38,7 +55,8 @@ WeatherConfig read_weather_config(const std::filesystem::path& path) {
   }
   if (const auto v = root.get("libraries")) config.libraries = v->texts();
   const JsonValue layers = root.require("layers");
-  for (const JsonValue& layer : layers.list()) config.layers.push_back(read_layer(layer));
+  for (const JsonValue& value : layers.list())
+    for (WeatherLayer& layer : read_layers(value)) config.layers.push_back(std::move(layer));
   if (config.layers.empty()) layers.fail("at least one layer is needed");
   return config;
 }

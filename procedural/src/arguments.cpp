@@ -104,6 +104,7 @@ Arguments::Arguments(Compiler& compiler, const TypeInfo& type, std::vector<Bound
 }
 
 const Graph& Arguments::graph() const { return compiler_.graph(); }
+int Arguments::target_px() const { return compiler_.options().target_px; }
 const ParameterInfo& Arguments::info(std::string_view name) const { return *find_parameter(type_, name); }
 
 Bound Arguments::of(std::string_view name) const {
@@ -302,6 +303,23 @@ void Arguments::read_time_modifiers() {
   modified_ = std::move(modified);
 }
 
+/// Refuses what would change nothing.
+void Arguments::refuse_idle(const ParameterInfo& p) const {
+  const auto is_default = [&] {
+    if (p.kind == ParameterKind::text) return of(p.name).value.text == p.preset;
+    if (p.kind == ParameterKind::flag) return (number(p.name) != 0) == (p.preset == "true");
+    double preset = 0;
+    std::from_chars(p.preset.data(), p.preset.data() + p.preset.size(), preset);
+    return number(p.name) == preset;
+  };
+  if (!p.refusal.empty() && !is_default()) refuse(p.name, std::string(p.refusal));
+  constexpr std::string_view k_of_octaves[] = {"dynamicoctaves", "minimumoctaves", "maximumoctaves"};
+  if (std::find(std::begin(k_of_octaves), std::end(k_of_octaves), p.name) != std::end(k_of_octaves) &&
+      type_.name != "fbm" && type_.name != "turbulence" && !is_default())
+    refuse(p.name, "only fbm and turbulence choose their octaves by the texel, not " + in_quotes(type_.name) +
+                       "; write it where those are");
+}
+
 /// Parameters that the type does not read are checked all the same.
 void Arguments::check_all() {
   for (const auto& [name, b] : bound_) {
@@ -317,6 +335,7 @@ void Arguments::check_all() {
       case ParameterKind::textures:
       case ParameterKind::text: break;
     }
+    refuse_idle(info(name));
   }
 }
 

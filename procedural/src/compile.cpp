@@ -42,6 +42,16 @@ void place_and_limits(Node& node, const Arguments& arguments) {
   node.colours = arguments.colours("cols");
 }
 
+PreviewLight light_of(const Arguments& arguments) {
+  PreviewLight light{arguments.flag("shade"), arguments.flag("pointlight"), arguments.flag("lightdist"),
+                     arguments.flag("quickshade")};
+  light.x = arguments.number("lightx"), light.y = arguments.number("lighty"), light.z = arguments.number("lightz");
+  light.scale = arguments.number("lightscale"), light.ambient = arguments.number("ambient");
+  if (light.falls && !light.at_a_point)
+    arguments.refuse("lightdist", "a light without a place is at no distance; add pointlight=true");
+  return light;
+}
+
 Blend blend_named(const std::string& name) {
   return name == "off" ? Blend::off : name == "add" ? Blend::add : name == "sub" ? Blend::subtract : Blend::interpolate;
 }
@@ -56,8 +66,10 @@ bool formulas(Node& node, Arguments& arguments) {
     return arguments.given(name) ? arguments.formula(name) : Program{};
   };
   node.a = unless_zero("afunction", FormulaStage::first), node.b = unless_zero("bfunction", FormulaStage::second);
-  node.perturb_x = unless_zero(arguments.given("perturbx") ? "perturbx" : "pertubex", FormulaStage::place);
-  node.perturb_y = unless_zero(arguments.given("perturby") ? "perturby" : "pertubey", FormulaStage::place);
+  if (arguments.flag("pertube")) {
+    node.perturb_x = unless_zero(arguments.given("perturbx") ? "perturbx" : "pertubex", FormulaStage::place);
+    node.perturb_y = unless_zero(arguments.given("perturby") ? "perturby" : "pertubey", FormulaStage::place);
+  }
   const bool before = std::exchange(scope.uses_near, false);
   scope.stage = FormulaStage::main;
   node.main = arguments.formula("mainfunction");
@@ -68,7 +80,7 @@ bool formulas(Node& node, Arguments& arguments) {
   for (std::size_t c = 1; c < k_channels; ++c) {
     const auto channel = static_cast<Channel>(c);
     const std::string base = std::string(to_string(channel)), name = base + "function";
-    if (!node.layered || arguments.given(name) || channel == Channel::alpha)
+    if (!(node.layered >> c & 1U) || arguments.given(name) || channel == Channel::alpha)
       node.channels[c] = channel == Channel::color ? arguments.colour_formula(name) : arguments.formula(name);
     if (channel != Channel::alpha && channel != Channel::coloralpha)
       node.blend[c] = blend_named(arguments.text(base + "blend"));
@@ -169,6 +181,7 @@ int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Inheri
   made->multi = type.name == "multi";
   arguments.check_all();
   place_and_limits(*made, arguments);
+  made->light = light_of(arguments);
   made->textures = arguments.textures(arguments.given("texes") ? "texes" : "textures");
   if (made->multi && made->textures.empty()) fail_at(origin, position, "'multi' needs the parameter 'textures'");
   arguments.use_textures(made->textures);
@@ -177,7 +190,7 @@ int Compiler::build(const TypeInfo& type, std::vector<Bound> bound, const Inheri
     made->fades.push_back(node(child).fade);
   }
   made->pattern = make_pattern(type.name, arguments);
-  made->layered = made->multi || (made->pattern && made->pattern->has_channels());
+  made->layered = made->multi ? k_all_channels : made->pattern ? made->pattern->given_channels() : 0;
   const bool four_corners = made->seamless && type.seamless == Seamless::four_corner;
   if (formulas(*made, arguments) && four_corners)
     arguments.refuse("mainfunction",

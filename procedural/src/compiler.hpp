@@ -41,6 +41,7 @@ class Arguments final : public TypeArguments {
   RecipePicture picture(const std::string& path) const override;
   const Graph& graph() const override;
   double time() const override { return time_; }
+  int target_px() const override;
   [[noreturn]] void refuse(std::string_view name, const std::string& reason) const override;
 
   bool given(std::string_view name) const { return bound_.contains(name); }
@@ -61,6 +62,7 @@ class Arguments final : public TypeArguments {
   double checked(const ParameterInfo& p, double value, std::string_view name) const;
   void read_time_modifiers();
   void use(int node);
+  void refuse_idle(const ParameterInfo& p) const;
 
   Compiler& compiler_;
   const TypeInfo& type_;

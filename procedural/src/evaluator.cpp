@@ -336,12 +336,13 @@ void Evaluator::channels(int index, const Block& block, unsigned mask, ChannelRo
     const int parts = c == k_red ? 3 : 1;
     double* rows[3] = {out.row[c], out.row[c + (parts > 1 ? 1 : 0)], out.row[c + (parts > 2 ? 2 : 0)]};
     const Program& program = node.channels[c];
-    if (!node.layered || program.present || c == at(Channel::alpha))
+    const bool from_below = node.layered >> c & 1U;
+    if (!from_below || program.present || c == at(Channel::alpha))
       run(program, index, frame, block, rows);
     else
       for (int k = 0; k < parts; ++k)
         for (int i = 0; i < n; ++i) rows[k][i] = below->row[c + static_cast<std::size_t>(k)][i] * node.channel_scale[c];
-    if (node.layered && c == at(Channel::alpha))
+    if (from_below && c == at(Channel::alpha))
       for (int i = 0; i < n; ++i) rows[0][i] *= below->row[c][i] * node.channel_scale[c];
     if (c == at(Channel::alpha) || c == at(Channel::coloralpha) || c == k_red)
       for (int k = 0; k < parts; ++k)
@@ -358,12 +359,11 @@ void Evaluator::layers(int index, Frame& frame, const Block& block, ChannelRows&
   Block inner = block;
   inner.x = u, inner.y = v, inner.texel = frame.texel, inner.extent_x = frame.extent_x, inner.extent_y = frame.extent_y;
   // Layers may read any channel below them, so all are there.
-  constexpr unsigned all = (1U << k_channels) - 1;
   for (std::size_t c = 0; c < k_channels + 2; ++c) std::fill_n(out.row[c], n, 0.0);
   auto layer = std::make_unique<ChannelRows>();
   for (std::size_t k = 0; k < node.textures.size(); ++k) {
     const Node& top = *graph_.nodes[static_cast<std::size_t>(node.textures[k])];
-    channels(node.textures[k], inner, all, k == 0 ? out : *layer);
+    channels(node.textures[k], inner, k_all_channels, k == 0 ? out : *layer);
     if (k > 0) {
       const double* alpha = layer->row[at(Channel::alpha)];
       double cover[k_row];

@@ -254,7 +254,7 @@ std::vector<std::string> suggest_recipes(std::string_view material, const Recipe
   std::vector<std::pair<int, std::string>> ranked;
   for (const auto& [name, recipe] : library.recipes()) {
     std::string known = name;
-    for (const std::string_view key : {"idmaterial=", "idtype="})
+    for (const std::string_view key : {"idmaterial=", "matid=", "idtype="})
       if (const std::size_t at = recipe.find(key); at != std::string::npos)
         known += ' ' + recipe.substr(at + key.size(), recipe.find('|', at) - at - key.size());
     int score = 0;

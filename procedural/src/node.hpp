@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "colours.hpp"
+#include "papilla/procedural/preview.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "papilla/procedural/texture.hpp"
 #include "program.hpp"
@@ -37,11 +38,14 @@ class Pattern {
  public:
   virtual ~Pattern() = default;
   virtual void evaluate(const PatternRow& row) const = 0;
-  /// Whether it gives all channels, through channels(), and not only a value.
-  virtual bool has_channels() const { return false; }
-  /// As evaluate(), whose result is the channel main. @pre has_channels().
+  /// Channels beside the value that come from it, through channels(): bits by Channel.
+  virtual unsigned given_channels() const { return 0; }
+  /// As evaluate(), whose result is the channel main, which is always given. @pre given_channels() != 0.
   virtual void channels(const PatternRow& row, ChannelRows& out) const;
 };
+
+/// All bits by Channel.
+inline constexpr unsigned k_all_channels = (1U << k_channels) - 1;
 
 /// Statistics of a neighbourhood.
 enum class NearStatistic : std::uint8_t { mean, least, most, deviation, slope };
@@ -73,9 +77,11 @@ struct Node {
   std::vector<int> textures;
   std::vector<double> ranges, fades;  ///< Of `textures`.
   bool multi = false;
-  bool layered = false;  ///< All channels come from the textures within, unless a formula says otherwise.
+  unsigned layered =
+      0;  ///< Channels that come from the textures within or the pattern, unless a formula says otherwise.
   std::array<double, k_channels> channel_scale{};
   double range = 1, fade = 1;  ///< Of this texture within texmap.
+  PreviewLight light;
   bool uses_normal = false;
   bool uses_near = false;   ///< A formula of it or of a texture within uses a neighbourhood.
   bool uses_infos = false;  ///< A formula reads the information numbers; otherwise they are not cleared.

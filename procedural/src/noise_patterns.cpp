@@ -39,13 +39,20 @@ void octave_row(const PatternRow& row, const Octave& o, double z, double* out) {
   noise_row(row.x, row.y, depth, row.n, o, out);
 }
 
+/// The parameter `octaves` within the least and the most.
+double limited_octaves(const TypeArguments& arguments) {
+  const double most = arguments.number("maximumoctaves");
+  return std::clamp(arguments.number("octaves"), std::min(arguments.number("minimumoctaves"), most),
+                    std::max(1.0, most));
+}
+
 enum class FbmKind { fbm, hetero, multi, hybrid, ridged };
 
 class Fbm final : public Pattern {
  public:
   explicit Fbm(TypeArguments& arguments)
       : lacunarity_(arguments.number("lacunarity")),
-        octaves_(arguments.number("octaves")),
+        octaves_(limited_octaves(arguments)),
         gain_(arguments.number("gain")),
         offset_(arguments.number("offset")),
         z_(arguments.number("zvalue")),
@@ -58,8 +65,6 @@ class Fbm final : public Pattern {
             : kind == "multifractal"       ? FbmKind::multi
             : kind == "hybridmultifractal" ? FbmKind::hybrid
                                            : FbmKind::ridged;
-    octaves_ = std::clamp(octaves_, std::min(least_, arguments.number("maximumoctaves")),
-                          std::max(1.0, arguments.number("maximumoctaves")));
     weights_ = numbers_of(arguments, "weights");
     if (weights_.empty()) power_law(arguments.number("h"), arguments.flag("closed"));
     if (kind_ == FbmKind::fbm) {
@@ -181,7 +186,8 @@ class Fbm final : public Pattern {
 };
 
 std::unique_ptr<Pattern> make_turbulence(TypeArguments& arguments) {
-  const double octaves = arguments.number("octaves"), z = arguments.number("zvalue");
+  const double octaves = limited_octaves(arguments), least = arguments.number("minimumoctaves"),
+               z = arguments.number("zvalue");
   const bool absolute = arguments.flag("absturb"), dynamic = arguments.flag("dynamicoctaves");
   const std::uint32_t seed = arguments.seed();
   return row_pattern([=](const PatternRow& row) {
@@ -190,7 +196,7 @@ std::unique_ptr<Pattern> make_turbulence(TypeArguments& arguments) {
     double weights = 0, squares = 0;
     for (int k = 0; k < octaves; ++k) {
       const double cells = k_cells * std::ldexp(1.0, k);
-      if (dynamic && k > 0 && row.texel > 0 && cells * row.texel >= 0.5) break;
+      if (dynamic && k > 0 && k >= least && row.texel > 0 && cells * row.texel >= 0.5) break;
       const double w = std::ldexp(std::min(1.0, octaves - k), -k);
       octave_row(row, octave_of(cells, k, seed, row.period_x, row.period_y), z, noise);
       for (int i = 0; i < row.n; ++i) row.out[i] += w * (absolute ? std::abs(noise[i]) : noise[i]);

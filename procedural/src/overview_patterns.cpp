@@ -30,7 +30,7 @@ class Overview final : public Pattern {
   Overview(TypeArguments& arguments, bool voronoi)
       : shown_(arguments.matching_textures(k_most_shown)), seed_(arguments.seed()), voronoi_(voronoi) {}
 
-  bool has_channels() const override { return true; }
+  unsigned given_channels() const override { return k_all_channels; }
   void evaluate(const PatternRow& row) const override {
     ChannelRows out;
     channels(row, out);
@@ -57,7 +57,7 @@ class Overview final : public Pattern {
     ChannelRows part;
     for (std::size_t k = 0; k < shown_.size(); ++k) {
       if (std::find(choice, choice + row.n, k) == choice + row.n) continue;
-      row.evaluator->channels(shown_[k], inner, (1U << k_channels) - 1, part);
+      row.evaluator->channels(shown_[k], inner, k_all_channels, part);
       for (std::size_t c = 0; c < k_channels + 2; ++c)
         for (int i = 0; i < row.n; ++i)
           if (choice[i] == k) out.row[c][i] = part.row[c][i] * (is_zero_in_joints(c) ? inside[i] : 1);

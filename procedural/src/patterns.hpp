@@ -28,6 +28,7 @@ class TypeArguments {
   virtual RecipePicture picture(const std::string& path) const = 0;
   virtual const Graph& graph() const = 0;
   virtual double time() const = 0;
+  virtual int target_px() const = 0;  ///< Texels a side of the picture that will be made.
   std::uint32_t seed() const { return static_cast<std::uint32_t>(number("seed")); }
   bool flag(std::string_view name) const { return number(name) != 0; }
   int integer(std::string_view name) const { return static_cast<int>(number(name)); }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "evaluator.hpp"
 #include "noise.hpp"
@@ -118,11 +119,15 @@ struct Grid {
   }
 };
 
-Grid rendered(const Graph& graph, int node, int width, int height) {
-  Grid grid;
-  grid.width = width, grid.height = height;
-  grid.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+/// A picture in the parts that an image shows: its grey, or its three colours.
+std::vector<Grid> rendered(const Graph& graph, int node, int width, int height, bool in_colour) {
+  std::vector<Grid> parts(in_colour ? 3 : 1);
+  for (Grid& part : parts) {
+    part.width = width, part.height = height;
+    part.values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  }
   Evaluator evaluator(graph);
+  const auto values = std::make_unique<ChannelRows>();
   double x[k_row], y[k_row];
   for (int row = 0; row < height; ++row)
     for (int first = 0; first < width; first += k_row) {
@@ -130,38 +135,76 @@ Grid rendered(const Graph& graph, int node, int width, int height) {
       block.n = std::min(k_row, width - first);
       for (int i = 0; i < block.n; ++i) x[i] = (first + i + 0.5) / width, y[i] = (row + 0.5) / height;
       block.x = x, block.y = y, block.texel = 1.0 / width;
-      evaluator.main_value(node, block, grid.values.data() + static_cast<std::ptrdiff_t>(row) * width + first);
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row) * width + first;
+      if (!in_colour) {
+        evaluator.main_value(node, block, parts[0].values.data() + at);
+        continue;
+      }
+      evaluator.channels(node, block, 1U << static_cast<unsigned>(Channel::color), *values);
+      for (std::size_t k = 0; k < 3; ++k)
+        std::copy_n(values->row[static_cast<std::size_t>(Channel::color) + k], block.n, parts[k].values.data() + at);
     }
-  return grid;
+  return parts;
 }
 
-std::unique_ptr<Pattern> make_image(TypeArguments& arguments) {
-  constexpr double k_screen = 256;  // Stands for the target's size, which is unknown when a recipe is compiled.
-  Grid grid;
-  const std::string path = arguments.text("picpath");
-  const std::vector<int> base = arguments.textures("basetexture");
-  if (!path.empty()) {
-    const RecipePicture picture = arguments.picture(path);
-    grid.width = picture.width, grid.height = picture.height;
-    grid.values.resize(picture.rgb.size() / 3);
-    for (std::size_t i = 0; i < grid.values.size(); ++i)
-      grid.values[i] = static_cast<double>(0.2126F * picture.rgb[3 * i] + 0.7152F * picture.rgb[3 * i + 1] +
-                                           0.0722F * picture.rgb[3 * i + 2]);
-  } else if (!base.empty()) {
-    if (arguments.graph().nodes[static_cast<std::size_t>(base[0])]->uses_near)
-      arguments.refuse("basetexture", "neighbourhoods are not known in a texture that is rendered once");
-    const bool fit = arguments.flag("fit2screen");
-    const int side = std::max(16, static_cast<int>(k_screen * arguments.number("fit2screenratio")));
-    grid = rendered(arguments.graph(), base[0], fit ? side : arguments.integer("width"),
-                    fit ? side : arguments.integer("height"));
+std::vector<Grid> read_parts(const RecipePicture& picture, bool in_colour) {
+  std::vector<Grid> parts(in_colour ? 3 : 1);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    parts[k].width = picture.width, parts[k].height = picture.height;
+    parts[k].values.resize(picture.rgb.size() / 3);
+    for (std::size_t i = 0; i < parts[k].values.size(); ++i)
+      parts[k].values[i] =
+          static_cast<double>(in_colour ? picture.rgb[3 * i + k]
+                                        : 0.2126F * picture.rgb[3 * i] + 0.7152F * picture.rgb[3 * i + 1] +
+                                              0.0722F * picture.rgb[3 * i + 2]);
   }
-  grid.repeat = arguments.flag("repeat") || arguments.flag("seamless");
-  grid.blur(arguments.integer("blur"));
-  const int interpolation = arguments.integer("ipol");
-  return point_pattern([grid = std::move(grid), interpolation](const PatternRow& row, int i) {
-    return grid.sample(row.x[i] * fitted(1, row.period_x), row.y[i] * fitted(1, row.period_y), interpolation);
-  });
+  return parts;
 }
+
+class Image final : public Pattern {
+ public:
+  explicit Image(TypeArguments& arguments)
+      : in_colour_(!arguments.flag("calcheight")), interpolation_(arguments.integer("ipol")) {
+    const std::string path = arguments.text("picpath");
+    const std::vector<int> base = arguments.textures("basetexture");
+    if (!path.empty()) {
+      parts_ = read_parts(arguments.picture(path), in_colour_);
+    } else if (!base.empty()) {
+      if (arguments.graph().nodes[static_cast<std::size_t>(base[0])]->uses_near)
+        arguments.refuse("basetexture", "neighbourhoods are not known in a texture that is rendered once");
+      const bool fit = arguments.flag("fit2screen");
+      const int side = std::clamp(static_cast<int>(arguments.target_px() * arguments.number("fit2screenratio")),
+                                  k_least_side, k_most_side);
+      parts_ = rendered(arguments.graph(), base[0], fit ? side : arguments.integer("width"),
+                        fit ? side : arguments.integer("height"), in_colour_);
+    } else {
+      parts_.resize(in_colour_ ? 3 : 1);
+    }
+    for (Grid& part : parts_) {
+      part.repeat = arguments.flag("repeat") || arguments.flag("seamless");
+      part.blur(arguments.integer("blur"));
+    }
+  }
+
+  unsigned given_channels() const override { return in_colour_ ? 1U << static_cast<unsigned>(Channel::color) : 0; }
+  void evaluate(const PatternRow& row) const override { sample(row, parts_[0], row.out); }
+  void channels(const PatternRow& row, ChannelRows& out) const override {
+    for (auto& values : out.row) std::fill_n(values, row.n, 0.0);
+    for (std::size_t k = 0; k < 3; ++k) sample(row, parts_[k], out.row[static_cast<std::size_t>(Channel::color) + k]);
+  }
+
+ private:
+  static constexpr int k_least_side = 16, k_most_side = 4096;
+
+  void sample(const PatternRow& row, const Grid& part, double* out) const {
+    for (int i = 0; i < row.n; ++i)
+      out[i] = part.sample(row.x[i] * fitted(1, row.period_x), row.y[i] * fitted(1, row.period_y), interpolation_);
+  }
+
+  bool in_colour_;
+  int interpolation_;
+  std::vector<Grid> parts_;
+};
 
 /// x' = a x + b y + e, y' = c x + d y + f, chosen with probability p.
 struct AffineMap {
@@ -335,7 +378,7 @@ std::unique_ptr<Pattern> make_text(TypeArguments& arguments) {
 }  // namespace
 
 std::unique_ptr<Pattern> make_picture_pattern(std::string_view type, TypeArguments& arguments) {
-  if (type == "image") return make_image(arguments);
+  if (type == "image") return std::make_unique<Image>(arguments);
   if (type == "ifs") return make_ifs(arguments);
   if (type == "txt") return make_text(arguments);
   return nullptr;

@@ -34,6 +34,7 @@ void table_of(std::string& out, std::span<const ParameterInfo> parameters) {
     out += "| `" + std::string(p.name) + "` | " + std::string(to_string(p.kind)) + " | " + range_text(p) + " | ";
     out += (p.preset.empty() ? std::string() : "`" + std::string(p.preset) + "`") + " | ";
     for (const char ch : p.note) out += ch == '|' ? std::string("\\|") : std::string(1, ch);
+    if (!p.refusal.empty()) out += "; another value is refused: " + std::string(p.refusal);
     out += " |\n";
   }
   out += '\n';

@@ -160,7 +160,8 @@ RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOpt
       for (int column = 0; column < options.width; column += k_row) {
         Block block;
         block.n = std::min(k_row, options.width - column);
-        for (int i = 0; i < block.n; ++i) w.x[i] = (column + i + 0.5) * step_x, w.y[i] = (row + 0.5) * step_y;
+        for (int i = 0; i < block.n; ++i)
+          w.x[i] = (column + i + 0.5 + options.shift_x) * step_x, w.y[i] = (row + 0.5 + options.shift_y) * step_y;
         block.x = w.x, block.y = w.y, block.texel = std::max(step_x, step_y);
         block.extent_x = options.width * step_x, block.extent_y = options.height * step_y;
         const std::int64_t first = std::int64_t{row} * options.width + column;

@@ -29,6 +29,11 @@ constexpr ParameterInfo formula(std::string_view name, std::string_view preset, 
 constexpr ParameterInfo words(std::string_view name, std::string_view preset, std::string_view note) {
   return {name, text, 0, 0, preset, note};
 }
+/// A parameter of the source whose value changes nothing that is written here.
+constexpr ParameterInfo only_default(ParameterInfo p, std::string_view reason) {
+  p.refusal = reason;
+  return p;
+}
 constexpr ParameterInfo one_of(std::string_view name, std::string_view preset, std::string_view choices) {
   return {name, choice, 0, 0, preset, choices};
 }
@@ -51,9 +56,11 @@ constexpr ParameterInfo k_brick[] = {
     number_in("mortarthicknessrand", 0, 4, "0.00", "variation of the joint by turbulence"),
     number_in("mortarthicknessrandscale", 1e-3, 1e3, "1.00", "scale of that variation"),
     flag_of("circle", "false", "a round dent in every brick")};
+constexpr std::string_view k_one_light =
+    "the preview has one light, that of the picture: set shade, pointlight and lightx here";
 constexpr ParameterInfo k_funky[] = {
-    flag_of("shadethem", "false", "kept for old recipes; without effect"),
-    flag_of("shadethempoint", "false", "kept for old recipes; without effect"),
+    only_default(flag_of("shadethem", "false", "light every cell by the light of its recipe"), k_one_light),
+    only_default(flag_of("shadethempoint", "false", "the same with point lights"), k_one_light),
     words("types", "multi", "types of the named recipes that are shown, separated by commas; empty: all"),
     words("idfilter", "", "a part of the recipe's name"),
     words("filter", "", "a part of the recipe's text"),
@@ -94,8 +101,9 @@ constexpr ParameterInfo k_image[] = {
     integer_in("width", 16, 512, "32", "columns of the rendered basetexture"),
     integer_in("height", 16, 512, "32", "rows of the rendered basetexture"),
     {"basetexture", textures, 0, 0, "", "recipe that is rendered once in place of a file"},
-    flag_of("calcheight", "true", "the value is the picture's grey"),
-    flag_of("fit2screen", "true", "render basetexture at the size of the target"),
+    flag_of("calcheight", "true", "the value is the picture's grey; false: its colours on a flat surface, value 0"),
+    flag_of("fit2screen", "true",
+            "render basetexture at the size of the picture that is made, in place of width and height"),
     number_in("fit2screenratio", 0.01, 2, "1.00", "share of that size"),
     integer_in("blur", 0, 10, "0", "passes of a 3 x 3 box"),
     flag_of("repeat", "true", "tile the picture; else hold its border")};
@@ -139,7 +147,8 @@ constexpr ParameterInfo k_sparkle[] = {any_number("centrex", "0.50", "centre"),
                                        number_in("randomness", 0, 10, "0.25", "unevenness of the rays"),
                                        integer_in("rays", 1, 1000, "32", "rays"),
                                        integer_in("seed", 0, 1e9, "50", "another choice of the rays"),
-                                       flag_of("usetables", "true", "kept for old recipes; without effect"),
+                                       only_default(flag_of("usetables", "true", "take the rays from tables"),
+                                                    "rays are computed, so there is no table to do without"),
                                        flag_of("timer", "true", "turn with time")};
 constexpr ParameterInfo k_star[] = {any_number("noise", "0.00", "distortion by noise"),
                                     any_number("turb", "0.00", "distortion by turbulence"),
@@ -162,7 +171,8 @@ constexpr ParameterInfo k_turbulence[] = {number_in("octaves", 1, 19, "5.00", "o
                                           any_number("zvalue", "0.00", "third coordinate of the noise"),
                                           flag_of("absturb", "false", "sum absolute values")};
 constexpr ParameterInfo k_txt[] = {words("txt", "moin", "what is written; \\n starts a line"),
-                                   words("txtstyle", "SansSerif", "kept for old recipes: one built-in raster face"),
+                                   only_default(words("txtstyle", "SansSerif", "face of the letters"),
+                                                "there is one face, a built-in raster of 5 x 7 dots"),
                                    integer_in("modifier", 0, 3, "1", "0 plain, 1 bold, 2 slanted, 3 both"),
                                    number_in("spacingy", 0.1, 10, "1.00", "distance of lines"),
                                    number_in("borderx", 0, 0.49, "0.00", "free share at the left and right"),
@@ -261,12 +271,13 @@ constexpr TypeInfo k_types[] = {
     {"xplo", "an explosion", Seamless::four_corner, k_xplo}};
 static_assert(std::size(k_types) == 32);
 
+constexpr std::string_view k_no_place = "the place runs over the picture; du and dv shift it";
 constexpr ParameterInfo k_common[] = {
     flag_of("abs", "false", "absolute value of main"),
     any_number("add", "0", "added to main, last"),
     formula("afunction", "0", "evaluated first, known as a"),
     formula("alphafunction", "1", "cover of a layer, cut to [0, 1]"),
-    number_in("ambient", 0, 1, "0.00", "ambient light of the preview"),
+    number_in("ambient", 0, 1, "0.00", "light of the preview from everywhere"),
     formula("bfunction", "0", "evaluated second, known as b"),
     one_of("bumpblend", "add", "off interpolate interpol add sub"),
     formula("bumpfunction", "main", "height"),
@@ -279,7 +290,7 @@ constexpr ParameterInfo k_common[] = {
     {"dirtdirection", vector, -k_open, k_open, "<0,-1,0>", "direction in which dirt, rain or snow moves"},
     number_in("du", -1, 1, "0.00", "shift to the left, in pictures, after scaling"),
     number_in("dv", -1, 1, "0.00", "shift up"),
-    flag_of("dynamicoctaves", "true", "leave out octaves finer than two texels"),
+    flag_of("dynamicoctaves", "true", "leave out octaves finer than two texels, of fbm and turbulence"),
     number_in("fade", 0, 1e6, "1", "width of the change to the next texture of texmap"),
     flag_of("fixtime", "false", "take the recipe's own time"),
     one_of("frictionblend", "interpolate", "off interpolate interpol add sub"),
@@ -289,28 +300,32 @@ constexpr ParameterInfo k_common[] = {
     any_number("intensity", "1", "multiplies main"),
     flag_of("invert", "false", "1 - main"),
     flag_of("ismodifier", "false", "marks a recipe that is meant to lie on others"),
-    flag_of("lightdist", "false", "light of the preview falls with distance"),
-    any_number("lightscale", "1.00", "brightness of the preview"),
-    number_in("lightx", -1, 1, "0.50", "light of the preview"),
-    number_in("lighty", -1, 1, "0.50", "light of the preview"),
-    number_in("lightz", 0, 3, "1.00", "light of the preview"),
+    flag_of("lightdist", "false",
+            "the light falls with the square of the distance to a point light, 1 at one side of the picture"),
+    any_number("lightscale", "1.00", "brightness of the light"),
+    number_in("lightx", -1, 1, "0.50",
+              "light of the preview: to the right; -1 to 1 spans the picture for a point light"),
+    number_in("lighty", -1, 1, "0.50", "upwards"),
+    number_in("lightz", 0, 3, "1.00", "towards the viewer, in sides of the picture for a point light"),
     any_number("limithi", "1e30", "main is at most this"),
     any_number("limitlo", "-1e30", "main is at least this"),
     formula("mainfunction", "this", "the value, from `this`, what the type gives"),
     words("matid", "", "the same as idmaterial"),
-    integer_in("maximumoctaves", 0, 30, "30", "most octaves"),
-    integer_in("minimumoctaves", 0, 10, "1", "fewest octaves"),
+    integer_in("maximumoctaves", 0, 30, "30", "most octaves, of fbm and turbulence"),
+    integer_in("minimumoctaves", 0, 10, "1", "fewest octaves, of fbm and turbulence"),
     {"normal", vector, -k_open, k_open, "<0,1,0>", "normal of the surface where none is known"},
     flag_of("periodicmod", "false", "time modifiers end where they begin"),
-    flag_of("pertube", "false", "kept for old recipes: a perturb formula alone is enough"),
+    flag_of("pertube", "true", "obey the perturb formulas"),
     formula("pertubex", "", "new x; the same as perturbx"),
     formula("pertubey", "", "new y; the same as perturby"),
     formula("perturbx", "", "new x, an expression of x and y"),
     formula("perturby", "", "new y"),
-    flag_of("pointlight", "false", "light of the preview stands at a point"),
+    flag_of("pointlight", "false", "lightx, lighty, lightz is the place of the light; false: the direction to it"),
     any_number("privatescalex", "1.00", "second scale"),
     any_number("privatescaley", "1.00", "second scale"),
-    flag_of("quickshade", "true", "kept for old recipes; without effect"),
+    flag_of("quickshade", "true",
+            "slopes of the preview from neighbouring texels, across the border too; false: from heights half a texel "
+            "to either side"),
     number_in("range", 0, 1e6, "1", "width of this texture in texmap"),
     one_of("reflectionblend", "interpolate", "off interpolate interpol add sub"),
     formula("reflectionfunction", "0", "reflection"),
@@ -318,7 +333,7 @@ constexpr ParameterInfo k_common[] = {
     {"scale", vector, -k_open, k_open, "1", "size: half of it shows twice as much; <x,y> or one number"},
     flag_of("seamless", "false", "the picture tiles"),
     integer_in("seed", 0, 1e9, "0", "another texture of the same kind; handed to the textures within"),
-    flag_of("shade", "true", "shade the preview"),
+    flag_of("shade", "true", "light the preview; false: the colours"),
     {"shift", vector, -k_open, k_open, "0", "du and dv in one, <du,dv>"},
     one_of("specularblend", "interpolate", "off interpolate interpol add sub"),
     one_of("specularcoeffblend", "interpolate", "off interpolate interpol add sub"),
@@ -334,11 +349,11 @@ constexpr ParameterInfo k_common[] = {
     {"textures", textures, 0, 0, "", "layers of multi, textures of texmap"},
     any_number("time", "0.00", "own time, see fixtime"),
     words("timemodifiers", "", "parameter:formula of time, separated by ;"),
-    any_number("u", "0.00", "kept for old recipes; without effect"),
-    any_number("uORIG", "0.00", "kept for old recipes; without effect"),
+    only_default(any_number("u", "0.00", "place of the point that is evaluated"), k_no_place),
+    only_default(any_number("uORIG", "0.00", "place of the point that is evaluated"), k_no_place),
     flag_of("usetimemodifiers", "true", "obey timemodifiers"),
-    any_number("v", "0.00", "kept for old recipes; without effect"),
-    any_number("vORIG", "0.00", "kept for old recipes; without effect")};
+    only_default(any_number("v", "0.00", "place of the point that is evaluated"), k_no_place),
+    only_default(any_number("vORIG", "0.00", "place of the point that is evaluated"), k_no_place)};
 
 }  // namespace
 

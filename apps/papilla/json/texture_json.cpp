@@ -366,6 +366,7 @@ Json texture_json(const TextureFiles& files) {
     json["channels"].push_back(std::move(entry));
   }
   if (!files.normal_maps.empty()) json["normal_maps"] = files.normal_maps;
+  if (!files.previews.empty()) json["previews"] = files.previews;
   json["uses"] = texture.recipes_used();
   json["depends_on"] = {{"time", texture.depends_on_time()},
                         {"normal", texture.depends_on_normal()},

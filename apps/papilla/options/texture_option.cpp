@@ -9,6 +9,7 @@
 #include "file_options.hpp"
 #include "option_checks.hpp"
 #include "options/vector_option.hpp"
+#include "papilla/procedural/ageing.hpp"
 
 namespace papilla::app {
 namespace {
@@ -137,18 +138,22 @@ void TextureOption::add_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_flag("--normalize", files.normalize, "Stretch every channel to its full range");
   verb.add_flag("--normal", files.normal_map, "Write the glTF normal map of the height too");
-  verb.add_option("--size-mm", files.size_mm, "Side of the picture, for the normal map")
+  verb.add_flag("--preview", files.preview,
+                "Write preview.png too: the texture in the light of its recipe (lightx, ambient, pointlight, ...)");
+  verb.add_option("--size-mm", files.size_mm, "Side of the picture, for the normal map and the preview")
       ->check(positive())
       ->type_name("MM")
       ->capture_default_str();
-  verb.add_option("--depth-mm", files.depth_mm, "Height of 1, for the normal map")
+  verb.add_option("--depth-mm", files.depth_mm, "Height of 1, for the normal map and the preview")
       ->check(positive())
       ->type_name("MM")
       ->capture_default_str();
-  verb.add_option("--time", files.time, "0 new to 1 worn")
-      ->check(in_range(0.0, 1.0))
-      ->type_name("T")
-      ->capture_default_str();
+  verb.add_option("--age", age_, "Layers for words, e.g. \"very rusty and dusty 0.4\"; as --list ageing has them")
+      ->type_name("WORDS");
+  time_ = verb.add_option("--time", files.time, "0 new to 1 worn; with --age 1 unless given")
+              ->check(in_range(0.0, 1.0))
+              ->type_name("T")
+              ->capture_default_str();
   CLI::Option* steps = verb.add_option("--steps", files.steps, "A series of pictures from time 0 to 1")
                            ->check(in_range(1, 9999))
                            ->type_name("N");
@@ -162,12 +167,16 @@ void TextureOption::add_to(CLI::App& verb) {
       ->check(in_range(8, 1024))
       ->type_name("N")
       ->capture_default_str();
-  verb.add_option("--list", list,
-                  "Print types, functions, recipes, categories of recipes, reference, or the parameters of a type")
-      ->type_name("WHAT|{types,functions,recipes,categories,reference}")
+  verb.add_option(
+          "--list", list,
+          "Print types, functions, recipes, categories of recipes, words of ageing, reference, or the parameters of a "
+          "type")
+      ->type_name("WHAT|{types,functions,recipes,categories,ageing,reference}")
       ->expected(0, 1)
       ->default_str("types");
-  verb.add_option("--suggest", suggest, "Print recipes that suit a material of this name")->type_name("NAME");
+  verb.add_option("--suggest", suggest,
+                  "Print recipes that suit a material of this name, and layers for words of its age")
+      ->type_name("NAME");
   verb.add_option("--mutate", files.mutation, "Change the recipe's numbers by up to this share; --seed chooses")
       ->check(in_range(0.0, 1.0))
       ->type_name("SHARE");
@@ -179,7 +188,12 @@ TextureFileOptions TextureOption::options(std::uint64_t seed, const ProgressCall
   options.channels = channels_named(channels_);
   options.seed = seed;
   options.progress = progress;
+  if (!age_.empty() && time_->count() == 0) options.time = 1;
   return options;
+}
+
+std::string TextureOption::aged_recipe() const {
+  return age_.empty() ? recipe : papilla::aged_recipe(recipe, ageing_layers(age_));
 }
 
 }  // namespace papilla::app

@@ -41,8 +41,12 @@ class TextureOption {
   void add_to(CLI::App& verb);
   /// @throws InvalidInput for a channel that there is not.
   TextureFileOptions options(std::uint64_t seed, const ProgressCallback& progress) const;
+  /// The recipe under the layers that --age asks for. @throws InvalidInput as ageing_layers().
+  std::string aged_recipe() const;
 
  private:
+  std::string age_;
+  const CLI::Option* time_ = nullptr;
   std::string channels_ = "color,bump";
   std::vector<int> size_{512};
 };

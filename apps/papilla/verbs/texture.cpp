@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +14,7 @@
 #include "papilla/core/near_name.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/procedural/ageing.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "shown_format.hpp"
 #include "text/texture_text.hpp"
@@ -50,6 +52,8 @@ Json print_list(const std::string& what, const RecipeLibrary& library, const Con
       add(category, fmt::format("{} ", fmt::join(names, " ")));
   } else if (what == "reference") {
     console.print(reference_markdown());
+  } else if (what == "ageing") {
+    for (const AgeingWord& word : ageing_words()) add(word.word, word.layers);
   } else if (what == "types") {
     for (const TypeInfo& type : texture_types()) add(type.name, type.note);
   } else if (what == "functions") {
@@ -59,7 +63,7 @@ Json print_list(const std::string& what, const RecipeLibrary& library, const Con
   } else {
     const TypeInfo* type = find_type(what);
     if (!type) {
-      std::vector<std::string_view> known = {"types", "functions", "recipes", "categories", "reference"};
+      std::vector<std::string_view> known = {"types", "functions", "recipes", "categories", "ageing", "reference"};
       for (const TypeInfo& other : texture_types()) known.emplace_back(other.name);
       throw UsageError("--list: there is no type '" + what + "'" + did_you_mean(what, known));
     }
@@ -69,19 +73,38 @@ Json print_list(const std::string& what, const RecipeLibrary& library, const Con
   return json;
 }
 
+/// Recipes for a material, and the layers for what the words say about its age, over the best of them.
+Json print_suggestions(const std::string& words, const RecipeLibrary& library, const Console& console) {
+  const AgeingInText ageing = find_ageing(words);
+  const std::vector<std::string> names = suggest_recipes(ageing.layers.empty() ? words : ageing.rest, library);
+  Json json{{"suggestions", names}};
+  if (!ageing.layers.empty()) {
+    const auto fresh = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+      return library.find(name)->find("ismodifier=true") == std::string::npos;
+    });
+    json["ageing"] = Json::array();
+    for (const AgeingLayer& layer : ageing.layers) {
+      json["ageing"].push_back({{"recipe", layer.recipe}, {"strength", layer.strength}, {"layer", layer.text()}});
+      if (fresh == names.end()) console.print(shown_format("{}\n", layer.text()));
+    }
+    if (fresh != names.end()) {
+      json["aged"] = aged_recipe(*fresh, ageing.layers);
+      console.print(shown_format("{}\n", aged_recipe(*fresh, ageing.layers)));
+    }
+  }
+  for (const std::string& name : names) console.print(shown_format("{}\n", name));
+  return json;
+}
+
 Json run(const TextureOption& options, VerbContext& context) {
   const RecipeLibrary library = load_recipes(options.libraries);
   if (!options.list.empty()) return print_list(options.list, library, context.console);
-  if (!options.suggest.empty()) {
-    const std::vector<std::string> names = suggest_recipes(options.suggest, library);
-    for (const std::string& name : names) context.console.print(shown_format("{}\n", name));
-    return {{"suggestions", names}};
-  }
+  if (!options.suggest.empty()) return print_suggestions(options.suggest, library, context.console);
   if (options.output.empty()) throw InvalidInput("texture: -o DIR is missing");
   if (!options.sheet.empty()) return write_sheet(options, library, context);
   if (options.recipe.empty()) throw InvalidInput("texture: a recipe, --sheet, --list or --suggest is missing");
-  const TextureFiles files =
-      write_texture_files(options.recipe, library, options.output, options.options(context.seed, context.progress));
+  const TextureFiles files = write_texture_files(options.aged_recipe(), library, options.output,
+                                                 options.options(context.seed, context.progress));
   context.console.print(texture_text(files));
   return texture_json(files);
 }

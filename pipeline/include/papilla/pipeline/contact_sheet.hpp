@@ -33,7 +33,7 @@ struct ContactSheet {
   int columns = 0;
 };
 
-/// Pictures of recipes side by side, colours lit by the height.
+/// Pictures of recipes side by side, each in the light of its own recipe.
 /// @pre side >= 8.
 ContactSheet make_contact_sheet(const std::vector<NamedRecipe>& recipes, const RecipeLibrary& library,
                                 const CompileOptions& options, int side, const ProgressCallback& progress = {});
@@ -46,9 +46,5 @@ std::vector<NamedRecipe> examples_of_library(const RecipeLibrary& library);
 
 /// Names of the library's recipes by their `idtype`; "none" for those without.
 std::map<std::string, std::vector<std::string>> recipes_by_category(const RecipeLibrary& library);
-
-/// Colours lit from the upper left by the slopes of the height; `relief` is the depth in texels of a height of 1.
-/// @pre `texture` has colour and bump.
-ColorImage light_texture(const RenderedTexture& texture, double relief);
 
 }  // namespace papilla

@@ -19,9 +19,10 @@ struct TextureFileOptions {
   int bits = 8;             ///< 8 or 16 (PNG), 32 (EXR); colours have 8.
   bool normalize = false;   ///< Stretch every channel but the colour to [0, 1].
   bool normal_map = false;  ///< Write the glTF normal map of the height too.
-  bool video = false;       ///< Write the series as series.gif too: colours lit by the height.
-  double size_mm = 40;      ///< Width of the picture, for pitch, normal map and video.
-  double depth_mm = 0.3;    ///< Height of 1, for normal map and video.
+  bool preview = false;     ///< Write preview.png too: the texture in the light of its recipe.
+  bool video = false;       ///< Write the series as series.gif too, in that light.
+  double size_mm = 40;      ///< Width of the picture, for pitch, normal map, preview and video.
+  double depth_mm = 0.3;    ///< Height of 1, for normal map, preview and video.
   double time = 0;          ///< 0 new to 1 worn.
   int steps = 1;            ///< Above 1: a series of pictures from time 0 to 1, numbered from .0000 on.
   bool seamless = false;    ///< As if the recipe said seamless=true.
@@ -45,6 +46,7 @@ struct TextureFiles {
   int width = 0, height = 0;
   std::vector<ChannelFile> channels;
   std::vector<std::string> normal_maps;      ///< Names in the folder.
+  std::vector<std::string> previews;         ///< Names in the folder.
   std::string video;                         ///< Name in the folder; empty: none.
   std::optional<ProceduralTexture> texture;  ///< Compiled for the last picture.
   double seconds = 0;                        ///< To compile and render all pictures.

@@ -25,9 +25,10 @@ enum class ParameterKind {
 struct ParameterInfo {
   std::string_view name;
   ParameterKind kind;
-  double low, high;         ///< Numbers outside are refused.
-  std::string_view preset;  ///< The default, as a recipe would write it.
-  std::string_view note;    ///< What it does; for `choice` the words.
+  double low, high;               ///< Numbers outside are refused.
+  std::string_view preset;        ///< The default, as a recipe would write it.
+  std::string_view note;          ///< What it does; for `choice` the words.
+  std::string_view refusal = {};  ///< Why any value but the default is refused; empty: none is.
 };
 
 /// How a type keeps its promise when `seamless=true`.

@@ -46,6 +46,7 @@ struct CompileOptions {
   double realtime_s = 0;          ///< The value of `realtime`.
   std::uint32_t seed = 0;         ///< Added to the seed of the recipe.
   bool seamless = false;          ///< As if the recipe said seamless=true.
+  int target_px = 256;            ///< Texels a side of the picture that will be made, for fit2screen. @pre at least 1.
   std::string source = "recipe";  ///< The name of the recipe in messages.
   /// Reads picpath; without it recipes that name a file are refused.
   std::function<RecipePicture(const std::string& path)> read_picture;
@@ -109,7 +110,8 @@ struct TextureValues {
 };
 
 struct RenderOptions {
-  int width = 256, height = 256;  ///< Texels. @pre 1 to 65536 each, and at most 2^30 in all.
+  int width = 256, height = 256;    ///< Texels. @pre 1 to 65536 each, and at most 2^30 in all.
+  double shift_x = 0, shift_y = 0;  ///< Texels by which the points lie off the texels' centres.
   unsigned channels = 1U << static_cast<unsigned>(Channel::main);  ///< Bits by Channel.
   ProgressCallback progress;
 };
