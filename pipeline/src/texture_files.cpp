@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <span>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/trace.hpp"
@@ -13,6 +15,7 @@
 #include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/procedural/preview.hpp"
 #include "papilla/texture/normal_map.hpp"
+#include "papilla/texture/wang_tiles.hpp"
 
 namespace papilla {
 namespace {
@@ -29,12 +32,13 @@ unsigned rendered_channels(const TextureFileOptions& options) {
   return bits;
 }
 
-ChannelFile write_channel(const RenderedTexture& texture, Channel channel, const std::string& suffix,
-                          const std::filesystem::path& folder, const TextureFileOptions& options) {
+ChannelFile write_channel(const RenderedTexture& texture, Channel channel, const std::string& prefix,
+                          const std::string& suffix, const std::filesystem::path& folder,
+                          const TextureFileOptions& options) {
   const std::vector<float>& values = texture.values[channel];
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  const std::string file = std::string(to_string(channel)) + suffix + (options.bits == 32 ? ".exr" : ".png");
+  const std::string file = prefix + std::string(to_string(channel)) + suffix + (options.bits == 32 ? ".exr" : ".png");
   if (channel == Channel::color) {
     write_color_image(folder / file, to_color_image(values, texture.width, texture.height));
   } else {
@@ -46,6 +50,48 @@ ChannelFile write_channel(const RenderedTexture& texture, Channel channel, const
     write_grey_image(folder / file, image, options.bits);
   }
   return {channel, file, *low, *high, mean, {}};
+}
+
+CompileOptions compile_options(const TextureFileOptions& options) {
+  CompileOptions compile = recipe_options(".");
+  compile.time = options.time, compile.seamless = options.seamless;
+  compile.target_px = std::min(options.width, options.height);
+  compile.seed = static_cast<std::uint32_t>(options.seed - 1);
+  return compile;
+}
+
+std::string mutated(const std::string& recipe, const RecipeLibrary& library, const TextureFileOptions& options) {
+  return options.mutation > 0 ? mutate_recipe(recipe, library, static_cast<unsigned>(options.seed), options.mutation)
+                              : recipe;
+}
+
+/// The planes of a picture that are moved together, those that cuts look at first: colour and height.
+struct WangPlanes {
+  std::vector<std::vector<float>> own;  ///< Red, green, blue.
+  std::vector<std::span<const float>> all;
+  std::vector<Channel> grey;  ///< Of the planes behind the colour, height first.
+};
+
+WangPlanes wang_planes(const RenderedTexture& rendered, const std::vector<Channel>& channels) {
+  WangPlanes planes;
+  planes.own.resize(3);
+  const std::vector<float>& colour = rendered.values[Channel::color];
+  for (std::size_t i = 0; i < colour.size(); ++i) planes.own[i % 3].push_back(colour[i]);
+  planes.all.assign(planes.own.begin(), planes.own.end());
+  planes.grey = {Channel::bump};
+  for (const Channel channel : channels)
+    if (channel != Channel::color && channel != Channel::bump) planes.grey.push_back(channel);
+  for (const Channel channel : planes.grey) planes.all.emplace_back(rendered.values[channel]);
+  return planes;
+}
+
+/// Three planes as a colour a texel.
+std::vector<float> interleaved(const std::array<std::vector<float>, 3>& planes) {
+  std::vector<float> colour;
+  colour.reserve(3 * planes[0].size());
+  for (std::size_t i = 0; i < planes[0].size(); ++i)
+    for (const auto& plane : planes) colour.push_back(plane[i]);
+  return colour;
 }
 
 std::string write_normal_map(const RenderedTexture& rendered, const std::string& suffix,
@@ -64,18 +110,13 @@ TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary&
                                  const std::filesystem::path& folder, const TextureFileOptions& options) {
   make_folder(folder);
   TextureFiles files;
-  files.recipe = options.mutation > 0
-                     ? mutate_recipe(recipe, library, static_cast<unsigned>(options.seed), options.mutation)
-                     : recipe;
+  files.recipe = mutated(recipe, library, options);
   files.width = options.width, files.height = options.height;
   const bool is_series = options.steps > 1;
   std::vector<ColorImage> frames;
   for (int step = 0; step < options.steps; ++step) {
-    CompileOptions compile = recipe_options(".");
-    compile.time = is_series ? static_cast<double>(step) / (options.steps - 1) : options.time;
-    compile.seamless = options.seamless;
-    compile.target_px = std::min(options.width, options.height);
-    compile.seed = static_cast<std::uint32_t>(options.seed - 1);
+    CompileOptions compile = compile_options(options);
+    if (is_series) compile.time = static_cast<double>(step) / (options.steps - 1);
     const Stopwatch clock;
     files.texture = compile_texture(files.recipe, library, compile);
     const RenderedTexture rendered =
@@ -83,7 +124,7 @@ TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary&
     files.seconds += clock.seconds();
     const std::string suffix = is_series ? fmt::format(".{:04}", step) : "";
     for (const Channel channel : options.channels) {
-      files.channels.push_back(write_channel(rendered, channel, suffix, folder, options));
+      files.channels.push_back(write_channel(rendered, channel, "", suffix, folder, options));
       if (is_series) files.channels.back().time = compile.time;
     }
     if (options.normal_map) files.normal_maps.push_back(write_normal_map(rendered, suffix, folder, options));
@@ -103,6 +144,45 @@ TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary&
     write_animation(folder / files.video, frames, k_video_rate_hz);
   }
   return files;
+}
+
+WangFiles write_wang_files(const std::string& recipe, const RecipeLibrary& library, const std::filesystem::path& folder,
+                           int side, const TextureFileOptions& options) {
+  constexpr int k_laid = 8;
+  make_folder(folder);
+  const ProceduralTexture texture =
+      compile_texture(mutated(recipe, library, options), library, compile_options(options));
+  RenderOptions render;
+  render.width = options.width, render.height = options.height, render.progress = options.progress;
+  render.channels = rendered_channels(options) | bit(Channel::color) | bit(Channel::bump);
+  const RenderedTexture rendered = render_texture(texture, render);
+  const WangPlanes planes = wang_planes(rendered, options.channels);
+  WangOptions wang;
+  wang.side = side > 0 ? side : std::min(options.width, options.height) / 8 * 2;
+  wang.seed = static_cast<std::uint32_t>(options.seed);
+  const WangTileSet set = make_wang_tiles(planes.all, 4, rendered.width, rendered.height, wang);
+  WangFiles files;
+  files.side = set.side, files.seam_cost = set.seam_cost;
+  RenderedTexture sheet{4 * set.side, 2 * set.side, {}};
+  TextureFileOptions sheet_options = options;
+  sheet_options.size_mm = options.size_mm / rendered.width * sheet.width;
+  sheet.values.channels[static_cast<std::size_t>(Channel::color)] =
+      interleaved({set.planes[0], set.planes[1], set.planes[2]});
+  for (std::size_t k = 0; k < planes.grey.size(); ++k)
+    sheet.values.channels[static_cast<std::size_t>(planes.grey[k])] = set.planes[3 + k];
+  for (const Channel channel : options.channels)
+    files.channels.push_back(write_channel(sheet, channel, "wang.", "", folder, sheet_options));
+  files.plane = "wang.plane.png";
+  const auto laid = [&](std::size_t plane) { return lay_wang_tiles(set, plane, k_laid, k_laid, 1); };
+  write_color_image(folder / files.plane,
+                    to_color_image(interleaved({laid(0), laid(1), laid(2)}), k_laid * set.side, k_laid * set.side));
+  return files;
+}
+
+std::string texture_shader(const std::string& recipe, const RecipeLibrary& library, ShaderLanguage language,
+                           const TextureFileOptions& options) {
+  return shader_source(compile_texture(mutated(recipe, library, options), library, compile_options(options)),
+                       {language, options.width, options.height});
 }
 
 }  // namespace papilla

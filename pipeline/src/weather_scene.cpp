@@ -14,6 +14,7 @@
 #include <unordered_map>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/units.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
@@ -54,6 +55,7 @@ struct WeatherCache::State {
   std::map<std::string, PaintedMaterial> painted;
   std::map<std::string, std::shared_ptr<const MaterialSurface>> surfaces;
   std::size_t texels = 0;            ///< Of the surfaces.
+  std::optional<StainField> stains;  ///< Made when the first recipe asks for it.
   std::vector<std::uint32_t> shown;  ///< What both were made for: shown_materials().
   std::set<fs::path> files;
 
@@ -61,7 +63,7 @@ struct WeatherCache::State {
   void expect(const Scene& scene) {
     std::vector<std::uint32_t> now = shown_materials(scene);
     if (now == shown) return;
-    painted.clear(), surfaces.clear();
+    painted.clear(), surfaces.clear(), stains.reset();
     texels = 0;
     shown = std::move(now);
   }
@@ -131,9 +133,10 @@ struct PaintJob {
   const ProceduralTexture& texture;
   const SurfaceReading& reading;
   const OwnSurface& own;
-  double depth_mm;     ///< Of a height of 1.
-  double friction;     ///< Without layers.
-  bool tiles = false;  ///< Windows go on round their borders.
+  double depth_mm;                     ///< Of a height of 1.
+  double friction;                     ///< Without layers.
+  bool tiles = false;                  ///< Windows go on round their borders.
+  const StainField* stains = nullptr;  ///< Null when the recipe does not read them.
 };
 
 /// Sums over the texels that something shows, for the means of the channels.
@@ -159,6 +162,14 @@ struct Painted {
   friend bool operator==(const Painted&, const Painted&) = default;
 };
 
+double flow_at(const StainField& stains, const SurfaceTexels& texels, std::size_t at) {
+  const auto vector = [&](const std::vector<float>& from) {
+    return Vec3{static_cast<double>(from[3 * at]), static_cast<double>(from[3 * at + 1]),
+                static_cast<double>(from[3 * at + 2])};
+  };
+  return stains(k_mm_per_metre * vector(texels.positions), vector(texels.normals));
+}
+
 constexpr unsigned bit(Channel c) { return 1U << static_cast<unsigned>(c); }
 constexpr unsigned k_maps = bit(Channel::color) | bit(Channel::bump) | bit(Channel::friction) | bit(Channel::stiffness);
 
@@ -168,7 +179,7 @@ constexpr unsigned k_maps = bit(Channel::color) | bit(Channel::bump) | bit(Chann
 Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vector<float>& sky, double scale,
               double charts, ChannelSums& sums) {
   std::vector<double> x, y;
-  std::vector<float> normals, positions, skies, colours, heights;
+  std::vector<float> normals, positions, skies, flows, colours, heights;
   std::vector<std::uint32_t> place;
   const auto covered = static_cast<std::size_t>(
       std::count_if(texels.covered.begin(), texels.covered.end(), [](auto c) { return c != 0; }));
@@ -190,8 +201,10 @@ Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vecto
       if (job.own.has_relief())
         heights.push_back(job.own.height_at(x.back(), y.back()) / static_cast<float>(job.depth_mm));
       if (!sky.empty()) skies.push_back(sky[at]);
+      if (job.stains) flows.push_back(static_cast<float>(flow_at(*job.stains, texels, at)));
     }
   TexturePoints points{x, y, normals, positions, skies, colours, heights};
+  points.flow = flows;
   if (job.texture.depends_on_neighbours()) points.raster = {texels.width, texels.height, job.tiles, place};
   const TextureValues values = evaluate_texture(job.texture, points, k_maps, 1 / scale);
   const ColorImage image = to_color_image(values[Channel::color], static_cast<int>(place.size()), 1);
@@ -358,7 +371,11 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
                                const std::function<ProceduralTexture(bool)>& compiled) {
   PaintedMaterial material;
   WeatheredMaterial& report = material.report;
-  const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position(), texture.depends_on_sky()};
+  const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position() || texture.depends_on_flow(),
+                               texture.depends_on_sky()};
+  std::optional<StainField>& known = job.cache.stains;
+  if (texture.depends_on_flow() && !known) known = stains_of(job.scene, job.all);
+  const StainField* stains = texture.depends_on_flow() ? &*known : nullptr;
   const auto surface = surface_for(job, index, reading);
   report_material(job, k_laid_out);
   if (!(surface->mm_per_repeat > 0)) {
@@ -372,12 +389,13 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
   if (surface->repeat) {
     const bool tiles = surface->leaves_the_repeat();
     const ProceduralTexture tiling = tiles ? compiled(true) : texture;
-    picture = paint({tiling, reading, *surface->own, job.config.depth_mm, friction, tiles}, *surface->repeat,
+    picture = paint({tiling, reading, *surface->own, job.config.depth_mm, friction, tiles, stains}, *surface->repeat,
                     surface->sky, scale, 1, means);
   } else {
     scale = surface->atlas.texels_per_repeat;
-    picture = paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm, friction}, means, material,
-                          [&](double done) { report_material(job, k_laid_out + done * (k_painted - k_laid_out)); });
+    picture =
+        paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm, friction, false, stains}, means,
+                    material, [&](double done) { report_material(job, k_laid_out + done * (k_painted - k_laid_out)); });
   }
   const double pitch = surface->mm_per_repeat / scale;
   report.keeps_relief = surface->keeps_relief;
@@ -458,6 +476,7 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
     job.cache.files.insert(read.back());
     return from(path);
   };
+  options.target_px = job.config.size;
   const auto compiled = [&](bool seamless) {
     options.seamless = seamless;
     return compile_texture(recipe, job.library, options);

@@ -18,9 +18,9 @@ namespace {
 constexpr double k_plain = 0.6;
 
 /// From the lowest layer to the highest.
-constexpr std::string_view k_order[] = {"greying",   "erosion",   "chipped_paint", "rust_in", "rust_on",
-                                        "scratches", "edge_wear", "polish",        "dirt",    "grime",
-                                        "smears",    "moss",      "wetness",       "dust",    "snow"};
+constexpr std::string_view k_order[] = {"greying",   "erosion", "chipped_paint", "rust_in",     "rust_on", "scratches",
+                                        "edge_wear", "polish",  "dirt",          "flow_stains", "grime",   "smears",
+                                        "moss",      "wetness", "dust",          "snow"};
 
 struct Strength {
   std::string_view word;
@@ -243,7 +243,9 @@ const std::vector<AgeingWord>& ageing_words() {
       {"smudged", "smears=1"},
       {"snowy", "snow=1"},
       {"soiled", "dirt=1"},
-      {"stained", "smears=1 dirt=.4"},
+      {"stained", "flow_stains=1 smears=.5"},
+      {"streaked", "flow_stains=1"},
+      {"streaky", "flow_stains=1"},
       {"used", "scratches=.4 polish=.7"},
       {"weathered", "greying=.7 erosion=.6 dirt=.5"},
       {"wet", "wetness=1"},
@@ -276,6 +278,7 @@ const std::vector<AgeingWord>& ageing_words() {
       {"schneebedeckt", "snow=1"},
       {"speckig", "grime=.6 polish=1"},
       {"staubig", "dust=1"},
+      {"streifig", "flow_stains=1"},
       {"verblasst", "greying=1"},
       {"verblichen", "greying=1"},
       {"verdreckt", "dirt=1 grime=.6"},

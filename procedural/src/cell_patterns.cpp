@@ -316,12 +316,121 @@ class Combination {
     }
   }
 
+  /// apply() to the variables d0, d1, … of a shader.
+  void write_shader(PatternShader& shader, int wanted) const {
+    std::vector<std::string> distances;
+    for (int k = 0; k < wanted; ++k) {
+      distances.push_back("d" + std::to_string(k));
+      const ShaderValues values{{"d", distances.back()}};
+      shader.add("$d = min($d, 1.0e30);\n", values);
+      if (rooted_) shader.add("$d = sqrt(max($d, 0.0));\n", values);
+      if (inverse_) shader.add("$d = 1.0 / (1.0 + max(0.0, $d));\n", values);
+    }
+    if (random_) {
+      shader.add("$out = 0.0;\n");
+      for (std::size_t k = 0; k < distances.size(); ++k)
+        shader.add("$out = $out + $share * $d;\n", {{"share", share_[k]}, {"d", distances[k]}});
+    } else {
+      shader.add("$out = $value;\n", {{"value", plain_ ? distances[0] : shader.formula(func_, distances)}});
+    }
+  }
+
  private:
   bool rooted_, inverse_;
   Program func_;
   bool random_, plain_ = false;
   std::array<double, k_most_distances> share_{};
 };
+
+/// An expression of dx and dy.
+std::string metric_shader(CellDistance metric, double a, double b, const std::string& dx, const std::string& dy) {
+  const auto power = [](const std::string& d, double p) {
+    return "k_power(abs(" + d + "), " + ShaderValue(p).text + ")";
+  };
+  switch (metric) {
+    case CellDistance::squared: return dx + " * " + dx + " + " + dy + " * " + dy;
+    case CellDistance::manhattan: return "abs(" + dx + ") + abs(" + dy + ")";
+    case CellDistance::minkowski: break;
+  }
+  return power(dx, a) + " + " + power(dy, b);
+}
+
+/// The nearest of the points that were met, in order of their distances, in private variables of the texture: distance,
+/// place, difference and number of the point, four each.
+constexpr std::string_view k_met_points = R"(
+float $tdistance[4];
+float $tplace_x[4];
+float $tplace_y[4];
+float $tdiffer_x[4];
+float $tdiffer_y[4];
+float $tnumber[4];
+void $tmeet(float d, float px, float py, float dx, float dy, float number) {
+int place = $wanted;
+for (int k = $wanted - 1; k >= 0; --k) {
+if (d < $tdistance[k]) {
+place = k;
+}
+}
+for (int j = $wanted - 1; j > place; --j) {
+$tdistance[j] = $tdistance[j - 1];
+$tplace_x[j] = $tplace_x[j - 1];
+$tplace_y[j] = $tplace_y[j - 1];
+$tdiffer_x[j] = $tdiffer_x[j - 1];
+$tdiffer_y[j] = $tdiffer_y[j - 1];
+$tnumber[j] = $tnumber[j - 1];
+}
+if (place < $wanted) {
+$tdistance[place] = d;
+$tplace_x[place] = px;
+$tplace_y[place] = py;
+$tdiffer_x[place] = dx;
+$tdiffer_y[place] = dy;
+$tnumber[place] = number;
+}
+}
+)";
+
+/// Meets all points of the cells about a place, as cell_row() does.
+constexpr std::string_view k_meet_cells = R"(
+void $tcells(float px, float py, float period_x, float period_y, uint seed) {
+float home_x = floor(px);
+float home_y = floor(py);
+for (int q = -2; q <= 2; ++q) {
+for (int p = -2; p <= 2; ++p) {
+float cell_x = home_x + float(p);
+float cell_y = home_y + float(q);
+uint cx = lattice(wrap(cell_x, period_x));
+uint cy = lattice(wrap(cell_y, period_y));
+uint hash = mix_bits(cx, cy, seed);
+float move_x = 0.0;
+float move_y = 0.0;
+$displacement
+int count = int(($tcounts[int((hash & 255u) >> 2u)] >> ((hash & 3u) * 8u)) & 255u);
+for (int k = 0; k < count; ++k) {
+uint a = mix_bits(hash, uint(2 * k + 1), 0x51ED270Bu);
+uint b = mix_bits(hash, uint(2 * k + 2), 0x51ED270Bu);
+float sx = unit_number(a);
+float sy = unit_number(b);
+float fx = sx + (0.5 - sx) * $smooth + move_x;
+float fy = sy + (0.5 - sy) * $smooth + move_y;
+float dx = float(p) + fx - (px - home_x);
+float dy = float(q) + fy - (py - home_y);
+$tmeet($metric, cell_x + fx, cell_y + fy, dx, dy, unit_number(mix_bits(a, b, 3u)));
+}
+}
+}
+}
+)";
+
+constexpr std::string_view k_displacements[] = {
+    "",
+    "move_x = float(cy & 1u) * $displace;",
+    "move_y = float(cx & 1u) * $displace;",
+    "move_x = float(cy & 1u) * $displace;\nmove_y = float(cx & 1u) * $displace;",
+    "move_x = float((cx ^ cy) & 1u) * $displace;",
+    "move_y = float((cx ^ cy) & 1u) * $displace;",
+    "move_x = (unit_number(mix_bits(hash, 11u, 7u)) - 0.5) * $displace;\n"
+    "move_y = (unit_number(mix_bits(hash, 13u, 7u)) - 0.5) * $displace;"};
 
 CellDistance metric_of(const TypeArguments& arguments) {
   constexpr CellDistance metrics[] = {CellDistance::squared, CellDistance::manhattan, CellDistance::minkowski};
@@ -387,7 +496,68 @@ class Voronoi final : public Pattern {
     combination_.apply(row, sum, cells.wanted);
   }
 
+  void write_shader(PatternShader& shader) const override {
+    std::vector<ShaderValue> counts;
+    for (std::size_t k = 0; k < cells_.counts.size(); k += 4)
+      counts.emplace_back(static_cast<std::uint32_t>(cells_.counts[k] | cells_.counts[k + 1] << 8 |
+                                                     cells_.counts[k + 2] << 16 | cells_.counts[k + 3] << 24));
+    shader.add_array("$tcounts", "uint", counts);
+    const ShaderValues values{
+        {"displacement", std::string(k_displacements[static_cast<std::size_t>(cells_.displace_mode)])},
+        {"displace", cells_.displace},
+        {"wanted", cells_.wanted},
+        {"smooth", cells_.smooth},
+        {"metric", metric_shader(cells_.distance, cells_.power_a, cells_.power_b, "dx", "dy")}};
+    shader.add_function(k_met_points, values);
+    shader.add_function(k_meet_cells, values);
+    for (int octave = 0; octave < octaves_; ++octave) {
+      const double wanted = k_cells * std::pow(lacunarity_, octave);
+      const double fx = fitted(wanted, shader.period_x), fy = fitted(wanted, shader.period_y);
+      for (int k = 0; k < cells_.wanted; ++k)
+        shader.add(octave == 0 ? "$tdistance[$k] = 1.0e30;\n" : "$tdistance[$k] = $first;\n",
+                   {{"k", k}, {"first", first_distance_shader("$tdistance[" + std::to_string(k) + "]")}});
+      shader.add("$tcells($x * $fx, $y * $fy, $period_x, $period_y, $seed);\n",
+                 {{"fx", fx},
+                  {"fy", fy},
+                  {"period_x", std::round(fx * shader.period_x)},
+                  {"period_y", std::round(fy * shader.period_y)},
+                  {"seed", mix_bits(seed_, static_cast<std::uint32_t>(octave), 53)}});
+      for (int k = 0; k < cells_.wanted; ++k) {
+        const ShaderValues sum{
+            {"d", "d" + std::to_string(k)}, {"k", k}, {"w", weights_[static_cast<std::size_t>(octave)]}};
+        shader.add(octave == 0 ? "float $d = $w * min($tdistance[$k], 1.0e30);\n"
+                               : "$d = $d + $w * min($tdistance[$k], 1.0e30);\n",
+                   sum);
+        if (octave == 0 && needs_points_) write_point(shader, k);
+      }
+    }
+    if (needs_points_)
+      for (int k = 0; k < cells_.wanted; ++k) shader.set_info(k * k_infos_of_point + 4, "d" + std::to_string(k));
+    combination_.write_shader(shader, cells_.wanted);
+  }
+
  private:
+  /// keep_point() but the distance.
+  static void write_point(PatternShader& shader, int k) {
+    const std::string index = "[" + std::to_string(k) + "]";
+    if (k == 0) shader.add("$id = $tnumber[0];\n");
+    const char* names[] = {"$tplace_x", "$tplace_y", "$tdiffer_x", "$tdiffer_y"};
+    for (int n = 0; n < 4; ++n)
+      shader.set_info(k * k_infos_of_point + n, names[n] + index + " / " + ShaderValue(k_cells).text);
+    shader.set_info(k * k_infos_of_point + 5, "$tnumber" + index);
+  }
+
+  std::string first_distance_shader(const std::string& last) const {
+    const std::string p = ShaderValue(sponge_power_).text;
+    switch (sponge_) {
+      case 1: return "k_power(max(0.0, " + last + "), " + p + ")";
+      case 2: return last + " * " + p;
+      case 3: return last + " + " + p;
+      case 4: return p;
+      default: return "1.0e30";
+    }
+  }
+
   double first_distance(double last) const {
     switch (sponge_) {
       case 1: return std::pow(std::max(0.0, last), sponge_power_);
@@ -493,6 +663,45 @@ class SeamlessVoronoi final : public Pattern {
       }
     }
     combination_.apply(row, distance, wanted_);
+  }
+
+  void write_shader(PatternShader& shader) const override {
+    std::vector<ShaderValue> sites;
+    for (const Site& site : sites_)
+      for (const double v : {site.x, site.y, site.id}) sites.emplace_back(v);
+    shader.add_array("$tsites", "float", sites);
+    const double spacing = std::sqrt(static_cast<double>(sites_.size()));
+    const std::string scale = ShaderValue(spacing).text;
+    const ShaderValues values{
+        {"wanted", wanted_},
+        {"count", static_cast<int>(sites_.size())},
+        {"fx", fitted(1, shader.period_x)},
+        {"fy", fitted(1, shader.period_y)},
+        {"metric", metric_shader(metric_, a_, b_, "(dx * " + scale + ")", "(dy * " + scale + ")")}};
+    shader.add_function(k_met_points, values);
+    for (int k = 0; k < wanted_; ++k) shader.add("$tdistance[$k] = 1.0e30;\n", {{"k", k}});
+    shader.add(R"(
+float px = fract_of($x * $fx);
+float py = fract_of($y * $fy);
+for (int k = 0; k < $count; ++k) {
+float site_x = $tsites[3 * k];
+float site_y = $tsites[3 * k + 1];
+float dx = site_x - px;
+float dy = site_y - py;
+dx = dx - floor(dx + 0.5);
+dy = dy - floor(dy + 0.5);
+$tmeet($metric, site_x, site_y, dx, dy, $tsites[3 * k + 2]);
+}
+$id = $tnumber[0];
+)",
+               values);
+    for (int k = 0; k < wanted_; ++k) {
+      const char* names[] = {"$tplace_x", "$tplace_y", "$tdiffer_x", "$tdiffer_y", "$tdistance", "$tnumber"};
+      for (int n = 0; n < k_infos_of_point; ++n)
+        shader.set_info(k * k_infos_of_point + n, names[n] + ("[" + std::to_string(k) + "]"));
+      shader.add("float d$k = $tdistance[$k];\n", {{"k", k}});
+    }
+    combination_.write_shader(shader, wanted_);
   }
 
  private:

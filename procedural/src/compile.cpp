@@ -220,6 +220,7 @@ ProceduralTexture compile_texture(std::string_view recipe, const RecipeLibrary& 
 bool ProceduralTexture::depends_on_normal() const noexcept { return graph_->uses_normal; }
 bool ProceduralTexture::depends_on_position() const noexcept { return graph_->uses_position; }
 bool ProceduralTexture::depends_on_sky() const noexcept { return graph_->uses_sky; }
+bool ProceduralTexture::depends_on_flow() const noexcept { return graph_->uses_flow; }
 bool ProceduralTexture::depends_on_time() const noexcept { return graph_->uses_time; }
 bool ProceduralTexture::depends_on_neighbours() const noexcept { return !graph_->near.empty(); }
 std::vector<std::array<double, 3>> ProceduralTexture::dirt_directions() const {

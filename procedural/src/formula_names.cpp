@@ -45,6 +45,7 @@ const std::map<std::string_view, RowVariable>& row_variables() {
       {"posy", block_row(BlockRow::posy)},
       {"posz", block_row(BlockRow::posz)},
       {"sky", block_row(BlockRow::sky)},
+      {"flow", block_row(BlockRow::flow)},
       {"lowermain", block_row(BlockRow::lower_main)},
       {"lowerbump", block_row(BlockRow::lower_bump)},
       {"loweralpha", block_row(BlockRow::lower_alpha)},
@@ -184,6 +185,7 @@ Value FormulaNames::point_variable(std::string_view name, std::size_t position) 
   if (name == "normaldot") scope_.uses_normal = scope_.graph->uses_normal = true;
   if (name == "posx" || name == "posy" || name == "posz") scope_.graph->uses_position = true;
   if (name == "sky") scope_.graph->uses_sky = true;
+  if (name == "flow") scope_.graph->uses_flow = true;
   if (name == "get0" || name == "get1") scope_.uses_infos = true;
   if (const auto it = row_variables().find(name); it != row_variables().end()) {
     if (scope_.stage < it->second.from) refuse_early(name, position);

@@ -33,6 +33,8 @@ constexpr FunctionInfo k_functions[] = {
     {"f3", 0, "", false, "within func: to the third"},
     {"f4", 0, "", false, "within func: to the fourth"},
     {"floor", 1, "n", false, "largest integer that is not larger"},
+    {"flow", 0, "", false,
+     "dirt that ran down to the point in a scene, over what falls on a level surface; 1 without a scene"},
     {"gain", 2, "nn", false, "gain(a, x): bias on both halves"},
     {"get", 1, "n", false, "information number i of the texture, 0 to 31"},
     {"get0", 0, "", false, "get(0)"},

@@ -251,4 +251,10 @@ const KernelInfo* find_kernel(std::string_view name) noexcept {
   return it == std::end(k_kernels) ? nullptr : it;
 }
 
+std::string_view kernel_name(Kernel kernel) noexcept {
+  return std::find_if(std::begin(k_kernels), std::end(k_kernels),
+                      [&](const KernelInfo& k) { return k.kernel == kernel; })
+      ->name;
+}
+
 }  // namespace papilla::procedural_detail

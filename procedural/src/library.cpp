@@ -52,6 +52,9 @@ dirt           fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.7|oct
                |bumpblend=add|bumpfunction=.12*main|frictionfunction=.55
 smears         smear|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.8|density=.35|turbulence=.1|cols=<.36,.30,.21>,<.24,.19,.12>
                |alphafunction=smoothstep(.1,.9,main)*time*.9|bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.8
+flow_stains    fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=<.08,.6>|octaves=5|h=.5|cols=<.15,.12,.09>,<.30,.25,.18>
+               |alphafunction=smoothstep(.05,1,flow*time*(.4+1.2*main))*.9
+               |bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*1.1
 scratch_set    base|mainfunction=smoothstep(.42,.6,noise2d(x*1.5,y*70))*step(noise2d(x*2+7,y*5),.12)
 scratches      base|ismodifier=true|idtype=ageing|idmaterial=paint
                |mainfunction=max(max([scratch_set|rot=.4],[scratch_set|rot=1.1|seed=3|du=.3]),max([scratch_set|rot=2.2|dv=.7],[scratch_set|rot=2.9|du=.6]))

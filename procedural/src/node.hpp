@@ -17,6 +17,7 @@
 namespace papilla::procedural_detail {
 
 class Evaluator;
+class PatternShader;
 struct Block;
 struct ChannelRows;
 
@@ -42,6 +43,8 @@ class Pattern {
   virtual unsigned given_channels() const { return 0; }
   /// As evaluate(), whose result is the channel main, which is always given. @pre given_channels() != 0.
   virtual void channels(const PatternRow& row, ChannelRows& out) const;
+  /// The same as a shader. @throws InvalidInput through shader.refuse() where there is none.
+  virtual void write_shader(PatternShader& shader) const = 0;
 };
 
 /// All bits by Channel.
@@ -93,7 +96,7 @@ struct Graph {
   std::vector<double> constants;
   std::vector<NearRequest> near;
   int root = 0;
-  bool uses_normal = false, uses_position = false, uses_sky = false, uses_time = false;
+  bool uses_normal = false, uses_position = false, uses_sky = false, uses_flow = false, uses_time = false;
   std::set<std::array<double, 3>> dirt_directions;  ///< Of the textures that use the normal.
   std::set<std::string> recipes;
   /// How many neighbourhood statistics rest on each other, at most.

@@ -82,6 +82,21 @@ class Fbm final : public Pattern {
     for (int i = 0; i < row.n; ++i) row.out[i] = 0.5 + factor_ * (row.out[i] - middle_);
   }
 
+  void write_shader(PatternShader& shader) const override {
+    shader.add("float value = 0.0;\nfloat weight = 0.0;\nfloat signal = 0.0;\nfloat noise = 0.0;\n");
+    double cells = k_cells;
+    for (std::size_t k = 0; k < weights_.size(); ++k, cells *= lacunarity_) {
+      const double share = kept(cells, shader.texel, k);
+      if (share <= 0) break;
+      const double w = weights_[k] * share;
+      if (w == 0 && k > 0) continue;
+      const Octave octave = octave_of(cells, static_cast<int>(k), seed_, shader.period_x, shader.period_y);
+      shader.add("noise = $noise;\n", {{"noise", shader.noise("$x", "$y", octave, z_)}});
+      shader.add(octave_statements(k == 0), {{"w", w}, {"offset", offset_}, {"gain", gain_}});
+    }
+    shader.add("$out = 0.5 + $factor * (value - $middle);\n", {{"factor", factor_}, {"middle", middle_}});
+  }
+
  private:
   /// w_k = lacunarity^(-H k). What the missing octaves beyond both ends would add to the variogram is added to the
   /// first (whose increments grow with r^2, as those of all slower octaves) and to the last one (whose increments are
@@ -154,6 +169,26 @@ class Fbm final : public Pattern {
     }
   }
 
+  /// add_octave() in a shader.
+  std::string_view octave_statements(bool first) const {
+    switch (kind_) {
+      case FbmKind::fbm: return "value = value + $w * noise;\n";
+      case FbmKind::hetero:
+        return first ? "value = $offset + noise;\n" : "value = value + (noise + $offset) * $w * value;\n";
+      case FbmKind::multi:
+        return first ? "value = $w * noise + $offset;\n" : "value = value * ($w * noise + $offset);\n";
+      case FbmKind::hybrid:
+        return first
+                   ? "value = (noise + $offset) * $w;\nweight = value;\n"
+                   : "signal = (noise + $offset) * $w;\nweight = min(weight, 1.0);\nvalue = value + weight * signal;\n"
+                     "weight = weight * signal;\n";
+      case FbmKind::ridged: break;
+    }
+    return first ? "signal = $offset - abs(noise);\nvalue = signal * signal;\nweight = value;\n"
+                 : "signal = $offset - abs(noise);\nsignal = signal * signal * clamp(weight * $gain, 0.0, 1.0);\n"
+                   "weight = signal;\nvalue = value + signal * $w;\n";
+  }
+
   /// Maps the middle 99 % of the values to [0, 1]: the kinds differ in range by powers of ten.
   void stretch_to_unit() {
     std::vector<double> values;
@@ -185,35 +220,72 @@ class Fbm final : public Pattern {
   double middle_ = 0, factor_ = 1;
 };
 
-std::unique_ptr<Pattern> make_turbulence(TypeArguments& arguments) {
-  const double octaves = limited_octaves(arguments), least = arguments.number("minimumoctaves"),
-               z = arguments.number("zvalue");
-  const bool absolute = arguments.flag("absturb"), dynamic = arguments.flag("dynamicoctaves");
-  const std::uint32_t seed = arguments.seed();
-  return row_pattern([=](const PatternRow& row) {
-    double noise[k_row];
-    std::fill_n(row.out, row.n, 0.0);
+/// Octaves of weight 2^-k, and what maps their sum to [0, 1].
+struct Turbulence {
+  explicit Turbulence(const TypeArguments& arguments)
+      : octaves(limited_octaves(arguments)),
+        least(arguments.number("minimumoctaves")),
+        z(arguments.number("zvalue")),
+        absolute(arguments.flag("absturb")),
+        dynamic(arguments.flag("dynamicoctaves")),
+        seed(arguments.seed()) {}
+
+  /// Calls visit(octave, weight) for those that a row of this texel and these periods shows.
+  /// @returns middle and factor.
+  template <class Visit>
+  std::pair<double, double> visit(double texel, double period_x, double period_y, Visit&& visit) const {
     double weights = 0, squares = 0;
     for (int k = 0; k < octaves; ++k) {
       const double cells = k_cells * std::ldexp(1.0, k);
-      if (dynamic && k > 0 && k >= least && row.texel > 0 && cells * row.texel >= 0.5) break;
+      if (dynamic && k > 0 && k >= least && texel > 0 && cells * texel >= 0.5) break;
       const double w = std::ldexp(std::min(1.0, octaves - k), -k);
-      octave_row(row, octave_of(cells, k, seed, row.period_x, row.period_y), z, noise);
-      for (int i = 0; i < row.n; ++i) row.out[i] += w * (absolute ? std::abs(noise[i]) : noise[i]);
+      visit(octave_of(cells, k, seed, period_x, period_y), w);
       weights += w, squares += w * w;
     }
-    for (int i = 0; i < row.n; ++i)
-      row.out[i] =
-          absolute ? row.out[i] / (0.6 * weights) : 0.5 + k_spread / k_noise_rms / std::sqrt(squares) * row.out[i];
-  });
+    return absolute ? std::pair(0.0, 1 / (0.6 * weights)) : std::pair(0.5, k_spread / k_noise_rms / std::sqrt(squares));
+  }
+
+  double octaves, least, z;
+  bool absolute, dynamic;
+  std::uint32_t seed;
+};
+
+std::unique_ptr<Pattern> make_turbulence(TypeArguments& arguments) {
+  const Turbulence turbulence(arguments);
+  return row_pattern(
+      [turbulence](const PatternRow& row) {
+        double noise[k_row];
+        std::fill_n(row.out, row.n, 0.0);
+        const auto [middle, factor] =
+            turbulence.visit(row.texel, row.period_x, row.period_y, [&](const Octave& octave, double w) {
+              octave_row(row, octave, turbulence.z, noise);
+              for (int i = 0; i < row.n; ++i) row.out[i] += w * (turbulence.absolute ? std::abs(noise[i]) : noise[i]);
+            });
+        for (int i = 0; i < row.n; ++i) row.out[i] = middle + factor * row.out[i];
+      },
+      [turbulence](PatternShader& shader) {
+        shader.add("float sum = 0.0;\n");
+        const auto [middle, factor] =
+            turbulence.visit(shader.texel, shader.period_x, shader.period_y, [&](const Octave& octave, double w) {
+              shader.add(turbulence.absolute ? "sum = sum + $w * abs($noise);\n" : "sum = sum + $w * $noise;\n",
+                         {{"w", w}, {"noise", shader.noise("$x", "$y", octave, turbulence.z)}});
+            });
+        shader.add("$out = $middle + $factor * sum;\n", {{"middle", middle}, {"factor", factor}});
+      });
 }
 
 std::unique_ptr<Pattern> make_noise(TypeArguments& arguments) {
   const std::uint32_t seed = arguments.seed();
-  return row_pattern([seed](const PatternRow& row) {
-    octave_row(row, octave_of(k_cells, 0, seed, row.period_x, row.period_y), 0, row.out);
-    for (int i = 0; i < row.n; ++i) row.out[i] = 0.5 + k_spread / k_noise_rms * row.out[i];
-  });
+  return row_pattern(
+      [seed](const PatternRow& row) {
+        octave_row(row, octave_of(k_cells, 0, seed, row.period_x, row.period_y), 0, row.out);
+        for (int i = 0; i < row.n; ++i) row.out[i] = 0.5 + k_spread / k_noise_rms * row.out[i];
+      },
+      [seed](PatternShader& shader) {
+        const Octave octave = octave_of(k_cells, 0, seed, shader.period_x, shader.period_y);
+        shader.add("$out = 0.5 + $factor * $noise;\n",
+                   {{"factor", k_spread / k_noise_rms}, {"noise", shader.noise("$x", "$y", octave)}});
+      });
 }
 
 }  // namespace

@@ -9,6 +9,45 @@
 namespace papilla::procedural_detail {
 namespace {
 
+/// in_voronoi() in a shader.
+constexpr std::string_view k_voronoi_shader = R"(
+float home_column = column;
+float home_line = line;
+float least = 1.0e30;
+float second = 1.0e30;
+float nx = 0.0;
+float ny = 0.0;
+float mx = 0.0;
+float my = 0.0;
+for (int q = -2; q <= 2; ++q) {
+for (int p = -2; p <= 2; ++p) {
+float at_column = home_column + float(p);
+float at_line = home_line + float(q);
+uint h = mix_bits(whole(wrap(at_column, $columns)), whole(wrap(at_line, $rows)), $seed73);
+float dx = at_column + 0.2 + 0.6 * float(h & 1023u) / 1024.0 - px;
+float dy = at_line + 0.2 + 0.6 * float((h >> 10u) & 1023u) / 1024.0 - py;
+float d = dx * dx + dy * dy;
+if (d < least) {
+second = least;
+mx = nx;
+my = ny;
+least = d;
+nx = dx;
+ny = dy;
+column = at_column;
+line = at_line;
+} else if (d < second) {
+second = d;
+mx = dx;
+my = dy;
+}
+}
+}
+sx = 0.5 - nx;
+sy = 0.5 - ny;
+inside = edge((second - least) / (2.0 * max(hypot(mx - nx, my - ny), 1.0e-9)) - $joint, $texel);
+)";
+
 /// Width of the joints, as a share of a cell.
 constexpr double k_joint = 0.08;
 
@@ -62,6 +101,39 @@ class Overview final : public Pattern {
         for (int i = 0; i < row.n; ++i)
           if (choice[i] == k) out.row[c][i] = part.row[c][i] * (is_zero_in_joints(c) ? inside[i] : 1);
     }
+  }
+
+  void write_shader(PatternShader& shader) const override {
+    const double fx = fitted(k_cells, shader.period_x), fy = fitted(k_cells, shader.period_y);
+    const ShaderValues values{{"fx", fx},
+                              {"fy", fy},
+                              {"columns", std::round(fx * shader.period_x)},
+                              {"rows", std::round(fy * shader.period_y)},
+                              {"texel", shader.texel * fx},
+                              {"joint", k_joint / 2},
+                              {"seed73", seed_ + 73},
+                              {"seed79", seed_ + 79},
+                              {"seed", seed_},
+                              {"shown", static_cast<std::uint32_t>(shown_.size())}};
+    shader.add(
+        "float px = $x * $fx;\nfloat py = $y * $fy;\nfloat column = floor(px);\nfloat line = floor(py);\n"
+        "float sx = px - column;\nfloat sy = py - line;\nfloat inside = 1.0;\n",
+        values);
+    shader.add(
+        voronoi_ ? k_voronoi_shader : "inside = edge(min(min(sx, sy), min(1.0 - sx, 1.0 - sy)) - $joint, $texel);\n",
+        values);
+    shader.add(
+        "uint c = whole(wrap(column, $columns));\nuint l = whole(wrap(line, $rows));\n"
+        "uint choice = ($seed + 5u * l + c) % $shown;\n$id = unit_number(mix_bits(c, l, $seed79));\n",
+        values);
+    shader.set_info(0, "float(c)");
+    shader.set_info(1, "float(l)");
+    for (std::size_t k = 0; k < shown_.size(); ++k)
+      shader.add(
+          "if (choice == $k) {\n$tbelow = $call;\n}\n",
+          {{"k", static_cast<std::uint32_t>(k)}, {"call", shader.channels(shown_[k], "sx", "sy", shader.texel * fx)}});
+    for (const char* part : {"main", "bump", "red", "green", "blue"})
+      shader.add("$tbelow.$part = $tbelow.$part * inside;\n", {{"part", part}});
   }
 
  private:

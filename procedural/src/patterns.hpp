@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "node.hpp"
+#include "pattern_shader.hpp"
 
 namespace papilla::procedural_detail {
 
@@ -53,34 +54,38 @@ std::vector<double> numbers_of(const TypeArguments& arguments, std::string_view 
 /// The repeats per unit that are next to `wanted` and fit the period, in whole repeats; `wanted` when period is 0.
 double fitted(double wanted, double period, double multiple = 1);
 
-/// A pattern from a function of a row and a point in it.
+/// A pattern from a function of a row and a point in it, and what writes the same into a shader.
 template <class F>
 class PointPattern final : public Pattern {
  public:
-  explicit PointPattern(F f) : f_(std::move(f)) {}
+  PointPattern(F f, WriteShader shader) : f_(std::move(f)), shader_(std::move(shader)) {}
   void evaluate(const PatternRow& row) const override {
     for (int i = 0; i < row.n; ++i) row.out[i] = f_(row, i);
   }
+  void write_shader(PatternShader& shader) const override { shader_(shader); }
 
  private:
   F f_;
+  WriteShader shader_;
 };
 template <class F>
-std::unique_ptr<Pattern> point_pattern(F f) {
-  return std::make_unique<PointPattern<F>>(std::move(f));
+std::unique_ptr<Pattern> point_pattern(F f, WriteShader shader) {
+  return std::make_unique<PointPattern<F>>(std::move(f), std::move(shader));
 }
 template <class F>
 class RowPattern final : public Pattern {
  public:
-  explicit RowPattern(F f) : f_(std::move(f)) {}
+  RowPattern(F f, WriteShader shader) : f_(std::move(f)), shader_(std::move(shader)) {}
   void evaluate(const PatternRow& row) const override { f_(row); }
+  void write_shader(PatternShader& shader) const override { shader_(shader); }
 
  private:
   F f_;
+  WriteShader shader_;
 };
 template <class F>
-std::unique_ptr<Pattern> row_pattern(F f) {
-  return std::make_unique<RowPattern<F>>(std::move(f));
+std::unique_ptr<Pattern> row_pattern(F f, WriteShader shader) {
+  return std::make_unique<RowPattern<F>>(std::move(f), std::move(shader));
 }
 
 /// sum of noise / 2^k over octaves, at frequency `cells`; 0 octaves give 0.

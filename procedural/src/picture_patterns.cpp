@@ -68,6 +68,9 @@ bool glyph_dot(char character, int column, int row) noexcept {
   return k_glyphs[character - ' '][row] >> (4 - column) & 1;
 }
 
+constexpr const char* k_no_raster =
+    "it is a raster of texels, which a shader would need as a picture; write its channels";
+
 /// A grid of values over the unit square.
 struct Grid {
   int width = 1, height = 1;
@@ -188,6 +191,7 @@ class Image final : public Pattern {
 
   unsigned given_channels() const override { return in_colour_ ? 1U << static_cast<unsigned>(Channel::color) : 0; }
   void evaluate(const PatternRow& row) const override { sample(row, parts_[0], row.out); }
+  void write_shader(PatternShader& shader) const override { shader.refuse(k_no_raster); }
   void channels(const PatternRow& row, ChannelRows& out) const override {
     for (auto& values : out.row) std::fill_n(values, row.n, 0.0);
     for (std::size_t k = 0; k < 3; ++k) sample(row, parts_[k], out.row[static_cast<std::size_t>(Channel::color) + k]);
@@ -313,10 +317,12 @@ std::unique_ptr<Pattern> make_ifs(TypeArguments& arguments) {
   }
   Grid grid = chaos_game(system, arguments.integer("kilon"), arguments.number("scalefak"),
                          numbers_of(arguments, "posandscale"), arguments.seed());
-  return point_pattern([grid = std::move(grid)](const PatternRow& row, int i) {
-    const double x = row.x[i], y = row.y[i];
-    return x < 0 || y < 0 || x > 1 || y > 1 ? 0.0 : grid.sample(x, y, 1);
-  });
+  return point_pattern(
+      [grid = std::move(grid)](const PatternRow& row, int i) {
+        const double x = row.x[i], y = row.y[i];
+        return x < 0 || y < 0 || x > 1 || y > 1 ? 0.0 : grid.sample(x, y, 1);
+      },
+      [](PatternShader& shader) { shader.refuse(k_no_raster); });
 }
 
 std::unique_ptr<Pattern> make_text(TypeArguments& arguments) {
@@ -354,25 +360,27 @@ std::unique_ptr<Pattern> make_text(TypeArguments& arguments) {
     };
     return set(x) || (bold && set(x - 0.5));
   };
-  return row_pattern([=](const PatternRow& row) {
-    double inside[k_row];
-    if (!fill.empty()) {
-      Block block = *row.block;
-      block.x = row.x, block.y = row.y, block.texel = row.texel;
-      row.evaluator->main_value(fill[0], block, inside);
-    }
-    for (int i = 0; i < row.n; ++i) {
-      double x = row.x[i], y = row.y[i];
-      if (row.period_x > 0)
-        x *= fitted(1, row.period_x), y *= fitted(1, row.period_y), x -= std::floor(x), y -= std::floor(y);
-      int hits = 0;
-      for (int k = 0; k < 4; ++k) {  // Four samples over a texel.
-        const double sx = x + ((k & 1) - 0.5) * 0.5 * row.texel, sy = y + ((k >> 1) - 0.5) * 0.5 * row.texel;
-        hits += dot((sx - 0.5) * scale + wide / 2, (sy - 0.5) * scale + high / 2) ? 1 : 0;
-      }
-      row.out[i] = hits / 4.0 * (fill.empty() ? 1 : inside[i]);
-    }
-  });
+  return row_pattern(
+      [=](const PatternRow& row) {
+        double inside[k_row];
+        if (!fill.empty()) {
+          Block block = *row.block;
+          block.x = row.x, block.y = row.y, block.texel = row.texel;
+          row.evaluator->main_value(fill[0], block, inside);
+        }
+        for (int i = 0; i < row.n; ++i) {
+          double x = row.x[i], y = row.y[i];
+          if (row.period_x > 0)
+            x *= fitted(1, row.period_x), y *= fitted(1, row.period_y), x -= std::floor(x), y -= std::floor(y);
+          int hits = 0;
+          for (int k = 0; k < 4; ++k) {  // Four samples over a texel.
+            const double sx = x + ((k & 1) - 0.5) * 0.5 * row.texel, sy = y + ((k >> 1) - 0.5) * 0.5 * row.texel;
+            hits += dot((sx - 0.5) * scale + wide / 2, (sy - 0.5) * scale + high / 2) ? 1 : 0;
+          }
+          row.out[i] = hits / 4.0 * (fill.empty() ? 1 : inside[i]);
+        }
+      },
+      [](PatternShader& shader) { shader.refuse(k_no_raster); });
 }
 
 }  // namespace

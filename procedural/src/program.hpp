@@ -31,6 +31,7 @@ enum class BlockRow : std::uint8_t {
   posy,
   posz,
   sky,
+  flow,
   lower_main,
   lower_bump,
   lower_alpha,
@@ -98,5 +99,7 @@ struct KernelInfo {
 
 /// nullptr when there is none of that name.
 const KernelInfo* find_kernel(std::string_view name) noexcept;
+/// Of the first name that has this kernel. @pre it is one of the table.
+std::string_view kernel_name(Kernel kernel) noexcept;
 
 }  // namespace papilla::procedural_detail

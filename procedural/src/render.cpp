@@ -26,13 +26,16 @@ constexpr std::int64_t k_most_texels = std::int64_t{1} << 30;
 constexpr std::size_t k_most_near_texels = std::size_t{1} << 26;
 constexpr double k_most_factor = 10;  ///< Of friction and stiffness.
 
+/// Rows of BlockRow::column to BlockRow::flow.
+constexpr std::size_t k_known_rows = static_cast<std::size_t>(BlockRow::flow) + 1;
+
 /// Buffers of a thread for a row of points.
 struct Workspace {
   explicit Workspace(const Graph& graph) : evaluator(graph) {}
   Evaluator evaluator;
   ChannelRows out;
   double x[k_row], y[k_row];
-  double known[10][k_row];  ///< Rows of BlockRow::column to BlockRow::sky.
+  double known[k_known_rows][k_row];
   double color[3][k_row], height[k_row];
   std::uint32_t texels[k_row];
 };
@@ -45,7 +48,7 @@ struct Raster {
 void fill_block_rows(Workspace& w, Block& block, const Raster& raster, std::int64_t first,
                      const TexturePoints* points) {
   const int n = block.n;
-  for (std::size_t k = 0; k < 10; ++k) block.rows[k] = w.known[k];
+  for (std::size_t k = 0; k < k_known_rows; ++k) block.rows[k] = w.known[k];
   const auto row = [&](BlockRow r) { return w.known[static_cast<std::size_t>(r)]; };
   // A block lies within one row of the raster; points without one are numbered in rows of 2^20.
   const auto width = raster.columns > 0 ? static_cast<std::int64_t>(raster.columns) : std::int64_t{1} << 20;
@@ -63,6 +66,7 @@ void fill_block_rows(Workspace& w, Block& block, const Raster& raster, std::int6
     row(BlockRow::posy)[i] = solid ? static_cast<double>(points->positions[3 * k + 1]) : block.y[i];
     row(BlockRow::posz)[i] = solid ? static_cast<double>(points->positions[3 * k + 2]) : 0;
     row(BlockRow::sky)[i] = points && !points->sky.empty() ? static_cast<double>(points->sky[k]) : 1;
+    row(BlockRow::flow)[i] = points && !points->flow.empty() ? static_cast<double>(points->flow[k]) : 1;
   }
   block.solid = solid;
   if (points && !points->color.empty())
@@ -186,8 +190,8 @@ TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePo
   const std::size_t count = points.x.size();
   const auto fits = [&](std::size_t size, std::size_t parts) { return size == 0 || size == count * parts; };
   if (points.y.size() != count || !fits(points.normals.size(), 3) || !fits(points.positions.size(), 3) ||
-      !fits(points.sky.size(), 1) || !fits(points.color.size(), 3) || !fits(points.height.size(), 1) ||
-      !fits(points.raster.at.size(), 1))
+      !fits(points.sky.size(), 1) || !fits(points.flow.size(), 1) || !fits(points.color.size(), 3) ||
+      !fits(points.height.size(), 1) || !fits(points.raster.at.size(), 1))
     throw InvalidInput("evaluate_texture: the spans have unlike lengths for " + std::to_string(count) + " points");
   const Graph& graph = texture.graph();
   const NearRaster raster{points.raster.width, points.raster.height, points.raster.repeats};

@@ -241,7 +241,7 @@ constexpr TypeInfo k_types[] = {
     {"brickfunky", "an overview: each of the named recipes in bricks of its own, with all its channels", Seamless::tile,
      k_funky},
     {"checker", "chequers", Seamless::tile, {}},
-    {"checker3d", "chequers in space over x, y and zvalue, or over the position in the scene", Seamless::tile, {}},
+    {"checker3d", "chequers over x and y, or in space over the position in the scene", Seamless::tile, {}},
     {"circle", "a disc", Seamless::tile, k_circle},
     {"col", "plain: 1 everywhere; colorfunction gives the colour", Seamless::tile, {}},
     {"earthstar", "a star that grows out of a fractal terrain", Seamless::four_corner, {}},

@@ -6,14 +6,14 @@ import { pathToFileURL } from 'node:url';
 const PLACES = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
 
 /** Ends the test as skipped when there is no browser. */
-export async function launch() {
+export async function launch(more = []) {
   const executablePath = PLACES.find((place) => place && existsSync(place));
   const playwright = await import('playwright-core').catch(() => null);
   if (!executablePath || !playwright) {
     console.log(executablePath ? 'playwright-core is not installed (npm ci)' : 'there is no Chromium');
     process.exit(77);
   }
-  return playwright.chromium.launch({ executablePath, timeout: 0, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+  return playwright.chromium.launch({ executablePath, timeout: 0, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...more] });
 }
 
 /** Opens the file, which may ask the network for nothing. */

@@ -6,6 +6,7 @@
 
 #include "json/scene_json.hpp"
 #include "json/touch_json.hpp"
+#include "papilla/texture/wang_tiles.hpp"
 
 namespace papilla::app {
 namespace {
@@ -353,18 +354,37 @@ Json photograph_json(const std::string& relief, const PhotographFile& made, cons
           {"surface_seed", photo.surface_seed}};
 }
 
-Json texture_json(const TextureFiles& files) {
-  const ProceduralTexture& texture = *files.texture;
-  Json json{{"recipe", files.recipe}, {"size", {files.width, files.height}}, {"channels", Json::array()}};
-  for (const ChannelFile& channel : files.channels) {
+static Json channels_json(const std::vector<ChannelFile>& channels) {
+  Json json = Json::array();
+  for (const ChannelFile& channel : channels) {
     Json entry{{"name", to_string(channel.channel)},
                {"file", channel.file},
                {"min", channel.low},
                {"max", channel.high},
                {"mean", channel.mean}};
     if (channel.time) entry["time"] = *channel.time;
-    json["channels"].push_back(std::move(entry));
+    json.push_back(std::move(entry));
   }
+  return json;
+}
+
+Json wang_json(const WangFiles& files) {
+  Json tiles = Json::array();
+  for (int index = 0; index < k_wang_tiles; ++index) {
+    const WangTile tile = wang_tile(index);
+    tiles.push_back({{"north", tile.north}, {"west", tile.west}, {"south", tile.south}, {"east", tile.east}});
+  }
+  return {{"side", files.side},
+          {"tiles", std::move(tiles)},
+          {"channels", channels_json(files.channels)},
+          {"plane", files.plane},
+          {"seam_cost", files.seam_cost}};
+}
+
+Json texture_json(const TextureFiles& files) {
+  const ProceduralTexture& texture = *files.texture;
+  Json json{
+      {"recipe", files.recipe}, {"size", {files.width, files.height}}, {"channels", channels_json(files.channels)}};
   if (!files.normal_maps.empty()) json["normal_maps"] = files.normal_maps;
   if (!files.previews.empty()) json["previews"] = files.previews;
   json["uses"] = texture.recipes_used();
@@ -372,6 +392,7 @@ Json texture_json(const TextureFiles& files) {
                         {"normal", texture.depends_on_normal()},
                         {"position", texture.depends_on_position()},
                         {"sky", texture.depends_on_sky()},
+                        {"flow", texture.depends_on_flow()},
                         {"neighbours", texture.depends_on_neighbours()}};
   json["seconds"] = files.seconds;
   if (!files.video.empty()) json["video"] = files.video;

@@ -34,6 +34,7 @@ Json stereo_readings_json(const StereoFiles& files);
 Json prepared_json(const std::string& image, const PreparedPicture& prepared);
 Json synthesis_json(const std::string& what, const Synthesis& synthesis, const SynthesisOptions& options);
 Json texture_json(const TextureFiles& files);
+Json wang_json(const WangFiles& files);
 Json sheet_json(const ContactSheet& sheet);
 Json photograph_json(const std::string& relief, const PhotographFile& made, const PhotographFileOptions& options);
 

@@ -137,9 +137,10 @@ void TextureOption::add_to(CLI::App& verb) {
       ->transform(one_of({"8", "16", "32"}))
       ->capture_default_str();
   verb.add_flag("--normalize", files.normalize, "Stretch every channel to its full range");
-  verb.add_flag("--normal", files.normal_map, "Write the glTF normal map of the height too");
-  verb.add_flag("--preview", files.preview,
-                "Write preview.png too: the texture in the light of its recipe (lightx, ambient, pointlight, ...)");
+  CLI::Option* normal = verb.add_flag("--normal", files.normal_map, "Write the glTF normal map of the height too");
+  CLI::Option* preview =
+      verb.add_flag("--preview", files.preview,
+                    "Write preview.png too: the texture in the light of its recipe (lightx, ambient, pointlight, ...)");
   verb.add_option("--size-mm", files.size_mm, "Side of the picture, for the normal map and the preview")
       ->check(positive())
       ->type_name("MM")
@@ -159,6 +160,18 @@ void TextureOption::add_to(CLI::App& verb) {
                            ->type_name("N");
   verb.add_flag("--video", files.video, "The series as an animated GIF, lit, too")->needs(steps);
   verb.add_flag("--seamless", files.seamless, "The pictures tile");
+  wang_ = verb.add_option("--wang", wang_side_,
+                          "Write 8 Wang tiles of N texels a side in place of the picture, a quarter of it by default, "
+                          "and a plane laid with them")
+              ->check(in_range(16, 4096))
+              ->type_name("N")
+              ->expected(0, 1)
+              ->excludes(steps)
+              ->excludes(normal)
+              ->excludes(preview);
+  writes(verb.add_option("--glsl", glsl, "Write the recipe as a fragment shader in GLSL ES 3.00 too"))
+      ->type_name("FILE");
+  writes(verb.add_option("--wgsl", wgsl, "The same in WGSL"))->type_name("FILE");
   reads(verb.add_option("--library", libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
   verb.add_option("--sheet", sheet, "A contact sheet: of all types, or of the library")
@@ -171,7 +184,7 @@ void TextureOption::add_to(CLI::App& verb) {
           "--list", list,
           "Print types, functions, recipes, categories of recipes, words of ageing, reference, or the parameters of a "
           "type")
-      ->type_name("WHAT|{types,functions,recipes,categories,ageing,reference}")
+      ->type_name("WHAT|{types,functions,recipes,categories,ageing,glsl,reference}")
       ->expected(0, 1)
       ->default_str("types");
   verb.add_option("--suggest", suggest,
@@ -190,6 +203,10 @@ TextureFileOptions TextureOption::options(std::uint64_t seed, const ProgressCall
   options.progress = progress;
   if (!age_.empty() && time_->count() == 0) options.time = 1;
   return options;
+}
+
+std::optional<int> TextureOption::wang_side() const {
+  return wang_->count() > 0 ? std::optional(wang_side_) : std::nullopt;
 }
 
 std::string TextureOption::aged_recipe() const {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ class HeightOption {
 class TextureOption {
  public:
   std::string recipe, output, list, sheet, suggest;
+  std::string glsl, wgsl;  ///< Files; empty: none.
   std::vector<std::string> libraries;
   int tile_px = 128;
   TextureFileOptions files;  ///< Without size and channels: see options().
@@ -43,10 +45,15 @@ class TextureOption {
   TextureFileOptions options(std::uint64_t seed, const ProgressCallback& progress) const;
   /// The recipe under the layers that --age asks for. @throws InvalidInput as ageing_layers().
   std::string aged_recipe() const;
+  /// Texels a side of the Wang tiles that are asked for; 0: as the picture has it.
+  std::optional<int> wang_side() const;
+  bool has_shaders() const { return !glsl.empty() || !wgsl.empty(); }
 
  private:
   std::string age_;
   const CLI::Option* time_ = nullptr;
+  const CLI::Option* wang_ = nullptr;
+  int wang_side_ = 0;
   std::string channels_ = "color,bump";
   std::vector<int> size_{512};
 };

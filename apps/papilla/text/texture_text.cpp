@@ -96,6 +96,12 @@ void add_numbers(Lines& lines, const char* when, const PictureNumbers& n) {
       n.tiling.tiles ? "tiles" : "does not tile");
 }
 
+void add_channels(Lines& lines, const std::vector<ChannelFile>& channels) {
+  for (const ChannelFile& channel : channels)
+    lines.add("{:<24} {:.4f} to {:.4f}, mean {:.4f}\n", channel.file, static_cast<double>(channel.low),
+              static_cast<double>(channel.high), channel.mean);
+}
+
 }  // namespace
 
 std::string survey_text(const std::string& image, const TextureSurvey& survey) {
@@ -249,9 +255,15 @@ std::string photograph_text(const std::string& relief, const std::string& output
 
 std::string texture_text(const TextureFiles& files) {
   Lines lines;
-  for (const ChannelFile& channel : files.channels)
-    lines.add("{:<24} {:.4f} to {:.4f}, mean {:.4f}\n", channel.file, static_cast<double>(channel.low),
-              static_cast<double>(channel.high), channel.mean);
+  add_channels(lines, files.channels);
+  return lines.take();
+}
+
+std::string wang_text(const WangFiles& files) {
+  Lines lines;
+  add_channels(lines, files.channels);
+  lines.add("{:<24} 8 x 8 tiles of {} texels; along their cuts texels differ {:.2f} times as much as neighbours\n",
+            files.plane, files.side, files.seam_cost);
   return lines.take();
 }
 

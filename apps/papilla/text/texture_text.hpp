@@ -23,6 +23,7 @@ std::string prepared_text(const std::string& output, const PreparedPicture& prep
 std::string synthesis_text(const std::string& what, const std::string& output, const std::string& relief,
                            const Synthesis& synthesis, const SynthesisOptions& options);
 std::string texture_text(const TextureFiles& files);
+std::string wang_text(const WangFiles& files);
 std::string photograph_text(const std::string& relief, const std::string& output, const PhotographFile& made);
 
 }  // namespace papilla::app

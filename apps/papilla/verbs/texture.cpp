@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <tuple>
 
 #include "exit_code.hpp"
 #include "json/texture_json.hpp"
@@ -54,6 +55,8 @@ Json print_list(const std::string& what, const RecipeLibrary& library, const Con
     console.print(reference_markdown());
   } else if (what == "ageing") {
     for (const AgeingWord& word : ageing_words()) add(word.word, word.layers);
+  } else if (what == "glsl") {
+    for (const ShaderSupport& type : shader_support()) add(type.type, type.reason.empty() ? "exported" : type.reason);
   } else if (what == "types") {
     for (const TypeInfo& type : texture_types()) add(type.name, type.note);
   } else if (what == "functions") {
@@ -63,7 +66,8 @@ Json print_list(const std::string& what, const RecipeLibrary& library, const Con
   } else {
     const TypeInfo* type = find_type(what);
     if (!type) {
-      std::vector<std::string_view> known = {"types", "functions", "recipes", "categories", "ageing", "reference"};
+      std::vector<std::string_view> known = {"types",  "functions", "recipes",  "categories",
+                                             "ageing", "glsl",      "reference"};
       for (const TypeInfo& other : texture_types()) known.emplace_back(other.name);
       throw UsageError("--list: there is no type '" + what + "'" + did_you_mean(what, known));
     }
@@ -96,17 +100,43 @@ Json print_suggestions(const std::string& words, const RecipeLibrary& library, c
   return json;
 }
 
+/// The files of --glsl and --wgsl.
+Json write_shaders(const TextureOption& options, const std::string& recipe, const RecipeLibrary& library,
+                   const TextureFileOptions& wanted, const Console& console) {
+  Json json{{"recipe", recipe}};
+  for (const auto& [key, file, language] : {std::tuple("glsl", &options.glsl, ShaderLanguage::glsl),
+                                            std::tuple("wgsl", &options.wgsl, ShaderLanguage::wgsl)}) {
+    if (file->empty()) continue;
+    const std::string text = texture_shader(recipe, library, language, wanted);
+    write_atomically(*file, text);
+    json[key] = {{"file", *file}, {"bytes", text.size()}};
+    console.print(shown_format("{}: {} bytes\n", *file, text.size()));
+  }
+  return json;
+}
+
 Json run(const TextureOption& options, VerbContext& context) {
   const RecipeLibrary library = load_recipes(options.libraries);
   if (!options.list.empty()) return print_list(options.list, library, context.console);
   if (!options.suggest.empty()) return print_suggestions(options.suggest, library, context.console);
-  if (options.output.empty()) throw InvalidInput("texture: -o DIR is missing");
+  const bool only_shaders = options.output.empty() && options.has_shaders();
+  if (options.output.empty() && !only_shaders) throw InvalidInput("texture: -o DIR is missing");
   if (!options.sheet.empty()) return write_sheet(options, library, context);
   if (options.recipe.empty()) throw InvalidInput("texture: a recipe, --sheet, --list or --suggest is missing");
-  const TextureFiles files = write_texture_files(options.aged_recipe(), library, options.output,
-                                                 options.options(context.seed, context.progress));
-  context.console.print(texture_text(files));
-  return texture_json(files);
+  const std::string recipe = options.aged_recipe();
+  const TextureFileOptions wanted = options.options(context.seed, context.progress);
+  Json json = write_shaders(options, recipe, library, wanted, context.console);
+  if (only_shaders) return json;
+  if (const auto side = options.wang_side()) {
+    const WangFiles files = write_wang_files(recipe, library, options.output, *side, wanted);
+    context.console.print(wang_text(files));
+    json.update(wang_json(files));
+  } else {
+    const TextureFiles files = write_texture_files(recipe, library, options.output, wanted);
+    context.console.print(texture_text(files));
+    json.update(texture_json(files));
+  }
+  return json;
 }
 
 }  // namespace

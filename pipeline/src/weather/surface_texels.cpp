@@ -223,6 +223,12 @@ SkyView sky_of(const Scene& scene, std::span<const Instance> all, int rays) {
   return SkyView(parts, options);
 }
 
+StainField stains_of(const Scene& scene, std::span<const Instance> all) {
+  std::vector<PlacedMesh> parts = placed_meshes(scene, all, to_y_up(scene.up));
+  for (PlacedMesh& part : parts) part.opaque = true;
+  return StainField(parts);
+}
+
 std::vector<float> sky_texels(const SurfaceTexels& texels, const SkyView& sky) {
   const int columns = (texels.width + k_block - 1) / k_block, rows = (texels.height + k_block - 1) / k_block;
   std::vector<float> blocks(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), -1);

@@ -8,6 +8,7 @@
 
 #include "papilla/io/scene.hpp"
 #include "papilla/meshing/sky.hpp"
+#include "papilla/meshing/stain_transport.hpp"
 
 namespace papilla {
 
@@ -57,6 +58,9 @@ void grow(SurfaceTexels& texels, int rings);
 
 /// What hides the sky in a scene: all its parts, as they stand, y up.
 SkyView sky_of(const Scene& scene, std::span<const Instance> all, int rays);
+
+/// Where dirt flows in a scene: all its parts, as they stand, y up.
+StainField stains_of(const Scene& scene, std::span<const Instance> all);
 
 /// The sky at every covered texel, 0 at the others. Rays are cast for one texel of each block of 8 x 8 and
 /// interpolated between the blocks of the window. Cost: rays / 64 sight lines a texel, all cores.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "papilla/core/progress.hpp"
+#include "papilla/procedural/shader.hpp"
 #include "papilla/procedural/texture.hpp"
 
 namespace papilla {
@@ -57,5 +58,24 @@ struct TextureFiles {
 /// @throws InvalidInput as compile_texture() and render_texture(); IoError when writing fails.
 TextureFiles write_texture_files(const std::string& recipe, const RecipeLibrary& library,
                                  const std::filesystem::path& folder, const TextureFileOptions& options = {});
+
+/// Wang tiles of a recipe as they were written.
+struct WangFiles {
+  int side = 0;                       ///< Texels a side of a tile.
+  std::vector<ChannelFile> channels;  ///< wang.NAME.png: 4 x 2 tiles each, see WangTileSet.
+  std::string plane;                  ///< Colours of 8 x 8 tiles as wang_tile_at() lays them with seed 1.
+  double seam_cost = 0;               ///< Of the set.
+};
+
+/// Renders a recipe, makes Wang tiles of it by its colour and height, and writes their channels. Steps, normal map,
+/// preview and video are not looked at.
+/// @param side  texels a side of a tile; 0: a quarter of the picture, which is options.width x options.height.
+/// @throws InvalidInput as compile_texture(), render_texture() and make_wang_tiles(); IoError when writing fails.
+WangFiles write_wang_files(const std::string& recipe, const RecipeLibrary& library, const std::filesystem::path& folder,
+                           int side, const TextureFileOptions& options = {});
+
+/// The recipe with these options as a shader. @throws InvalidInput as compile_texture() and shader_source().
+std::string texture_shader(const std::string& recipe, const RecipeLibrary& library, ShaderLanguage language,
+                           const TextureFileOptions& options = {});
 
 }  // namespace papilla

@@ -46,10 +46,10 @@ struct CompileOptions {
   double realtime_s = 0;          ///< The value of `realtime`.
   std::uint32_t seed = 0;         ///< Added to the seed of the recipe.
   bool seamless = false;          ///< As if the recipe said seamless=true.
-  int target_px = 256;            ///< Texels a side of the picture that will be made, for fit2screen. @pre at least 1.
   std::string source = "recipe";  ///< The name of the recipe in messages.
   /// Reads picpath; without it recipes that name a file are refused.
   std::function<RecipePicture(const std::string& path)> read_picture;
+  int target_px = 256;  ///< Texels a side of the picture that will be made, for fit2screen. @pre at least 1.
 };
 
 namespace procedural_detail {
@@ -64,6 +64,7 @@ class ProceduralTexture {
   bool depends_on_normal() const noexcept;      ///< normaldot is used somewhere.
   bool depends_on_position() const noexcept;    ///< posx, posy, posz or checker3d is used somewhere.
   bool depends_on_sky() const noexcept;         ///< sky is used somewhere.
+  bool depends_on_flow() const noexcept;        ///< flow is used somewhere.
   bool depends_on_time() const noexcept;        ///< time is used somewhere.
   bool depends_on_neighbours() const noexcept;  ///< nearmean() or another neighbourhood function is used somewhere.
   /// The dirt directions of all textures that use normaldot, each once: two normals with the same product with each of
@@ -101,6 +102,7 @@ struct TexturePoints {
   std::span<const float> color = {};   ///< 3 a point: what `currentcolor` is below all layers; empty: black.
   std::span<const float> height = {};  ///< What `lowerbump` is there; empty: 0.
   PointRaster raster = {};
+  std::span<const float> flow = {};  ///< Dirt that flowed there, see StainField; empty: 1.
 };
 
 /// channels[c] has one number a point (color three); empty when not asked for.
@@ -110,10 +112,10 @@ struct TextureValues {
 };
 
 struct RenderOptions {
-  int width = 256, height = 256;    ///< Texels. @pre 1 to 65536 each, and at most 2^30 in all.
-  double shift_x = 0, shift_y = 0;  ///< Texels by which the points lie off the texels' centres.
+  int width = 256, height = 256;  ///< Texels. @pre 1 to 65536 each, and at most 2^30 in all.
   unsigned channels = 1U << static_cast<unsigned>(Channel::main);  ///< Bits by Channel.
   ProgressCallback progress;
+  double shift_x = 0, shift_y = 0;  ///< Texels by which the points lie off the texels' centres.
 };
 
 struct RenderedTexture {
