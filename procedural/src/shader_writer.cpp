@@ -12,6 +12,7 @@ namespace papilla::procedural_detail {
 namespace {
 
 constexpr std::size_t k_most_instances = 1024;
+constexpr std::size_t k_most_text_of_shader = std::size_t{8} << 20;
 constexpr std::size_t k_red = static_cast<std::size_t>(Channel::color);
 constexpr std::size_t at(Channel c) { return static_cast<std::size_t>(c); }
 
@@ -124,6 +125,8 @@ std::string PatternShader::channels(int texture, const std::string& x, const std
 void PatternShader::refuse(const std::string& reason) const { writer_.refuse(texture_, reason); }
 
 void ShaderWriter::append(std::string_view glsl) {
+  if (text_.size() + glsl.size() > k_most_text_of_shader)
+    throw InvalidInput("shader: the recipe becomes more than 8 MiB of text");
   text_ += language_ == ShaderLanguage::glsl ? std::string(glsl) : to_wgsl(glsl);
 }
 void ShaderWriter::append_array(std::string_view name, std::string_view type, const std::vector<ShaderValue>& values) {

@@ -3,6 +3,7 @@
 
 #include "fuzz_input.hpp"
 #include "papilla/core/error.hpp"
+#include "papilla/procedural/shader.hpp"
 #include "papilla/procedural/texture.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -19,6 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const auto& channel : values.channels)
       for (const float v : channel) fuzz::require(std::isfinite(v), "a value is finite");
   });
+  fuzz::expect_result_or_refusal([&] { shader_source(compile_texture(text, builtin)); });
   fuzz::expect_result_or_refusal([&] {
     RecipeLibrary library;
     library.read_text(text, "input", "/nonexistent");

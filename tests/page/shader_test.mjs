@@ -115,7 +115,7 @@ function compare(name, rendered) {
 }
 
 /** Formulas that jump: a texel within float's rounding of a jump may fall to its other side. */
-const MOST_FAR = 0.002;
+const MOST_FAR = 0.001;
 
 async function check(page, extension, render) {
   let failures = 0;

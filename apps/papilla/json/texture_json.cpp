@@ -388,12 +388,9 @@ Json texture_json(const TextureFiles& files) {
   if (!files.normal_maps.empty()) json["normal_maps"] = files.normal_maps;
   if (!files.previews.empty()) json["previews"] = files.previews;
   json["uses"] = texture.recipes_used();
-  json["depends_on"] = {{"time", texture.depends_on_time()},
-                        {"normal", texture.depends_on_normal()},
-                        {"position", texture.depends_on_position()},
-                        {"sky", texture.depends_on_sky()},
-                        {"flow", texture.depends_on_flow()},
-                        {"neighbours", texture.depends_on_neighbours()}};
+  json["depends_on"] = {{"time", texture.depends_on_time()},         {"normal", texture.depends_on_normal()},
+                        {"position", texture.depends_on_position()}, {"sky", texture.depends_on_sky()},
+                        {"flow", texture.depends_on_flow()},         {"neighbours", texture.depends_on_neighbours()}};
   json["seconds"] = files.seconds;
   if (!files.video.empty()) json["video"] = files.video;
   return json;

@@ -31,7 +31,8 @@ struct ShaderOptions {
 /// and flow are 1, the position is the place. Cost: O(graph), every texture once for every size of texel that it is
 /// seen at.
 /// @throws InvalidInput naming the texture and the reason: neighbourhood statistics; image, ifs and txt, which are
-/// rasters; churn() of a number that is not whole, which depends on all bits of a double; more than 1024 textures.
+/// rasters; churn() of a number that is not whole, which depends on all bits of a double; more than 1024
+/// textures or 8 MiB.
 std::string shader_source(const ProceduralTexture& texture, const ShaderOptions& options = {});
 
 /// What a type becomes.
