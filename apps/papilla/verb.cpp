@@ -11,6 +11,7 @@
 
 #include "file_options.hpp"
 #include "option_checks.hpp"
+#include "options/config_option.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
@@ -100,6 +101,7 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
   CLI::App* verb = program.add_subcommand(info.name, info.summary);
   verb->footer("Example:\n  " + info.example);
   auto common = std::make_shared<CommonOptions>();
+  add_config(*verb);
   writes(verb->add_option("--json", common->json, "Write the machine-readable result to FILE, or to stdout with -"))
       ->type_name("FILE|-")
       ->group("Common");

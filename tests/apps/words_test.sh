@@ -37,6 +37,35 @@ says "--budget: -5 is not above 0" 2 "$papilla" bake a.stl -m b.json -o c.glb --
 says "--weld: 'x' is no number" 2 "$papilla" repair a.stl -o b.stl --weld x
 says "kind: 'tesselation' is none of param,weld," 2 "$papilla" evaluate tesselation -o "$out/evaluation"
 says "did you mean 'tessellation'?" 2 "$papilla" evaluate tesselation -o "$out/evaluation"
+
+# Options from a file: the command line goes before it, an object of the verb's name before what stands outside.
+echo '{"chord": 1, "quiet": true, "unwrap": {"method": "lscm"}, "inspect": {"nodes": true, "up": null}}' >"$out/options.json"
+"$papilla" tessellate "$data/exchange/handle.step" --config "$out/options.json" -o "$out/coarse.glb" --json "$out/coarse.json" >"$out/stdout" || fail "tessellate --config"
+[[ -s $out/stdout ]] && fail "\"quiet\": true printed $(head -n 1 "$out/stdout")"
+"$papilla" tessellate "$data/exchange/handle.step" --config "$out/options.json" --chord 0.05 -o "$out/fine.glb" --json "$out/fine.json" || fail "tessellate --config --chord"
+"$papilla" tessellate "$data/exchange/handle.step" --chord 1 -o "$out/given.glb" --quiet || fail "tessellate --chord"
+cmp -s "$out/coarse.glb" "$out/given.glb" || fail "a chord from a file is not that of the command line"
+(($(stat -c %s "$out/fine.glb") > $(stat -c %s "$out/coarse.glb"))) || fail "--chord did not go before the file"
+"$papilla" unwrap "$out/coarse.glb" --config "$out/options.json" -o "$out/u.glb" --json "$out/u.json" || fail "unwrap --config"
+grep -q '"method": "lscm"' "$out/u.json" || fail "the object of the verb was not read"
+echo "{\"IN\": \"$out/coarse.glb\", \"output\": \"$out/all.glb\", \"grain\": [\"0,0,1\"], \"tile\": [10, 20], \"seam_cost\": 0.2}" >"$out/all.json"
+"$papilla" unwrap --config "$out/all.json" --quiet || fail "unwrap with everything in a file"
+[[ -s $out/all.glb ]] || fail "output of a file was not written"
+refused() {
+  echo "$1" >"$out/bad.json"
+  says "$2" 3 "$papilla" unwrap "$out/coarse.glb" -o "$out/u.glb" --config "$out/bad.json"
+}
+refused '{"methd": "lscm"}' "bad.json: /methd: 'unwrap' has no such option; did you mean 'method'?"
+refused '{"unwrap": {"chrod": 1}}' "bad.json: /unwrap/chrod: 'unwrap' has no such option; did you mean 'chord'?"
+refused '{"quiet": 1}' "bad.json: /quiet: must be true or false"
+refused '{"grain": [{}]}' "bad.json: /grain/0: must be a text or a number"
+refused '{"config": "x.json"}' "bad.json: /config: a file of options can't name another one"
+refused '[1]' "bad.json: must be an object of options"
+refused '{"method": ' "bad.json: byte 12 is no JSON"
+echo '{"method": "lscn"}' >"$out/bad.json"
+says "--method: 'lscn' is none of" 2 "$papilla" unwrap "$out/coarse.glb" -o "$out/u.glb" --config "$out/bad.json"
+says "missing.json: does not exist" 3 "$papilla" unwrap "$out/coarse.glb" -o "$out/u.glb" --config "$out/missing.json"
+
 says "unknown option '--devise'; did you mean '--device'?" 2 "$player" --devise sim
 says "--motion: 'strok' is none of stroke,circle,slide,tap; did you mean 'stroke'?" 2 "$player" a.glb --motion strok
 
