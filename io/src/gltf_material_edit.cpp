@@ -47,7 +47,7 @@ bool same_material(const GltfSurfaceEdit& a, const GltfSurfaceEdit& b) {
 
 bool is_only_tag(const GltfSurfaceEdit& edit) {
   return edit.normal_map == nullptr && edit.picture == nullptr && !edit.base_color && !edit.roughness &&
-         !edit.metallic && !edit.double_sided;
+         !edit.metallic && !edit.double_sided && edit.environment_json.empty();
 }
 
 class MaterialEditor {
@@ -288,7 +288,14 @@ class MaterialEditor {
     } else if (json.contains("extras")) {
       json["extras"].erase("haptic");
     }
-    if (!edit.rule.empty()) json["extras"]["papilla"]["material"] = edit.rule;
+    if (!edit.rule.empty()) {
+      Json& own = json["extras"]["papilla"];
+      own["material"] = edit.rule;
+      if (edit.environment_json.empty())
+        own.erase("environment");
+      else
+        own["environment"] = Json::parse(edit.environment_json);
+    }
     if (json.contains("extras") && json["extras"].empty()) json.erase("extras");
   }
 

@@ -136,10 +136,14 @@ ColorImage decode_color_image(std::span<const std::byte> bytes, const std::strin
   return read_rgb(input, 3);
 }
 
-ColorImage decode_image(const Scene& scene, std::size_t image) {
+std::string picture_name(const Scene& scene, std::size_t image) {
   const EncodedImage& encoded = scene.images[image];
   const std::string& named = encoded.name.empty() ? encoded.uri : encoded.name;
-  return decode_color_image(encoded.bytes, named.empty() ? fmt::format("picture {} of the scene", image) : named);
+  return named.empty() ? fmt::format("picture {} of the scene", image) : named;
+}
+
+ColorImage decode_image(const Scene& scene, std::size_t image) {
+  return decode_color_image(scene.images[image].bytes, picture_name(scene, image));
 }
 
 std::vector<std::byte> encode_png(const ColorImage& image) {

@@ -42,10 +42,15 @@ class PictureInput {
   void read(int top, int rows, float* values);
   void read(int top, int rows, unsigned char* values);
 
+  int stored_channels() const noexcept { return stored().channels; }
+  /// The same of the first `channels` channels. @pre 0 < channels <= stored_channels().
+  void read_channels(int top, int rows, int channels, float* values);
+  void read_channels(int top, int rows, int channels, unsigned char* values);
+
  private:
   const StoredPicture& stored() const noexcept { return decoder_->stored(); }
   void check_size(std::uintmax_t bytes, std::size_t most_pixels) const;
-  void read(int top, int rows, SampleType type, std::size_t sample_bytes, void* values);
+  void read(int top, int rows, int channels, SampleType type, std::size_t sample_bytes, void* values);
 
   std::string name_;
   std::unique_ptr<PictureDecoder> decoder_;

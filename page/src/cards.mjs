@@ -164,7 +164,9 @@ function environmentCard(three) {
   canvas.getContext('2d').putImageData(three.environmentPicture(184), 0, 0);
   return element('article', { class: 'card' }, element('h3', {}, 'environment'),
     element('div', { class: 'pictures' }, element('figure', {}, canvas, element('figcaption', {}, 'mirror ball'))),
-    element('p', { class: 'note' }, 'What lights and is mirrored in the textured view: a bright room of the page itself (three.js), with a sun from the camera\'s upper right. It is no part of the file.'));
+    element('p', { class: 'note' }, three.data.environment === null
+      ? 'What lights and is mirrored in the textured view: a bright room of the page itself (three.js), with a sun from the camera\'s upper right. It is no part of the file.'
+      : 'What lights and is mirrored in the textured view: the picture that was given as environment. Materials with one of their own mirror that.'));
 }
 
 /** @param three the scene in 3D, or nothing */

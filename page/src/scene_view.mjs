@@ -28,6 +28,21 @@ export function geometryOf(mesh) {
   return geometry;
 }
 
+/** An equirectangular picture of linear light, coded as RGBE, rows from the top. */
+function environmentTexture({ width, height, rgbe }) {
+  const bytes = bytesOf(rgbe), half = new Uint16Array(4 * width * height), one = THREE.DataUtils.toHalfFloat(1), most = 65504;
+  for (let y = 0; y < height; ++y)
+    for (let x = 0; x < width; ++x) {
+      const from = 4 * (width * y + x), to = 4 * (width * (height - 1 - y) + x), scale = 2 ** (bytes[from + 3] - 136);
+      for (let k = 0; k < 3; ++k) half[to + k] = THREE.DataUtils.toHalfFloat(Math.min(bytes[from + k] * scale, most));
+      half[to + 3] = one;
+    }
+  const texture = new THREE.DataTexture(half, width, height, THREE.RGBAFormat, THREE.HalfFloatType, THREE.EquirectangularReflectionMapping,
+    THREE.RepeatWrapping, THREE.ClampToEdgeWrapping, THREE.LinearFilter, THREE.LinearFilter);
+  texture.needsUpdate = true;
+  return texture;
+}
+
 async function textureOf(scene, reference, isColour) {
   const image = reference && scene.images[reference.image];
   if (!image) return null;
@@ -72,10 +87,8 @@ export class SceneView {
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.1, 1e6);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.moved());
-    const environment = new THREE.PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
-    this.world.environment = environment;
-    this.addLights();
     this.addMeshes();
+    this.addLights();
     this.addMarker();
     this.frameAll();
     this.listen();
@@ -84,11 +97,20 @@ export class SceneView {
     this.loadTextures().catch((error) => { this.textureError = error.message; });
   }
 
+  /** The scene's environment, or a plain room and a sun, and those that materials have of their own. */
   addLights() {
+    const generator = new THREE.PMREMGenerator(this.renderer);
+    const lights = this.data.environments.map((picture) => generator.fromEquirectangular(environmentTexture(picture)).texture);
+    this.data.materials.forEach(({ environment, unlit }, i) => { if (environment !== null && !unlit) this.standard[i].envMap = lights[environment]; });
+    this.world.add(this.camera);
+    if (this.data.environment !== null) {
+      this.world.environment = lights[this.data.environment];
+      return;
+    }
+    this.world.environment = generator.fromScene(new RoomEnvironment(), 0.04, 0.1, 100, { size: 64 }).texture;
     const sun = new THREE.DirectionalLight(0xffffff, 1.5);
     sun.position.set(0.4, 0.5, 1);
     this.camera.add(sun);
-    this.world.add(this.camera);
   }
 
   addMeshes() {

@@ -78,6 +78,8 @@ std::vector<GltfSurfaceEdit> surface_edits(const BakeResult& result, const Mater
     if (decision(surface.plan, Stage::tag).run) edit.tag = surface_tag(rule, grain, kept_mm_per_unit);
     if (rule.color) edit.base_color = linear_colour(*rule.color);
     edit.roughness = rule.roughness, edit.metallic = rule.metallic;
+    if (const auto found = result.environments.find(rule.name); found != result.environments.end())
+      edit.environment_json = found->second;
     if (grain != nullptr) {
       edit.normal_map = &grain->normal_png;
       if (grain->picture) edit.picture = &*grain->picture;
@@ -135,9 +137,10 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
 
 }  // namespace
 
-BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options) {
+BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options, const Materials& rules) {
   if (!is_gltf_file(input)) return {false, "the input is no glTF file"};
   if (options.read.up && *options.read.up != UpAxis::y) return {false, "the scene is to be turned"};
+  if (has_object_textures(rules)) return {false, "pictures are projected onto surfaces or stand for them"};
   if (options.bake.plan.budget) return {false, "triangles are to be reduced"};
   const PerceptionOptions& perception = options.bake.plan.perception;
   if (perception.leave_out_unreachable || perception.leave_out_unseen) return {false, "parts are to be left out"};
@@ -149,7 +152,7 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
 PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
                       const ProgressCallback& progress) {
   PlannedFile result;
-  result.way = bake_way(input, options);
+  result.way = bake_way(input, options, rules);
   Scene scene;
   GltfOrigin origin;
   if (result.way.in_place) {
@@ -163,13 +166,19 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
   static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
   for (const std::string& name : grains_of(result.surfaces))
     result.grains.push_back(plan_grain(rules.materials.at(name), options.bake.library));
+  if (has_object_textures(rules)) {
+    Scene made = result.scene;
+    result.object_textures_made =
+        apply_object_textures(made, rules, result.object_textures, {.pictures = false, .constants = {}});
+    result.scene.warnings = std::move(made.warnings);
+  }
   return result;
 }
 
 BakeFileResult bake_file(const std::filesystem::path& input, const std::filesystem::path& output,
                          const Materials& rules, const BakeFileOptions& options, const ProgressCallback& progress) {
   BakeFileResult result;
-  result.way = bake_way(input, options);
+  result.way = bake_way(input, options, rules);
   if (result.way.in_place) {
     if (edit_file(input, output, rules, options, progress, result)) return result;
     result.way = {false, k_instances_apart};

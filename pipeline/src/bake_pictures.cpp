@@ -117,11 +117,13 @@ void add_close_ups(const BakeResult& result, const std::vector<const BakedSurfac
 }  // namespace
 
 std::vector<std::string> write_bake_pictures(const BakeResult& result, const std::filesystem::path& folder,
+                                             std::shared_ptr<const EnvironmentLight> environment,
                                              const ProgressCallback& progress) {
   const std::vector<const BakedSurface*> surfaces = largest_surfaces(result.surfaces);
   PictureFolder pictures(folder, 2 + surfaces.size() + 3 * result.grains.size(), progress);
   SceneViewOptions render;
   render.mm_per_uv = result.mm_per_uv;
+  render.environment = std::move(environment);
   pictures.add("scene", render_scene(result.scene, render));
   render.mode = RenderMode::checker;
   pictures.add("scene-checker", render_scene(result.scene, render));

@@ -213,7 +213,11 @@ std::vector<PartSurface> split_by_slot(const Scene& scene, const Assignment& ass
 
 /// What the rules took, and warnings of those that took nothing. @param source What messages begin with.
 void note_rules(const Assignment& assignment, bool strict, const std::string& source, Scene& scene, BakePlan& plan) {
-  const std::vector<std::string> problems = problems_of(assignment.uses, "rule", "/assign");
+  std::vector<std::string> problems = problems_of(assignment.uses, "rule", "/assign");
+  for (std::string& problem : problems_of(plan.object_textures.decal_uses, "decal", "/decals"))
+    problems.push_back(std::move(problem));
+  for (std::string& problem : problems_of(plan.object_textures.carrier_uses, "carrier", "/replace"))
+    problems.push_back(std::move(problem));
   if (strict && !problems.empty())
     throw InvalidInput(fmt::format("{}: {}{}", source, problems.front(),
                                    problems.size() > 1 ? fmt::format("; {} more rules", problems.size() - 1) : ""));
@@ -266,6 +270,7 @@ BakePlan plan_bake(Scene scene, const Materials& rules, const BakePlanOptions& o
   BakePlan plan;
   // Before sheets are turned, which gives some a material that no rule means.
   plan.levels = options.levels;
+  plan.object_textures = find_object_textures(scene, rules);
   Assignment assignment = assign_materials(scene, rules, plan.levels);
   note_rules(assignment, options.strict, rules.source, scene, plan);
   plan.sides = options.in_place ? find_sides(scene, options.sides, options.perception.view)

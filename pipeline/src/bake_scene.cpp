@@ -214,7 +214,9 @@ class SceneMaterials {
       attach_to_new_uv(material, *relief);
     material.haptic.reset();
     if (felt) material.haptic = surface_tag(rule, relief, kept_mm_per_unit);
-    note_origin(material, rule, original_name);
+    const auto environment = result_.environments.find(rule.name);
+    note_origin(material, rule, original_name,
+                environment == result_.environments.end() ? std::string() : environment->second);
     scene_.materials.push_back(std::move(material));
     result_.mm_per_uv.resize(scene_.materials.size());
     if (relief != nullptr)
@@ -280,12 +282,14 @@ class SceneMaterials {
     return it->second;
   }
 
-  static void note_origin(Material& material, const MaterialRule& rule, const std::string& original_name) {
+  static void note_origin(Material& material, const MaterialRule& rule, const std::string& original_name,
+                          const std::string& environment) {
     using nlohmann::ordered_json;
     ordered_json extras = ordered_json::parse(material.extras_json.empty() ? "{}" : material.extras_json);
     if (!extras.is_object()) throw InvalidInput("material '" + material.name + "': its extras are no JSON object");
     extras["papilla"] = {{"material", rule.name}};
     if (!original_name.empty() && original_name != material.name) extras["papilla"]["original"] = original_name;
+    if (!environment.empty()) extras["papilla"]["environment"] = ordered_json::parse(environment);
     material.extras_json = extras.dump();
   }
 
@@ -452,6 +456,24 @@ void finish(std::vector<Work>& works, BakeResult& result) {
   }
 }
 
+/// Decals and carriers, with the constants of the rules for what they lie on or stand for.
+void add_object_textures(BakeResult& result, const Materials& rules) {
+  const Stopwatch clock;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, const PartSurface*> surfaces;
+  for (const PartSurface& surface : result.plan.surfaces) surfaces[{surface.part, surface.slot}] = &surface;
+  ObjectTextureOptions options;
+  options.constants = [&](std::uint32_t part, std::uint32_t slot) -> std::optional<MaterialTag> {
+    const auto found = surfaces.find({part, slot});
+    if (found == surfaces.end() || found->second->material.empty()) return MaterialTag{};
+    if (!runs(*found->second, Stage::tag)) return std::nullopt;
+    return surface_tag(rules.materials.at(found->second->material), nullptr, 0);
+  };
+  result.object_textures = apply_object_textures(result.scene, rules, result.plan.object_textures, options);
+  result.mm_per_uv.insert(result.mm_per_uv.end(), result.object_textures.mm_per_uv.begin(),
+                          result.object_textures.mm_per_uv.end());
+  if (has_object_textures(rules)) result.seconds["object_textures"] = clock.seconds();
+}
+
 double triangles_of_parts(const Scene& scene) {
   double triangles = 0;
   for (const Part& part : scene.parts) triangles += static_cast<double>(part.mesh.triangles.size());
@@ -492,6 +514,12 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   leave_out(result.scene, result.plan.perception);
   result.grains =
       make_grains(result.plan, rules, options.library, options.unwrap.method.deadline.earlier_by(to_finish), progress);
+  for (const PartSurface& surface : surfaces) {
+    if (surface.material.empty() || surface.is_left_out || result.environments.contains(surface.material)) continue;
+    const std::filesystem::path& picture = rules.materials.at(surface.material).environment;
+    if (!picture.empty())
+      result.environments[surface.material] = environment_json(read_environment(picture, k_material_environment_width));
+  }
   for (const auto& [name, grain] : result.grains) {
     for (const std::string& warning : grain.warnings) result.scene.warnings.push_back(warning);
     result.seconds["analyze"] += grain.analyze_seconds;
@@ -556,6 +584,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
     if (part.materials.size() <= surface->slot) part.materials.resize(surface->slot + 1, material);
     part.materials[surface->slot] = material;
   }
+  add_object_textures(result, rules);
   drop_unused_materials(result);
   make_names_unique(result.scene.materials);
   drop_unused_textures(result.scene);

@@ -8,6 +8,7 @@
 
 #include "json_value.hpp"
 #include "lights_value.hpp"
+#include "object_textures/rules.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/stimulus.hpp"
@@ -218,7 +219,7 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
                      "stribeckVelocity", "frictionModel", "forceModel",     "forceShading",
                      "height",           "maps",          "backing",        "fineRoughness",
                      "unwrap",           "show",          "color",          "roughness",
-                     "metallic",         "$comment"});
+                     "metallic",         "environment",   "$comment"});
   MaterialRule rule;
   if (const auto v = value.get("material")) rule = library_rule(*v, name, library);
   rule.name = name;
@@ -263,6 +264,10 @@ MaterialRule read_material(const JsonValue& value, const std::string& name, cons
   if (const auto v = value.get("unwrap")) read_unwrap(*v, rule);
   if (const auto v = value.get("show")) rule.show = v->one_of({"auto", "picture", "relief"});
   if (const auto v = value.get("color")) rule.color = v->hex_colour();
+  if (const auto v = value.get("environment")) {
+    if (v->text().empty()) v->fail("must not be empty");
+    rule.environment = source.parent_path() / v->text();
+  }
   return rule;
 }
 
@@ -297,7 +302,7 @@ std::string_view map_key(Quantity quantity) noexcept {
 Materials read_materials(const std::filesystem::path& path, const std::filesystem::path& library) {
   const JsonValue::Json json = read_json(path);
   const JsonValue root(json, path.string(), "");
-  root.expect_keys({"$schema", "version", "materials", "assign", "$comment"});
+  root.expect_keys({"$schema", "version", "materials", "assign", "decals", "replace", "$comment"});
   if (const auto v = root.get("version"))
     if (v->number(0, 1e9) != 1) v->fail("only version 1 is known");
 
@@ -309,6 +314,10 @@ Materials read_materials(const std::filesystem::path& path, const std::filesyste
     file.materials.emplace(name, read_material(*materials.get(name), name, path, library));
   if (const auto assign = root.get("assign"))
     for (const JsonValue& rule : assign->list()) file.assign.push_back(read_assign(rule, file));
+  if (const auto decals = root.get("decals"))
+    for (const JsonValue& rule : decals->list()) file.decals.push_back(read_decal(rule, path));
+  if (const auto replace = root.get("replace"))
+    for (const JsonValue& rule : replace->list()) file.replace.push_back(read_carrier(rule, path));
   return file;
 }
 

@@ -203,6 +203,7 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
   json["repair"] = repair_numbers_json(repair_of(result.surfaces));
   json["stop"] = to_string(ending_of(result));
   json["sides"] = sides_json(result.plan.sides, options.plan.sides);
+  json["object_textures"] = object_textures_json(result.object_textures, result.plan.object_textures);
   json["losses"] = result.scene.losses;
   json["warnings"] = result.scene.warnings;
   json["seconds"] = result.seconds;

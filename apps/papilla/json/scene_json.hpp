@@ -96,6 +96,9 @@ Json way_json(const BakeWay& way);
 Json changes_json(const std::vector<GltfChange>& changes);
 /// {for, surfaces, uses, problem} a rule or layer.
 Json rules_json(const std::vector<RuleUse>& uses);
+/// {decals[] {name, for, surfaces, triangles, turned_off, area_mm2, offset_mm, relief_mm}, replace[] {name, for,
+/// carriers, triangles_before, triangles_after, saved, relief_mm}}.
+Json object_textures_json(const ObjectTextures& made, const ObjectTexturePlaces& places);
 /// Plan, parts, materials, distortion, identical parts, perception, budget, losses, warnings, seconds.
 Json bake_json(const BakeResult& result, const BakeOptions& options);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "page/page_file.hpp"
-#include "page/page_scene.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
@@ -39,13 +38,14 @@ ColorImage shrink(const ColorImage& image, int side) {
 }  // namespace
 
 void write_report_page(const std::filesystem::path& glb, Json report, const std::map<std::string, Grain>& grains,
-                       const std::filesystem::path& page, const ProgressCallback& progress) {
+                       const std::filesystem::path& page, const PageSceneOptions& options,
+                       const ProgressCallback& progress) {
   for (Json& material : report["materials"]) {
     const ColorImage& photograph = grains.at(material["name"].get<std::string>()).photograph;
     material["photo"] = encode_base64(encode_png(shrink(photograph, k_photo_px)));
   }
   const Scene scene = read_gltf(glb, {.tag_channel = true});
-  write_page({glb.filename().string(), page_scene(scene, glb, {}, progress).json, std::move(report)}, page);
+  write_page({glb.filename().string(), page_scene(scene, glb, options, progress).json, std::move(report)}, page);
 }
 
 }  // namespace papilla::app

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "json/json.hpp"
+#include "page/page_scene.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/pipeline/grain.hpp"
 
@@ -15,6 +16,7 @@ namespace papilla::app {
 /// grains' pictures.
 /// @throws IoError, InvalidInput as read_gltf() and write_page().
 void write_report_page(const std::filesystem::path& glb, Json report, const std::map<std::string, Grain>& grains,
-                       const std::filesystem::path& page, const ProgressCallback& progress);
+                       const std::filesystem::path& page, const PageSceneOptions& options,
+                       const ProgressCallback& progress);
 
 }  // namespace papilla::app

@@ -111,10 +111,31 @@ Json texture_json(const Scene& scene, const std::optional<TextureReference>& ref
           {"scale", pair(transform.scale)}};
 }
 
+/// Environments, each once.
+class PageEnvironments {
+ public:
+  Json number_of(const std::optional<EnvironmentPicture>& picture) {
+    if (!picture) return nullptr;
+    const auto known = std::find(pictures_.begin(), pictures_.end(), *picture);
+    if (known != pictures_.end()) return known - pictures_.begin();
+    pictures_.push_back(*picture);
+    list.push_back({{"width", picture->width},
+                    {"height", picture->height},
+                    {"rgbe", encode_base64(std::as_bytes(std::span(picture->rgbe)))}});
+    return pictures_.size() - 1;
+  }
+
+  Json list = Json::array();
+
+ private:
+  std::vector<EnvironmentPicture> pictures_;
+};
+
 /// Materials, and the height maps that their tags name.
 class PageMaterials {
  public:
-  PageMaterials(const Scene& scene, const std::filesystem::path& file) : scene_(scene), file_(file) {
+  PageMaterials(const Scene& scene, const std::filesystem::path& file, PageEnvironments& environments)
+      : scene_(scene), file_(file), environments_(environments) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) add(scene.materials[i], i);
   }
 
@@ -133,6 +154,7 @@ class PageMaterials {
                  {"unlit", material.extensions_json.find("\"KHR_materials_unlit\"") != std::string::npos},
                  {"base_map", texture_json(scene_, material.base_color_texture)},
                  {"normal_map", texture_json(scene_, material.normal_texture)},
+                 {"environment", environments_.number_of(environment_of(material))},
                  {"haptic", nullptr},
                  {"height", nullptr}};
     std::vector<HapticWarning> warnings = material.haptic_warnings;
@@ -171,6 +193,7 @@ class PageMaterials {
 
   const Scene& scene_;
   std::filesystem::path file_;
+  PageEnvironments& environments_;
   std::map<std::string, std::size_t> number_;
 };
 
@@ -219,7 +242,9 @@ PageScene page_scene(const Scene& scene, const std::filesystem::path& file, cons
     uses.push_back({{"part", use.part}, {"name", scene.nodes[use.node].name}, {"world", use.world}});
     for (const PageMesh& mesh : shown[use.part].meshes) triangles_shown += mesh.shown;
   }
-  PageMaterials materials(scene, file);
+  PageEnvironments environments;
+  const Json environment = environments.number_of(options.environment);
+  PageMaterials materials(scene, file, environments);
   Json json = {{"file", file.filename().string()},
                {"triangles", triangles},
                {"triangles_shown", triangles_shown},
@@ -230,6 +255,8 @@ PageScene page_scene(const Scene& scene, const std::filesystem::path& file, cons
                {"materials", std::move(materials.materials)},
                {"heights", std::move(materials.heights)},
                {"images", images_json(scene)},
+               {"environments", std::move(environments.list)},
+               {"environment", environment},
                {"losses", scene.losses},
                {"warnings", scene.warnings}};
   return {std::move(json), triangles, triangles_shown, error_mm};

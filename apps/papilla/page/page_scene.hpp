@@ -2,15 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
+#include "papilla/pipeline/environment.hpp"
 #include "verb.hpp"
 
 namespace papilla::app {
 
 struct PageSceneOptions {
-  std::size_t triangles = 250000;  ///< That the page shows, about; more are simplified. At least 1.
+  std::size_t triangles = 250000;                      ///< That the page shows, about; more are simplified. At least 1.
+  std::optional<EnvironmentPicture> environment = {};  ///< Lights the scene; nothing: a plain room does.
 };
 
 /// A scene as data of the page.
@@ -21,8 +24,8 @@ struct PageScene {
 };
 
 /// A scene as the report page shows it: parts in compressed streams (PageMesh), instances, materials with their haptic
-/// tags, pictures and height maps (byte for byte, each once, checked against the tag's SHA-256) in base64. Distortion
-/// is measured for every part with uv.
+/// tags, pictures and environments, height maps (byte for byte, each once, checked against the tag's SHA-256) in
+/// base64. Distortion is measured for every part with uv.
 /// @param file the scene's own: height maps beside it are found from here.
 /// @throws InvalidInput as instances() and measure_distortion().
 PageScene page_scene(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,

@@ -57,6 +57,8 @@ std::string grains_text(const std::vector<GrainPlan>& grains);
 std::string contact_models_text(const Materials& rules, const std::vector<PartSurface>& surfaces);
 /// One row a rule: how many surfaces it took, and with all instances how many uses of them.
 std::string rules_table(const std::vector<RuleUse>& uses, const Materials& rules);
+/// A line a decal and a carrier: where it lies, and the triangles that are saved; empty without any.
+std::string object_textures_text(const ObjectTextures& made);
 /// A row a part that is left out or has uses that are; empty when there is none.
 std::string left_out_table(const Scene& scene, const ScenePerception& perception);
 /// One row a surface with grain.

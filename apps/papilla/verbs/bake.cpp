@@ -8,6 +8,7 @@
 #include "json/scene_json.hpp"
 #include "json/touch_json.hpp"
 #include "option_checks.hpp"
+#include "options/environment_option.hpp"
 #include "options/material_library_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
@@ -33,7 +34,7 @@ namespace fs = std::filesystem;
 constexpr const char *k_mpeg = "MPEG_material_haptic", *k_khr = "KHR_physics_rigid_bodies";
 
 struct Options {
-  std::string input, materials, material_library, output, report;
+  std::string input, materials, material_library, output, report, environment;
   std::vector<std::string> libraries, mirrors;
   bool pictures = false;
   BakeFileOptions bake;
@@ -53,9 +54,15 @@ struct Options {
 void write_report(const Options& options, const Materials& rules, const BakeResult& result, const VerbContext& context,
                   const Stopwatch& total, Json& json) {
   const fs::path folder = options.report;
+  PageSceneOptions page;
+  std::shared_ptr<const EnvironmentLight> light;
+  if (!options.environment.empty()) {
+    page.environment = read_environment(options.environment, k_scene_environment_width);
+    light = std::make_shared<EnvironmentLight>(*page.environment);
+  }
   if (options.pictures) {
     const Stopwatch clock;
-    json["pictures"] = write_bake_pictures(result, folder, context.progress);
+    json["pictures"] = write_bake_pictures(result, folder, light, context.progress);
     json["seconds"]["pictures"] = clock.seconds();
   }
   const Stopwatch touching;
@@ -64,7 +71,7 @@ void write_report(const Options& options, const Materials& rules, const BakeResu
   json["seconds"]["touch"] = touching.seconds();
   context.console.print(touch_text(touch));
   const Stopwatch clock;
-  write_report_page(options.output, json, result.grains, folder / "index.html", context.progress);
+  write_report_page(options.output, json, result.grains, folder / "index.html", page, context.progress);
   json["page"] = "index.html";
   json["seconds"]["page"] = clock.seconds();
   json["seconds"]["total"] = total.seconds();
@@ -105,7 +112,8 @@ Json run(const Options& options, VerbContext& context) {
                                        budget->reached                          ? ""
                                        : budget->stop == StopReason::time_limit ? ", not reached in time"
                                                                                 : "; more deviation saves hardly any"));
-  context.console.print(bake_table(result) + contact_models_text(rules, result.plan.surfaces));
+  context.console.print(bake_table(result) + object_textures_text(result.object_textures) +
+                        contact_models_text(rules, result.plan.surfaces));
   print_notes(result.scene, context.console);
   context.console.print(changes_line(result.changes));
   context.console.print(
@@ -149,6 +157,7 @@ void add_bake(CLI::App& program) {
                                                     "Folder for a page to look at (index.html) and report.json"),
                                    {"index.html", "report.json"})
                            ->type_name("DIR");
+  add_environment(*verb, options->environment)->needs(report);
   verb->add_flag("--strict", options->bake.bake.plan.strict, "Refuse rules that take no surface");
   verb->add_flag("--pictures", options->pictures,
                  "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")

@@ -63,7 +63,8 @@ Json run(const Options& options, VerbContext& context) {
   const PlannedFile plan = plan_file(options.input, rules, wanted, context.progress);
   context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + grains_text(plan.grains) +
                         contact_models_text(rules, plan.surfaces) + rules_table(plan.rules, rules) +
-                        sides_text(plan.sides, true) + left_out_table(plan.scene, plan.perception));
+                        sides_text(plan.sides, true) + left_out_table(plan.scene, plan.perception) +
+                        object_textures_text(plan.object_textures_made));
   const TouchReport touch = report_touch(rules, plan.surfaces, {}, options.touch);
   context.console.print(touch_text(touch));
   print_notes(plan.scene, context.console);
@@ -77,11 +78,16 @@ Json run(const Options& options, VerbContext& context) {
   json["suggestions"] = suggest(plan, options, context.console);
   json["identical_parts"] = shared_parts_json(plan.shared, plan.scene);
   json["sides"] = sides_json(plan.sides, wanted.bake.plan.sides);
+  json["object_textures"] = object_textures_json(plan.object_textures_made, plan.object_textures);
   json["losses"] = plan.scene.losses;
   json["warnings"] = plan.scene.warnings;
   if (wanted.bake.plan.perception.asked()) json["perception"] = perception_json(plan.scene, plan.perception);
   const auto took_nothing = [](const RuleUse& rule) { return !rule.problem.empty(); };
-  if (options.strict && std::any_of(plan.rules.begin(), plan.rules.end(), took_nothing)) {
+  const auto some_took_nothing = [&](const std::vector<RuleUse>& rules_used) {
+    return std::any_of(rules_used.begin(), rules_used.end(), took_nothing);
+  };
+  if (options.strict && (some_took_nothing(plan.rules) || some_took_nothing(plan.object_textures.decal_uses) ||
+                         some_took_nothing(plan.object_textures.carrier_uses))) {
     context.exit_code = k_exit_input;
     json["error"] = "a rule takes no surface";
   }

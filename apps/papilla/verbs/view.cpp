@@ -8,6 +8,7 @@
 #include "http/browser.hpp"
 #include "live/follow.hpp"
 #include "option_checks.hpp"
+#include "options/environment_option.hpp"
 #include "options/scene_option.hpp"
 #include "page/page_file.hpp"
 #include "page/page_scene.hpp"
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string input, output;
+  std::string input, output, environment;
   std::optional<std::string> follow;  ///< The player's socket; empty for the default one.
   int port = 0;
   bool no_open = false;
@@ -33,7 +34,9 @@ struct Options {
 PageScene scene_of(const std::string& file, const Options& options, const VerbContext& context) {
   ReadOptions read = options.scene.read_options();
   read.tag_channel = true;
-  return page_scene(read_scene(file, read, context.progress), file, options.page, context.progress);
+  PageSceneOptions page = options.page;
+  if (!options.environment.empty()) page.environment = read_environment(options.environment, k_scene_environment_width);
+  return page_scene(read_scene(file, read, context.progress), file, page, context.progress);
 }
 
 PageContent content_of(const std::string& file, Json scene) {
@@ -114,6 +117,7 @@ void add_view(CLI::App& program) {
       ->type_name("N")
       ->check(positive())
       ->capture_default_str();
+  add_environment(*verb, options->environment);
   options->scene.add_to(*verb);
 }
 

@@ -13,85 +13,14 @@
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/srgb.hpp"
-#include "papilla/io/image_file.hpp"
 #include "pictures/border_edges.hpp"
+#include "pictures/mip_pyramid.hpp"
 
 namespace papilla {
 namespace {
 
 constexpr Vec3 k_clay{0.42, 0.44, 0.47};
 constexpr double k_field_of_view = 0.6;  // radians, vertical: about the perspective of a 50 mm lens
-
-std::size_t offset(int width, int x, int y) {
-  return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
-}
-
-int wrapped(int i, int n) { return ((i % n) + n) % n; }
-
-/// A mip map: a picture at halving resolutions, sampled with repeat and bilinear interpolation.
-class MipPyramid {
- public:
-  /// @param encoded_srgb colours are linearised, so that averages keep the brightness.
-  MipPyramid(const ColorImage& image, bool encoded_srgb);
-
-  /// The mean colour over about `texels` texels of the full picture (an area), components in [0, 1]. uv (0, 0) is the
-  /// bottom left corner, v grows upwards, as in scenes.
-  Vec3 sample(Vec2 uv, double texels) const;
-
-  double texel_count() const { return static_cast<double>(levels_[0].width) * levels_[0].height; }
-
- private:
-  struct Level {
-    int width, height;
-    std::vector<float> rgb;
-  };
-  std::vector<Level> levels_;
-};
-
-MipPyramid::MipPyramid(const ColorImage& image, bool encoded_srgb) {
-  std::array<float, 256> decode{};
-  for (int i = 0; i < 256; ++i) {
-    const double c = i / 255.0;
-    decode[static_cast<std::size_t>(i)] = static_cast<float>(encoded_srgb ? linear_from_srgb(c) : c);
-  }
-  Level base{image.width, image.height, std::vector<float>(image.pixels.size())};
-  std::transform(image.pixels.begin(), image.pixels.end(), base.rgb.begin(),
-                 [&](unsigned char c) { return decode[c]; });
-  levels_.push_back(std::move(base));
-  while (levels_.back().width > 1 || levels_.back().height > 1) {
-    const Level& fine = levels_.back();
-    Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
-    coarse.rgb.resize(offset(coarse.width, 0, coarse.height));
-    for (int y = 0; y < coarse.height; ++y) {
-      for (int x = 0; x < coarse.width; ++x) {
-        const int x0 = std::min(2 * x, fine.width - 1), x1 = std::min(2 * x + 1, fine.width - 1);
-        const int y0 = std::min(2 * y, fine.height - 1), y1 = std::min(2 * y + 1, fine.height - 1);
-        for (std::size_t c = 0; c < 3; ++c)
-          coarse.rgb[offset(coarse.width, x, y) + c] =
-              0.25F * (fine.rgb[offset(fine.width, x0, y0) + c] + fine.rgb[offset(fine.width, x1, y0) + c] +
-                       fine.rgb[offset(fine.width, x0, y1) + c] + fine.rgb[offset(fine.width, x1, y1) + c]);
-      }
-    }
-    levels_.push_back(std::move(coarse));
-  }
-}
-
-Vec3 MipPyramid::sample(Vec2 uv, double texels) const {
-  const double lod = 0.5 * std::log2(std::max(texels, 1.0));
-  const auto number = static_cast<std::size_t>(std::clamp(std::lround(lod), 0L, static_cast<long>(levels_.size()) - 1));
-  const Level& level = levels_[number];
-  const double x = (uv.x - std::floor(uv.x)) * level.width - 0.5,
-               y = (1 - (uv.y - std::floor(uv.y))) * level.height - 0.5;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-  const double fx = x - x0, fy = y - y0;
-  std::array<double, 3> sum{};
-  for (const auto& [dx, dy, weight] : {std::tuple{0, 0, (1 - fx) * (1 - fy)}, std::tuple{1, 0, fx * (1 - fy)},
-                                       std::tuple{0, 1, (1 - fx) * fy}, std::tuple{1, 1, fx * fy}}) {
-    const float* texel = &level.rgb[offset(level.width, wrapped(x0 + dx, level.width), wrapped(y0 + dy, level.height))];
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(texel[c]);
-  }
-  return {sum[0], sum[1], sum[2]};
-}
 
 struct Camera {
   Vec3 position, right, up, forward;
@@ -104,11 +33,14 @@ struct ShadedMaterial {
   Vec3 color{1, 1, 1};
   double roughness = 0.8, metallic = 0;
   double opacity = 1;
+  bool blends = false;      ///< Transparent places show what is behind.
+  double alpha_cutoff = 0;  ///< Places of less alpha are left out, all others are opaque; 0: none.
   std::shared_ptr<const MipPyramid> color_map = {}, normal_map = {};
   int color_channel = 0, channel = 0;  ///< Of the uv for colour, and for all else.
   UvTransform color_transform = {}, normal_transform = {};
   double normal_scale = 1;
   Vec2 mm_per_uv = {};
+  std::shared_ptr<const EnvironmentLight> environment = {};  ///< Of its own.
 };
 
 struct Vertex {
@@ -133,24 +65,6 @@ struct TriangleSetup {
   std::array<bool, 3> border{};  ///< From corner k to the next one; of RenderMode::triangles.
 };
 
-class Pyramids {
- public:
-  explicit Pyramids(const Scene& scene) : scene_(scene), color_(scene.textures.size()), raw_(scene.textures.size()) {}
-
-  std::shared_ptr<const MipPyramid> get(const std::optional<TextureReference>& reference, bool color) {
-    if (!reference || reference->texture >= scene_.textures.size() || reference->tex_coord > 1) return nullptr;
-    const auto& image = scene_.textures[reference->texture].image;
-    if (!image || *image >= scene_.images.size()) return nullptr;
-    auto& slot = (color ? color_ : raw_)[reference->texture];
-    if (!slot) slot = std::make_shared<MipPyramid>(decode_image(scene_, *image), color);
-    return slot;
-  }
-
- private:
-  const Scene& scene_;
-  std::vector<std::shared_ptr<const MipPyramid>> color_, raw_;
-};
-
 /// Scales dark colours up, hue kept, so that the shading of relief is visible.
 Vec3 brightened(Vec3 color) {
   constexpr double k_visible = 0.3;
@@ -172,8 +86,13 @@ ShadedMaterial shaded_material(const Scene& scene, std::size_t index, const Scen
   if (material.haptic) shaded.channel = tex_coord_of(*material.haptic).value_or(shaded.channel);
   if (material.base_color_texture) shaded.color_channel = material.base_color_texture->tex_coord;
   if (options.mode != RenderMode::material) return shaded;
-  if (material.alpha_mode == "BLEND") shaded.opacity = std::clamp(material.base_color[3], 0.0, 1.0);
+  if (const auto environment = environment_of(material))
+    shaded.environment = std::make_shared<EnvironmentLight>(*environment);
   shaded.color_map = pyramids.get(material.base_color_texture, true);
+  if (material.alpha_mode != "OPAQUE") shaded.opacity = std::clamp(material.base_color[3], 0.0, 1.0);
+  if (material.alpha_mode == "MASK") shaded.alpha_cutoff = material.alpha_cutoff;
+  shaded.blends =
+      material.alpha_mode == "BLEND" && (shaded.opacity < 1 || (shaded.color_map && shaded.color_map->has_alpha()));
   shaded.normal_map = pyramids.get(material.normal_texture, false);
   if (material.base_color_texture && material.base_color_texture->transform)
     shaded.color_transform = *material.base_color_texture->transform;
@@ -301,7 +220,29 @@ Vec3 checker_color(const TriangleSetup& t, Vec2 uv, double checker_mm) {
   return odd ? Vec3{0.85, 0.47, 0.09} : Vec3{0.05, 0.16, 0.32};
 }
 
-Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& camera, const SceneViewOptions& options) {
+/// Light of an environment off a surface: matt below, mirrored above by Schlick's Fresnel term, as far as roughness
+/// lets it.
+Vec3 lit_by(const EnvironmentLight& light, const ShadedMaterial& material, Vec3 color, Vec3 normal, Vec3 view) {
+  constexpr double k_dielectric = 0.04;
+  const double facing = std::clamp(dot(normal, view), 0.0, 1.0), edge = std::pow(1 - facing, 5.0);
+  const Vec3 matt = light.diffuse(normal);
+  const Vec3 mirrored = light.reflection(2 * facing * normal - view, material.roughness);
+  const auto channel = [&](double albedo, double diffuse, double reflected) {
+    const double head_on = k_dielectric + (albedo - k_dielectric) * material.metallic;
+    const double fresnel = head_on + (std::max(1 - material.roughness, head_on) - head_on) * edge;
+    return albedo * (1 - material.metallic) * diffuse + fresnel * reflected;
+  };
+  return {channel(color.x, matt.x, mirrored.x), channel(color.y, matt.y, mirrored.y),
+          channel(color.z, matt.z, mirrored.z)};
+}
+
+/// A colour of linear light, and how much of what is behind it covers.
+struct Shade {
+  Vec3 color;
+  double alpha = 1;
+};
+
+Shade shade(const TriangleSetup& t, const double (&weight)[3], const Camera& camera, const SceneViewOptions& options) {
   const auto mix = [&](auto member) {
     return weight[0] * (t.v[0].*member) + weight[1] * (t.v[1].*member) + weight[2] * (t.v[2].*member);
   };
@@ -313,6 +254,7 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
 
   const ShadedMaterial& material = *t.material;
   Vec3 color = material.color;
+  double alpha = material.opacity;
   if (options.mode == RenderMode::checker) {
     color = checker_color(t, uv, options.checker_mm);
   } else {
@@ -322,14 +264,15 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
       const double uv_area = t.color_uv_area_per_cubic_depth * depth * depth * depth;
       const UvTransform& map = material.color_transform;
       const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.color_map->texel_count();
-      const Vec3 texel = material.color_map->sample(transform_uv(map, color_uv), texels);
+      const auto [texel, texel_alpha] = material.color_map->sample(transform_uv(map, color_uv), texels);
       color = {color.x * texel.x, color.y * texel.y, color.z * texel.z};
+      alpha *= texel_alpha;
     }
     if (material.normal_map && t.has_uv && norm(t.tangent) > 0) {
       const double uv_area = t.uv_area_per_cubic_depth * depth * depth * depth;
       const UvTransform& map = material.normal_transform;
       const double texels = uv_area * std::abs(map.scale.x * map.scale.y) * material.normal_map->texel_count();
-      const Vec3 texel = material.normal_map->sample(transform_uv(map, uv), texels);
+      const Vec3 texel = material.normal_map->sample(transform_uv(map, uv), texels).color;
       const Vec3 tangent = normalized(t.tangent - dot(t.tangent, normal) * normal);
       const Vec3 side = cross(normal, tangent);
       const Vec3 bitangent = dot(side, t.bitangent) < 0 ? -side : side;
@@ -338,6 +281,9 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
     }
   }
 
+  const auto& environment = material.environment ? material.environment : options.environment;
+  if (environment && options.mode == RenderMode::material)
+    return {lit_by(*environment, material, color, normal, view), alpha};
   // A close-up is lit at a grazing angle, which makes relief visible.
   const double towards = options.close_up ? 0.45 : 0.6;
   const Vec3 key = normalized(0.5 * camera.right + 0.9 * camera.up - towards * camera.forward);
@@ -347,7 +293,7 @@ Vec3 shade(const TriangleSetup& t, const double (&weight)[3], const Camera& came
   const double exponent = 8 + 120 * gloss * gloss;
   const double highlight =
       (0.05 + 0.5 * gloss) * std::pow(std::max(0.0, dot(normal, normalized(key + view))), exponent);
-  return (diffuse * (1 - 0.4 * material.metallic)) * color + highlight * Vec3{1, 1, 1};
+  return {(diffuse * (1 - 0.4 * material.metallic)) * color + highlight * Vec3{1, 1, 1}, alpha};
 }
 
 /// The colour of a sample with edges and borders drawn over it. @param screen barycentric coordinates on the screen.
@@ -396,13 +342,14 @@ void rasterize(const TriangleSetup& t, const Camera& camera, const SceneViewOpti
       if (static_cast<float>(inverse_depth) <= sample.inverse_depth) continue;
       double weight[3];
       for (int k = 0; k < 3; ++k) weight[k] = screen[k] * t.v[k].inverse_depth / inverse_depth;
-      Vec3 color = shade(t, weight, camera, options);
+      auto [color, alpha] = shade(t, weight, camera, options);
+      if (alpha < t.material->alpha_cutoff) continue;
       if (options.mode == RenderMode::triangles) color = with_edges(t, screen, color, options.samples);
-      const auto mixed = [opacity = t.material->opacity](float behind, double own) {
+      const auto mixed = [opacity = t.material->blends ? alpha : 1](float behind, double own) {
         return static_cast<float>((1 - opacity) * static_cast<double>(behind) + opacity * own);
       };
-      sample = {t.material->opacity < 1 ? sample.inverse_depth : static_cast<float>(inverse_depth),
-                mixed(sample.r, color.x), mixed(sample.g, color.y), mixed(sample.b, color.z)};
+      sample = {t.material->blends ? sample.inverse_depth : static_cast<float>(inverse_depth), mixed(sample.r, color.x),
+                mixed(sample.g, color.y), mixed(sample.b, color.z)};
     }
   }
 }
@@ -447,7 +394,7 @@ std::vector<TriangleSetup> set_up_triangles(const Scene& scene, const std::vecto
 /// Moves transparent triangles to the end, the farthest first.
 void sort_transparent(std::vector<TriangleSetup>& triangles) {
   const auto transparent = std::stable_partition(triangles.begin(), triangles.end(),
-                                                 [](const TriangleSetup& t) { return t.material->opacity >= 1; });
+                                                 [](const TriangleSetup& t) { return !t.material->blends; });
   const auto nearness = [](const TriangleSetup& t) {
     return t.v[0].inverse_depth + t.v[1].inverse_depth + t.v[2].inverse_depth;
   };

@@ -20,6 +20,7 @@ struct GltfSurfaceEdit {
   std::optional<MaterialTag> tag;    ///< Of its material; nothing: it has none.
   std::optional<std::array<double, 4>> base_color;
   std::optional<double> roughness, metallic;
+  std::string environment_json;  ///< For extras.papilla.environment, with a rule; empty: it has none.
   /// Pictures of a grain, of which a material takes those for whose use it has none of its own. They outlive the call.
   const EncodedImage *normal_map = nullptr, *picture = nullptr;
   std::optional<UvTransform> transform;  ///< Of the pictures, when the surface keeps its uv.

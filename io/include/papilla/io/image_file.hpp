@@ -62,7 +62,10 @@ Picture read_fitting_picture(const std::filesystem::path& path, std::size_t byte
 /// @throws InvalidInput as read_color_image().
 ColorImage decode_color_image(std::span<const std::byte> bytes, const std::string& name);
 
-/// decode_color_image() of a picture of the scene; messages call it by its name, its file, or its number.
+/// What messages call a picture of the scene: its name, its file, or its number.
+std::string picture_name(const Scene& scene, std::size_t image);
+
+/// decode_color_image() of a picture of the scene, called by picture_name().
 /// @throws InvalidInput as decode_color_image().
 ColorImage decode_image(const Scene& scene, std::size_t image);
 

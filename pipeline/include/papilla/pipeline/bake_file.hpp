@@ -22,7 +22,8 @@ struct BakeFileOptions {
 };
 
 /// How a bake is written: a glTF file is edited where nothing is asked for that changes its meshes or nodes (fewer
-/// triangles, parts left out, instances of one node with different materials), everything else is written anew.
+/// triangles, parts left out, decals, pictures in the place of surfaces, instances of one node with different
+/// materials), everything else is written anew.
 struct BakeWay {
   bool in_place = false;
   std::string reason;
@@ -33,12 +34,13 @@ struct BakeFileResult : BakeResult {
   std::vector<GltfChange> changes;  ///< Of an edited file.
 };
 
-/// As far as file name and options tell.
-BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options);
+/// As far as file name, options and rules tell.
+BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options, const Materials& rules = {});
 
 struct PlannedFile : BakePlan {
   BakeWay way;
-  std::vector<GrainPlan> grains;  ///< Of the materials whose grain is used.
+  std::vector<GrainPlan> grains;        ///< Of the materials whose grain is used.
+  ObjectTextures object_textures_made;  ///< Triangles of decals and carriers.
 };
 
 /// What bake_file() would do. In place no loss is listed, as what the reader leaves out stays in the file.

@@ -14,6 +14,7 @@
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/bake_stages.hpp"
 #include "papilla/pipeline/materials.hpp"
+#include "papilla/pipeline/object_textures.hpp"
 #include "papilla/pipeline/perception.hpp"
 #include "papilla/pipeline/scene_sides.hpp"
 #include "papilla/pipeline/shared_parts.hpp"
@@ -63,8 +64,9 @@ struct BakePlan {
   Scene scene;  ///< Sheets turned; identical parts that are assigned the same rules are shared; within the budget.
   SceneSides sides;
   std::vector<PartSurface> surfaces;
-  std::vector<RuleUse> rules;    ///< Of every entry of Materials::assign; problems are warnings of the scene, too.
-  std::vector<SplitPart> split;  ///< Before identical parts were shared.
+  std::vector<RuleUse> rules;  ///< Of every entry of Materials::assign; problems are warnings of the scene, too.
+  ObjectTexturePlaces object_textures;    ///< Where decals and carriers go; problems are warnings of the scene, too.
+  std::vector<SplitPart> split;           ///< Before identical parts were shared.
   std::vector<GltfOrigin::Level> levels;  ///< Those of the options, with the parts that they show now.
   std::vector<SharedPart> shared;
   ScenePerception perception;

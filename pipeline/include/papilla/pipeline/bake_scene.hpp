@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "papilla/io/scene.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla/pipeline/bake_plan.hpp"
+#include "papilla/pipeline/environment.hpp"
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/pipeline/materials.hpp"
 #include "papilla/pipeline/unwrap_scene.hpp"
@@ -44,10 +46,12 @@ struct BakedSurface {
 struct BakeResult {
   BakePlan plan;  ///< Without its scene.
   Scene scene;    ///< With uv, textures and haptic tags; ready to be written. In place: as it was.
-  std::map<std::string, Grain> grains;    ///< By material.
-  std::vector<BakedSurface> surfaces;     ///< Those with grain.
-  std::vector<Vec2> mm_per_uv;            ///< Per material of `scene`; 0 when unknown.
-  std::map<std::string, double> seconds;  ///< Per stage: summed over the surfaces.
+  std::map<std::string, Grain> grains;              ///< By material.
+  std::map<std::string, std::string> environments;  ///< environment_json() by material, of those that name one.
+  std::vector<BakedSurface> surfaces;               ///< Those with grain.
+  ObjectTextures object_textures;                   ///< Decals and carriers; empty in place.
+  std::vector<Vec2> mm_per_uv;                      ///< Per material of `scene`; 0 when unknown.
+  std::map<std::string, double> seconds;            ///< Per stage: summed over the surfaces.
 };
 
 /// total_repair() of the surfaces that were repaired.
@@ -65,7 +69,9 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
 /// Writes pictures of a bake into `folder`: the scene with its materials and with a checker, close-ups of every grain,
 /// the uv layout of the largest surfaces, and the relief of every grain.
 /// @return their names. @throws IoError when one can't be written.
+/// @param environment  lights the scene; null: two lamps do.
 std::vector<std::string> write_bake_pictures(const BakeResult& result, const std::filesystem::path& folder,
+                                             std::shared_ptr<const EnvironmentLight> environment = nullptr,
                                              const ProgressCallback& progress = {});
 
 }  // namespace papilla

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "papilla/haptic/material_tag.hpp"
+#include "papilla/pipeline/object_texture_rules.hpp"
 #include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/pipeline/surface_selector.hpp"
 #include "papilla/pipeline/unwrap_method.hpp"
@@ -70,6 +71,7 @@ struct MaterialRule {
   std::string show = "auto";  ///< auto (coloured pictures), picture (as base colour), relief (keep the part's colour).
   std::optional<std::string> color;  ///< "#RRGGBB" base colour instead of the scene's own.
   std::optional<double> roughness, metallic;
+  std::filesystem::path environment;  ///< Equirectangular picture that it mirrors alone; empty: what the scene does.
 };
 
 /// One entry of "assign"; the first one that fits a surface wins.
@@ -80,6 +82,8 @@ struct AssignRule : SurfaceSelector {
 struct Materials {
   std::map<std::string, MaterialRule> materials;
   std::vector<AssignRule> assign;
+  std::vector<DecalRule> decals;     ///< Pictures that are projected onto surfaces.
+  std::vector<CarrierRule> replace;  ///< Pictures that stand for surfaces.
   std::string source = "materials";  ///< The file's name in messages.
 };
 

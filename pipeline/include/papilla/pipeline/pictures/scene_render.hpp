@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "papilla/core/vec.hpp"
 #include "papilla/io/scene.hpp"
+#include "papilla/pipeline/environment.hpp"
 #include "papilla/texture/image.hpp"
 
 namespace papilla {
@@ -36,11 +38,13 @@ struct SceneViewOptions {
   double checker_mm = 20;
   /// Millimetres per unit of uv channel 0, one per material of the scene; 0 or missing: unknown, no checker.
   std::vector<Vec2> mm_per_uv = {};
+  std::shared_ptr<const EnvironmentLight> environment = {};  ///< Lights the scene instead of the lamps.
 };
 
 /// A picture of the scene by perspective projection with a depth buffer, mip-mapped textures, one key and one fill
-/// light. Materials whose alpha mode is BLEND are transparent, sorted by triangles, not by samples. Deterministic.
-/// Cost: proportional to triangles and pixels; memory 16 bytes a sample.
+/// light, or of an environment; materials with an environment of their own are lit by that. Materials whose alpha mode
+/// is BLEND are transparent, sorted by triangles, not by samples. Deterministic. Cost: proportional to triangles and
+/// pixels; memory 16 bytes a sample.
 /// @throws InvalidInput when the scene has no triangle or a texture can't be decoded.
 ColorImage render_scene(const Scene& scene, const SceneViewOptions& options);
 
