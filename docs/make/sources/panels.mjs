@@ -6,11 +6,11 @@ export const shell = (label, picture, commands, crop) => ({ label, picture, comm
 
 /**
  * A recipe as `papilla texture` draws it.
- * @param look channel that is shown: color, bump, main, alpha
+ * @param look preview, the lit picture, or the channel that is shown
  */
-export const recipe = (text, { label = '', look = 'color', size = 144, options = '' } = {}) => ({
+export const recipe = (text, { label = '', look = 'preview', size = 144, options = '' } = {}) => ({
   label, picture: `{}/${look}.png`,
-  commands: [`papilla texture '${text}' -o {} --channels ${look} --size ${size}${options && ` ${options}`}`],
+  commands: [`papilla texture '${text}' -o {} ${look === 'preview' ? '--preview' : `--channels ${look}`} --size ${size}${options && ` ${options}`}`],
 });
 
 /** A relief lit from the upper left. @param relief a picture, or millimetres */

@@ -17,6 +17,22 @@ const noises = [
     panels: [recipe('ifs|usestyle=false|one=.3333 0 0 .3333 0 0 .25|two=.1667 -.2887 .2887 .1667 .3333 0 .25|three=.1667 .2887 -.2887 .1667 .5 .2887 .25|four=.3333 0 0 .3333 .6667 0 .25|kilon=500|mainfunction=clampunit(this*8)', { look: 'main', size: 320 })],
   },
   {
+    number: '2.7', title: 'A tile laid again and again, and Wang tiles (2.7, 2.9)', columns: 2, tile: 400,
+    panels: [
+      shell('one tile, 8 × 8 times', 'tiled.png', ['papilla texture worn_leather -o worn --channels color --size 64 --time .8 --seamless', `oiiotool ${Array(64).fill('worn/color.png').join(' ')} --mosaic 8x8 -o tiled.png`]),
+      shell('eight Wang tiles, 8 × 8', 'wang/wang.plane.png', ['papilla texture worn_leather -o wang --channels color --size 256 --time .8 --wang 64']),
+    ],
+    differs: 'there photographs of a wall and squares with coloured edges',
+  },
+  {
+    number: '2.8', title: 'A picture before and after its slow changes are taken away', columns: 2, tile: 300,
+    panels: [
+      shell('before', 'spots.png', ['papilla texture "multi|textures=brick_wall,[fbm|scale=.8|octaves=2|cols=black,black|alphafunction=clampunit(main*1.4-.5)]" -o before --channels color --size 300', 'cp before/color.png spots.png']),
+      shell('after', 'even.png', ['papilla prepare spots.png -o even.png']),
+    ],
+    differs: '`prepare`, which also makes the borders match, in place of a high pass alone',
+  },
+  {
     number: '4.2', title: 'Noise, turbulence, absolute turbulence, and sines that they bend', columns: 5, tile: 128,
     panels: rows(range(5).map((i) => grey(`noise|scale=${0.5 ** i}`)), range(5).map((i) => grey(`turbulence|scale=.5|dynamicoctaves=false|octaves=${i + 1}`)),
       range(5).map((i) => grey(`turbulence|scale=.5|dynamicoctaves=false|absturb=true|octaves=${i + 1}`)),
@@ -134,6 +150,12 @@ const colours = [
   { number: '5.6', title: 'zoom about the middle', columns: 4, tile: 144, panels: times('checker|scale=.25|afunction=zoom(.5,.5,1+dist(.5,.5)^4*10*(time*2-.5))', [0, 0.33, 0.67, 1]) },
   { number: '5.7', title: 'rotate about the middle', columns: 4, tile: 144, panels: times('checker|scale=.25|afunction=rotate(.5,.5,10*dist(.5,.5)*time)', [0, 0.33, 0.67, 1]) },
   { number: '5.8', title: 'Smears in rows', columns: 3, tile: 180, panels: ['', '|perturby=(y*10)%2', '|perturby=(y*10)%2|perturbx=x+10*noise(floor(y*10)*1.1)'].map((p) => grey(`smear${p}`)) },
+  {
+    number: '5.10', title: 'Light: diffuse, specular, exponent, height; a lamp and a direction', columns: 4, tile: 144,
+    panels: rows(['.2', '.6', '1'].map((v) => recipe(`multi|textures=[${wall}],[star|jags=7|cols=red,gold|alphafunction=step(main,.05)]|diffusescale=${v}`, { label: `diffusescale ${v}` })), ['3'].map((v) => recipe(`multi|textures=[${wall}],[star|jags=7|cols=red,gold|alphafunction=step(main,.05)]|specularscale=${v}`, { label: `specularscale ${v}` })),
+      ['.3', '3'].map((v) => recipe(`multi|textures=[${wall}],[star|jags=7|cols=red,gold|alphafunction=step(main,.05)]|specularscale=2|specularcoeffscale=${v}`, { label: `specularcoeffscale ${v}` })), ['0', '3'].map((v) => recipe(`multi|textures=[${wall}],[star|jags=7|cols=red,gold|alphafunction=step(main,.05)]|bumpscale=${v}`, { label: `bumpscale ${v}` })),
+      ['-.8', '0', '.8'].map((v) => recipe(`multi|textures=[${wall}]|pointlight=true|lightdist=true|lightz=.3|lighty=0|lightx=${v}`, { label: `lamp at x ${v}` })), [recipe(`multi|textures=[${wall}]|lightx=-1|lighty=0|lightz=.3`, { label: 'direction from the left' })]),
+  },
   { number: '5.14', title: 'A channel as it is and normalized', columns: 2, tile: 200, panels: [recipe('voronoi|scale=.3|func=f1*3-.6', { look: 'main' }), recipe('voronoi|scale=.3|func=f1*3-.6', { look: 'main', options: '--normalize' })] },
 ];
 
