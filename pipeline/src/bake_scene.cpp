@@ -464,8 +464,7 @@ void add_object_textures(BakeResult& result, const Materials& rules) {
   ObjectTextureOptions options;
   options.constants = [&](std::uint32_t part, std::uint32_t slot) -> std::optional<MaterialTag> {
     const auto found = surfaces.find({part, slot});
-    if (found == surfaces.end() || found->second->material.empty()) return MaterialTag{};
-    if (!runs(*found->second, Stage::tag)) return std::nullopt;
+    if (found == surfaces.end() || !runs(*found->second, Stage::tag)) return std::nullopt;
     return surface_tag(rules.materials.at(found->second->material), nullptr, 0);
   };
   result.object_textures = apply_object_textures(result.scene, rules, result.plan.object_textures, options);

@@ -391,6 +391,39 @@ TEST_F(ObjectTexturesTest, RaisesTheReliefFromTheSurfaceBelow) {
   EXPECT_TRUE(material.normal_texture);
 }
 
+TEST_F(ObjectTexturesTest, KeepsUnfeltSurfacesUnfeltUnlessTheirPictureHasRelief) {
+  ObjectTextureOptions options;
+  options.constants = [](std::uint32_t, std::uint32_t) { return std::optional<MaterialTag>(); };
+  Materials rules;
+  rules.decals = {decal()};
+  rules.decals[0].height.emplace().depth_mm = 0.6;
+  CarrierRule rule;
+  rule.name = "picture";
+  rule.node = "right";
+  rule.picture = picture_;
+  rules.replace = {rule};
+  Scene scene = plates(1);
+  apply(scene, rules, options);
+  const auto material_at = [&](std::uint32_t node) -> const Material& {
+    return scene.materials[scene.parts[scene.nodes[node].part.value()].materials.at(0)];
+  };
+  EXPECT_FALSE(material_at(1).haptic);
+  EXPECT_TRUE(material_at(scene.nodes[0].children.at(0)).haptic);
+}
+
+TEST_F(ObjectTexturesTest, TellsPicturesOfOneNameApart) {
+  Scene scene = plates(1);
+  Materials rules;
+  rules.decals = {decal(), decal()};
+  rules.decals[1].box.at.x = 40;
+  rules.decals[1].box.width_mm = 20;
+  rules.decals[0].height.emplace().depth_mm = 0.1;
+  rules.decals[1].height.emplace().depth_mm = 0.1;
+  apply(scene, rules);
+  ASSERT_EQ(scene.images.size(), 4U);
+  EXPECT_NE(scene.images[1].bytes, scene.images[3].bytes);  // Steeper where it is narrower.
+}
+
 TEST_F(ObjectTexturesTest, PushesOutByAShareOfTheScene) {
   Scene scene = plates(1);
   Materials rules;

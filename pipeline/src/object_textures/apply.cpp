@@ -178,16 +178,15 @@ EncodedImage png_image(const std::string& name, const RgbaImage& image) {
 }
 
 /// The tag of a picture with relief: constants of the surface, heights of the picture.
-std::optional<MaterialTag> tag_with(std::optional<MaterialTag> constants, const std::optional<FeltRelief>& felt) {
-  if (!constants || !felt) return constants;
-  constants->height = felt->tag;
-  constants->maps.reset();
-  constants->roughness.reset();
+MaterialTag tag_with(MaterialTag constants, const FeltRelief& felt) {
+  constants.height = felt.tag;
+  constants.maps.reset();
+  constants.roughness.reset();
   return constants;
 }
 
-double max_slope_of(const std::optional<double>& wanted, const std::optional<MaterialTag>& constants) {
-  return wanted.value_or(default_max_slope(constants ? largest_static_friction(*constants) : 0));
+double max_slope_of(const std::optional<double>& wanted, const MaterialTag& constants) {
+  return wanted.value_or(default_max_slope(largest_static_friction(constants)));
 }
 
 class Application {
@@ -239,7 +238,7 @@ class Application {
     HeightMap relief;
     if (options_.pictures) {
       picture = read_rgba_image(rule.picture);
-      shown = png_image("decal." + rule.name, picture);
+      shown = png_image(fmt::format("decal.{}.{}", rule.name, result_.decals.size() + 1), picture);
       if (rule.height) relief = relief_of_shown_picture(*rule.height, picture, rule.box.width_mm, rule.box.height_mm);
     }
     const BoxFrame frame(rule.box);
@@ -287,13 +286,13 @@ class Application {
     std::optional<MaterialTag> tag;
     EncodedImage normals;
     if (rule.height) {
-      const std::optional<MaterialTag> constants = constants_of(original_of(part), slot);
+      // Relief is to be felt, also where nothing is said of the surface below.
+      const MaterialTag constants = constants_of(original_of(part), slot).value_or(MaterialTag{});
+      const double max_slope = max_slope_of(rule.height->max_slope, constants);
       // Its lowest place is level with the surface below, of which it is pushed out.
-      const FeltRelief felt = felt_relief(relief, max_slope_of(rule.height->max_slope, constants),
-                                          -std::min(report.offset_mm, rule.height->depth_mm));
+      const FeltRelief felt = felt_relief(relief, max_slope, -std::min(report.offset_mm, rule.height->depth_mm));
       report.relief_mm = felt.tag.scale_m / k_metres_per_mm;
-      normals = png_image(fmt::format("decal.{}.normal {:.3g}", rule.name, report.relief_mm),
-                          encode_png(normal_map(felt.relief)));
+      normals = png_image(fmt::format("{}.normal {:g}", shown.name, max_slope), encode_png(normal_map(felt.relief)));
       look.normal_map = &normals;
       tag = tag_with(constants, felt);
     }
@@ -463,22 +462,23 @@ class Application {
         shown = png_image(name, picture.color);
         normals = png_image(name + ".normal", encode_png(picture.normals));
         look.alpha_mode = has_alpha(picture.color) ? "MASK" : "OPAQUE";
-        if (rule.felt && tag) felt = felt_relief(scaled(picture.relief, size), max_slope_of(std::nullopt, tag), 0);
+        if (rule.felt && tag) felt = felt_relief(scaled(picture.relief, size), max_slope_of(std::nullopt, *tag), 0);
         look.normal_map = &normals;
       } else {
         const RgbaImage picture = read_carrier_picture(rule);
         shown = png_image(name, picture);
         look.alpha_mode = alpha_mode_of(picture);
-        if (rule.height && tag) {
+        if (rule.height) {
+          if (!tag) tag.emplace();
           felt = felt_relief(relief_of_shown_picture(*rule.height, picture, size.x, size.y),
-                             max_slope_of(rule.height->max_slope, tag), 0);
+                             max_slope_of(rule.height->max_slope, *tag), 0);
           normals = png_image(name + ".normal", encode_png(normal_map(felt->relief)));
           look.normal_map = &normals;
         }
       }
       look.picture = &shown;
       if (felt) report.relief_mm = std::max(report.relief_mm, felt->tag.scale_m / k_metres_per_mm);
-      tag = tag_with(std::move(tag), felt);
+      if (felt) tag = tag_with(std::move(*tag), *felt);
     }
     Part part;
     part.name = rule.name;
