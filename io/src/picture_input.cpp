@@ -173,15 +173,15 @@ void PictureInput::require_memory(std::uint64_t bytes) const {
                     name_, width(), height(), stored().channels, megabytes(needed), megabytes(most)));
 }
 
-void PictureInput::read(int top, int rows, SampleType type, std::size_t sample_bytes, void* values) {
+void PictureInput::read(int top, int rows, int channels, SampleType type, std::size_t sample_bytes, void* values) {
   // OpenImageIO decompresses the strips of a TIFF itself when it is asked for several rows, and takes what it can't
   // decompress for black; row by row libtiff does it, and says so.
   const bool row_by_row = stored().tile_height == 0 && stored().format == "tiff";
-  const std::size_t row_bytes = pixel_count(width(), channels()) * sample_bytes;
+  const std::size_t row_bytes = pixel_count(width(), channels) * sample_bytes;
   const int step = row_by_row ? 1 : rows;
   for (int row = 0; row < rows; row += step) {
     try {
-      if (decoder_->read(top + row, step, channels(), type,
+      if (decoder_->read(top + row, step, channels, type,
                          static_cast<unsigned char*>(values) + static_cast<std::size_t>(row) * row_bytes))
         continue;
     } catch (const std::bad_alloc&) {
@@ -196,10 +196,16 @@ void PictureInput::read(int top, int rows, SampleType type, std::size_t sample_b
   }
 }
 
-void PictureInput::read(int top, int rows, float* values) { read(top, rows, SampleType::real, sizeof *values, values); }
+void PictureInput::read(int top, int rows, float* values) {
+  read(top, rows, channels(), SampleType::real, sizeof *values, values);
+}
 
 void PictureInput::read(int top, int rows, unsigned char* values) {
-  read(top, rows, SampleType::byte, sizeof *values, values);
+  read(top, rows, channels(), SampleType::byte, sizeof *values, values);
+}
+
+void PictureInput::read_stored(unsigned char* values) {
+  read(0, height(), stored_channels(), SampleType::byte, sizeof *values, values);
 }
 
 }  // namespace papilla::io_detail

@@ -26,6 +26,7 @@ class PictureInput {
   int width() const noexcept { return stored().width; }
   int height() const noexcept { return stored().height; }
   int channels() const noexcept { return stored().channels >= 3 ? 3 : 1; }  ///< Colours, or the first channel as grey.
+  int stored_channels() const noexcept { return stored().channels; }
   bool is_float() const noexcept { return stored().is_float; }
   int bits() const noexcept { return 8 * stored().sample_bytes; }
   std::vector<float> curve() const;  ///< As in GreyImage.
@@ -41,11 +42,13 @@ class PictureInput {
   /// @throws InvalidInput naming the file and the row when it is damaged there.
   void read(int top, int rows, float* values);
   void read(int top, int rows, unsigned char* values);
+  /// All rows of a picture that is not tiled, with all of its channels.
+  void read_stored(unsigned char* values);
 
  private:
   const StoredPicture& stored() const noexcept { return decoder_->stored(); }
   void check_size(std::uintmax_t bytes, std::size_t most_pixels) const;
-  void read(int top, int rows, SampleType type, std::size_t sample_bytes, void* values);
+  void read(int top, int rows, int channels, SampleType type, std::size_t sample_bytes, void* values);
 
   std::string name_;
   std::unique_ptr<PictureDecoder> decoder_;

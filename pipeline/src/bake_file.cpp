@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "papilla/core/error.hpp"
 #include "papilla/core/progress_until.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
@@ -10,6 +11,7 @@
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
+#include "solid_grain.hpp"
 
 namespace papilla {
 namespace {
@@ -81,6 +83,8 @@ std::vector<GltfSurfaceEdit> surface_edits(const BakeResult& result, const Mater
     if (grain != nullptr) {
       edit.normal_map = &grain->normal_png;
       if (grain->picture) edit.picture = &*grain->picture;
+      if (grain->shine) edit.shine = &*grain->shine;
+      edit.picture_roughness = grain->roughness_factor, edit.picture_metallic = grain->metallic_factor;
       if (kept_mm_per_unit > 0) edit.transform = transform_to_repeats(*grain, kept_mm_per_unit);
       edit.uv = baked->uv;
     }
@@ -104,6 +108,26 @@ void read_again(const std::filesystem::path& output, BakeResult& result) {
 /// Why a scene that was read for an edit can't be edited.
 constexpr const char* k_instances_apart =
     "the instances that one node lists (EXT_mesh_gpu_instancing) get different materials";
+
+constexpr const char* k_reads_surface = "a recipe reads the surface, which gets an atlas of its own";
+
+/// Whether a rule has such a recipe. Mistakes in recipes are found where they are used.
+bool has_solid_recipe(const Materials& rules, const RecipeLibrary& library) {
+  return std::any_of(rules.materials.begin(), rules.materials.end(), [&](const auto& entry) {
+    try {
+      const auto recipe = recipe_of(entry.second, library, true);
+      return recipe && reads_surface(*recipe);
+    } catch (const Error&) {
+      return false;
+    }
+  });
+}
+
+/// bake_way(), and what the rules say.
+BakeWay way_of(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options) {
+  const BakeWay way = bake_way(input, options);
+  return way.in_place && has_solid_recipe(rules, options.bake.library) ? BakeWay{false, k_reads_surface} : way;
+}
 
 /// @return false when the scene has to be written anew.
 bool edit_file(const std::filesystem::path& input, const std::filesystem::path& output, const Materials& rules,
@@ -149,7 +173,7 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
 PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
                       const ProgressCallback& progress) {
   PlannedFile result;
-  result.way = bake_way(input, options);
+  result.way = way_of(input, rules, options);
   Scene scene;
   GltfOrigin origin;
   if (result.way.in_place) {
@@ -169,7 +193,7 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
 BakeFileResult bake_file(const std::filesystem::path& input, const std::filesystem::path& output,
                          const Materials& rules, const BakeFileOptions& options, const ProgressCallback& progress) {
   BakeFileResult result;
-  result.way = bake_way(input, options);
+  result.way = way_of(input, rules, options);
   if (result.way.in_place) {
     if (edit_file(input, output, rules, options, progress, result)) return result;
     result.way = {false, k_instances_apart};

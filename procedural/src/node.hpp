@@ -75,6 +75,8 @@ struct Node {
   bool multi = false;
   bool layered = false;  ///< All channels come from the textures within, unless a formula says otherwise.
   std::array<double, k_channels> channel_scale{};
+  bool own_highlight = false;  ///< Its roughness follows from its own specular channels.
+  bool cuts = false;           ///< As a layer it is a hole.
   double range = 1, fade = 1;  ///< Of this texture within texmap.
   bool uses_normal = false;
   bool uses_near = false;   ///< A formula of it or of a texture within uses a neighbourhood.

@@ -100,5 +100,6 @@ Json rules_json(const std::vector<RuleUse>& uses);
 Json bake_json(const BakeResult& result, const BakeOptions& options);
 
 Json weather_json(const WeatheredMaterial& material);
+Json atlases_json(const std::vector<BakedAtlas>& atlases);
 
 }  // namespace papilla::app

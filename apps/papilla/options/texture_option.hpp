@@ -33,7 +33,7 @@ class HeightOption {
 /// Options of `texture`, in the order of its help: pictures of a recipe, or a contact sheet, or a list.
 class TextureOption {
  public:
-  std::string recipe, output, list, sheet, suggest;
+  std::string recipe, output, on, list, sheet, suggest;
   std::vector<std::string> libraries;
   int tile_px = 128;
   TextureFileOptions files;  ///< Without size and channels: see options().

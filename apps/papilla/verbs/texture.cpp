@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "exit_code.hpp"
+#include "json/scene_json.hpp"
 #include "json/texture_json.hpp"
 #include "options/texture_option.hpp"
 #include "page/sheet_page.hpp"
@@ -12,7 +13,9 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/pipeline/texture_on_scene.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "shown_format.hpp"
 #include "text/texture_text.hpp"
@@ -37,6 +40,21 @@ Json write_sheet(const TextureOption& options, const RecipeLibrary& library, Ver
     if (!entry.error.empty()) context.console.print(shown_format("{}: {}\n", entry.name, entry.error));
   context.console.print(shown_format("{} recipes on {}/sheet.html\n", sheet.entries.size(), options.output));
   return sheet_json(sheet);
+}
+
+Json write_on_scene(const TextureOption& options, const RecipeLibrary& library, const VerbContext& context) {
+  const TextureFileOptions files = options.options(context.seed, context.progress);
+  const TextureOnScene made = write_texture_on_scene(
+      options.recipe, library, read_scene(options.on, {}, context.progress), options.output, files);
+  context.console.print(shown_format("{}/{}, with {} pictures\n", options.output, made.scene, made.pictures.size()));
+  for (const BakedAtlas& atlas : made.baked.atlases)
+    context.console.print(shown_format("atlas of {} x {}: {} charts, a texel for every {:.2g} mm\n", atlas.width,
+                                       atlas.height, atlas.charts, atlas.mm_per_texel));
+  return {{"scene", made.scene},
+          {"pictures", made.pictures},
+          {"atlases", atlases_json(made.baked.atlases)},
+          {"losses", made.baked.scene.losses},
+          {"warnings", made.baked.scene.warnings}};
 }
 
 Json print_list(const std::string& what, const RecipeLibrary& library, const Console& console) {
@@ -80,6 +98,7 @@ Json run(const TextureOption& options, VerbContext& context) {
   if (options.output.empty()) throw InvalidInput("texture: -o DIR is missing");
   if (!options.sheet.empty()) return write_sheet(options, library, context);
   if (options.recipe.empty()) throw InvalidInput("texture: a recipe, --sheet, --list or --suggest is missing");
+  if (!options.on.empty()) return write_on_scene(options, library, context);
   const TextureFiles files =
       write_texture_files(options.recipe, library, options.output, options.options(context.seed, context.progress));
   context.console.print(texture_text(files));

@@ -46,6 +46,7 @@ ImageSpec spec_of(const PictureToStore& picture, std::string_view format) {
     spec.attribute("YResolution", static_cast<float>(k_mm_per_inch / picture.pitch_mm_y));
     spec.attribute("PixelAspectRatio", static_cast<float>(picture.pitch_mm_x / picture.pitch_mm_y));
   }
+  if (picture.channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);
   if (format == "jpeg") spec.attribute("Compression", fmt::format("jpeg:{}", picture.jpeg_quality));
   if (!picture.profile.empty())
     spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(picture.profile.size())),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "weather/surface_texels.hpp"
+#include "surface/surface_texels.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
