@@ -176,6 +176,7 @@ class MaterialEditor {
     if (!material.contains("pbrMetallicRoughness")) return;
     Json& pbr = material["pbrMetallicRoughness"];
     if (is_own(pbr, "baseColorTexture", edit.picture)) pbr.erase("baseColorTexture");
+    if (is_own(pbr, "metallicRoughnessTexture", edit.shine)) pbr.erase("metallicRoughnessTexture");
   }
 
   void write(EditedMaterial& material, std::set<std::size_t>& taken) {
@@ -240,6 +241,7 @@ class MaterialEditor {
       pbr["baseColorTexture"] = reference(*edit.picture, material);
       const Json alpha = pbr.contains("baseColorFactor") ? pbr["baseColorFactor"][3] : Json(1);
       pbr["baseColorFactor"] = {1, 1, 1, alpha};
+      if (edit.picture_roughness) edit_shine(material, pbr);
     }
     if (edit.normal_map == nullptr) return;
     const std::string reason = why_no_normal_map(material, json);
@@ -249,6 +251,14 @@ class MaterialEditor {
     else
       notes_.push_back("material '" + one_line(json.value("name", "")) + "': " + reason +
                        ", so that the grain is felt and its normal map is not shown");
+  }
+
+  void edit_shine(const EditedMaterial& material, Json& pbr) {
+    const GltfSurfaceEdit& edit = *material.edit;
+    pbr["roughnessFactor"] = *edit.picture_roughness;
+    pbr["metallicFactor"] = *edit.picture_metallic;
+    pbr.erase("metallicRoughnessTexture");
+    if (edit.shine != nullptr) pbr["metallicRoughnessTexture"] = reference(*edit.shine, material);
   }
 
   static bool has_base_picture(const Json& material) {

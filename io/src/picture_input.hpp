@@ -26,6 +26,7 @@ class PictureInput {
   int width() const noexcept { return stored().width; }
   int height() const noexcept { return stored().height; }
   int channels() const noexcept { return stored().channels >= 3 ? 3 : 1; }  ///< Colours, or the first channel as grey.
+  int stored_channels() const noexcept { return stored().channels; }
   bool is_float() const noexcept { return stored().is_float; }
   int bits() const noexcept { return 8 * stored().sample_bytes; }
   std::vector<float> curve() const;  ///< As in GreyImage.
@@ -41,6 +42,8 @@ class PictureInput {
   /// @throws InvalidInput naming the file and the row when it is damaged there.
   void read(int top, int rows, float* values);
   void read(int top, int rows, unsigned char* values);
+  /// All rows of a picture that is not tiled, with all of its channels.
+  void read_stored(unsigned char* values);
 
   int stored_channels() const noexcept { return stored().channels; }
   /// The same of the first `channels` channels. @pre 0 < channels <= stored_channels().

@@ -5,6 +5,7 @@ import { number, viridis } from './colour.mjs';
 import { load } from './data.mjs';
 import { count, element } from './dom.mjs';
 import { Live } from './live.mjs';
+import { Looks } from './looks.mjs';
 import { SceneView } from './scene_view.mjs';
 import { fillTables } from './tables.mjs';
 import { Touch } from './touch.mjs';
@@ -35,6 +36,7 @@ class Page {
     $('summary').textContent = `${count(scene.triangles, 'triangle')} in ${count(scene.parts.length, 'part')}; `
       + (fewer ? `${scene.triangles_shown.toLocaleString('en')} shown, simplified for this page by about ${number(scene.error_mm)} mm at most` : 'all of them shown');
     $('footer').textContent = data.live ? `Served by ${data.program}, on this machine only. The samples come from its player; nothing is loaded from anywhere else.`
+      : data.looks ? `Served by ${data.program}, on this machine only. Nothing is loaded from anywhere else.`
       : `Written by ${data.program}. Everything is in this file; nothing is loaded from anywhere.`;
     this.theme();
     this.listViews();
@@ -48,6 +50,7 @@ class Page {
     this.switchTo(this.view);
     this.selectLargest();
     if (data.live) this.live = new Live(data.title, this.three);
+    if (data.looks) this.looks = new Looks(data.looks, this.three);
     return fillCards($('cards'), scene, data.report, this.three);
   }
 

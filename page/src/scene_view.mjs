@@ -49,7 +49,10 @@ async function textureOf(scene, reference, isColour) {
   const bitmap = await createImageBitmap(new Blob([bytesOf(image.bytes)], { type: image.type }), { colorSpaceConversion: 'none' })
     .catch(() => null);  // A format that this browser does not know, or a damaged picture: drawn without it.
   if (!bitmap) return null;
-  const texture = new THREE.Texture(bitmap);
+  return placed(new THREE.Texture(bitmap), reference, isColour);
+}
+
+function placed(texture, reference, isColour) {
   texture.flipY = false;
   texture.colorSpace = isColour ? THREE.SRGBColorSpace : THREE.NoColorSpace;
   [texture.wrapS, texture.wrapT] = reference.wrap.map((w) => GL_WRAP[w] ?? THREE.RepeatWrapping);
@@ -58,6 +61,22 @@ async function textureOf(scene, reference, isColour) {
   texture.matrixAutoUpdate = false;
   texture.matrix.copy(uvMatrix(reference));
   texture.needsUpdate = true;
+  return texture;
+}
+
+/** Pixels as a texture at a reference's place: `before` with new ones, where it has their size. */
+function pixelTexture(before, pixels, { width, height }, reference, isColour) {
+  if (!pixels) return before?.dispose() ?? null;
+  if (before?.isDataTexture && before.image.width === width && before.image.height === height) {
+    before.image.data = pixels;
+    before.needsUpdate = true;
+    return before;
+  }
+  before?.dispose();
+  const texture = placed(new THREE.DataTexture(pixels, width, height), reference, isColour);
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = THREE.LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
   return texture;
 }
 
@@ -94,7 +113,7 @@ export class SceneView {
     this.listen();
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
-    this.loadTextures().catch((error) => { this.textureError = error.message; });
+    this.loaded = this.loadTextures().catch((error) => { this.textureError = error.message; });
   }
 
   /** The scene's environment, or a plain room and a sun, and those that materials have of their own. */
@@ -176,11 +195,35 @@ export class SceneView {
       if (!material.unlit) {
         standard.normalMap = await textureOf(this.data, material.normal_map, false);
         if (material.normal_map) standard.normalScale.setScalar(material.normal_map.factor);
+        standard.roughnessMap = standard.metalnessMap = await textureOf(this.data, material.shine_map, false);
       }
       standard.needsUpdate = true;
     }
     this.canvas.dataset.textures = 'loaded';
     this.invalidate();
+  }
+
+  /** Shows materials by other pixels, at the places of their pictures; done when they are drawn. */
+  async setLooks(looks) {
+    await this.loaded;
+    for (const look of looks) {
+      const standard = this.standard[look.material], place = this.data.materials[look.material].base_map;
+      if (!standard.isMeshStandardMaterial || !place) continue;
+      const had = [standard.map, standard.normalMap, standard.roughnessMap, standard.alphaTest].map(Boolean).join();
+      standard.map = pixelTexture(standard.map, look.color, look, place, true);
+      if (look.normal) standard.normalMap = pixelTexture(standard.normalMap, look.normal, look, place, false);
+      standard.roughnessMap = standard.metalnessMap = pixelTexture(standard.roughnessMap, look.shine, look, place, false);
+      Object.assign(standard, { roughness: look.roughness, metalness: look.metallic });
+      standard.color.setRGB(1, 1, 1);
+      standard.transparent = look.alpha_mode === 'BLEND';
+      standard.opacity = standard.transparent ? look.opacity : 1;
+      standard.depthWrite = !standard.transparent;
+      standard.alphaTest = look.alpha_mode === 'MASK' ? this.data.materials[look.material].alpha_cutoff : 0;
+      if (had !== [standard.map, standard.normalMap, standard.roughnessMap, standard.alphaTest].map(Boolean).join()) standard.needsUpdate = true;
+    }
+    const drawn = new Promise((resolve) => { this.onDrawn = resolve; });
+    this.moved();
+    await drawn;
   }
 
   setView(view, range) {
@@ -327,6 +370,7 @@ export class SceneView {
     this.frames = (this.frames ?? 0) + 1;
     this.canvas.dataset.frames = this.frames;
     this.canvas.dataset.triangles = this.renderer.info.render.triangles;
+    this.onDrawn?.();
     if (this.frames < 3 || this.coarse) return;
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until the frame is there

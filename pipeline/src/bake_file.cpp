@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "papilla/core/error.hpp"
 #include "papilla/core/progress_until.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
@@ -10,6 +11,7 @@
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
+#include "solid_grain.hpp"
 
 namespace papilla {
 namespace {
@@ -83,6 +85,8 @@ std::vector<GltfSurfaceEdit> surface_edits(const BakeResult& result, const Mater
     if (grain != nullptr) {
       edit.normal_map = &grain->normal_png;
       if (grain->picture) edit.picture = &*grain->picture;
+      if (grain->shine) edit.shine = &*grain->shine;
+      edit.picture_roughness = grain->roughness_factor, edit.picture_metallic = grain->metallic_factor;
       if (kept_mm_per_unit > 0) edit.transform = transform_to_repeats(*grain, kept_mm_per_unit);
       edit.uv = baked->uv;
     }
@@ -106,6 +110,20 @@ void read_again(const std::filesystem::path& output, BakeResult& result) {
 /// Why a scene that was read for an edit can't be edited.
 constexpr const char* k_instances_apart =
     "the instances that one node lists (EXT_mesh_gpu_instancing) get different materials";
+
+constexpr const char* k_reads_surface = "a recipe reads the surface, which gets an atlas of its own";
+
+/// Whether a rule has such a recipe. Mistakes in recipes are found where they are used.
+bool has_solid_recipe(const Materials& rules, const RecipeLibrary& library) {
+  return std::any_of(rules.materials.begin(), rules.materials.end(), [&](const auto& entry) {
+    try {
+      const auto recipe = recipe_of(entry.second, library, true);
+      return recipe && reads_surface(*recipe);
+    } catch (const Error&) {
+      return false;
+    }
+  });
+}
 
 /// @return false when the scene has to be written anew.
 bool edit_file(const std::filesystem::path& input, const std::filesystem::path& output, const Materials& rules,
@@ -146,6 +164,7 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
   if (perception.leave_out_unreachable || perception.leave_out_unseen) return {false, "parts are to be left out"};
   if (options.write.mirror_mpeg_haptics || options.write.mirror_khr_physics)
     return {false, "tags are to be mirrored in extensions"};
+  if (has_solid_recipe(rules, options.bake.library)) return {false, k_reads_surface};
   return {true, "only tags and what the grain needs are added"};
 }
 

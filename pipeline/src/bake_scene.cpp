@@ -11,6 +11,7 @@
 #include <set>
 #include <tuple>
 
+#include "bake_solid.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -196,8 +197,39 @@ class SceneMaterials {
     return it->second;
   }
 
+  /// Gives the materials whose recipes read the surface a picture of it in place of the tile.
+  void paint_solids(const RecipeLibrary& library, const ProgressCallback& progress) {
+    const std::vector<SolidGrain> made = paint_solid(scene_, solids_, library, progress);
+    for (std::size_t i = 0; i < made.size(); ++i) take_solid(solids_[i], kept_mm_of_solid_[i], made[i]);
+  }
+
  private:
   static constexpr std::uint32_t k_none = 0xffffffffu;
+
+  void take_solid(const SolidUse& use, double kept_mm_per_unit, const SolidGrain& solid) {
+    Material& material = scene_.materials[use.material];
+    const Grain& grain = solid.grain;
+    for (const std::string& warning : grain.warnings) scene_.warnings.push_back(warning);
+    const bool shows_tile = use.tile->picture && material.base_color_texture &&
+                            scene_.textures[material.base_color_texture->texture].name == use.tile->picture->name;
+    if (shows_tile) material.base_color_texture.reset(), material.metallic_roughness_texture.reset();
+    const std::optional<UvTransform> transform = solid.repeats ? material.normal_texture->transform : std::nullopt;
+    if (!solid.repeats)
+      for (auto* own : {&material.base_color_texture, &material.metallic_roughness_texture, &material.occlusion_texture,
+                        &material.emissive_texture})
+        if (*own && (*own)->tex_coord == 0) (*own)->tex_coord = 1;
+    attach_pictures(material, grain, transform);
+    if (material.haptic) material.haptic = surface_tag(*use.rule, &grain, solid.repeats ? kept_mm_per_unit : 0);
+    if (solid.repeats) return;
+    result_.mm_per_uv[use.material] = {grain.size_mm[0], grain.size_mm[1]};
+    const double mm_per_texel = grain.size_mm[0] / grain.relief.width,
+                 wanted = use.tile->size_mm[0] / use.tile->relief.width;
+    result_.atlases.push_back({material.name, grain.relief.width, grain.relief.height, solid.charts, mm_per_texel});
+    if (mm_per_texel > 1.01 * wanted)
+      scene_.warnings.push_back(fmt::format(
+          "material '{}': its recipe reads the surface, whose atlas has a texel for every {:.2g} mm, not {:.2g}",
+          material.name, mm_per_texel, wanted));
+  }
 
   std::uint32_t make(std::uint32_t original, const MaterialRule& rule, bool grain, double kept_mm_per_unit, bool felt) {
     Material material = original == k_none ? Material{} : scene_.materials[original];
@@ -214,6 +246,9 @@ class SceneMaterials {
       attach_to_new_uv(material, *relief);
     material.haptic.reset();
     if (felt) material.haptic = surface_tag(rule, relief, kept_mm_per_unit);
+    if (relief != nullptr && relief->solid)
+      solids_.push_back({static_cast<std::uint32_t>(scene_.materials.size()), &rule, relief}),
+          kept_mm_of_solid_.push_back(kept_mm_per_unit);
     const auto environment = result_.environments.find(rule.name);
     note_origin(material, rule, original_name,
                 environment == result_.environments.end() ? std::string() : environment->second);
@@ -266,6 +301,17 @@ class SceneMaterials {
     picture.transform = transform;
     material.base_color_texture = picture;
     material.base_color = {1, 1, 1, material.base_color[3]};
+    if (grain.roughness_factor) attach_shine(material, grain, transform);
+  }
+
+  /// What a recipe says of roughness and metallic, in place of the part's own.
+  void attach_shine(Material& material, const Grain& grain, const std::optional<UvTransform>& transform) {
+    material.roughness = *grain.roughness_factor, material.metallic = *grain.metallic_factor;
+    material.metallic_roughness_texture.reset();
+    if (!grain.shine) return;
+    TextureReference& shine = material.metallic_roughness_texture.emplace();
+    shine.texture = texture_of(*grain.shine);
+    shine.transform = transform;
   }
 
   std::uint32_t texture_of(const EncodedImage& image) {
@@ -297,6 +343,8 @@ class SceneMaterials {
   Scene& scene_;
   const Materials& rules_;
   std::map<std::string, std::uint32_t> textures_;
+  std::vector<SolidUse> solids_;
+  std::vector<double> kept_mm_of_solid_;  ///< Of each.
   std::map<std::tuple<std::uint32_t, std::string, double, bool, bool>, std::uint32_t> made_;
 };
 
@@ -583,6 +631,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
     if (part.materials.size() <= surface->slot) part.materials.resize(surface->slot + 1, material);
     part.materials[surface->slot] = material;
   }
+  materials.paint_solids(options.library, progress);
   add_object_textures(result, rules);
   drop_unused_materials(result);
   make_names_unique(result.scene.materials);

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <initializer_list>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +33,8 @@
 #include "papilla/texture/texture_reading.hpp"
 #include "papilla/texture/tiling.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
+#include "solid_grain.hpp"
+#include "surface/painted_surface.hpp"
 
 namespace papilla {
 namespace {
@@ -74,9 +74,11 @@ struct Source {
   GreyImage grey;  ///< Of a recipe or test grain: heights.
   ColorImage color;
   Transfer transfer = Transfer::automatic;
+  bool solid = false;                     ///< Of a recipe that reads the surface.
   bool computed = false;                  ///< Of a recipe or a test grain: heights, not a photograph.
   std::optional<double> friction = {};    ///< Of a recipe: mean of the channel.
-  double stiffness = 1;                   ///< The same.
+  double stiffness = 1, damping = 1;      ///< The same.
+  Shine shine = {};                       ///< The same, where the rule does not say it.
   std::optional<QuantityMaps> maps = {};  ///< The same: the channels over their means.
 };
 
@@ -221,43 +223,50 @@ void add_fine_roughness(const MaterialRule& rule, Grain& grain) {
       roughness_above(whole, shortest_playable_wavelength_mm(k_hand_speed_mm_per_s, k_device_rate_hz));
 }
 
-double mean_of(const std::vector<float>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 /// A channel in multiples of its mean.
 QuantityMap over_mean(Quantity quantity, std::vector<float> values, double mean) {
   for (float& v : values) v = mean > 0 ? static_cast<float>(static_cast<double>(v) / mean) : 1;
   return {quantity, std::move(values)};
 }
 
-/// A recipe of MATERIALS.json as a tile. @param key  where it stands.
-RenderedTexture render_recipe(const MaterialRule& rule, const std::filesystem::path& file, const std::string& recipe,
-                              const std::string& key, std::initializer_list<Channel> channels,
-                              const RecipeLibrary& library) {
+/// A recipe of MATERIALS.json. @param key  where it stands.
+ProceduralTexture compile_recipe(const MaterialRule& rule, const std::filesystem::path& file, const std::string& recipe,
+                                 const std::string& key, const RecipeLibrary& library, bool seamless = true) {
   CompileOptions options = recipe_options(file.parent_path());
   options.source = "material '" + rule.name + "', " + key;
-  options.seamless = true;
+  options.seamless = seamless;
   options.time = rule.time;
-  RenderOptions render;
-  render.width = render.height = k_recipe_samples;
-  for (const Channel c : channels) render.channels |= 1U << static_cast<unsigned>(c);
-  return render_texture(compile_texture(recipe, library, options), render);
+  return compile_texture(recipe, library, options);
 }
 
-Source computed_source(const MaterialRule& rule, const RecipeLibrary& library) {
-  RenderedTexture texture =
-      render_recipe(rule, rule.texture, rule.recipe, "texture",
-                    {Channel::bump, Channel::color, Channel::friction, Channel::stiffness}, library);
+RenderedTexture render_tile(const ProceduralTexture& texture, unsigned channels) {
+  RenderOptions render;
+  render.width = render.height = k_recipe_samples;
+  render.channels = channels;
+  return render_texture(texture, render);
+}
+
+/// What a recipe gave, as the picture of a material.
+Source painted_source(const MaterialRule& rule, PaintedSurface painted) {
+  const SurfaceRanges& ranges = painted.ranges;
+  SurfacePicture& picture = painted.picture;
   Source source;
   source.computed = true;
-  source.friction = mean_of(texture.values[Channel::friction]);
-  source.stiffness = mean_of(texture.values[Channel::stiffness]);
-  source.maps = QuantityMaps{.width = texture.width, .height = texture.height, .periodic = true, .maps = {}};
-  source.maps->maps = {over_mean(Quantity::stiffness, texture.values[Channel::stiffness], source.stiffness),
-                       over_mean(Quantity::dynamic_friction, texture.values[Channel::friction], *source.friction)};
-  source.color = to_color_image(texture.values[Channel::color], texture.width, texture.height);
-  source.grey = {texture.width, texture.height, texture.values[Channel::bump], 0, 32};
+  source.friction = ranges.friction.mean();
+  source.stiffness = ranges.stiffness.mean(), source.damping = ranges.damping.mean();
+  source.shine = shine_of(painted, rule.roughness, rule.metallic);
+  source.color = color_of(picture);
+  source.grey = {picture.width, picture.height, std::move(picture.bump), 0, 32};
+  source.maps = QuantityMaps{.width = picture.width, .height = picture.height, .periodic = painted.repeats, .maps = {}};
+  source.maps->maps = {over_mean(Quantity::stiffness, std::move(picture.stiffness), source.stiffness),
+                       over_mean(Quantity::dynamic_friction, std::move(picture.friction), *source.friction),
+                       over_mean(Quantity::damping, std::move(picture.damping), source.damping)};
+  return source;
+}
+
+Source computed_source(const MaterialRule& rule, const ProceduralTexture& recipe) {
+  Source source = painted_source(rule, painted_repeat(render_tile(recipe, painted_channels())));
+  source.solid = reads_surface(recipe);
   return source;
 }
 
@@ -286,9 +295,7 @@ Source synthesized_source(const MaterialRule& rule) {
 /// A file of that name wins over a recipe of that name.
 Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   if (rule.recipe.starts_with(k_grain_prefix)) return synthesized_source(rule);
-  std::error_code error;
-  if (!std::filesystem::exists(rule.texture, error) && looks_like_recipe(rule.recipe, library))
-    return computed_source(rule, library);
+  if (const auto recipe = recipe_of(rule, library, true)) return computed_source(rule, *recipe);
   try {
     Picture picture = read_reduced_picture(rule.texture, k_most_grain_side, k_height_bytes_per_pixel + 3);
     return {std::move(picture.grey), std::move(picture.color),
@@ -314,7 +321,8 @@ HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& m
   }
   std::error_code error;
   if (!std::filesystem::exists(map.picture, error) && looks_like_recipe(map.recipe, library)) {
-    RenderedTexture made = render_recipe(rule, map.picture, map.recipe, key_of(quantity), {Channel::bump}, library);
+    RenderedTexture made = render_tile(compile_recipe(rule, map.picture, map.recipe, key_of(quantity), library),
+                                       1U << static_cast<unsigned>(Channel::bump));
     return {made.width, made.height, std::move(made.values[Channel::bump]), 1, 1, true};
   }
   const auto place = [&](const Error& unread) {
@@ -365,7 +373,7 @@ void add_maps(const MaterialRule& rule, QuantityMaps maps, const double (&size_m
   maps.pitch_mm_y = size_mm[1] / maps.height;
   grain.tag.maps = encode_quantity_maps(std::move(maps));
   MaterialTag constants = grain.tag;
-  apply_constants(rule, constants, grain.stiffness_factor);
+  apply_constants(rule, constants, grain.stiffness_factor, grain.damping_factor);
   for (const Quantity lost : scale_by_constants(grain.tag.maps, constants))
     if (rule.maps.contains(lost))
       grain.warnings.push_back(
@@ -381,15 +389,19 @@ void require_picture(const MaterialRule& rule, const Source& source) {
                        "', height.images: the texture is a recipe, which has its own height");
 }
 
+double depth_of(const MaterialRule& rule, const Grain& grain) {
+  return rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+}
+
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.
-HeightMap computed_relief(const MaterialRule& rule, const Source& source, Grain& grain) {
-  const double depth = rule.height.depth_mm.value_or(k_default_depth * std::min(grain.size_mm[0], grain.size_mm[1]));
+/// @param depth  of a height of 1, mm.
+HeightMap computed_relief(const MaterialRule& rule, const Source& source, double depth, Grain& grain) {
   HeightMap relief{source.grey.width,
                    source.grey.height,
                    source.grey.pixels,
                    grain.size_mm[0] / source.grey.width,
                    grain.size_mm[1] / source.grey.height,
-                   true};
+                   !source.maps || source.maps->periodic};
   for (float& h : relief.mm) h *= static_cast<float>(depth * rule.height.scale);
   grain.height = rule.recipe.starts_with(k_grain_prefix)
                      ? GrainHeight{.method = "grain", .reason = "the grain is computed"}
@@ -475,12 +487,38 @@ void describe_relief(Grain& grain, const RoughnessOptions& options) {
   grain.tag.roughness = tag;
 }
 
+/// Brings a relief within its limits, and makes its maps.
+/// @param dimension  is looked for. @param name  of the pictures.
+void finish_relief(const MaterialRule& rule, bool dimension, const std::string& name, Grain& grain) {
+  limit_heights(rule, grain);
+  limit_slopes(rule, grain);
+  describe_relief(grain, {.dimension = dimension});
+  const EncodedHeight encoded = encode_height_png16(grain.relief);
+  grain.tag.height = make_height_tag(grain.relief, {.png = encoded.png,
+                                                    .scale_mm = encoded.scale_mm,
+                                                    .offset_mm = encoded.offset_mm,
+                                                    .rms_mm = rms_height_mm(grain.relief)});
+  grain.tag.height->metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
+  const Stopwatch normal_clock;
+  grain.normal_png = png("normal." + name, encode_png(normal_map(grain.relief)));
+  grain.normal_map_seconds = normal_clock.seconds();
+  grain.tag.provenance = {std::string("papilla ") + version(), grain.height.method, "analyze height normal_map tag"};
+  grain.height_png = png("height." + name, encoded.png);
+}
+
 /// How the picture looks, and whether it is shown.
 void look_at(const MaterialRule& rule, const Source& source, Grain& grain) {
   grain.tiles = measure_tiling(source.grey).tiles;
   grain.monochrome = is_monochrome(source.color);
   if (rule.show == "picture" || (rule.show == "auto" && !grain.monochrome))
     grain.picture = png("grain." + rule.name, encode_png(source.color));
+}
+
+/// Roughness and metallic of a recipe go with its picture. A test grain has neither channel, and no friction.
+void take_shine(const Source& source, const std::string& name, Grain& grain) {
+  if (!grain.picture || !source.friction) return;
+  grain.roughness_factor = source.shine.roughness, grain.metallic_factor = source.shine.metallic;
+  if (source.shine.picture) grain.shine = png("metallic_roughness." + name, encode_png(*source.shine.picture));
 }
 
 /// Class and lattice of the picture.
@@ -553,40 +591,66 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
   grain.source = source.computed ? rule.recipe : rule.texture.string();
   if (source.computed) {
     if (source.friction) grain.tag.static_friction = grain.tag.dynamic_friction = *source.friction;
-    grain.stiffness_factor = source.stiffness;
+    grain.stiffness_factor = source.stiffness, grain.damping_factor = source.damping;
+    take_shine(source, rule.name, grain);
+    grain.solid = source.solid;
   }
   grain.photograph = std::move(source.color);
   grain.analyze_seconds = analyze_clock.seconds() - grain.height_seconds;
 
   const Stopwatch height_clock;
   grain.relief = several           ? several_relief(rule, std::move(*several), grain)
-                 : source.computed ? computed_relief(rule, source, grain)
+                 : source.computed ? computed_relief(rule, source, depth_of(rule, grain), grain)
                                    : make_relief(rule, source, reading, grain);
   add_fine_roughness(rule, grain);
   add_maps(rule, std::move(maps), size_mm, grain);
-  limit_heights(rule, grain);
-  limit_slopes(rule, grain);
-  describe_relief(grain, {.dimension = reading.stop != StopReason::time_limit});
-  const EncodedHeight encoded = encode_height_png16(grain.relief);
-  grain.tag.height = make_height_tag(grain.relief, {.png = encoded.png,
-                                                    .scale_mm = encoded.scale_mm,
-                                                    .offset_mm = encoded.offset_mm,
-                                                    .rms_mm = rms_height_mm(grain.relief)});
-  grain.tag.height->metres_per_uv = {grain.size_mm[0] * k_metres_per_mm, grain.size_mm[1] * k_metres_per_mm};
-  grain.height_seconds += height_clock.seconds();
-
-  const Stopwatch normal_clock;
-  grain.normal_png = png("normal." + rule.name, encode_png(normal_map(grain.relief)));
-  grain.normal_map_seconds = normal_clock.seconds();
-
-  grain.tag.provenance = {std::string("papilla ") + version(), grain.height.method, "analyze height normal_map tag"};
-  grain.height_png = png("height." + rule.name, encoded.png);
+  finish_relief(rule, reading.stop != StopReason::time_limit, rule.name, grain);
+  grain.height_seconds += height_clock.seconds() - grain.normal_map_seconds;
   return grain;
 }
 
-void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor) {
+std::optional<ProceduralTexture> recipe_of(const MaterialRule& rule, const RecipeLibrary& library, bool seamless) {
+  std::error_code error;
+  if (rule.recipe.starts_with(k_grain_prefix) || std::filesystem::exists(rule.texture, error) ||
+      !looks_like_recipe(rule.recipe, library))
+    return std::nullopt;
+  return compile_recipe(rule, rule.texture, rule.recipe, "texture", library, seamless);
+}
+
+bool reads_surface(const ProceduralTexture& texture) {
+  return texture.depends_on_normal() || texture.depends_on_position() || texture.depends_on_sky() ||
+         texture.depends_on_flow();
+}
+
+Grain solid_grain(const MaterialRule& rule, const Grain& tile, PaintedSurface painted, const std::string& name) {
+  Grain grain = tile;
+  grain.warnings.clear();
+  grain.lattice.reset(), grain.tag.symmetry.reset(), grain.tag.maps.reset();
+  if (!painted.repeats) {
+    grain.size_mm[0] *= painted.picture.width / painted.texels_per_repeat;
+    grain.size_mm[1] *= painted.picture.height / painted.texels_per_repeat;
+  }
+  Source source = painted_source(rule, std::move(painted));
+  QuantityMaps maps = *std::exchange(source.maps, std::nullopt);
+  const bool periodic = maps.periodic;
+  std::erase_if(maps.maps, [&](const QuantityMap& map) { return rule.maps.contains(map.quantity); });
+  grain.tag.static_friction = grain.tag.dynamic_friction = *source.friction;
+  grain.stiffness_factor = source.stiffness, grain.damping_factor = source.damping;
+  grain.relief = computed_relief(rule, source, depth_of(rule, tile), grain);
+  grain.relief.periodic = periodic;
+  if (grain.picture) grain.picture = png("grain." + name, encode_png(source.color));
+  grain.shine.reset();
+  take_shine(source, name, grain);
+  grain.photograph = std::move(source.color);
+  const double size_mm[2] = {grain.size_mm[0], grain.size_mm[1]};
+  add_maps(rule, std::move(maps), size_mm, grain);
+  finish_relief(rule, false, name, grain);
+  return grain;
+}
+
+void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor, double damping_factor) {
   tag.stiffness = stiffness_factor * rule.stiffness.value_or(tag.stiffness);
-  if (rule.damping) tag.damping = *rule.damping;
+  tag.damping = damping_factor * rule.damping.value_or(tag.damping);
   tag.static_friction = rule.static_friction.value_or(rule.dynamic_friction.value_or(tag.static_friction));
   tag.dynamic_friction = rule.dynamic_friction.value_or(rule.static_friction.value_or(tag.dynamic_friction));
   if (rule.stribeck_velocity) tag.stribeck_velocity = *rule.stribeck_velocity;
@@ -613,7 +677,8 @@ MaterialTag surface_tag(const MaterialRule& rule, const Grain* grain, double kep
     }
     tag.height->metres_per_uv = {metres, metres};
   }
-  apply_constants(rule, tag, grain != nullptr ? grain->stiffness_factor : 1);
+  apply_constants(rule, tag, grain != nullptr ? grain->stiffness_factor : 1,
+                  grain != nullptr ? grain->damping_factor : 1);
   if (grain == nullptr && rule.fine_roughness)
     tag.roughness = RoughnessTag{.fractal_dimension = 3 - rule.fine_roughness->hurst,
                                  .rms_height_m = k_metres_per_mm * rule.fine_roughness->rms_mm,

@@ -64,7 +64,10 @@ WeatherConfig read_weather_config(const std::filesystem::path& path) {
 std::string layered_recipe(const WeatherConfig& config, const std::vector<std::uint32_t>& layers, double friction) {
   if (layers.empty()) return "";
   std::string recipe = fmt::format(
-      "multi|textures=[base|colorfunction=currentcolor|bumpfunction=.5+lowerbump|frictionfunction={}]", friction);
+      "multi|textures=[base|colorfunction=currentcolor|bumpfunction=.5+lowerbump|frictionfunction={}"
+      "|alphafunction=loweralpha|reflectionfunction=lowerreflection|roughnessfunction=lowerroughness"
+      "|specularfunction=1|specularcoefffunction=2/max(lowerroughness,.01)^4-2]",
+      friction);
   for (const std::uint32_t layer : layers) recipe += ",[" + config.layers.at(layer).recipe + "]";
   return recipe;
 }

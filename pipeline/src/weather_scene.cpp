@@ -10,11 +10,10 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <string_view>
-#include <unordered_map>
+#include <span>
+#include <utility>
 
 #include "papilla/core/error.hpp"
-#include "papilla/core/units.hpp"
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/image_file.hpp"
@@ -23,10 +22,11 @@
 #include "papilla/procedural/texture.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/roughness.hpp"
-#include "weather/atlas_uv.hpp"
+#include "surface/atlas_uv.hpp"
+#include "surface/painted_surface.hpp"
+#include "surface/surface_atlas.hpp"
+#include "surface/surface_texels.hpp"
 #include "weather/layered_materials.hpp"
-#include "weather/surface_atlas.hpp"
-#include "weather/surface_texels.hpp"
 
 namespace papilla {
 namespace {
@@ -35,9 +35,15 @@ namespace fs = std::filesystem;
 
 /// A material as it was painted.
 struct PaintedMaterial {
-  std::vector<std::byte> color_png, normal_png;  ///< Empty when not painted.
-  std::vector<NewUv> uv;                         ///< Empty when it keeps its coordinates.
-  std::optional<HeightTag> height;               ///< Of tagged materials.
+  std::optional<PaintedSurface> surface;  ///< Kept behind finish() for looks only.
+  std::shared_ptr<const WeatheredLook> look;
+  bool is_finished = false;  ///< What a scene holds of it is made.
+  double pitch_mm = 0;
+  std::vector<std::byte> color_png, normal_png, shine_png;  ///< Empty where there is none.
+  double roughness = 1, metallic = 1;                       ///< Factors.
+  std::vector<NewUv> uv;                                    ///< Empty when it keeps its coordinates.
+  std::optional<HeightTag> height;                          ///< Of tagged materials.
+  bool new_relief = false, means_shine = false, has_holes = false;
   WeatheredMaterial report;
 };
 
@@ -128,173 +134,12 @@ class Pictures {
   std::map<std::string, std::uint32_t> known_;
 };
 
-/// What a window is painted with.
-struct PaintJob {
-  const ProceduralTexture& texture;
-  const SurfaceReading& reading;
-  const OwnSurface& own;
-  double depth_mm;                     ///< Of a height of 1.
-  double friction;                     ///< Without layers.
-  bool tiles = false;                  ///< Windows go on round their borders.
-  const StainField* stains = nullptr;  ///< Null when the recipe does not read them.
-};
-
-/// Sums over the texels that something shows, for the means of the channels.
-struct ChannelSums {
-  double friction = 0, stiffness = 0, texels = 0;
-};
-
-/// A painted window: byte, height, friction and stiffness a texel.
-struct Painted {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgb;
-  std::vector<float> bump, friction, stiffness;
-
-  Painted(int width_px, int height_px, float friction_between)
-      : width(width_px),
-        height(height_px),
-        rgb(3 * texels(), 128),
-        bump(texels(), 0.5F),
-        friction(texels(), friction_between),
-        stiffness(texels(), 1) {}
-
-  std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-  friend bool operator==(const Painted&, const Painted&) = default;
-};
-
-double flow_at(const StainField& stains, const SurfaceTexels& texels, std::size_t at) {
-  const auto vector = [&](const std::vector<float>& from) {
-    return Vec3{static_cast<double>(from[3 * at]), static_cast<double>(from[3 * at + 1]),
-                static_cast<double>(from[3 * at + 2])};
-  };
-  return stains(k_mm_per_metre * vector(texels.positions), vector(texels.normals));
-}
-
-constexpr unsigned bit(Channel c) { return 1U << static_cast<unsigned>(c); }
-constexpr unsigned k_maps = bit(Channel::color) | bit(Channel::bump) | bit(Channel::friction) | bit(Channel::stiffness);
-
-/// Evaluates the recipe at the covered texels of a window; the others get a middle grey and height.
-/// @param sky  of the window; empty when it is not read. @param scale  texels a repeat.
-/// @param charts  how often the window is shown, for the means.
-Painted paint(const PaintJob& job, const SurfaceTexels& texels, const std::vector<float>& sky, double scale,
-              double charts, ChannelSums& sums) {
-  std::vector<double> x, y;
-  std::vector<float> normals, positions, skies, flows, colours, heights;
-  std::vector<std::uint32_t> place;
-  const auto covered = static_cast<std::size_t>(
-      std::count_if(texels.covered.begin(), texels.covered.end(), [](auto c) { return c != 0; }));
-  x.reserve(covered), y.reserve(covered), place.reserve(covered), colours.reserve(3 * covered);
-  if (!job.reading.directions.empty()) normals.reserve(3 * covered);
-  for (int j = 0; j < texels.height; ++j)
-    for (int i = 0; i < texels.width; ++i) {
-      const std::size_t at = texels.at(texels.left + i, texels.top + j);
-      if (!texels.covered[at]) continue;
-      place.push_back(static_cast<std::uint32_t>(at));
-      x.push_back((texels.left + i + 0.5) / scale), y.push_back((texels.top + j + 0.5) / scale);
-      const auto from = static_cast<std::ptrdiff_t>(3 * at);
-      if (!job.reading.directions.empty())
-        normals.insert(normals.end(), texels.normals.begin() + from, texels.normals.begin() + from + 3);
-      if (job.reading.position)
-        positions.insert(positions.end(), texels.positions.begin() + from, texels.positions.begin() + from + 3);
-      const std::array<float, 3> colour = job.own.colour_at(x.back(), y.back());
-      colours.insert(colours.end(), colour.begin(), colour.end());
-      if (job.own.has_relief())
-        heights.push_back(job.own.height_at(x.back(), y.back()) / static_cast<float>(job.depth_mm));
-      if (!sky.empty()) skies.push_back(sky[at]);
-      if (job.stains) flows.push_back(static_cast<float>(flow_at(*job.stains, texels, at)));
-    }
-  TexturePoints points{x, y, normals, positions, skies, colours, heights};
-  points.flow = flows;
-  if (job.texture.depends_on_neighbours()) points.raster = {texels.width, texels.height, job.tiles, place};
-  const TextureValues values = evaluate_texture(job.texture, points, k_maps, 1 / scale);
-  const ColorImage image = to_color_image(values[Channel::color], static_cast<int>(place.size()), 1);
-  Painted out(texels.width, texels.height, static_cast<float>(job.friction));
-  for (std::size_t k = 0; k < place.size(); ++k) {
-    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * k), 3,
-                out.rgb.begin() + static_cast<std::ptrdiff_t>(3 * place[k]));
-    out.bump[place[k]] = values[Channel::bump][k];
-    out.friction[place[k]] = values[Channel::friction][k];
-    out.stiffness[place[k]] = values[Channel::stiffness][k];
-    sums.friction += charts * static_cast<double>(values[Channel::friction][k]);
-    sums.stiffness += charts * static_cast<double>(values[Channel::stiffness][k]);
-    sums.texels += charts;
-  }
-  return out;
-}
-
-std::size_t hash_of(const Painted& tile) {
-  const std::hash<std::string_view> hash;
-  std::size_t sum = hash({reinterpret_cast<const char*>(tile.rgb.data()), tile.rgb.size()});
-  for (const std::vector<float>* values : {&tile.bump, &tile.friction, &tile.stiffness})
-    sum = 31 * sum + hash({reinterpret_cast<const char*>(values->data()), values->size() * sizeof(float)});
-  return sum;
-}
-
-/// Tiles with the same bytes are one, wherever they are shown: found by a hash, and compared.
-/// @returns the number of each tile among `distinct`.
-std::vector<std::uint32_t> distinct_tiles(std::vector<Painted> painted, std::vector<Painted>& distinct) {
-  std::vector<std::uint32_t> number;
-  std::unordered_multimap<std::size_t, std::uint32_t> known;
-  for (Painted& p : painted) {
-    const std::size_t hash = hash_of(p);
-    const auto [first, last] = known.equal_range(hash);
-    const auto same = std::find_if(first, last, [&](const auto& entry) { return distinct[entry.second] == p; });
-    number.push_back(same != last ? same->second : static_cast<std::uint32_t>(distinct.size()));
-    if (same != last) continue;
-    known.emplace(hash, number.back());
-    distinct.push_back(std::move(p));
-  }
-  return number;
-}
-
-/// Copies a tile into the picture.
-void copy_tile(const Painted& tile, std::pair<int, int> corner, Painted& picture) {
-  for (int row = 0; row < tile.height; ++row) {
-    const auto from = static_cast<std::ptrdiff_t>(row) * tile.width;
-    const auto to = static_cast<std::ptrdiff_t>(corner.second + row) * picture.width + corner.first;
-    for (const auto channel : {&Painted::bump, &Painted::friction, &Painted::stiffness})
-      std::copy_n((tile.*channel).begin() + from, tile.width, (picture.*channel).begin() + to);
-    std::copy_n(tile.rgb.begin() + 3 * from, 3 * tile.width, picture.rgb.begin() + 3 * to);
-  }
-}
-
-/// @param report  called with the share of the tiles that are painted.
-Painted paint_atlas(const MaterialSurface& shown, const PaintJob& job, ChannelSums& sums, PaintedMaterial& material,
-                    const std::function<void(double)>& report) {
-  const SurfaceAtlas& atlas = shown.atlas;
-  const std::vector<SurfaceTriangle>& surface = shown.triangles;
-  std::vector<Painted> painted, distinct;
-  for (const AtlasTile& tile : atlas.tiles) {
-    painted.push_back(
-        paint(job, tile.texels, tile.sky, atlas.texels_per_repeat, static_cast<double>(tile.charts), sums));
-    report(static_cast<double>(painted.size()) / static_cast<double>(atlas.tiles.size()));
-  }
-  const std::vector<std::uint32_t> number = distinct_tiles(std::move(painted), distinct);
-  std::vector<std::pair<int, int>> sizes;
-  for (const Painted& p : distinct) sizes.emplace_back(p.width, p.height);
-  const TilePlaces places = place_tiles(sizes);
-  Painted picture(places.width, places.height, static_cast<float>(job.friction));
-  for (std::size_t k = 0; k < distinct.size(); ++k) copy_tile(distinct[k], places.corner[k], picture);
-  for (std::size_t t = 0; t < surface.size(); ++t) {
-    const AtlasChart& chart = atlas.charts[atlas.chart_of[t]];
-    const auto [x, y] = places.corner[number[chart.tile]];
-    NewUv fresh{surface[t].instance, surface[t].triangle, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 at = atlas.texels_per_repeat * surface[t].uv[k];
-      fresh.uv[k] = {(at.x - chart.left + x) / picture.width, 1 - (at.y - chart.top + y) / picture.height};
-    }
-    material.uv.push_back(fresh);
-  }
-  material.report.atlas = {picture.width,      picture.height,  atlas.charts.size(),
-                           atlas.tiles.size(), distinct.size(), atlas.texels_per_repeat};
-  return picture;
-}
-
-/// The friction and stiffness of a new surface.
-void set_haptic_constants(MaterialTag& tag, double friction, double factor) {
+/// Friction, stiffness and damping of a new surface.
+void set_haptic_constants(MaterialTag& tag, const WeatheredMaterial& worn) {
   const double ratio = tag.dynamic_friction > 0 ? tag.static_friction / tag.dynamic_friction : 1;
-  tag.dynamic_friction = friction, tag.static_friction = ratio * friction;
-  tag.stiffness *= factor;
+  tag.dynamic_friction = worn.friction, tag.static_friction = ratio * worn.friction;
+  tag.stiffness *= worn.stiffness;
+  tag.damping *= worn.damping;
 }
 
 /// Gives a tagged material the maps of its layers, on the coordinates of what was painted. A relief that stays on other
@@ -304,8 +149,8 @@ void assign_maps(Material& material, MapsTag maps, std::vector<std::string>& los
   const TextureReference& place = *material.base_color_texture;
   if (material.haptic->height && material.haptic->height->tex_coord != place.tex_coord) {
     losses.push_back(
-        fmt::format("material '{}': where its layers change friction and stiffness, which are means over "
-                    "the surface, for its relief lies on other coordinates",
+        fmt::format("material '{}': where its layers change friction, stiffness and damping, which are means "
+                    "over the surface, for its relief lies on other coordinates",
                     material.name));
     return;
   }
@@ -334,9 +179,9 @@ void assign_relief(Material& material, HeightTag height) {
 /// Everything that a material's look depends on apart from the scene.
 std::string key_of(const Job& job, std::uint32_t index, const std::string& recipe, const ProceduralTexture& texture,
                    const std::vector<fs::path>& pictures) {
-  std::string key =
-      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", index, job.config.size, job.config.atlas_side(), job.config.depth_mm,
-                  job.config.sky_rays, texture.depends_on_time() ? job.time : 0, recipe);
+  std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", index, job.config.stable_layout, job.config.size,
+                                job.config.atlas_side(), job.config.depth_mm, job.config.sky_rays,
+                                texture.depends_on_time() ? job.time : 0, recipe);
   for (const std::string& name : texture.recipes_used()) key += '\n' + name + ' ' + *job.library.find(name);
   for (const fs::path& picture : pictures) {
     std::error_code error;
@@ -352,11 +197,13 @@ std::shared_ptr<const MaterialSurface> surface_for(Job& job, std::uint32_t index
                                 reading.sky, reading.sky ? job.config.sky_rays : 0);
   for (const auto& d : reading.directions) key += fmt::format(" {} {} {}", d[0], d[1], d[2]);
   if (const auto it = job.cache.surfaces.find(key); it != job.cache.surfaces.end()) return it->second;
-  const auto surface = std::make_shared<const MaterialSurface>(
-      lay_out(job.scene, job.all, index, job.config.size, job.config.atlas_side(), reading, [&]() -> const SkyView& {
-        if (!job.sky) job.sky = sky_of(job.scene, job.all, job.config.sky_rays);
-        return *job.sky;
-      }));
+  const auto surface = std::make_shared<MaterialSurface>(
+      lay_out(job.scene, job.all, index, own_place(job.scene.materials[index]), job.config.size,
+              job.config.atlas_side(), reading, [&]() -> const SkyView& {
+                if (!job.sky) job.sky = sky_of(job.scene, job.all, job.config.sky_rays);
+                return *job.sky;
+              }));
+  if (surface->mm_per_repeat > 0) add_own_surface(job.scene, job.all, index, job.config.size, *surface);
   if (job.cache.texels + surface->texels() <= k_most_kept_texels) {
     job.cache.texels += surface->texels();
     job.cache.surfaces.emplace(std::move(key), surface);
@@ -371,46 +218,65 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
                                const std::function<ProceduralTexture(bool)>& compiled) {
   PaintedMaterial material;
   WeatheredMaterial& report = material.report;
-  const SurfaceReading reading{texture.dirt_directions(), texture.depends_on_position() || texture.depends_on_flow(),
-                               texture.depends_on_sky()};
-  std::optional<StainField>& known = job.cache.stains;
-  if (texture.depends_on_flow() && !known) known = stains_of(job.scene, job.all);
-  const StainField* stains = texture.depends_on_flow() ? &*known : nullptr;
+  const SurfaceReading reading = reading_of(texture);
+  std::optional<StainField>& stains = job.cache.stains;
+  if (texture.depends_on_flow() && !stains) stains = stains_of(job.scene, job.all);
   const auto surface = surface_for(job, index, reading);
   report_material(job, k_laid_out);
   if (!(surface->mm_per_repeat > 0)) {
     report.skipped = "no surface with uv shows it";
     return material;
   }
-  ChannelSums means;
-  Painted picture(0, 0, 0);
-  const double friction = tag ? tag->dynamic_friction : k_common_friction;
-  double scale = job.config.size;
-  if (surface->repeat) {
-    const bool tiles = surface->leaves_the_repeat();
-    const ProceduralTexture tiling = tiles ? compiled(true) : texture;
-    picture = paint({tiling, reading, *surface->own, job.config.depth_mm, friction, tiles, stains}, *surface->repeat,
-                    surface->sky, scale, 1, means);
-  } else {
-    scale = surface->atlas.texels_per_repeat;
-    picture =
-        paint_atlas(*surface, {texture, reading, *surface->own, job.config.depth_mm, friction, false, stains}, means,
-                    material, [&](double done) { report_material(job, k_laid_out + done * (k_painted - k_laid_out)); });
-  }
-  const double pitch = surface->mm_per_repeat / scale;
+  const ProceduralTexture tiling = surface->repeat && surface->leaves_the_repeat() ? compiled(true) : texture;
+  PaintedSurface& painted = material.surface.emplace(paint_surface(
+      *surface,
+      {.texture = texture,
+       .tiling = tiling,
+       .reading = reading,
+       .own = &*surface->own,
+       .stains = texture.depends_on_flow() ? &*stains : nullptr,
+       .depth_mm = job.config.depth_mm,
+       .friction = tag ? tag->dynamic_friction : k_common_friction,
+       .share_equal = !job.config.stable_layout,
+       .progress = [&](double done) { report_material(job, k_laid_out + done * (k_painted - k_laid_out)); }}));
+  material.uv = std::exchange(painted.uv, {});
+  material.pitch_mm = surface->mm_per_repeat / painted.texels_per_repeat;
+  material.new_relief = !tag || !tag->height || surface->own->has_relief();
+  material.means_shine = surface->own->means_shine();
+  material.has_holes = !painted.ranges.alpha.is_constant();
+  if (!surface->repeat)
+    report.atlas = {painted.picture.width,       painted.picture.height, surface->atlas.charts.size(),
+                    surface->atlas.tiles.size(), painted.distinct_tiles, painted.texels_per_repeat};
+  const SurfaceRanges& ranges = painted.ranges;
+  report.friction = ranges.friction.mean(), report.stiffness = ranges.stiffness.mean();
+  report.damping = ranges.damping.mean(), report.alpha = ranges.alpha.mean();
+  report.roughness = ranges.roughness.mean(), report.metallic = ranges.metallic.mean();
   report.keeps_relief = surface->keeps_relief;
-  if (tag) {
-    QuantityMaps maps{picture.width, picture.height, pitch, pitch, surface->repeat.has_value(), {}};
-    maps.maps = {{Quantity::stiffness, std::move(picture.stiffness)},
-                 {Quantity::dynamic_friction, std::move(picture.friction)}};
-    for (float& v : maps.maps[0].values) v *= static_cast<float>(tag->stiffness);
-    report.maps = encode_quantity_maps(std::move(maps));
-  }
-  if (!report.keeps_relief) {
-    HeightMap relief{picture.width, picture.height, std::move(picture.bump), pitch, pitch, surface->repeat.has_value()};
-    // A height of 1/2 is the surface as it was.
-    for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(job.config.depth_mm);
-    if (tag && (!tag->height || surface->own->has_relief())) {
+  report.depends_on_normal = texture.depends_on_normal(), report.depends_on_position = reading.position;
+  report.depends_on_sky = reading.sky, report.depends_on_neighbours = texture.depends_on_neighbours();
+  report.uses = texture.recipes_used();
+  report.own_relief = surface->own->has_relief();
+  report.mm_per_texel = material.pitch_mm;
+  return material;
+}
+
+/// The relief that was painted: a height of 1/2 is the surface as it was.
+HeightMap relief_of(const PaintedMaterial& material, double depth_mm) {
+  const SurfacePicture& picture = material.surface->picture;
+  HeightMap relief{picture.width,     picture.height,    picture.bump,
+                   material.pitch_mm, material.pitch_mm, material.surface->repeats};
+  for (float& h : relief.mm) h = (h - 0.5F) * static_cast<float>(depth_mm);
+  return relief;
+}
+
+/// Makes of a painted surface the pictures and maps that a scene holds.
+void finish(PaintedMaterial& material, const std::optional<MaterialTag>& tag, const WeatherConfig& config) {
+  if (material.is_finished || !material.surface) return;
+  material.is_finished = true;
+  SurfacePicture& picture = material.surface->picture;
+  if (!material.report.keeps_relief) {
+    const HeightMap relief = relief_of(material, config.depth_mm);
+    if (tag && material.new_relief) {
       const EncodedHeight encoded = encode_height_png16(relief);
       material.height = make_height_tag(relief, {.png = encoded.png,
                                                  .scale_mm = encoded.scale_mm,
@@ -419,28 +285,50 @@ PaintedMaterial paint_material(Job& job, std::uint32_t index, const std::optiona
     }
     material.normal_png = encode_png(normal_map(relief));
   }
-  material.color_png = encode_png({picture.width, picture.height, std::move(picture.rgb)});
-  report.friction = means.friction / means.texels, report.stiffness = means.stiffness / means.texels;
-  report.depends_on_normal = texture.depends_on_normal(), report.depends_on_position = reading.position;
-  report.depends_on_sky = reading.sky, report.depends_on_neighbours = texture.depends_on_neighbours();
-  report.uses = texture.recipes_used();
-  report.own_relief = surface->own->has_relief();
-  report.mm_per_texel = pitch;
-  return material;
+  if (tag) {
+    QuantityMaps maps{
+        picture.width, picture.height, material.pitch_mm, material.pitch_mm, material.surface->repeats, {}};
+    maps.maps = {{Quantity::stiffness, std::move(picture.stiffness)},
+                 {Quantity::dynamic_friction, std::move(picture.friction)},
+                 {Quantity::damping, std::move(picture.damping)}};
+    for (float& v : maps.maps[0].values) v *= static_cast<float>(tag->stiffness);
+    for (float& v : maps.maps[2].values) v *= static_cast<float>(tag->damping);
+    material.report.maps = encode_quantity_maps(std::move(maps));
+  }
+  const Shine shine = shine_of(*material.surface);
+  material.roughness = shine.roughness, material.metallic = shine.metallic;
+  if (shine.picture) material.shine_png = encode_png(*shine.picture);
+  material.color_png = encode_color(*material.surface);
+  if (!config.stable_layout) material.surface.reset();
+}
+
+/// What is seen through: holes in an opaque material are cut out, as those of a mask; what is blended stays so.
+void set_alpha(Material& material, const PaintedMaterial& painted) {
+  material.base_color = {1, 1, 1, painted.has_holes ? 1 : painted.report.alpha};
+  if (painted.has_holes && material.alpha_mode == "OPAQUE") material.alpha_mode = "MASK", material.alpha_cutoff = 0.5;
 }
 
 /// Gives the material the maps that were painted.
 void apply(const PaintedMaterial& painted, Material& material, Pictures& pictures, std::vector<std::string>& losses) {
   TextureReference place;
   if (const TextureReference* own = own_place(material); painted.uv.empty() && own) place = *own;
-  for (auto* reference : {&material.base_color_texture, &material.normal_texture}) {
-    const bool colour = reference == &material.base_color_texture;
-    if (!colour && painted.report.keeps_relief) continue;
-    *reference =
-        pictures.add((colour ? "color." : "normal.") + material.name, colour ? painted.color_png : painted.normal_png);
-    (*reference)->transform = place.transform, (*reference)->tex_coord = place.tex_coord;
-  }
-  material.base_color = {1, 1, 1, material.base_color[3]};
+  const auto put = [&](std::optional<TextureReference>& reference, const char* prefix,
+                       const std::vector<std::byte>& png) {
+    reference.reset();
+    if (png.empty()) return;
+    reference = pictures.add(prefix + material.name, png);
+    reference->transform = place.transform, reference->tex_coord = place.tex_coord;
+  };
+  put(material.base_color_texture, "color.", painted.color_png);
+  if (!painted.report.keeps_relief) put(material.normal_texture, "normal.", painted.normal_png);
+  put(material.metallic_roughness_texture, "metallic_roughness.", painted.shine_png);
+  material.roughness = painted.roughness, material.metallic = painted.metallic;
+  if (painted.means_shine)
+    losses.push_back(
+        fmt::format("material '{}': its metallic-roughness picture, which lies on other coordinates than "
+                    "its colour; its layers lie over the mean",
+                    material.name));
+  set_alpha(material, painted);
   if (material.haptic && material.haptic->maps) {
     losses.push_back(
         fmt::format("material '{}': its own maps of stiffness, friction and damping, over which its "
@@ -448,7 +336,7 @@ void apply(const PaintedMaterial& painted, Material& material, Pictures& picture
                     material.name));
     material.haptic->maps.reset();
   }
-  if (material.haptic) set_haptic_constants(*material.haptic, painted.report.friction, painted.report.stiffness);
+  if (material.haptic) set_haptic_constants(*material.haptic, painted.report);
 }
 
 /// What a weathered material gets for the hand.
@@ -457,17 +345,14 @@ struct FeltMaps {
   std::optional<MapsTag> maps;
 };
 
-/// Weathers one material. @return what is reported of it.
-WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures,
-                                   std::vector<NewUv>& uv, std::vector<AtlasMaterial>& with_atlas,
-                                   std::vector<FeltMaps>& felt) {
+/// A material as it is painted, from the cache or anew; `painted` counts those.
+/// @return its key; without a layer nothing is painted, and there is no material.
+std::pair<std::string, PaintedMaterial*> painted_material(std::uint32_t index, Job& job, int& painted) {
   const Material& before = job.scene.materials[index];
   const std::optional<MaterialTag>& tag = before.haptic;
   const std::string recipe =
       layered_recipe(job.config, job.layers[index], tag ? tag->dynamic_friction : k_common_friction);
-  WeatheredMaterial report;
-  report.name = before.name, report.recipe = recipe;
-  if (recipe.empty()) return report;
+  if (recipe.empty()) return {};
   CompileOptions options = recipe_options(job.config.folder);
   options.time = job.time, options.source = "weather, material '" + before.name + "'";
   std::vector<fs::path> read;
@@ -482,15 +367,28 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
     return compile_texture(recipe, job.library, options);
   };
   const ProceduralTexture texture = compiled(false);
-  const std::string key = key_of(job, index, recipe, texture, read);
+  std::string key = key_of(job, index, recipe, texture, read);
   auto it = job.cache.painted.find(key);
   if (it == job.cache.painted.end()) {
     it = job.cache.painted.emplace(key, paint_material(job, index, tag, texture, compiled)).first;
-    ++result.painted;
+    it->second.report.name = before.name, it->second.report.recipe = recipe;
+    ++painted;
   }
-  const PaintedMaterial& painted = it->second;
+  return {std::move(key), &it->second};
+}
+
+/// Weathers one material. @return what is reported of it.
+WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, Job& job, Pictures& pictures,
+                                   std::vector<NewUv>& uv, std::vector<AtlasMaterial>& with_atlas,
+                                   std::vector<FeltMaps>& felt) {
+  const Material& before = job.scene.materials[index];
+  WeatheredMaterial report;
+  report.name = before.name;
+  PaintedMaterial* const found = painted_material(index, job, result.painted).second;
+  if (!found) return report;
+  PaintedMaterial& painted = *found;
+  finish(painted, before.haptic, job.config);
   report = painted.report;
-  report.name = before.name, report.recipe = recipe;
   if (!report.painted()) return report;
   apply(painted, result.scene.materials[index], pictures, result.scene.losses);
   uv.insert(uv.end(), painted.uv.begin(), painted.uv.end());
@@ -501,6 +399,57 @@ WeatheredMaterial weather_material(WeatherResult& result, std::uint32_t index, J
         before.name, report.mm_per_texel));
   felt[index] = {painted.height, painted.report.maps};
   return report;
+}
+
+std::vector<unsigned char> with_alpha(const ColorImage& image) {
+  std::vector<unsigned char> rgba(image.pixels.size() / 3 * 4, 255);
+  for (std::size_t i = 0; 3 * i < image.pixels.size(); ++i)
+    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  return rgba;
+}
+
+/// How a material is seen that was painted and keeps its pixels.
+std::shared_ptr<const WeatheredLook> look_of(PaintedMaterial& painted, const Material& before, double depth_mm) {
+  if (painted.look) return painted.look;
+  const SurfacePicture& picture = painted.surface->picture;
+  WeatheredLook look;
+  look.width = picture.width, look.height = picture.height;
+  look.color = picture.rgba;
+  if (!painted.report.keeps_relief) look.normal = with_alpha(normal_map(relief_of(painted, depth_mm)));
+  const Shine shine = shine_of(*painted.surface);
+  look.roughness = shine.roughness, look.metallic = shine.metallic;
+  if (shine.picture) look.shine = with_alpha(*shine.picture);
+  Material after = before;
+  set_alpha(after, painted);
+  look.opacity = after.base_color[3], look.alpha_mode = after.alpha_mode;
+  painted.look = std::make_shared<const WeatheredLook>(std::move(look));
+  return painted.look;
+}
+
+/// What a material's coordinates and pictures are laid out by.
+std::string layout_of(const PaintedMaterial* painted) {
+  if (!painted) return "-";
+  std::string text =
+      fmt::format("+{} {} {} ", painted->look->width, painted->look->height, painted->report.keeps_relief);
+  for (const NewUv& uv : painted->uv)
+    for (const Vec2& place : uv.uv) text += fmt::format("{} {} ", place.x, place.y);
+  return text;
+}
+
+/// The libraries of the configuration, which are watched even where they can't be read.
+RecipeLibrary read_libraries(const WeatherConfig& config, WeatherCache& cache) {
+  RecipeLibrary library = RecipeLibrary::builtin();
+  const auto note_files = [&] { cache.state().files.insert(library.files().begin(), library.files().end()); };
+  try {
+    for (std::size_t i = 0; i < config.libraries.size(); ++i)
+      library.include(config.libraries[i], fmt::format("{}: at /libraries/{}", config.source, i), config.folder);
+  } catch (const Error&) {
+    note_files();
+    throw;
+  }
+  note_files();
+  return library;
 }
 
 }  // namespace
@@ -515,16 +464,7 @@ std::size_t WeatherCache::surfaces() const noexcept { return state_->surfaces.si
 
 WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache,
                             const ProgressCallback& progress) {
-  RecipeLibrary library = RecipeLibrary::builtin();
-  const auto note_files = [&] { cache.state().files.insert(library.files().begin(), library.files().end()); };
-  try {
-    for (std::size_t i = 0; i < config.libraries.size(); ++i)
-      library.include(config.libraries[i], fmt::format("{}: at /libraries/{}", config.source, i), config.folder);
-  } catch (const Error&) {
-    note_files();
-    throw;
-  }
-  note_files();
+  const RecipeLibrary library = read_libraries(config, cache);
   WeatherResult result;
   const LayeredScene layered = layer_materials(scene, config);
   std::vector<std::string> problems = problems_of(layered.uses, "layer", "/layers");
@@ -551,6 +491,34 @@ WeatherResult weather_scene(const Scene& scene, const WeatherConfig& config, dou
     if (felt[m].maps) assign_maps(material, std::move(*felt[m].maps), result.scene.losses);
   }
   return result;
+}
+
+WeatherLooks weather_looks(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache,
+                           const ProgressCallback& progress) {
+  if (!config.stable_layout) throw InvalidInput("weather_looks: the layout of the atlases must be stable");
+  const RecipeLibrary library = read_libraries(config, cache);
+  const LayeredScene layered = layer_materials(scene, config);
+  const std::vector<std::string> problems = problems_of(layered.uses, "layer", "/layers");
+  if (config.strict && !problems.empty()) throw InvalidInput(config.source + ": " + problems.front());
+  const Scene& before = layered.scene ? *layered.scene : scene;
+  WeatherCache::State& state = cache.state();
+  state.expect(before);
+  WeatherLooks looks;
+  Job job{before, config, layered.layers, library, time, state, progress, instances(before), {}};
+  std::set<std::string> used;
+  for (const std::uint32_t part : state.shown) looks.layout += fmt::format("{} ", part);
+  for (std::uint32_t m = 0; m < before.materials.size(); ++m) {
+    job.material = m;
+    report_material(job, 0);
+    auto [key, painted] = painted_material(m, job, looks.painted);
+    looks.materials.push_back(
+        painted && painted->report.painted() ? look_of(*painted, before.materials[m], config.depth_mm) : nullptr);
+    looks.layout += layout_of(looks.materials.back() ? painted : nullptr);
+    used.insert(std::move(key));
+  }
+  looks.layout = sha256_hex(std::as_bytes(std::span(looks.layout)));
+  std::erase_if(state.painted, [&](const auto& entry) { return !used.contains(entry.first); });
+  return looks;
 }
 
 std::string reason_for_no_paint(const WeatherResult& result) {

@@ -80,13 +80,21 @@ bool formulas(Node& node, Arguments& arguments) {
   for (std::size_t c = 1; c < k_channels; ++c) {
     const auto channel = static_cast<Channel>(c);
     const std::string base = std::string(to_string(channel)), name = base + "function";
-    if (!(node.layered >> c & 1U) || arguments.given(name) || channel == Channel::alpha)
+    const bool from_below = node.layered >> c & 1U;
+    if (arguments.given(name) || channel == Channel::alpha || (!from_below && channel != Channel::roughness))
       node.channels[c] = channel == Channel::color ? arguments.colour_formula(name) : arguments.formula(name);
     if (channel != Channel::alpha && channel != Channel::coloralpha)
       node.blend[c] = blend_named(arguments.text(base + "blend"));
     if (node.multi && find_parameter(*node.type, base + "scale") && channel != Channel::color)
       node.channel_scale[c] = arguments.number(base + "scale");
   }
+  const auto changes = [&](Channel c) {
+    return node.channels[static_cast<std::size_t>(c)].present || node.channel_scale[static_cast<std::size_t>(c)] != 1;
+  };
+  node.own_highlight = !node.channels[static_cast<std::size_t>(Channel::roughness)].present &&
+                       (!(node.layered >> static_cast<std::size_t>(Channel::roughness) & 1U) ||
+                        changes(Channel::specular) || changes(Channel::specularcoeff));
+  node.cuts = arguments.text("alphablend") == "cut";
   return main_uses_near;
 }
 

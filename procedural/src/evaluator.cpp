@@ -331,8 +331,16 @@ void Evaluator::channels(int index, const Block& block, unsigned mask, ChannelRo
   main_value(index, block, nullptr);
   std::copy_n(frame.row(FrameRow::main), n, out.row[at(Channel::main)]);
   const ChannelRows* below = frame.layered.get();
+  if ((mask & bit(Channel::roughness)) && node.own_highlight)
+    mask |= bit(Channel::specular) | bit(Channel::specularcoeff);
   for (std::size_t c = 1; c < k_channels; ++c) {
     if (!(mask >> c & 1U)) continue;
+    if (c == at(Channel::roughness) && node.own_highlight) {
+      for (int i = 0; i < n; ++i)
+        out.row[c][i] =
+            roughness_of_highlight(out.row[at(Channel::specular)][i], out.row[at(Channel::specularcoeff)][i]);
+      continue;
+    }
     const int parts = c == k_red ? 3 : 1;
     double* rows[3] = {out.row[c], out.row[c + (parts > 1 ? 1 : 0)], out.row[c + (parts > 2 ? 2 : 0)]};
     const Program& program = node.channels[c];
@@ -344,7 +352,7 @@ void Evaluator::channels(int index, const Block& block, unsigned mask, ChannelRo
         for (int i = 0; i < n; ++i) rows[k][i] = below->row[c + static_cast<std::size_t>(k)][i] * node.channel_scale[c];
     if (from_below && c == at(Channel::alpha))
       for (int i = 0; i < n; ++i) rows[0][i] *= below->row[c][i] * node.channel_scale[c];
-    if (c == at(Channel::alpha) || c == at(Channel::coloralpha) || c == k_red)
+    if (c == at(Channel::alpha) || c == at(Channel::coloralpha) || c == at(Channel::roughness) || c == k_red)
       for (int k = 0; k < parts; ++k)
         for (int i = 0; i < n; ++i) rows[k][i] = std::clamp(rows[k][i], 0.0, 1.0);
   }
@@ -364,7 +372,9 @@ void Evaluator::layers(int index, Frame& frame, const Block& block, ChannelRows&
   for (std::size_t k = 0; k < node.textures.size(); ++k) {
     const Node& top = *graph_.nodes[static_cast<std::size_t>(node.textures[k])];
     channels(node.textures[k], inner, k_all_channels, k == 0 ? out : *layer);
-    if (k > 0) {
+    if (k > 0 && top.cuts) {
+      for (int i = 0; i < n; ++i) out.row[at(Channel::alpha)][i] *= 1 - layer->row[at(Channel::alpha)][i];
+    } else if (k > 0) {
       const double* alpha = layer->row[at(Channel::alpha)];
       double cover[k_row];
       for (int i = 0; i < n; ++i) cover[i] = alpha[i] * layer->row[at(Channel::coloralpha)][i];

@@ -55,7 +55,9 @@ const std::map<std::string_view, RowVariable>& row_variables() {
       {"lowerspecular", block_row(BlockRow::lower_specular)},
       {"lowerspecularcoeff", block_row(BlockRow::lower_specularcoeff)},
       {"lowerfriction", block_row(BlockRow::lower_friction)},
-      {"lowerstiffness", block_row(BlockRow::lower_stiffness)}};
+      {"lowerstiffness", block_row(BlockRow::lower_stiffness)},
+      {"lowerdamping", block_row(BlockRow::lower_damping)},
+      {"lowerroughness", block_row(BlockRow::lower_roughness)}};
   return rows;
 }
 

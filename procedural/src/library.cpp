@@ -27,41 +27,44 @@ colour mossy = <.10,.16,.04>, <.22,.32,.08>, <.36,.45,.14>
 leather        voronoi|scale=.25|rooted=true|func=clampunit((f2-f1)*2.2)|smooth=.25|cols=<.05,.04,.04>,<.16,.13,.12>,<.22,.18,.17>
                |bumpfunction=bias(.65,main)+.06*turbulence2d(x*14,y*14,3)|frictionfunction=.45-.1*main|idmaterial=leather|idtype=interior
 plastic_grain  fbm|scale=.2|h=.6|octaves=4|cols=<.07,.07,.08>,<.15,.15,.16>|frictionfunction=.35|idmaterial=plastic|idtype=interior
-soft_touch     noise|scale=.08|cols=<.10,.10,.11>,<.14,.14,.15>|frictionfunction=.6|stiffnessfunction=.6|idmaterial=rubber|idtype=interior
+soft_touch     noise|scale=.08|cols=<.10,.10,.11>,<.14,.14,.15>|specularfunction=.05|frictionfunction=.6|stiffnessfunction=.6|dampingfunction=1.8|idmaterial=rubber|idtype=interior
 oak            wood|rings=9|cols=oak|bumpfunction=main*.7+.15*turbulence2d(x*4,y*90,3)|frictionfunction=.4|idmaterial=wood|idtype=interior
 walnut         wood|rings=7|seed=5|cols=<.12,.07,.04>,<.30,.19,.11>|bumpfunction=main*.5|frictionfunction=.3|idmaterial=wood|idtype=interior
 brushed_metal  smear|scale=.25|density=.5|randomness=.3|turbulence=.05|cols=<.48,.49,.50>,<.72,.73,.74>|bumpfunction=main*.2
-               |specularfunction=.8|specularcoefffunction=60|frictionfunction=.2|idmaterial=metal|idtype=interior
+               |reflectionfunction=1|specularfunction=.8|specularcoefffunction=60|frictionfunction=.2|idmaterial=metal|idtype=interior
 painted_metal  noise|scale=.04|cols=<.10,.16,.28>,<.12,.18,.31>|bumpfunction=main*.04|specularfunction=.7|specularcoefffunction=80
                |frictionfunction=.25|idmaterial=paint|idtype=interior
-fabric         weave|scale=.125|roundthreads=true|xgap=2|ygap=2|cols=<.05,.05,.07>,<.22,.23,.28>|frictionfunction=.55|stiffnessfunction=.5|idmaterial=textile|idtype=interior
+fabric         weave|scale=.125|roundthreads=true|xgap=2|ygap=2|cols=<.05,.05,.07>,<.22,.23,.28>|specularfunction=.03|frictionfunction=.55|stiffnessfunction=.5|dampingfunction=1.5|idmaterial=textile|idtype=interior
 perforated     circle|scale=.1|seamless=true|invert=true|r=.22|cols=<.03,.03,.03>,<.17,.15,.14>|frictionfunction=.42|idmaterial=leather|idtype=interior
 plaster        fbm|scale=.35|h=.35|octaves=6|cols=<.72,.70,.65>,<.88,.87,.83>|bumpfunction=main*.6|frictionfunction=.7|idmaterial=plaster|idtype=building
 stone          fbm|type=ridgedmultifractal|scale=.6|h=.5|octaves=6|cols=<.30,.29,.27>,<.62,.60,.56>|frictionfunction=.65|idmaterial=stone|idtype=building
 brick_wall     brick|mortarthickness=.03|switching=true|round=.25|mortarthicknessrand=.5
                |colorfunction=colmix(<.62,.60,.56>,colmix(<.48,.17,.11>,<.62,.28,.17>,id),main)
                |bumpfunction=main*.8+.15*turbulence2d(x*20,y*20,4)|frictionfunction=.7|idmaterial=brick|idtype=building
-marble_tile    marble|turbulence=.6|octaves=5|cols=<.93,.92,.90>,<.80,.79,.78>,<.45,.46,.48>|bumpfunction=.02*main|frictionfunction=.2|idmaterial=stone|idtype=building
+marble_tile    marble|turbulence=.6|octaves=5|cols=<.93,.92,.90>,<.80,.79,.78>,<.45,.46,.48>|bumpfunction=.02*main|specularfunction=.8|specularcoefffunction=120|frictionfunction=.2|idmaterial=stone|idtype=building
 
 # --- ageing ---
 greying        fbm|ismodifier=true|idtype=ageing|idmaterial=wood|scale=.8|octaves=5
                |colorfunction=hsv(hue,saturation*.25,clampunit(value*.9+.07))|coloralphafunction=1|alphafunction=time*(.6+.5*main)
-               |bumpblend=off|bumpfunction=0|frictionfunction=lowerfriction*1.15
+               |bumpblend=off|bumpfunction=0|specularfunction=.05|frictionfunction=lowerfriction*1.15
 dirt           fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.7|octaves=6|h=.4|cols=<.13,.10,.07>,<.24,.19,.13>
                |alphafunction=smoothstep(.95-.75*time,1.3-.75*time,main+.5*(1-lowerbump))*min(time*8,1)*.9
-               |bumpblend=add|bumpfunction=.12*main|frictionfunction=.55
+               |bumpblend=add|bumpfunction=.12*main|specularfunction=.05|frictionfunction=.55
 smears         smear|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.8|density=.35|turbulence=.1|cols=<.36,.30,.21>,<.24,.19,.12>
                |alphafunction=smoothstep(.1,.9,main)*time*.9|bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.8
+               |roughnessfunction=.5+.3*lowerroughness
 flow_stains    fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=<.08,.6>|octaves=5|h=.5|cols=<.15,.12,.09>,<.30,.25,.18>
                |alphafunction=smoothstep(.05,1,flow*time*(.4+1.2*main))*.9
-               |bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*1.1
+               |bumpblend=add|bumpfunction=.03*main|specularfunction=.05|frictionfunction=lowerfriction*1.1
 scratch_set    base|mainfunction=smoothstep(.42,.6,noise2d(x*1.5,y*70))*step(noise2d(x*2+7,y*5),.12)
 scratches      base|ismodifier=true|idtype=ageing|idmaterial=paint
                |mainfunction=max(max([scratch_set|rot=.4],[scratch_set|rot=1.1|seed=3|du=.3]),max([scratch_set|rot=2.2|dv=.7],[scratch_set|rot=2.9|du=.6]))
                |colorfunction=colscale(currentcolor,1.5)|alphafunction=clampunit(main*time*1.5)
                |bumpblend=sub|bumpfunction=.35*main|frictionfunction=lowerfriction*1.3
+               |reflectionfunction=lowerreflection|roughnessfunction=max(lowerroughness,.55)
 chipped_paint  fbm|ismodifier=true|idtype=ageing|idmaterial=paint|scale=.5|octaves=6|h=.5|cols=<.40,.40,.41>,<.55,.55,.56>
                |alphafunction=smoothstep(.98-.55*time,1-.55*time,main)*min(time*20,1)|bumpblend=sub|bumpfunction=.4*(.8+.2*main)|frictionfunction=.5|stiffnessfunction=1.1
+               |reflectionfunction=1|specularfunction=.6|specularcoefffunction=40
 rust_base      fbm|scale=.45|octaves=7|h=.35|cols=rust
 rust_in        rust_base|ismodifier=true|idtype=ageing|idmaterial=paint
                |alphafunction=smoothstep(1-.8*time,1.15-.8*time,main+.2*noise2d(x*30,y*30))*min(time*10,1)
@@ -72,30 +75,32 @@ rust_on        rust_base|ismodifier=true|idtype=ageing|idmaterial=paint|seed=4
 erosion        fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.6|octaves=7|h=.4|type=hybridmultifractal
                |alphafunction=time*(1-.8*smoothstep(.35,.7,main))|colorfunction=colscale(currentcolor,.7+.2*main)
                |bumpblend=sub|bumpfunction=.9*(1-smoothstep(.3,.7,main))+.3*absturbulence2d(x*24,y*24,4)|frictionfunction=lowerfriction*1.3|stiffnessfunction=lowerstiffness*.9
+               |specularfunction=.05
 moss           fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.3|octaves=7|h=.5|cols=mossy
                |alphafunction=smoothstep(1.35-time*.9,1.55-time*.9,main+.6*(1-lowerbump))*min(time*10,1)
-               |bumpblend=add|bumpfunction=.3+.4*main|frictionfunction=.6|stiffnessfunction=.3
+               |bumpblend=add|bumpfunction=.3+.4*main|specularfunction=.05|frictionfunction=.6|stiffnessfunction=.3|dampingfunction=2
 wetness        fbm|ismodifier=true|idtype=ageing|idmaterial=plaster|scale=.9|octaves=4|h=.8
                |alphafunction=smoothstep(1-time,1.25-time,main+.35*(1-lowerbump))*min(time*10,1)*.85
-               |colorfunction=colscale(currentcolor,.6)|specularfunction=.9|specularcoefffunction=120
+               |colorfunction=colscale(currentcolor,.6)|specularfunction=.9|specularcoefffunction=120|reflectionfunction=lowerreflection
                |bumpblend=interpolate|bumpfunction=max(lowerbump,.35*time)|frictionfunction=lowerfriction*.45
 snow           fbm|ismodifier=true|idtype=ageing|idmaterial=brick|scale=.5|octaves=5|h=.7|cols=<.88,.91,.96>,white
                |alphafunction=smoothstep(.9-time,1.1-time,main)*clampunit(normaldot*4-.6)*sky*min(time*10,1)
-               |normal=<0,1,0>|bumpblend=interpolate|bumpfunction=.7+.3*main|frictionfunction=.1|stiffnessfunction=.2
+               |normal=<0,1,0>|bumpblend=interpolate|bumpfunction=.7+.3*main|specularfunction=.1|frictionfunction=.1|stiffnessfunction=.2|dampingfunction=2
 dust           noise|ismodifier=true|idtype=ageing|idmaterial=plastic|scale=.05|cols=<.55,.52,.47>,<.66,.63,.58>
                |alphafunction=time*(.35+.35*main)*clampunit(.4+.6*normaldot)*(1.1-.6*clampunit(lowerbump))
-               |bumpblend=add|bumpfunction=.03*main|frictionfunction=lowerfriction*.75
+               |bumpblend=add|bumpfunction=.03*main|specularfunction=.03|frictionfunction=lowerfriction*.75
 grime          fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=.6|octaves=5|h=.5|cols=<.30,.26,.19>,<.44,.38,.28>
                |afunction=(nearmean(lowerbump,.08)-lowerbump)/(neardeviation(lowerbump,.2)+.05)
                |alphafunction=smoothstep(.9-time,1.5-time,a+.4*main)*min(time*8,1)*.95
-               |bumpblend=interpolate|bumpfunction=lowerbump+.5*max(nearmean(lowerbump,.04)-lowerbump,0)|frictionfunction=.6
+               |bumpblend=interpolate|bumpfunction=lowerbump+.5*max(nearmean(lowerbump,.04)-lowerbump,0)|specularfunction=.05|frictionfunction=.6
 edge_wear      fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=.5|octaves=4|h=.5|cols=<.40,.37,.33>,<.55,.52,.47>
                |afunction=(lowerbump-nearmean(lowerbump,.08))/(neardeviation(lowerbump,.2)+.05)
                |alphafunction=smoothstep(1.2-time,1.9-time,a+.5*main)*min(time*8,1)
                |bumpblend=interpolate|bumpfunction=min(lowerbump,nearmean(lowerbump,.04))|frictionfunction=lowerfriction*.7
+               |reflectionfunction=lowerreflection|roughnessfunction=.7*lowerroughness
 polish         fbm|ismodifier=true|idtype=ageing|idmaterial=leather|scale=1.2|octaves=3|h=.8
                |alphafunction=time*smoothstep(.35,.75,lowerbump)*clampunit(.4+main)
-               |colorfunction=colscale(currentcolor,1.12)|specularfunction=.9|specularcoefffunction=90
+               |colorfunction=colscale(currentcolor,1.12)|specularfunction=.9|specularcoefffunction=90|reflectionfunction=lowerreflection
                |bumpblend=interpolate|bumpfunction=min(lowerbump,.6-.15*time)|frictionfunction=lowerfriction*.55
 
 # --- materials with their ageing ---

@@ -83,6 +83,8 @@ struct Node {
   unsigned layered =
       0;  ///< Channels that come from the textures within or the pattern, unless a formula says otherwise.
   std::array<double, k_channels> channel_scale{};
+  bool own_highlight = false;  ///< Its roughness follows from its own specular channels.
+  bool cuts = false;           ///< As a layer it is a hole.
   double range = 1, fade = 1;  ///< Of this texture within texmap.
   PreviewLight light;
   bool uses_normal = false;

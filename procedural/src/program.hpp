@@ -42,6 +42,8 @@ enum class BlockRow : std::uint8_t {
   lower_specularcoeff,
   lower_friction,
   lower_stiffness,
+  lower_damping,
+  lower_roughness,
   lower_red,
   lower_green,
   lower_blue

@@ -17,14 +17,14 @@ namespace {
 
 using namespace procedural_detail;
 
-constexpr std::array<std::string_view, k_channels> k_names = {"main",       "bump",      "alpha",    "coloralpha",
-                                                              "reflection", "diffuse",   "specular", "specularcoeff",
-                                                              "friction",   "stiffness", "color"};
+constexpr std::array<std::string_view, k_channels> k_names = {
+    "main",          "bump",     "alpha",     "coloralpha", "reflection", "diffuse", "specular",
+    "specularcoeff", "friction", "stiffness", "damping",    "roughness",  "color"};
 constexpr std::size_t k_color = static_cast<std::size_t>(Channel::color);
 constexpr int k_most_side = 65536;
 constexpr std::int64_t k_most_texels = std::int64_t{1} << 30;
 constexpr std::size_t k_most_near_texels = std::size_t{1} << 26;
-constexpr double k_most_factor = 10;  ///< Of friction and stiffness.
+constexpr double k_most_factor = 10;  ///< Of friction, stiffness and damping.
 
 /// Rows of BlockRow::column to BlockRow::flow.
 constexpr std::size_t k_known_rows = static_cast<std::size_t>(BlockRow::flow) + 1;
@@ -36,7 +36,7 @@ struct Workspace {
   ChannelRows out;
   double x[k_row], y[k_row];
   double known[k_known_rows][k_row];
-  double color[3][k_row], height[k_row];
+  double color[3][k_row], below[4][k_row];
   std::uint32_t texels[k_row];
 };
 
@@ -75,9 +75,16 @@ void fill_block_rows(Workspace& w, Block& block, const Raster& raster, std::int6
         w.color[c][i] = static_cast<double>(points->color[3 * static_cast<std::size_t>(first + i) + c]);
       block.rows[static_cast<std::size_t>(BlockRow::lower_red) + c] = w.color[c];
     }
-  if (points && !points->height.empty()) {
-    std::copy_n(points->height.begin() + static_cast<std::ptrdiff_t>(first), n, w.height);
-    block.rows[static_cast<std::size_t>(BlockRow::lower_bump)] = w.height;
+  if (points) {
+    const std::pair<std::span<const float>, BlockRow> below[] = {{points->height, BlockRow::lower_bump},
+                                                                 {points->alpha, BlockRow::lower_alpha},
+                                                                 {points->reflection, BlockRow::lower_reflection},
+                                                                 {points->roughness, BlockRow::lower_roughness}};
+    for (std::size_t k = 0; k < std::size(below); ++k) {
+      if (below[k].first.empty()) continue;
+      std::copy_n(below[k].first.begin() + static_cast<std::ptrdiff_t>(first), n, w.below[k]);
+      block.rows[static_cast<std::size_t>(below[k].second)] = w.below[k];
+    }
   }
   if (points && !points->normals.empty()) block.normals = points->normals.data() + 3 * first;
 }
@@ -91,8 +98,8 @@ void evaluate_block(const Graph& graph, Workspace& w, const Block& block, unsign
     w.evaluator.channels(graph.root, block, channels, w.out);
   for (std::size_t c = 0; c < k_channels; ++c) {
     if (!(channels >> c & 1U)) continue;
-    const bool limited =
-        c == static_cast<std::size_t>(Channel::friction) || c == static_cast<std::size_t>(Channel::stiffness);
+    const auto channel = static_cast<Channel>(c);
+    const bool limited = channel == Channel::friction || channel == Channel::stiffness || channel == Channel::damping;
     const std::size_t parts = c == k_color ? 3 : 1;
     float* out = values.channels[c].data() + static_cast<std::size_t>(first) * parts;
     for (std::size_t k = 0; k < parts; ++k)
@@ -138,6 +145,11 @@ Channel channel_named(std::string_view name) {
   }
   throw InvalidInput("unknown channel '" + std::string(name) + "'" + did_you_mean(name, known) + "; known are " + list +
                      " and height (bump)");
+}
+
+double roughness_of_highlight(double specular, double exponent) noexcept {
+  const double peak = specular * (std::max(exponent, 0.0) + 2);
+  return peak > 2 ? std::pow(2 / peak, 0.25) : 1;
 }
 
 RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOptions& options) {
@@ -191,7 +203,8 @@ TextureValues evaluate_texture(const ProceduralTexture& texture, const TexturePo
   const auto fits = [&](std::size_t size, std::size_t parts) { return size == 0 || size == count * parts; };
   if (points.y.size() != count || !fits(points.normals.size(), 3) || !fits(points.positions.size(), 3) ||
       !fits(points.sky.size(), 1) || !fits(points.flow.size(), 1) || !fits(points.color.size(), 3) ||
-      !fits(points.height.size(), 1) || !fits(points.raster.at.size(), 1))
+      !fits(points.height.size(), 1) || !fits(points.alpha.size(), 1) || !fits(points.reflection.size(), 1) ||
+      !fits(points.roughness.size(), 1) || !fits(points.raster.at.size(), 1))
     throw InvalidInput("evaluate_texture: the spans have unlike lengths for " + std::to_string(count) + " points");
   const Graph& graph = texture.graph();
   const NearRaster raster{points.raster.width, points.raster.height, points.raster.repeats};

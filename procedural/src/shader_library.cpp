@@ -264,6 +264,10 @@ frequency = frequency * 2.0;
 }
 return sum;
 }
+float k_roughness_of_highlight(float specular, float exponent) {
+float peak = specular * (max(exponent, 0.0) + 2.0);
+return pick(peak > 2.0, sqrt(sqrt(2.0 / max(peak, 2.0))), 1.0);
+}
 Channels k_nothing() {
 Channels c;
 c.main = 0.0;
@@ -276,6 +280,8 @@ c.specular = 0.0;
 c.specularcoeff = 0.0;
 c.friction = 0.0;
 c.stiffness = 0.0;
+c.damping = 0.0;
+c.roughness = 0.0;
 c.red = 0.0;
 c.green = 0.0;
 c.blue = 0.0;
@@ -475,7 +481,8 @@ using namespace procedural_detail;
 
 constexpr std::string_view k_channels_glsl = R"(
 struct Channels {
-  float main, bump, alpha, coloralpha, reflection, diffuse, specular, specularcoeff, friction, stiffness;
+  float main, bump, alpha, coloralpha, reflection, diffuse, specular, specularcoeff;
+  float friction, stiffness, damping, roughness;
   float red, green, blue;
 };
 float pick(bool condition, float first, float second) { return condition ? first : second; }
@@ -483,7 +490,7 @@ float pick(bool condition, float first, float second) { return condition ? first
 constexpr std::string_view k_channels_wgsl = R"(
 struct Channels {
   main: f32, bump: f32, alpha: f32, coloralpha: f32, reflection: f32, diffuse: f32, specular: f32,
-  specularcoeff: f32, friction: f32, stiffness: f32, red: f32, green: f32, blue: f32,
+  specularcoeff: f32, friction: f32, stiffness: f32, damping: f32, roughness: f32, red: f32, green: f32, blue: f32,
 }
 fn pick(condition: bool, first: f32, second: f32) -> f32 { return select(second, first, condition); }
 )";
@@ -501,6 +508,8 @@ vec4 papilla_shown(int channel, Channels c) {
   if (channel == 8) { v = c.specularcoeff; }
   if (channel == 9) { v = c.friction; }
   if (channel == 10) { v = c.stiffness; }
+  if (channel == 11) { v = c.damping; }
+  if (channel == 12) { v = c.roughness; }
   return vec4(v, v, v, 1.0);
 }
 )";
@@ -515,8 +524,8 @@ std::string texture_function(const std::string& root, double step_x, double step
          ";\ng_posx = x;\ng_posy = y;\ng_posz = 0.0;\ng_sky = 1.0;\ng_flow = 1.0;\ng_lower = k_nothing();\nChannels c "
          "= " +
          root +
-         "(x, y);\nc.friction = clamp(c.friction, 0.0, 10.0);\nc.stiffness = clamp(c.stiffness, 0.0, 10.0);\nreturn "
-         "c;\n}\n";
+         "(x, y);\nc.friction = clamp(c.friction, 0.0, 10.0);\nc.stiffness = clamp(c.stiffness, 0.0, 10.0);\n"
+         "c.damping = clamp(c.damping, 0.0, 10.0);\nreturn c;\n}\n";
 }
 
 }  // namespace

@@ -15,11 +15,12 @@ constexpr std::size_t k_most_instances = 1024;
 constexpr std::size_t k_most_text_of_shader = std::size_t{8} << 20;
 constexpr std::size_t k_red = static_cast<std::size_t>(Channel::color);
 constexpr std::size_t at(Channel c) { return static_cast<std::size_t>(c); }
+constexpr unsigned bit(Channel c) { return 1U << static_cast<unsigned>(c); }
 
 /// Members of Channels, in the order of ChannelRows.
 constexpr std::array<std::string_view, k_channels + 2> k_members = {
-    "main",          "bump",     "alpha",     "coloralpha", "reflection", "diffuse", "specular",
-    "specularcoeff", "friction", "stiffness", "red",        "green",      "blue"};
+    "main",     "bump",      "alpha",   "coloralpha", "reflection", "diffuse", "specular", "specularcoeff",
+    "friction", "stiffness", "damping", "roughness",  "red",        "green",   "blue"};
 
 std::string number(double value) { return ShaderValue(value).text; }
 
@@ -346,6 +347,9 @@ std::string ShaderWriter::layers(int index) {
     const std::string call = channels_function(inner(index, n.textures[k]), k_all_channels) + here;
     if (k == 0) {
       body += t + "below = " + call + ";\n";
+    } else if (top.cuts) {
+      body += filled_in("Channels $layer = $call;\n$tbelow.alpha = $tbelow.alpha * (1.0 - $layer.alpha);\n",
+                        {{"layer", "layer" + std::to_string(k)}, {"call", call}}, t);
     } else {
       const std::string layer = "layer" + std::to_string(k);
       const ShaderValues names{{"layer", layer}};
@@ -445,8 +449,14 @@ std::string ShaderWriter::channels_function(const ShaderInstance& wanted, unsign
   const std::string t = prefix_of(index), name = t + "channels" + std::to_string(mask);
   std::string body =
       "Channels " + name + "(float x, float y) {\nChannels c = k_nothing();\nc.main = " + t + "value(x, y);\n";
+  const bool highlight = n.own_highlight && (mask & bit(Channel::roughness));
+  const unsigned needed = highlight ? mask | bit(Channel::specular) | bit(Channel::specularcoeff) : mask;
   for (std::size_t c = 1; c < k_channels; ++c) {
-    if (!(mask >> c & 1U)) continue;
+    if (!(needed >> c & 1U)) continue;
+    if (highlight && c == at(Channel::roughness)) {
+      body += "c.roughness = k_roughness_of_highlight(c.specular, c.specularcoeff);\n";
+      continue;
+    }
     const std::size_t parts = c == k_red ? 3 : 1;
     std::vector<std::string> members;
     for (std::size_t k = 0; k < parts; ++k) members.push_back("c." + std::string(k_members[c + k]));
@@ -459,7 +469,7 @@ std::string ShaderWriter::channels_function(const ShaderInstance& wanted, unsign
     else
       for (std::size_t k = 0; k < parts; ++k) body += members[k] + " = " + below(k) + ";\n";
     if (from_below && c == at(Channel::alpha)) body += members[0] + " = " + members[0] + " * " + below(0) + ";\n";
-    if (c == at(Channel::alpha) || c == at(Channel::coloralpha) || c == k_red)
+    if (c == at(Channel::alpha) || c == at(Channel::coloralpha) || c == at(Channel::roughness) || c == k_red)
       for (const std::string& member : members) body += member + " = clamp(" + member + ", 0.0, 1.0);\n";
   }
   append(body + "return c;\n}\n");

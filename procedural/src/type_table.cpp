@@ -135,7 +135,9 @@ constexpr ParameterInfo k_multi[] = {number_in("bumpscale", -3, 3, "1.00", "mult
                                      number_in("specularscale", 0, 3, "1.00", "multiplies specular"),
                                      number_in("specularcoeffscale", 0, 3, "1.00", "multiplies the specular exponent"),
                                      number_in("frictionscale", 0, 3, "1.00", "multiplies friction"),
-                                     number_in("stiffnessscale", 0, 3, "1.00", "multiplies stiffness")};
+                                     number_in("stiffnessscale", 0, 3, "1.00", "multiplies stiffness"),
+                                     number_in("dampingscale", 0, 3, "1.00", "multiplies damping"),
+                                     number_in("roughnessscale", 0, 3, "1.00", "multiplies roughness")};
 constexpr ParameterInfo k_sd[] = {one_of("sdkey", "hmbump", "hmbump hmcolor main")};
 constexpr ParameterInfo k_smear[] = {number_in("density", 0, 1, "0.50", "share that is covered"),
                                      any_number("turbulence", "0.00", "bending of the smears"),
@@ -276,6 +278,7 @@ constexpr ParameterInfo k_common[] = {
     flag_of("abs", "false", "absolute value of main"),
     any_number("add", "0", "added to main, last"),
     formula("afunction", "0", "evaluated first, known as a"),
+    one_of("alphablend", "cover", "cover cut"),
     formula("alphafunction", "1", "cover of a layer, cut to [0, 1]"),
     number_in("ambient", 0, 1, "0.00", "light of the preview from everywhere"),
     formula("bfunction", "0", "evaluated second, known as b"),
@@ -285,6 +288,8 @@ constexpr ParameterInfo k_common[] = {
     one_of("colorblend", "interpolate", "off interpolate interpol add sub"),
     {"colorfunction", colour, 0, 0, "colmap(main)", "colour"},
     {"cols", colours, 0, 0, "black,white", "colours of colmap"},
+    one_of("dampingblend", "interpolate", "off interpolate interpol add sub"),
+    formula("dampingfunction", "1", "damping as a multiple of the material's"),
     one_of("diffuseblend", "interpolate", "off interpolate interpol add sub"),
     formula("diffusefunction", "1", "diffuse reflection"),
     {"dirtdirection", vector, -k_open, k_open, "<0,-1,0>", "direction in which dirt, rain or snow moves"},
@@ -330,6 +335,8 @@ constexpr ParameterInfo k_common[] = {
     one_of("reflectionblend", "interpolate", "off interpolate interpol add sub"),
     formula("reflectionfunction", "0", "reflection"),
     number_in("rot", -1e6, 1e6, "0.00", "rotation in radians"),
+    one_of("roughnessblend", "interpolate", "off interpolate interpol add sub"),
+    formula("roughnessfunction", "", "roughness, 0 mirror to 1 matte; empty: (2/(specular (specularcoeff+2)))^1/4"),
     {"scale", vector, -k_open, k_open, "1", "size: half of it shows twice as much; <x,y> or one number"},
     flag_of("seamless", "false", "the picture tiles"),
     integer_in("seed", 0, 1e9, "0", "another texture of the same kind; handed to the textures within"),

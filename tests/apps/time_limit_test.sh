@@ -14,12 +14,12 @@ printf '{"layers": [{"recipe": "dust"}], "size": 16}' >config.json
 # ends COMMAND...: with exit code 0; 124 is that of `timeout`, long after the limit.
 ends() { timeout 120 "$@" >out.txt 2>&1 </dev/null || fail "exit $?: $*: $(cat out.txt)"; }
 
-ends "$papilla" weather one.obj -c config.json -o old.glb --live --timeout 5
+ends "$papilla" weather one.obj -c config.json -o old.glb --live --no-open --timeout 5
 [[ -s old.glb ]] || fail "weather --live wrote nothing"
 ends "$papilla" view one.obj --follow no.sock --no-open --time-limit 5
 grep -q '^following the player at' out.txt || fail "view --follow: $(cat out.txt)"
 
-"$papilla" weather one.obj -c config.json -o none.glb --live --timeout 0 2>err.txt >out.txt
+"$papilla" weather one.obj -c config.json -o none.glb --live --no-open --timeout 0 2>err.txt >out.txt
 [[ $? == 4 ]] || fail "not cancelled: $(cat err.txt)"
 [[ ! -e none.glb ]] || fail "a cancelled build wrote its output"
 awk 'BEGIN { for (y = 0; y < 15; ++y) for (x = 0; x < 15; ++x) print "v", x, y, (x * y) % 3

@@ -8,7 +8,7 @@ import { launch } from './browser.mjs';
 
 const folder = resolve(process.argv[2]);
 const { width, height, cases } = JSON.parse(readFileSync(join(folder, 'cases.json'), 'utf8'));
-const CHANNELS = ['color', 'main', 'bump', 'alpha', 'coloralpha', 'reflection', 'diffuse', 'specular', 'specularcoeff', 'friction', 'stiffness'];
+const CHANNELS = ['color', 'main', 'bump', 'alpha', 'coloralpha', 'reflection', 'diffuse', 'specular', 'specularcoeff', 'friction', 'stiffness', 'damping', 'roughness'];
 const NEAR = 1 / 255;
 
 /** In the page: the floats of all channels as base64, as papilla_shader_cases lays them out. `texel(c, i, k)` reads one. */

@@ -15,6 +15,7 @@
 #include "papilla/haptic/material_tag.hpp"
 #include "papilla/io/height_source.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/io/rgba_image.hpp"
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/texture/normal_map.hpp"
 
@@ -55,7 +56,7 @@ TEST(Weather, SnowLiesOnTopAndNotBelow) {
   EXPECT_LT(red_at(result.scene, 0.75, 0.5), 60);
   EXPECT_TRUE(result.materials[0].depends_on_normal);
   EXPECT_FALSE(result.materials[0].atlas.has_value());
-  EXPECT_EQ(result.images, 2);
+  EXPECT_EQ(result.images, 3) << "colour, normals, and roughness";
 }
 
 /// Adds a horizontal metre square that looks up (or down) and fills the unit square of uv.
@@ -293,6 +294,153 @@ TEST(Weather, FrictionAndStiffnessAreFeltWhereTheyAre) {
                           [](const std::string& loss) { return loss.find("its own maps") != std::string::npos; }));
 }
 
+/// Factor times picture of a channel (0 to 3) of a reference of the first material.
+double shown_at(const Scene& scene, const std::optional<TextureReference>& reference, std::size_t channel, double u,
+                double factor) {
+  if (!reference) return factor;
+  const RgbaImage image = decode_rgba_image(scene, *scene.textures[reference->texture].image);
+  const auto x = static_cast<std::size_t>(u * image.width), y = static_cast<std::size_t>(image.height / 2);
+  return factor * image.pixels[4 * (y * static_cast<std::size_t>(image.width) + x) + channel] / 255;
+}
+double roughness_at(const Scene& scene, double u) {
+  const Material& m = scene.materials[0];
+  return shown_at(scene, m.metallic_roughness_texture, 1, u, m.roughness);
+}
+double metallic_at(const Scene& scene, double u) {
+  const Material& m = scene.materials[0];
+  return shown_at(scene, m.metallic_roughness_texture, 2, u, m.metallic);
+}
+double alpha_at(const Scene& scene, double u) {
+  const Material& m = scene.materials[0];
+  return shown_at(scene, m.base_color_texture, 3, u, m.base_color[3]);
+}
+
+WeatherConfig one_layer(const std::string& recipe) {
+  WeatherConfig config;
+  config.size = 32;
+  config.layers = {{recipe, {"*"}}};
+  return config;
+}
+
+TEST(Weather, AConstantRecipeIsAConstantRoughness) {
+  const Scene scene = weather_scene(two_sides(), one_layer("base|roughnessfunction=.3|reflectionfunction=.7"), 1).scene;
+  EXPECT_FALSE(scene.materials[0].metallic_roughness_texture);
+  EXPECT_NEAR(scene.materials[0].roughness, 0.3, 1e-6);
+  EXPECT_NEAR(scene.materials[0].metallic, 0.7, 1e-6);
+  // A highlight of n = 30 is a roughness of 1/2.
+  EXPECT_NEAR(weather_scene(two_sides(), one_layer("base|specularfunction=1|specularcoefffunction=30"), 1)
+                  .scene.materials[0]
+                  .roughness,
+              0.5, 1e-6);
+  // What does not cover leaves the own ones.
+  const Scene own = weather_scene(two_sides(), one_layer("base|alphafunction=0"), 1).scene;
+  EXPECT_NEAR(own.materials[0].roughness, 0.8, 1e-6);
+  EXPECT_EQ(own.materials[0].metallic, 0);
+  EXPECT_EQ(own.materials[0].alpha_mode, "OPAQUE");
+}
+
+TEST(Weather, WetIsShinyWhereItLies) {
+  Scene scene = two_sides();
+  scene.materials[0].roughness = 0.9;
+  // The cover of wetness, whose scale is 0.9, is cut in half: u < 1/2 stays dry.
+  const WeatherResult wet = weather_scene(scene, one_layer("wetness|alphafunction=.85*step(x,.5/.9)"), 1);
+  for (const double u : {0.1, 0.3, 0.45}) EXPECT_NEAR(roughness_at(wet.scene, u), 0.9, 0.003) << u;
+  const double film = std::pow(2 / (0.9 * 122), 0.25);
+  for (const double u : {0.55, 0.9}) EXPECT_NEAR(roughness_at(wet.scene, u), 0.15 * 0.9 + 0.85 * film, 0.003) << u;
+  EXPECT_EQ(metallic_at(wet.scene, 0.75), 0);
+  // And the recipe as it is, at time 1: nowhere rougher, and shiny somewhere.
+  const WeatherResult worn = weather_scene(scene, one_layer("wetness"), 1);
+  EXPECT_LT(worn.materials[0].roughness, 0.7);
+  for (double u = 0.01; u < 1; u += 0.07) EXPECT_LE(roughness_at(worn.scene, u), 0.904);
+}
+
+TEST(Weather, ChromeBelowRustStaysMetalWhereTheRustIsNot) {
+  Scene scene = two_sides();
+  scene.materials[0].metallic = 1, scene.materials[0].roughness = 0.1;
+  scene.materials[0].haptic.emplace().dynamic_friction = 0.2;
+  const Scene rusty = weather_scene(scene, one_layer("rust_on|alphafunction=step(x,.5/.45)"), 1).scene;
+  for (const double u : {0.05, 0.25, 0.48}) {
+    EXPECT_EQ(metallic_at(rusty, u), 1) << u;
+    EXPECT_NEAR(roughness_at(rusty, u), 0.1, 0.003) << u;
+  }
+  for (const double u : {0.52, 0.75, 0.95}) {
+    EXPECT_EQ(metallic_at(rusty, u), 0) << u;
+    EXPECT_EQ(roughness_at(rusty, u), 1) << u;
+  }
+  EXPECT_EQ(rusty.materials[0].roughness, 1) << "the picture has it all";
+  const std::vector<std::optional<MapChannel>> channels(rusty.materials[0].haptic->maps.value().channels.begin(),
+                                                        rusty.materials[0].haptic->maps->channels.end());
+  const auto friction = std::find_if(channels.begin(), channels.end(), [](const auto& channel) {
+    return channel && channel->quantity == Quantity::dynamic_friction;
+  });
+  ASSERT_NE(friction, channels.end());
+  EXPECT_NEAR((*friction)->least(), 0.2, 1e-3);
+  EXPECT_NEAR((*friction)->most(), 0.8, 1e-3);
+}
+
+TEST(Weather, DampingIsFeltWhereItIs) {
+  Scene scene = two_sides();
+  scene.materials[0].haptic.emplace().damping = 0.4;
+  const WeatherResult soft = weather_scene(scene, one_layer("base|dampingfunction=1+step(x,.5)"), 1);
+  const MaterialTag& tag = soft.scene.materials[0].haptic.value();
+  ASSERT_TRUE(tag.maps);
+  const auto channel = std::find_if(tag.maps->channels.begin(), tag.maps->channels.end(),
+                                    [](const auto& c) { return c && c->quantity == Quantity::damping; });
+  ASSERT_NE(channel, tag.maps->channels.end());
+  EXPECT_NEAR((*channel)->least(), 0.4, 1e-3);
+  EXPECT_NEAR((*channel)->most(), 0.8, 1e-3);
+  EXPECT_NEAR(tag.damping, 0.6, 1e-3);
+  EXPECT_NEAR(soft.materials[0].damping, 1.5, 1e-3);
+}
+
+TEST(Weather, LayersLieOverTheOwnMetallicRoughnessPicture) {
+  Scene scene = two_sides();
+  EncodedImage image;
+  image.name = "shine", image.mime_type = "image/png";
+  image.bytes = encode_png(ColorImage{2, 1, {0, 51, 255, 0, 204, 0}});
+  scene.images.push_back(std::move(image));
+  scene.textures.push_back({});
+  scene.textures.back().image = 0;
+  scene.materials[0].metallic_roughness_texture = TextureReference{};
+  scene.materials[0].roughness = 0.5, scene.materials[0].metallic = 1;
+  const Scene seen = weather_scene(scene, one_layer("base|alphafunction=0"), 1).scene;
+  EXPECT_NEAR(roughness_at(seen, 0.25), 0.1, 0.01) << "the middle of the first texel: 51/255 half";
+  EXPECT_NEAR(roughness_at(seen, 0.75), 0.4, 0.01);
+  EXPECT_NEAR(metallic_at(seen, 0.25), 1, 0.04);
+  EXPECT_NEAR(metallic_at(seen, 0.75), 0, 0.04);
+  // On other coordinates than the colour only its mean is known, and that is said.
+  scene.materials[0].base_color_texture = TextureReference{};
+  scene.materials[0].metallic_roughness_texture->tex_coord = 1;
+  const WeatherResult mean = weather_scene(scene, one_layer("base|alphafunction=0"), 1);
+  EXPECT_NEAR(mean.scene.materials[0].roughness, 0.25, 0.003);
+  EXPECT_NEAR(mean.scene.materials[0].metallic, 0.5, 0.003);
+  ASSERT_EQ(mean.scene.losses.size(), 1U);
+  EXPECT_NE(mean.scene.losses[0].find("metallic-roughness picture"), std::string::npos);
+}
+
+TEST(Weather, HolesAreSeenThrough) {
+  const Scene pierced = weather_scene(two_sides(), one_layer("base|alphablend=cut|alphafunction=step(x,.5)"), 1).scene;
+  EXPECT_EQ(pierced.materials[0].alpha_mode, "MASK");
+  EXPECT_EQ(pierced.materials[0].base_color[3], 1);
+  EXPECT_EQ(alpha_at(pierced, 0.25), 1);
+  EXPECT_EQ(alpha_at(pierced, 0.75), 0);
+  // Glass is seen through where nothing lies on it.
+  Scene glass = two_sides();
+  glass.materials[0].alpha_mode = "BLEND", glass.materials[0].base_color[3] = 0.2;
+  const Scene dirty = weather_scene(glass, one_layer("base|alphafunction=step(x,.5)*.5"), 1).scene;
+  EXPECT_EQ(dirty.materials[0].alpha_mode, "BLEND");
+  EXPECT_NEAR(alpha_at(dirty, 0.25), 0.2, 0.003);
+  EXPECT_NEAR(alpha_at(dirty, 0.75), 0.6, 0.003);
+}
+
+TEST(Weather, DiffuseScalesWhatIsNoMetal) {
+  const auto red = [&](const std::string& more) {
+    return red_at(weather_scene(two_sides(), one_layer("base|colorfunction=white" + more), 1).scene, 0.25, 0.5);
+  };
+  EXPECT_EQ(red("|diffusefunction=.5"), 188) << "half of the light";
+  EXPECT_EQ(red("|diffusefunction=.5|reflectionfunction=1"), 255);
+}
+
 TEST(Weather, MapsTileWhereTheUvLeaveTheRepeat) {
   TriangleMesh mesh;
   add_square(mesh, 0, 0, true);
@@ -504,6 +652,36 @@ TEST(GrainMaterial, ARecipeStandsWhereAPictureStands) {
   EXPECT_TRUE(grain.relief.periodic);
   EXPECT_NEAR(grain.tag.dynamic_friction, 0.42, 1e-6);
   EXPECT_EQ(grain.height.method, "recipe");
+  EXPECT_FALSE(grain.roughness_factor) << "leather has no colour: the part's own look stays";
+  rule.show = "picture";
+  const Grain shown = make_grain(rule);
+  EXPECT_FALSE(shown.shine) << "leather has one roughness";
+  EXPECT_NEAR(shown.roughness_factor.value(), std::pow(2 / (0.3 * 12), 0.25), 1e-6);
+  EXPECT_EQ(shown.metallic_factor.value(), 0);
+  // Channels that differ are pictures; what the rule says wins.
+  rule.recipe =
+      "base|cols=red,green|mainfunction=step(x,.5)|reflectionfunction=main|roughnessfunction=.2+.5*main|"
+      "dampingfunction=1+main";
+  rule.damping = 0.4;
+  const Grain steel = make_grain(rule);
+  ASSERT_TRUE(steel.shine);
+  EXPECT_EQ(steel.roughness_factor.value(), 1);
+  const ColorImage shine = decode_color_image(steel.shine->bytes, "shine");
+  const auto texel = [&](int x, std::size_t k) {
+    return shine.pixels[3 * static_cast<std::size_t>(256 * shine.width + x) + k];
+  };
+  EXPECT_EQ(texel(1, 1), 51 + texel(1, 2) / 2) << "roughness is 0.2 + metallic / 2 everywhere";
+  EXPECT_NEAR(texel(200, 1), 51 + texel(200, 2) / 2, 1);
+  rule.roughness = 0.35, rule.metallic = 0.1;
+  const Grain said = make_grain(rule);
+  EXPECT_FALSE(said.shine);
+  EXPECT_EQ(said.roughness_factor.value(), 0.35);
+  const MaterialTag tag = surface_tag(rule, &said, 0);
+  ASSERT_TRUE(tag.maps);
+  EXPECT_NEAR(tag.damping, 0.4 * said.damping_factor, 1e-9);
+  EXPECT_TRUE(std::any_of(tag.maps->channels.begin(), tag.maps->channels.end(),
+                          [](const auto& channel) { return channel && channel->quantity == Quantity::damping; }));
+  rule.roughness.reset(), rule.metallic.reset(), rule.damping.reset();
   rule.recipe = "leather|seed=x";
   EXPECT_THROW(make_grain(rule), InvalidInput);
 }

@@ -192,15 +192,70 @@ TEST(Multi, LayersReadWhatLiesBelow) {
   EXPECT_FLOAT_EQ(v[Channel::color][2], 0.3F);
 }
 
+/// The value of a channel of a recipe that is the same everywhere.
+float constant_of(const std::string& recipe, Channel channel) {
+  const std::vector<double> here = {0.5};
+  const auto texture = compile_texture(recipe, RecipeLibrary::builtin());
+  return evaluate_texture(texture, {here, here, {}, {}, {}, {}}, 1U << static_cast<unsigned>(channel), 0)[channel][0];
+}
+
+TEST(Roughness, IsThatOfTheHighlightUnlessTheRecipeSaysIt) {
+  // α² = 2 / (n + 2), r = √α: 0.5 for n = 30.
+  EXPECT_DOUBLE_EQ(roughness_of_highlight(1, 30), 0.5);
+  // Half the weight is the peak of half of n + 2.
+  EXPECT_DOUBLE_EQ(roughness_of_highlight(0.5, 62), 0.5);
+  EXPECT_DOUBLE_EQ(roughness_of_highlight(1, 0), 1);
+  EXPECT_DOUBLE_EQ(roughness_of_highlight(1, -5), 1);
+  EXPECT_DOUBLE_EQ(roughness_of_highlight(0, 100), 1);
+  EXPECT_DOUBLE_EQ(roughness_of_highlight(0.1, 10), 1) << "fainter than what is matte";
+  EXPECT_FLOAT_EQ(constant_of("base|specularfunction=1|specularcoefffunction=30", Channel::roughness), 0.5F);
+  EXPECT_FLOAT_EQ(constant_of("base", Channel::roughness), std::pow(2 / (0.3F * 12), 0.25F));
+  EXPECT_FLOAT_EQ(constant_of("base|roughnessfunction=.25|specularfunction=0", Channel::roughness), 0.25F);
+  EXPECT_FLOAT_EQ(constant_of("base|roughnessfunction=7", Channel::roughness), 1);
+  // Layers blend roughness itself, as any channel; a multi with a highlight of its own has that one's.
+  const std::string two = "multi|textures=[base|roughnessfunction=.2],[base|alphafunction=.25|roughnessfunction=.6]";
+  EXPECT_FLOAT_EQ(constant_of(two, Channel::roughness), 0.3F);
+  EXPECT_FLOAT_EQ(constant_of(two + "|roughnessscale=2", Channel::roughness), 0.6F);
+  EXPECT_FLOAT_EQ(constant_of(two + "|specularfunction=1|specularcoefffunction=30", Channel::roughness), 0.5F);
+  EXPECT_FLOAT_EQ(constant_of("multi|textures=[base|roughnessfunction=.2],[base|alphafunction=.5|roughnessblend=add|"
+                              "roughnessfunction=.6]",
+                              Channel::roughness),
+                  0.5F);
+}
+
+TEST(Multi, ALayerMayBeAHole) {
+  const std::string hole =
+      "multi|textures=[base|alphafunction=.8|frictionfunction=.3],[base|alphablend=cut|"
+      "alphafunction=.75|frictionfunction=.9|colorfunction=white]";
+  EXPECT_FLOAT_EQ(constant_of(hole, Channel::alpha), 0.2F);
+  EXPECT_FLOAT_EQ(constant_of(hole, Channel::friction), 0.3F) << "nothing else of it shows";
+  EXPECT_FLOAT_EQ(constant_of(hole.substr(0, hole.size()) + ",[base|alphafunction=.5]", Channel::alpha), 0.6F)
+      << "what lies over it covers it";
+  EXPECT_FLOAT_EQ(constant_of("base|alphablend=cut|alphafunction=.75", Channel::alpha), 0.75F);
+}
+
+TEST(Library, WhatAgesChangesTheShine) {
+  const auto over = [](const std::string& recipe, Channel channel) {
+    return constant_of(
+        "multi|textures=[base|reflectionfunction=1|roughnessfunction=.3],[" + recipe + "|alphafunction=1]", channel);
+  };
+  EXPECT_LT(over("wetness|time=1", Channel::roughness), 0.4F);
+  EXPECT_EQ(over("rust_on", Channel::roughness), 1) << "rust is matte";
+  EXPECT_EQ(over("rust_on", Channel::reflection), 0) << "and no metal";
+  EXPECT_GT(over("rust_on", Channel::friction), 0.7F) << "and grips";
+  EXPECT_EQ(over("scratches", Channel::reflection), 1) << "a scratch shows the metal";
+  EXPECT_EQ(over("polish", Channel::reflection), 1);
+}
+
 TEST(Multi, LayersReadEveryChannelBelow) {
   const std::string below =
       "[base|mainfunction=.11|bumpfunction=.12|alphafunction=.5|coloralphafunction=.4|"
       "reflectionfunction=.13|diffusefunction=.14|specularfunction=.15|specularcoefffunction=.16|"
-      "frictionfunction=.17|stiffnessfunction=.18]";
+      "frictionfunction=.17|stiffnessfunction=.18|dampingfunction=.19|roughnessfunction=.21]";
   const std::pair<const char*, float> known[] = {
-      {"lowermain", .11F},       {"lowerbump", .12F},     {"loweralpha", .5F},     {"lowercoloralpha", .4F},
-      {"lowerreflection", .13F}, {"lowerdiffuse", .14F},  {"lowerspecular", .15F}, {"lowerspecularcoeff", .16F},
-      {"lowerfriction", .17F},   {"lowerstiffness", .18F}};
+      {"lowermain", .11F},       {"lowerbump", .12F},      {"loweralpha", .5F},     {"lowercoloralpha", .4F},
+      {"lowerreflection", .13F}, {"lowerdiffuse", .14F},   {"lowerspecular", .15F}, {"lowerspecularcoeff", .16F},
+      {"lowerfriction", .17F},   {"lowerstiffness", .18F}, {"lowerdamping", .19F},  {"lowerroughness", .21F}};
   static_assert(std::size(known) == k_channels - 1, "and the colour, which is currentcolor");
   const std::vector<double> here = {0.5};
   for (const auto& [name, value] : known) {

@@ -198,6 +198,7 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
                              {"distortion", distortion_json(surface.distortion)}});
   json["materials"] = Json::array();
   for (const auto& [name, grain] : result.grains) json["materials"].push_back(grain_json(name, grain));
+  json["atlases"] = atlases_json(result.atlases);
   json["uv"] = own_uv_json(result.plan.surfaces);
   json["distortion"] = total_json(result.surfaces);
   json["repair"] = repair_numbers_json(repair_of(result.surfaces));
@@ -212,6 +213,17 @@ Json bake_json(const BakeResult& result, const BakeOptions& options) {
   if (const auto& budget = result.plan.budget)
     json["budget"] =
         budget_json(result.scene, *options.plan.budget, *budget, budget->parts, result.plan.budget_triangles);
+  return json;
+}
+
+Json atlases_json(const std::vector<BakedAtlas>& atlases) {
+  Json json = Json::array();
+  for (const BakedAtlas& atlas : atlases)
+    json.push_back({{"material", atlas.material},
+                    {"width", atlas.width},
+                    {"height", atlas.height},
+                    {"charts", atlas.charts},
+                    {"mm_per_texel", atlas.mm_per_texel}});
   return json;
 }
 
@@ -236,6 +248,10 @@ Json weather_json(const WeatheredMaterial& m) {
   json["mm_per_texel"] = m.mm_per_texel;
   json["friction"] = m.friction;
   json["stiffness"] = m.stiffness;
+  json["damping"] = m.damping;
+  json["roughness"] = m.roughness;
+  json["metallic"] = m.metallic;
+  json["alpha"] = m.alpha;
   json["maps"] = channels_json(m.maps);
   return json;
 }

@@ -103,5 +103,6 @@ Json object_textures_json(const ObjectTextures& made, const ObjectTexturePlaces&
 Json bake_json(const BakeResult& result, const BakeOptions& options);
 
 Json weather_json(const WeatheredMaterial& material);
+Json atlases_json(const std::vector<BakedAtlas>& atlases);
 
 }  // namespace papilla::app

@@ -123,6 +123,10 @@ HeightFileOptions HeightOption::options(std::uint64_t seed, const ProgressCallba
 void TextureOption::add_to(CLI::App& verb) {
   verb.add_option("recipe", recipe, "Recipe: type|parameter=value|..., or the name of one")->type_name("RECIPE");
   writes_into(verb.add_option("-o,--output", output, "Folder of the pictures"))->type_name("DIR");
+  reads(verb.add_option("--on", on,
+                        "Put the recipe on all surfaces of a scene: DIR gets scene.glb and its pictures, an atlas of "
+                        "recipes that read posx, posy, posz, normaldot or sky, else a tile of --size-mm"))
+      ->type_name("SCENE");
   verb.add_option("--size", size_, "Texels a side, or width and height")
       ->expected(1, 2)
       ->delimiter('x')

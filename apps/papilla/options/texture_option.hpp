@@ -34,7 +34,7 @@ class HeightOption {
 /// Options of `texture`, in the order of its help: pictures of a recipe, or a contact sheet, or a list.
 class TextureOption {
  public:
-  std::string recipe, output, list, sheet, suggest;
+  std::string recipe, output, on, list, sheet, suggest;
   std::string glsl, wgsl;  ///< Files; empty: none.
   std::vector<std::string> libraries;
   int tile_px = 128;

@@ -33,9 +33,10 @@ std::string page_html(const PageContent& content) {
                      {"title", content.title},
                      {"scene", content.scene},
                      {"report", content.report},
-                     {"live", content.live}};
-  return fill(page,
-              {{k_connect_marker, content.live ? "; connect-src 'self'" : ""}, {k_page_marker, embedded_json(data)}});
+                     {"live", content.live},
+                     {"looks", content.looks}};
+  const bool asks = content.live || !content.looks.is_null();
+  return fill(page, {{k_connect_marker, asks ? "; connect-src 'self'" : ""}, {k_page_marker, embedded_json(data)}});
 }
 
 std::size_t write_page(const PageContent& content, const std::filesystem::path& file) {

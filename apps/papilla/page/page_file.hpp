@@ -14,7 +14,8 @@ namespace papilla::app {
 struct PageContent {
   std::string title;
   Json scene, report;
-  bool live = false;  ///< Follows a player: may ask its own server, and nobody else, for samples.
+  bool live = false;     ///< Follows a player: may ask its own server, and nobody else, for samples.
+  Json looks = nullptr;  ///< Follows `weather --live`, and may ask as well: numbers of the page and of its looks.
 };
 
 /// One self-contained HTML text: the page with the content in it, or tables of the content when the program was built

@@ -4,8 +4,10 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "json/scene_json.hpp"
@@ -56,9 +58,14 @@ struct ShownPart {
   DistortionReport distortion;
 };
 
+/// The pictures of a material that the page shows.
+std::array<const std::optional<TextureReference>*, 3> shown_maps(const Material& material) {
+  return {&material.base_color_texture, &material.normal_texture, &material.metallic_roughness_texture};
+}
+
 /// Whether something that the page shows of a material lies on channel 1.
 bool lies_on_uv1(const Material& material) {
-  for (const auto* map : {&material.base_color_texture, &material.normal_texture})
+  for (const auto* map : shown_maps(material))
     if (*map && (*map)->tex_coord == 1) return true;
   return material.haptic && tex_coord_of(*material.haptic) == 1;
 }
@@ -155,6 +162,7 @@ class PageMaterials {
                  {"base_map", texture_json(scene_, material.base_color_texture)},
                  {"normal_map", texture_json(scene_, material.normal_texture)},
                  {"environment", environments_.number_of(environment_of(material))},
+                 {"shine_map", texture_json(scene_, material.metallic_roughness_texture)},
                  {"haptic", nullptr},
                  {"height", nullptr}};
     std::vector<HapticWarning> warnings = material.haptic_warnings;
@@ -164,7 +172,7 @@ class PageMaterials {
       if (tag->height) json["height"] = height(*tag->height, number, warnings);
       json["haptic"] = Json::parse(to_json(shown));
     }
-    for (const auto* map : {&material.base_color_texture, &material.normal_texture})
+    for (const auto* map : shown_maps(material))
       if (*map && texture_json(scene_, *map).is_null())
         warnings.push_back(
             {"picture_not_shown", "a picture of it is missing or in a format that browsers do not show"});
@@ -202,7 +210,7 @@ Json images_json(const Scene& scene) {
   Json images = Json::array();
   for (std::size_t i = 0; i < scene.images.size(); ++i) images.push_back(nullptr);
   for (const Material& material : scene.materials)
-    for (const auto* map : {&material.base_color_texture, &material.normal_texture}) {
+    for (const auto* map : shown_maps(material)) {
       if (!*map || (*map)->texture >= scene.textures.size()) continue;
       const auto number = scene.textures[(*map)->texture].image;
       if (!number || *number >= scene.images.size() || !images[*number].is_null()) continue;

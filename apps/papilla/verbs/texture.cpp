@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "exit_code.hpp"
+#include "json/scene_json.hpp"
 #include "json/texture_json.hpp"
 #include "options/texture_option.hpp"
 #include "page/sheet_page.hpp"
@@ -14,7 +15,9 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/recipe_source.hpp"
+#include "papilla/pipeline/texture_on_scene.hpp"
 #include "papilla/procedural/ageing.hpp"
 #include "papilla/procedural/reference.hpp"
 #include "shown_format.hpp"
@@ -40,6 +43,22 @@ Json write_sheet(const TextureOption& options, const RecipeLibrary& library, Ver
     if (!entry.error.empty()) context.console.print(shown_format("{}: {}\n", entry.name, entry.error));
   context.console.print(shown_format("{} recipes on {}/sheet.html\n", sheet.entries.size(), options.output));
   return sheet_json(sheet);
+}
+
+Json write_on_scene(const TextureOption& options, const std::string& recipe, const RecipeLibrary& library,
+                    const VerbContext& context) {
+  const TextureFileOptions files = options.options(context.seed, context.progress);
+  const TextureOnScene made =
+      write_texture_on_scene(recipe, library, read_scene(options.on, {}, context.progress), options.output, files);
+  context.console.print(shown_format("{}/{}, with {} pictures\n", options.output, made.scene, made.pictures.size()));
+  for (const BakedAtlas& atlas : made.baked.atlases)
+    context.console.print(shown_format("atlas of {} x {}: {} charts, a texel for every {:.2g} mm\n", atlas.width,
+                                       atlas.height, atlas.charts, atlas.mm_per_texel));
+  return {{"scene", made.scene},
+          {"pictures", made.pictures},
+          {"atlases", atlases_json(made.baked.atlases)},
+          {"losses", made.baked.scene.losses},
+          {"warnings", made.baked.scene.warnings}};
 }
 
 Json print_list(const std::string& what, const RecipeLibrary& library, const Console& console) {
@@ -124,6 +143,7 @@ Json run(const TextureOption& options, VerbContext& context) {
   if (!options.sheet.empty()) return write_sheet(options, library, context);
   if (options.recipe.empty()) throw InvalidInput("texture: a recipe, --sheet, --list or --suggest is missing");
   const std::string recipe = options.aged_recipe();
+  if (!options.on.empty()) return write_on_scene(options, recipe, library, context);
   const TextureFileOptions wanted = options.options(context.seed, context.progress);
   Json json = write_shaders(options, recipe, library, wanted, context.console);
   if (only_shaders) return json;

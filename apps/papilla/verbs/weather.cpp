@@ -1,64 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <atomic>
-#include <csignal>
-#include <filesystem>
 #include <memory>
 
 #include "file_options.hpp"
-#include "json/scene_json.hpp"
+#include "option_checks.hpp"
 #include "options/scene_option.hpp"
-#include "papilla/core/error.hpp"
-#include "papilla/core/file_guard.hpp"
-#include "papilla/core/progress.hpp"
-#include "scene_output.hpp"
-#include "shown_format.hpp"
 #include "verbs.hpp"
-#include "weather/follow_files.hpp"
 #include "weather/weather_build.hpp"
+#include "weather/weather_live.hpp"
 
 namespace papilla::app {
 namespace {
-
-std::atomic<bool> g_stop{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
 struct Options {
   std::string scene;
   WeatherBuildOptions build;
   bool live = false;
+  WeatherLiveOptions follow;
   SceneOptions read;
 };
-
-/// Builds again whenever the configuration or a file that it rests on is saved. A mistake in them is printed and
-/// waited for.
-void rebuild_on_change(const Options& options, WeatherBuilder& builder, const VerbContext& context,
-                       WeatherBuild& build) {
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_stop = true; });
-  const auto list = [&] {
-    std::vector<std::filesystem::path> files(builder.files().begin(), builder.files().end());
-    files.emplace_back(options.build.config);
-    return files;
-  };
-  const auto again = [&] {
-    try {
-      forget_written_outputs();
-      build = builder.build(options.build, true, context);
-      context.console.print(shown_format("{} painted anew in {:.2f} s\n", build.painted, build.seconds));
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const Error& error) {
-      context.console.print(shown_format("{}\n", error.what()));
-    }
-  };
-  context.console.print("waiting for changes; Ctrl-C ends\n");
-  follow_files(list, again, [&] { return g_stop || context.deadline.passed(); });
-}
 
 Json run(const Options& options, VerbContext& context) {
   WeatherBuilder builder(options.scene, read_scene(options.scene, options.read.read_options(), context.progress));
   WeatherBuild build = builder.build(options.build, options.live, context);
-  if (options.live) rebuild_on_change(options, builder, context, build);
-  return weather_build_json(build);
+  if (!options.live) return weather_build_json(build);
+  const std::string url = follow_weather(options.build, options.follow, builder, context, build);
+  Json json = weather_build_json(build);
+  json["url"] = url;
+  return json;
 }
 
 }  // namespace
@@ -86,8 +54,15 @@ void add_weather(CLI::App& program) {
   verb->add_flag("--video", options->build.video, "The series as an animated GIF in the page's folder, too")
       ->needs(report);
   verb->add_flag("--strict", options->build.strict, "Refuse layers that lie on no surface");
-  verb->add_flag("--live", options->live,
-                 "Stay, and build again whenever CONFIG, a library or a picture of it is saved");
+  auto* live = verb->add_flag("--live", options->live,
+                              "Stay, and serve a page on this machine, at an address with a secret token, that shows "
+                              "what changes whenever CONFIG, a library or a picture of it is saved; OUT is built again "
+                              "when edits rest");
+  verb->add_option("--port", options->follow.port, "Of the page; 0 takes any that is free")
+      ->type_name("N")
+      ->check(in_range(0, 65535))
+      ->needs(live);
+  verb->add_flag("--no-open", options->follow.no_open, "Don't start a browser for the page")->needs(live);
   options->read.add_to(*verb);
 }
 

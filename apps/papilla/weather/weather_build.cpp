@@ -21,6 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr double k_pictures_a_second = 4;
 
+WeatherConfig config_of(const WeatherBuildOptions& options, bool live) {
+  WeatherConfig config = read_weather_config(options.config);
+  config.strict = options.strict;
+  config.stable_layout = live;
+  return config;
+}
+
 /// OUT.glb, or OUT.0000.glb and so on for a series.
 std::string file_of(const std::string& output, std::size_t step, std::size_t steps) {
   if (steps == 1) return output;
@@ -62,9 +69,13 @@ std::string layers_text(const std::vector<RuleUse>& layers) {
 
 }  // namespace
 
+WeatherLooks WeatherBuilder::looks(const WeatherBuildOptions& options, const ProgressCallback& progress) {
+  const WeatherConfig config = config_of(options, true);
+  return weather_looks(scene_, config, config.times.back(), cache_, progress);
+}
+
 WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live, const VerbContext& context) {
-  WeatherConfig config = read_weather_config(options.config);
-  config.strict = options.strict;
+  const WeatherConfig config = config_of(options, live);
   WeatherBuild build;
   const Stopwatch clock;
   std::vector<WeatherView> views;
@@ -84,6 +95,7 @@ WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live
     build.duplicates_removed += result.duplicates_removed;
     build.painted += result.painted;
     build.files.push_back({file, config.times[step]});
+    if (live && step + 1 == config.times.size()) build.shown = std::move(result.scene);
   }
   if (!options.report.empty()) {
     if (!before_) before_ = view_of(scene_);

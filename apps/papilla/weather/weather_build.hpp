@@ -31,6 +31,7 @@ struct WeatherBuild {
   std::vector<File> files;
   std::string page, video;            ///< Empty when not written.
   std::vector<std::string> pictures;  ///< In the page's folder.
+  std::optional<Scene> shown;         ///< Of live builds: the scene at the last time.
   double seconds = 0;
 };
 
@@ -39,10 +40,14 @@ class WeatherBuilder {
  public:
   WeatherBuilder(std::string file, Scene scene) : file_(std::move(file)), scene_(std::move(scene)) {}
 
-  /// @param live the page reads itself again every two seconds.
+  /// @param live the report reads itself again every two seconds, and the layout of atlases is stable.
   /// @throws IoError, InvalidInput as read_weather_config(), weather_scene() and write_scene(), and when nothing would
   /// be painted: nothing is written then.
   WeatherBuild build(const WeatherBuildOptions& options, bool live, const VerbContext& context);
+
+  /// What a live build would show at the last time.
+  /// @throws as build(), but for writing.
+  WeatherLooks looks(const WeatherBuildOptions& options, const ProgressCallback& progress);
 
   /// All that was ever read beside the configuration.
   const std::set<std::filesystem::path>& files() const noexcept { return cache_.files(); }

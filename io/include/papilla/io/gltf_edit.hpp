@@ -22,7 +22,9 @@ struct GltfSurfaceEdit {
   std::optional<double> roughness, metallic;
   std::string environment_json;  ///< For extras.papilla.environment, with a rule; empty: it has none.
   /// Pictures of a grain, of which a material takes those for whose use it has none of its own. They outlive the call.
-  const EncodedImage *normal_map = nullptr, *picture = nullptr;
+  const EncodedImage *normal_map = nullptr, *picture = nullptr, *shine = nullptr;
+  /// Factors of `shine`, metallic-roughness, or without it: what goes with `picture` where that is taken.
+  std::optional<double> picture_roughness, picture_metallic;
   std::optional<UvTransform> transform;  ///< Of the pictures, when the surface keeps its uv.
   /// New uv, per triangle in the part's order: they become one more channel, of the pictures and the tag. Empty: those
   /// are on channel 0.

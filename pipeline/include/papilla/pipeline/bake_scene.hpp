@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -43,12 +44,21 @@ struct BakedSurface {
   CornerAttribute<Vec2> uv;  ///< In place: the new uv in repeats of the grain; empty when its own stay.
 };
 
+/// The picture of a material whose recipe reads position, normal or sky: of all its surfaces, where they stand.
+struct BakedAtlas {
+  std::string material;
+  int width = 0, height = 0;
+  std::size_t charts = 0;
+  double mm_per_texel = 0;
+};
+
 struct BakeResult {
   BakePlan plan;  ///< Without its scene.
   Scene scene;    ///< With uv, textures and haptic tags; ready to be written. In place: as it was.
   std::map<std::string, Grain> grains;              ///< By material.
   std::map<std::string, std::string> environments;  ///< environment_json() by material, of those that name one.
   std::vector<BakedSurface> surfaces;               ///< Those with grain.
+  std::vector<BakedAtlas> atlases;                  ///< Of recipes that read the surface.
   ObjectTextures object_textures;                   ///< Decals and carriers; empty in place.
   std::vector<Vec2> mm_per_uv;                      ///< Per material of `scene`; 0 when unknown.
   std::map<std::string, double> seconds;            ///< Per stage: summed over the surfaces.
@@ -61,7 +71,8 @@ RepairResult repair_of(const std::vector<BakedSurface>& surfaces);
 StopReason ending_of(const BakeResult& result);
 
 /// The main job: plan_bake(), then for every surface what its plan says and nothing else. Surfaces run in parallel; the
-/// result does not depend on the number of threads.
+/// result does not depend on the number of threads. A material whose recipe reads position, normal or sky gets an atlas
+/// of the surfaces that show it, on which picture, relief and maps lie; in place it would be a tile.
 /// @throws InvalidInput, IoError, SolverFailure naming the part or picture.
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options = {},
                       const ProgressCallback& progress = {});

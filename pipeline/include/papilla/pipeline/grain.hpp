@@ -50,6 +50,7 @@ struct Grain {
   ColorImage photograph;       ///< The source as a picture, whether shown or not.
   double size_mm[2] = {0, 0};  ///< What one repeat of the relief measures, and of the picture when it is shown.
   bool tiles = false;          ///< The picture's borders match.
+  bool solid = false;          ///< Its recipe reads position, normal or sky: a scene gets an atlas of it.
   bool monochrome = false;
   TextureClass kind;
   AnalysisPlan plan;  ///< What the class made of the picture, step by step; empty for recipes.
@@ -61,8 +62,11 @@ struct Grain {
   EncodedImage normal_png;              ///< From the same relief.
   std::optional<EncodedImage> picture;  ///< The base colour, when the picture is to be shown.
   MaterialTag tag;                      ///< Height, roughness, symmetry, provenance; constants come from the rule.
-  double stiffness_factor = 1;          ///< Mean of a recipe's stiffness channel.
-  std::vector<std::string> warnings;    ///< What of the rule could not be done.
+  std::optional<EncodedImage> shine;    ///< Metallic-roughness of a recipe's channels, shown with the picture.
+  /// Factors of roughness and metallic that go with the picture of a recipe.
+  std::optional<double> roughness_factor, metallic_factor;
+  double stiffness_factor = 1, damping_factor = 1;  ///< Means of a recipe's channels.
+  std::vector<std::string> warnings;                ///< What of the rule could not be done.
   double analyze_seconds = 0, height_seconds = 0, normal_map_seconds = 0;
 };
 
@@ -96,8 +100,9 @@ MaterialTag surface_tag(const MaterialRule& rule, const Grain* grain, double kep
 /// The transform of uv of `mm_per_unit` to repeats of the grain.
 UvTransform transform_to_repeats(const Grain& grain, double mm_per_unit);
 
-/// Copies the rule's haptic constants into a tag. @param stiffness_factor  multiplies the stiffness, the rule's or the
-/// tag's own.
-void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor = 1);
+/// Copies the rule's haptic constants into a tag. @param stiffness_factor, damping_factor  multiply them, the rule's or
+/// the tag's own.
+void apply_constants(const MaterialRule& rule, MaterialTag& tag, double stiffness_factor = 1,
+                     double damping_factor = 1);
 
 }  // namespace papilla

@@ -36,6 +36,9 @@ struct WeatherConfig {
   std::filesystem::path folder;        ///< Where the names within are looked for.
   std::string source = "weather";      ///< The configuration's name in messages.
   bool strict = false;                 ///< A layer that lies on no surface is an error; no key of the file.
+  /// Charts that come out alike do not share their texels, so that coordinates depend on the surfaces and on what the
+  /// recipes read of them alone; no key of the file.
+  bool stable_layout = false;
 
   int atlas_side() const { return atlas > 0 ? atlas : 4 * size; }
 };
@@ -43,7 +46,7 @@ struct WeatherConfig {
 /// @throws IoError, InvalidInput naming file and key.
 WeatherConfig read_weather_config(const std::filesystem::path& path);
 
-/// The layers of these numbers over a material's own colour, friction and stiffness, as one recipe; empty without any.
+/// The layers of these numbers over what a material has of its own, as one recipe; empty without any.
 std::string layered_recipe(const WeatherConfig& config, const std::vector<std::uint32_t>& layers, double friction);
 
 /// The atlas of a material that was cut into charts.
@@ -65,8 +68,9 @@ struct WeatheredMaterial {
   bool own_relief = false;        ///< Its normal map was read as relief below the layers.
   bool keeps_relief = false;      ///< Its own relief stays as it was, without the layers'.
   double mm_per_texel = 0;
-  double friction = 0, stiffness = 1;  ///< Means of the channels; stiffness is a factor.
-  std::optional<MapsTag> maps;         ///< Of a tagged material, where they differ from place to place.
+  /// Means of the channels; stiffness and damping are factors.
+  double friction = 0, stiffness = 1, damping = 1, roughness = 1, metallic = 0, alpha = 1;
+  std::optional<MapsTag> maps;  ///< Of a tagged material, where they differ from place to place.
 
   bool painted() const { return !recipe.empty() && skipped.empty(); }
 };
@@ -102,14 +106,40 @@ class WeatherCache {
   std::unique_ptr<State> state_;
 };
 
+/// How a painted material is seen, as pixels: RGBA of 8 bits, row by row from the top, of one size.
+struct WeatheredLook {
+  int width = 0, height = 0;
+  std::vector<unsigned char> color, normal, shine;  ///< glTF's pictures; empty where there is none.
+  double roughness = 1, metallic = 0, opacity = 1;  ///< Factors.
+  std::string alpha_mode;
+};
+
+struct WeatherLooks {
+  std::vector<std::shared_ptr<const WeatheredLook>> materials;  ///< As of WeatherResult::scene; null: not painted.
+  /// Differs where the scene that weather_scene() makes has other parts, materials, coordinates or sizes of pictures.
+  std::string layout;
+  int painted = 0;  ///< Materials that were computed; the looks of the others are the same objects as before.
+};
+
 /// Why nothing was painted: no layer fits a surface, or those it fits have no uv. Empty when something was.
 std::string reason_for_no_paint(const WeatherResult& result);
 
-/// Lays the layers over the materials' own colour and the relief of their own normal maps at one time; each material
-/// gets a base colour and a normal map, and its haptic tag maps of friction and stiffness where the layers' channels
-/// differ from place to place (encode_quantity_maps()), with their means as constants. Own maps are replaced, and where
-/// an own relief stays on other coordinates there are only the means (losses of the result). The tag's height map is
-/// replaced by the new relief, 0 where no layer is over a flat material, unless it lies on coordinates of its own.
+/// What weather_scene() would show, without the files and the haptic maps: for whoever draws the scene already. The
+/// cache keeps what is shown now, and nothing older. A progress callback that returns false ends it by Cancelled, as of
+/// weather_scene().
+/// @pre stable_layout. @throws as weather_scene().
+WeatherLooks weather_looks(const Scene& scene, const WeatherConfig& config, double time, WeatherCache& cache,
+                           const ProgressCallback& progress = {});
+
+/// Lays the layers over the materials' own colour, alpha, roughness, metallic and the relief of their own normal maps
+/// at one time; each material gets a base colour, a normal map and a metallic-roughness picture, and its haptic tag
+/// maps of friction, stiffness and damping, where the layers' channels differ from place to place
+/// (encode_quantity_maps()), with their means as constants. The channel reflection is metallic, the channel roughness
+/// is roughness, which a recipe may leave to its highlight (roughness_of_highlight()); diffuse scales the base colour
+/// in linear light where it is no metal. Alpha below 1 where a material was opaque is a hole: alphaMode MASK at 1/2.
+/// Own maps are replaced, and where an own relief stays on other coordinates there are only the means (losses of the
+/// result). The tag's height map is replaced by the new relief, 0 where no layer is over a flat material, unless it
+/// lies on coordinates of its own.
 ///
 /// Every texel knows the interpolated normal, the position and the sky of the surface that shows it. A material whose
 /// recipe reads none of them, or whose uv show no texel twice, keeps its uv; its maps cover one repeat. The others are

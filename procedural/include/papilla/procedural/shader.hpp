@@ -20,8 +20,8 @@ struct ShaderOptions {
 ///
 /// It holds `Channels papilla_texture(vec2 place)`, for use in shaders of your own; (0, 0) is the top left of the
 /// picture, its shorter side spans 1 as in render_texture(). Its entry fills a viewport of width x height: u_channel 0
-/// is the colour with alpha, 1 to 10 are main, bump, alpha, coloralpha, reflection, diffuse, specular, specularcoeff,
-/// friction and stiffness as grey.
+/// is the colour with alpha, 1 to 12 are main, bump, alpha, coloralpha, reflection, diffuse, specular, specularcoeff,
+/// friction, stiffness, damping and roughness as grey.
 ///
 /// Hashes and lattices are those of render_texture(), in unsigned integers of 32 bits: exact. Places, noise and
 /// formulas are float where render_texture() has double, sines and arc tangents are computed here because those of a

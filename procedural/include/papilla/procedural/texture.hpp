@@ -28,12 +28,22 @@ enum class Channel {
   specularcoeff,
   friction,
   stiffness,
+  damping,
+  roughness,
   color
 };
-inline constexpr int k_channels = 11;
+inline constexpr int k_channels = 13;
 std::string_view to_string(Channel channel) noexcept;
 /// @throws InvalidInput naming the channels there are.
 Channel channel_named(std::string_view name);
+
+/// The roughness of glTF's metallic-roughness model whose highlight is as high as that of a texture's specular
+/// channels, s (1 + specularcoeff / 2) / π of Blinn's halfway vector: r = (2 / (s (n + 2)))^¼, 1 at most, and 1 for s
+/// <= 0. At s = 1 it is the usual translation of the exponent. It is the channel `roughness` where a recipe gives none.
+/// [Blinn 1977; Walter, Marschner, Li, Torrance: Microfacet models for refraction, 2007: α² = 2 / (n + 2); glTF 2.0,
+/// appendix B: α = r²]
+/// @param specular  s, weight of the highlight. @param exponent  n; counts as 0 below 0.
+double roughness_of_highlight(double specular, double exponent) noexcept;
 
 /// A picture for the type `image`: RGB in [0, 1], interleaved.
 struct RecipePicture {
@@ -102,7 +112,10 @@ struct TexturePoints {
   std::span<const float> color = {};   ///< 3 a point: what `currentcolor` is below all layers; empty: black.
   std::span<const float> height = {};  ///< What `lowerbump` is there; empty: 0.
   PointRaster raster = {};
-  std::span<const float> flow = {};  ///< Dirt that flowed there, see StainField; empty: 1.
+  std::span<const float> alpha = {};       ///< What `loweralpha` is below all layers; empty: 0.
+  std::span<const float> reflection = {};  ///< The same of `lowerreflection`.
+  std::span<const float> roughness = {};   ///< The same of `lowerroughness`.
+  std::span<const float> flow = {};        ///< Dirt that flowed there, see StainField; empty: 1.
 };
 
 /// channels[c] has one number a point (color three); empty when not asked for.
@@ -124,9 +137,9 @@ struct RenderedTexture {
 };
 
 /// The channels as pictures. The shorter side spans 1 unless the recipe says stretch.
-/// Every value is finite: intermediate results that are not count as 0. Alpha, coloralpha and colours are cut to [0,
-/// 1], friction and stiffness to [0, 10]. Cost: O(texels), once more for every neighbourhood statistic that rests on
-/// another one; all cores (TBB). Deterministic, whatever the number of threads.
+/// Every value is finite: intermediate results that are not count as 0. Alpha, coloralpha, roughness and colours
+/// are cut to [0, 1], friction, stiffness and damping to [0, 10]. Cost: O(texels), once more for every neighbourhood
+/// statistic that rests on another one; all cores (TBB). Deterministic, whatever the number of threads.
 /// @throws InvalidInput when the size breaks its precondition, or a recipe with neighbourhoods exceeds 2^26 texels.
 RenderedTexture render_texture(const ProceduralTexture& texture, const RenderOptions& options);
 

@@ -10,34 +10,10 @@
 
 #include "papilla/io/scene.hpp"
 #include "papilla/meshing/sky.hpp"
-#include "papilla/texture/height_map.hpp"
-#include "papilla/texture/image.hpp"
-#include "weather/surface_texels.hpp"
+#include "surface/own_surface.hpp"
+#include "surface/surface_texels.hpp"
 
 namespace papilla {
-
-/// What a material has of its own: its base colour as stored (sRGB), its picture times its factor, and the relief that
-/// its normal map shows. Both are repeated.
-class OwnSurface {
- public:
-  /// @param mm_per_repeat  of the normal map, positive.
-  /// @throws InvalidInput when a picture can't be decoded.
-  OwnSurface(const Scene& scene, const Material& material, double mm_per_repeat);
-  /// Bilinear. @param u, v  in repeats, v down the rows; finite.
-  std::array<float, 3> colour_at(double u, double v) const;
-  /// Millimetres, mean 0; 0 without relief.
-  float height_at(double u, double v) const;
-  /// It has a normal map at the coordinates of its colour, which is the relief.
-  bool has_relief() const { return relief_.has_value(); }
-
- private:
-  std::array<float, 3> tint_{};
-  std::optional<ColorImage> picture_;
-  std::optional<HeightMap> relief_;
-};
-
-/// The coordinates that a material's pictures lie on: those of its base colour, else of its normal map; null without.
-const TextureReference* own_place(const Material& material);
 
 /// Rings of texels around a chart that go on with its recipe, so that filtering never meets a neighbour.
 inline constexpr int k_gutter = 4;
@@ -86,8 +62,8 @@ TilePlaces place_tiles(std::span<const std::pair<int, int>> sizes);
 /// All that painting a material needs to know of the scene; the same at any time and for any recipe with this reading.
 struct MaterialSurface {
   std::vector<SurfaceTriangle> triangles;
-  double mm_per_repeat = 0;  ///< 0: nothing with uv shows the material, and nothing else is known.
-  std::optional<OwnSurface> own;
+  double mm_per_repeat = 0;             ///< 0: nothing with uv shows the material, and nothing else is known.
+  std::optional<OwnSurface> own;        ///< Of add_own_surface().
   std::optional<SurfaceTexels> repeat;  ///< One repeat, where no texel is shown by two unlike places.
   std::vector<float> sky;               ///< Of `repeat`; empty when it is not read.
   SurfaceAtlas atlas;                   ///< Else.
@@ -96,9 +72,16 @@ struct MaterialSurface {
   std::size_t texels() const;
 };
 
-/// @param size  texels a repeat. @param atlas_side  texels a side of an atlas at most.
+/// @param place  as of surface_of(). @param size  texels a repeat. @param atlas_side  texels a side of an atlas at
+/// most.
 /// @param sky  is called if the reading asks for it.
-MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::uint32_t material, int size,
-                        int atlas_side, const SurfaceReading& reading, const std::function<const SkyView&()>& sky);
+MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::uint32_t material,
+                        const TextureReference* place, int size, int atlas_side, const SurfaceReading& reading,
+                        const std::function<const SkyView&()>& sky);
+
+/// Adds what the material has of its own to a surface that was laid out at own_place().
+/// @pre mm_per_repeat is positive. @throws InvalidInput as OwnSurface.
+void add_own_surface(const Scene& scene, std::span<const Instance> all, std::uint32_t material, int size,
+                     MaterialSurface& surface);
 
 }  // namespace papilla

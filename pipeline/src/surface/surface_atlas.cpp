@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "weather/surface_atlas.hpp"
+#include "surface/surface_atlas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,8 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/union_find.hpp"
 #include "papilla/haptic/sha256.hpp"
-#include "papilla/io/image_file.hpp"
 #include "papilla/param/pack.hpp"
-#include "papilla/texture/relief_of_normals.hpp"
-#include "weather/surface_texels.hpp"
+#include "surface/surface_texels.hpp"
 
 namespace papilla {
 namespace {
@@ -215,14 +213,15 @@ SurfaceAtlas cut_surface(std::span<const SurfaceTriangle> surface, double texels
       farthest = std::max({farthest, std::abs(window.low[k]), std::abs(window.high[k])});
     }
   }
-  if (!(farthest < 1e9)) throw InvalidInput("weather: texture coordinates of " + std::to_string(farthest) + " repeats");
+  if (!(farthest < 1e9))
+    throw InvalidInput("surface atlas: texture coordinates of " + std::to_string(farthest) + " repeats");
   const double finest = std::min({texels_per_repeat, (k_most_side - 2 * k_gutter - 2) / std::max(longest, 1e-300),
                                   1e9 / std::max(farthest, 1e-300)});
   // Coarser and coarser until the asked number of texels is enough, and then until any is.
   for (const double most_texels : {static_cast<double>(most_side) * most_side, k_most_texels})
     for (double scale = finest; scale > k_coarsest * finest; scale *= k_coarser)
       if (auto atlas = Cutter(surface, reading, sky, scale, most_texels).cut(charts)) return std::move(*atlas);
-  throw InvalidInput("weather: " + std::to_string(charts.size()) + " charts do not fit into a picture");
+  throw InvalidInput("surface atlas: " + std::to_string(charts.size()) + " charts do not fit into a picture");
 }
 
 TilePlaces place_tiles(std::span<const std::pair<int, int>> sizes) {
@@ -261,88 +260,27 @@ std::size_t MaterialSurface::texels() const {
   return sum;
 }
 
-MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::uint32_t material, int size,
-                        int atlas_side, const SurfaceReading& reading, const std::function<const SkyView&()>& sky) {
+MaterialSurface lay_out(const Scene& scene, std::span<const Instance> all, std::uint32_t material,
+                        const TextureReference* place, int size, int atlas_side, const SurfaceReading& reading,
+                        const std::function<const SkyView&()>& sky) {
   MaterialSurface surface;
-  const Material& own = scene.materials[material];
-  surface.triangles = surface_of(scene, all, material, own_place(own));
+  surface.triangles = surface_of(scene, all, material, place);
   surface.mm_per_repeat = mm_per_repeat(surface.triangles);
   if (!(surface.mm_per_repeat > 0)) return surface;
-  surface.own.emplace(scene, own, surface.mm_per_repeat);
   surface.repeat = one_repeat(surface.triangles, reading, size);
-  if (!surface.repeat) {
+  if (!surface.repeat)
     surface.atlas = cut_surface(surface.triangles, size, atlas_side, reading, reading.sky ? &sky() : nullptr);
-    surface.keeps_relief = surface.atlas.texels_per_repeat < size && surface.own->has_relief() &&
-                           keeps_coordinates(scene, all, surface.triangles, *own_place(own));
-  } else if (reading.sky)
+  else if (reading.sky)
     surface.sky = sky_texels(*surface.repeat, sky());
   return surface;
 }
 
-namespace {
-
-std::optional<ColorImage> picture_of(const Scene& scene, const std::optional<TextureReference>& reference) {
-  if (!reference) return std::nullopt;
-  const auto image = scene.textures[reference->texture].image;
-  if (!image) return std::nullopt;
-  return decode_image(scene, *image);
-}
-
-bool same_place(const TextureReference& a, const TextureReference& b) {
-  return a.tex_coord == b.tex_coord && a.transform == b.transform;
-}
-
-/// The four texels around a place of a repeating picture, and their shares.
-struct Bilinear {
-  std::array<std::size_t, 4> at;
-  std::array<double, 4> share;
-  Bilinear(int width, int height, double u, double v) {
-    const double x = (u - std::floor(u)) * width - 0.5, y = (v - std::floor(v)) * height - 0.5;
-    const double left = std::floor(x), top = std::floor(y), s = x - left, t = y - top;
-    const auto index = [&](double column, double row) {
-      const auto wrapped = [](double i, int n) { return static_cast<std::size_t>((static_cast<int>(i) + n) % n); };
-      return wrapped(row, height) * static_cast<std::size_t>(width) + wrapped(column, width);
-    };
-    at = {index(left, top), index(left + 1, top), index(left, top + 1), index(left + 1, top + 1)};
-    share = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
-  }
-};
-
-}  // namespace
-
-const TextureReference* own_place(const Material& material) {
-  if (material.base_color_texture) return &*material.base_color_texture;
-  return material.normal_texture ? &*material.normal_texture : nullptr;
-}
-
-OwnSurface::OwnSurface(const Scene& scene, const Material& material, double mm_per_repeat) {
-  for (std::size_t k = 0; k < 3; ++k)
-    tint_[k] = static_cast<float>(std::pow(std::clamp(material.base_color[k], 0.0, 1.0), 1 / 2.2));
-  picture_ = picture_of(scene, material.base_color_texture);
-  if (!material.normal_texture || !same_place(*material.normal_texture, *own_place(material))) return;
-  if (const auto normals = picture_of(scene, material.normal_texture))
-    relief_ = relief_of_normals(*normals, material.normal_texture->factor, mm_per_repeat / normals->width,
-                                mm_per_repeat / normals->height);
-}
-
-std::array<float, 3> OwnSurface::colour_at(double u, double v) const {
-  if (!picture_) return tint_;
-  const Bilinear around(picture_->width, picture_->height, u, v);
-  std::array<float, 3> out{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) sum += around.share[i] * picture_->pixels[3 * around.at[i] + k];
-    out[k] = static_cast<float>(sum / 255) * tint_[k];
-  }
-  return out;
-}
-
-float OwnSurface::height_at(double u, double v) const {
-  if (!relief_) return 0;
-  const Bilinear around(relief_->width, relief_->height, u, v);
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) sum += around.share[i] * static_cast<double>(relief_->mm[around.at[i]]);
-  return static_cast<float>(sum);
+void add_own_surface(const Scene& scene, std::span<const Instance> all, std::uint32_t material, int size,
+                     MaterialSurface& surface) {
+  const Material& own = scene.materials[material];
+  surface.own.emplace(scene, own, surface.mm_per_repeat);
+  surface.keeps_relief = !surface.repeat && surface.atlas.texels_per_repeat < size && surface.own->has_relief() &&
+                         keeps_coordinates(scene, all, surface.triangles, *own_place(own));
 }
 
 }  // namespace papilla

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "weather/surface_texels.hpp"
+#include "surface/surface_texels.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -227,6 +227,10 @@ StainField stains_of(const Scene& scene, std::span<const Instance> all) {
   std::vector<PlacedMesh> parts = placed_meshes(scene, all, to_y_up(scene.up));
   for (PlacedMesh& part : parts) part.opaque = true;
   return StainField(parts);
+}
+
+double flow_at(const StainField& stains, const SurfaceTexels& texels, std::size_t at) {
+  return stains(k_mm_per_metre * vector_at(texels.positions, at), vector_at(texels.normals, at));
 }
 
 std::vector<float> sky_texels(const SurfaceTexels& texels, const SkyView& sky) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "weather/atlas_uv.hpp"
+#include "surface/atlas_uv.hpp"
 
 #include <algorithm>
 #include <map>
@@ -39,8 +39,7 @@ void change(TriangleMesh& mesh, const Variant& variant) {
 void move_to_second_channel(Material& material, bool keeps_relief) {
   if (keeps_relief && material.normal_texture && material.normal_texture->tex_coord == 0)
     material.normal_texture->tex_coord = 1;
-  for (std::optional<TextureReference>* reference :
-       {&material.metallic_roughness_texture, &material.occlusion_texture, &material.emissive_texture})
+  for (std::optional<TextureReference>* reference : {&material.occlusion_texture, &material.emissive_texture})
     if (*reference && (*reference)->tex_coord == 0) (*reference)->tex_coord = 1;
   if (!material.haptic) return;
   for (PlacedPicture* picture : pictures_of(*material.haptic)) picture->tex_coord = 1;

@@ -62,6 +62,9 @@ SkyView sky_of(const Scene& scene, std::span<const Instance> all, int rays);
 /// Where dirt flows in a scene: all its parts, as they stand, y up.
 StainField stains_of(const Scene& scene, std::span<const Instance> all);
 
+/// The dirt that flowed to a covered texel.
+double flow_at(const StainField& stains, const SurfaceTexels& texels, std::size_t at);
+
 /// The sky at every covered texel, 0 at the others. Rays are cast for one texel of each block of 8 x 8 and
 /// interpolated between the blocks of the window. Cost: rays / 64 sight lines a texel, all cores.
 std::vector<float> sky_texels(const SurfaceTexels& texels, const SkyView& sky);
