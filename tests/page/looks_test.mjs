@@ -14,7 +14,8 @@ const place = mkdtempSync(join(tmpdir(), 'papilla-looks-')), config = join(place
 const EDIT_MS = 50, EDITS_S = 10;
 folder(pictures);
 
-const save = (...recipes) => writeFileSync(config, JSON.stringify({ size: 512, layers: recipes.map((recipe) => ({ recipe })) }));
+const write = (layers) => writeFileSync(config, JSON.stringify({ size: 512, layers }));
+const save = (...recipes) => write(recipes.map((recipe) => ({ recipe })));
 const paint = (colour) => `rust_on|scale=.2|colorfunction=${colour}|alphafunction=1`;
 
 function addressOf(child) {
@@ -85,10 +86,12 @@ try {
 
   // Edits that come faster than pictures: the newest wins, and nothing queues.
   const counts = () => page.locator('#looks').evaluate((node) => Number(node.dataset.count));
+  write([{ recipe: paint('blue') }, { recipe: paint('black'), materials: ['carpet*'] }]);  // one material changes from now on
+  await sleep(1000);
   const [first, start] = [await counts(), performance.now()];
   let edits = 0;
   for (; performance.now() - start < 1000 * EDITS_S; ++edits) {
-    save(paint(`<${edits % 2},${(edits % 7) / 7},0>`));
+    write([{ recipe: paint('blue') }, { recipe: paint(`<${edits % 2},${(edits % 7) / 7},0>`), materials: ['carpet*'] }]);
     await sleep(EDIT_MS);
   }
   const shown = await counts() - first, seconds = (performance.now() - start) / 1000;

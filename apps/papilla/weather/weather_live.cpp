@@ -26,8 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds k_look{20};
-constexpr double k_rest_s = 1;             ///< Without an edit, until files are built.
-constexpr double k_uninterrupted_s = 0.5;  ///< What takes no longer is finished.
+constexpr std::chrono::milliseconds k_half_written{50};  ///< In which a file that is being saved is whole.
+constexpr double k_rest_s = 1;                           ///< Without an edit, until files are built.
+constexpr double k_uninterrupted_s = 0.5;                ///< What takes no longer is finished.
 
 std::atomic<bool> g_stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
@@ -92,6 +93,8 @@ class Follower {
       return false;
     } catch (const Error& error) {
       was_interrupted_ = false;
+      std::this_thread::sleep_for(k_half_written);
+      if (edited()) return true;  // It was being written.
       context_.console.print(shown_format("{}\n", error.what()));
       looks_.tell(error.what());
       is_stale_ = false;
