@@ -79,7 +79,7 @@ Scene wall_with_ledge() {
 TEST(WeatherFlow, StainsTheWallBelowALedge) {
   WeatherConfig config;
   config.size = 64;
-  config.layers.push_back({"base|colorfunction=black|alphafunction=clampunit(flow*3)", {"*"}});
+  config.layers.push_back({"base|colorfunction=black|alphafunction=clampunit(flow*8)", {"*"}});
   const WeatherResult result = weather_scene(wall_with_ledge(), config, 1);
   ASSERT_TRUE(result.materials[0].painted()) << result.materials[0].skipped;
   const Texture& texture = result.scene.textures[result.scene.materials[0].base_color_texture->texture];

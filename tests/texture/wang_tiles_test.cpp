@@ -13,7 +13,7 @@
 namespace papilla {
 namespace {
 
-constexpr int k_picture = 192, k_side = 48;
+constexpr int k_picture = 320, k_side = 80;
 
 /// A random surface with waves of a few to thirty texels, and a second plane that follows it.
 std::vector<std::vector<float>> grain() {
@@ -81,28 +81,32 @@ TEST(WangTiles, HaveTheSameTexelsAlongEdgesOfOneColour) {
 
 TEST(WangTiles, MeetAsNeighboursInThePictureDo) {
   const auto planes = grain();
+  const auto at = [&](int x, int y) { return planes[0][static_cast<std::size_t>(y * k_picture + x)]; };
+  std::set<std::pair<float, float>> across, down;  // Texels of the picture side by side, and one below the other.
   std::vector<float> steps;
   for (int y = 0; y < k_picture; ++y)
     for (int x = 1; x < k_picture; ++x) {
-      const auto i = static_cast<std::size_t>(y * k_picture + x);
-      steps.push_back(std::abs(planes[0][i] - planes[0][i - 1]));
+      across.emplace(at(x - 1, y), at(x, y)), down.emplace(at(y, x - 1), at(y, x));
+      steps.push_back(std::abs(at(x, y) - at(x - 1, y)));
     }
   std::sort(steps.begin(), steps.end());
   const float common = steps[steps.size() * 99 / 100];
   const WangTileSet set = tiles_of(planes);
-  std::vector<float> seams;
+  int beyond = 0, pairs = 0;
   for (int a = 0; a < k_wang_tiles; ++a)
     for (int b = 0; b < k_wang_tiles; ++b)
       for (int i = 0; i < k_side; ++i) {
+        const auto meet = [&](const std::set<std::pair<float, float>>& known, float first, float second) {
+          EXPECT_TRUE(known.contains({first, second})) << a << " and " << b << " at " << i;
+          beyond += std::abs(first - second) > common, ++pairs;
+        };
         if (wang_tile(a).east == wang_tile(b).west)
-          seams.push_back(std::abs(texel(set, 0, a, k_side - 1, i) - texel(set, 0, b, 0, i)));
+          meet(across, texel(set, 0, a, k_side - 1, i), texel(set, 0, b, 0, i));
         if (wang_tile(a).south == wang_tile(b).north)
-          seams.push_back(std::abs(texel(set, 0, a, i, k_side - 1) - texel(set, 0, b, i, 0)));
+          meet(down, texel(set, 0, a, i, k_side - 1), texel(set, 0, b, i, 0));
       }
-  ASSERT_EQ(seams.size(), 2U * 32 * k_side);
-  std::sort(seams.begin(), seams.end());
-  EXPECT_LE(seams[seams.size() * 99 / 100], common);
-  EXPECT_GT(seams[seams.size() / 2], steps[steps.size() / 4]);  // They are real neighbours, not copies.
+  EXPECT_EQ(pairs, 2 * 32 * k_side);
+  EXPECT_LE(beyond, 0.03 * pairs);  // One in a hundred of the picture's; four edges are a small sample of it.
   EXPECT_LT(set.seam_cost, 2);
 }
 
@@ -124,15 +128,15 @@ double correlation(const std::vector<float>& plane, int side, int dx, int dy) {
 
 TEST(WangTiles, LayAPlaneWithoutAPeriod) {
   const WangTileSet set = tiles_of(grain());
-  constexpr int k_columns = 12, k_plane = k_columns * k_side;
+  constexpr int k_columns = 20, k_plane = k_columns * k_side;
   const std::vector<float> plane = lay_wang_tiles(set, 0, k_columns, k_columns, 9);
-  // Where find_lattice() begins to see a lattice; a repeated tile has 1.
-  constexpr double k_lattice = 0.3;
+  // Eight tiles have 1/8 inside and 1/2 at their edges, less than what their edges alone would have; a repeated one 1.
+  constexpr double k_most = 0.45;
   double most = 0;
   for (int k = 0; k <= 3; ++k)
     for (int l = 0; l <= 3; ++l)
       if (k + l > 0) most = std::max(most, correlation(plane, k_plane, k * k_side, l * k_side));
-  EXPECT_LT(most, k_lattice);
+  EXPECT_LT(most, k_most);
   std::vector<float> repeated;
   for (int y = 0; y < k_plane; ++y)
     for (int x = 0; x < k_plane; ++x) repeated.push_back(texel(set, 0, 0, x % k_side, y % k_side));
@@ -142,7 +146,7 @@ TEST(WangTiles, LayAPlaneWithoutAPeriod) {
 TEST(WangTiles, RefusesWhatIsNoPictureOfTiles) {
   const auto planes = grain();
   WangOptions options;
-  options.side = 100;
+  options.side = 170;
   EXPECT_THROW(make_wang_tiles({planes[0]}, 1, k_picture, k_picture, options), InvalidInput);
   options.side = 33;
   EXPECT_THROW(make_wang_tiles({planes[0]}, 1, k_picture, k_picture, options), InvalidInput);

@@ -2,7 +2,9 @@
 #include "papilla/texture/wang_tiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "papilla/core/error.hpp"
@@ -85,9 +87,16 @@ struct CutCost {
   std::size_t edges = 0;
 };
 
+/// A line between two rows or columns of texels that no cut may run along; where there is none, past the patch.
+struct Joint {
+  int column = 1 << 30, row = 1 << 30;  ///< The first ones behind the line.
+};
+
 /// Chooses the owner of every free texel so that the sum of |a - b| at both ends of every pair of neighbours with
-/// unlike owners is least. @param first, second  two patches of the size of `owners`.
-void cut(const Patch& first, const Patch& second, const Scales& scales, std::vector<Owner>& owners, CutCost& cost) {
+/// unlike owners is least. Neighbours across a joint have the same owner.
+/// @param first, second  two patches of the size of `owners`.
+void cut(const Patch& first, const Patch& second, const Scales& scales, std::vector<Owner>& owners, CutCost& cost,
+         const Joint& joint = {}) {
   using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
   using Network = boost::adjacency_list<
       boost::vecS, boost::vecS, boost::directedS,
@@ -119,11 +128,12 @@ void cut(const Patch& first, const Patch& second, const Scales& scales, std::vec
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const std::size_t i = first.at(x, y);
-      if (x + 1 < w) connect(i, i + 1, weight(i, i + 1), weight(i, i + 1));
-      if (y + 1 < h) {
-        const std::size_t below = i + static_cast<std::size_t>(w);
-        connect(i, below, weight(i, below), weight(i, below));
-      }
+      const auto link = [&](std::size_t other, bool is_tied) {
+        const long both = is_tied ? k_tied : weight(i, other);
+        connect(i, other, both, both);
+      };
+      if (x + 1 < w) link(i + 1, x + 1 == joint.column);
+      if (y + 1 < h) link(i + static_cast<std::size_t>(w), y + 1 == joint.row);
       if (owners[i] == Owner::first) connect(source, i, k_tied, 0);
       if (owners[i] == Owner::second) connect(i, sink, k_tied, 0);
     }
@@ -152,17 +162,13 @@ class TileMaker {
         options_(options),
         side_(options.side),
         half_(options.side / 2),
-        reach_(std::max(4, options.side / 8)) {}
+        reach_(std::max(4, options.side / 6)) {}
 
   WangTileSet make() {
     const Patch corner = window(2 * reach_, 2 * reach_);
     for (int colour = 0; colour < 2; ++colour) {
-      across_.push_back(window(side_, side_));
-      insert_corner(across_.back(), corner, -reach_, half_ - reach_);
-      insert_corner(across_.back(), corner, side_ - reach_, half_ - reach_);
-      down_.push_back(window(side_, side_));
-      insert_corner(down_.back(), corner, half_ - reach_, -reach_);
-      insert_corner(down_.back(), corner, half_ - reach_, side_ - reach_);
+      across_.push_back(about_edge(corner, {{{-reach_, half_ - reach_}, {side_ - reach_, half_ - reach_}}}, false));
+      down_.push_back(about_edge(corner, {{{half_ - reach_, -reach_}, {half_ - reach_, side_ - reach_}}}, true));
     }
     WangTileSet set;
     set.side = side_;
@@ -196,13 +202,27 @@ class TileMaker {
     return out;
   }
 
+  /// The window about an edge into which the patch of its two ends goes best.
+  Patch about_edge(const Patch& corner, const std::array<std::array<int, 2>, 2>& ends, bool is_vertical) {
+    std::optional<Patch> best;
+    CutCost least;
+    for (int k = 0; k < options_.windows; ++k) {
+      Patch made = window(side_, side_);
+      CutCost cost;
+      for (const auto& [left, top] : ends) insert_corner(made, corner, left, top, is_vertical, cost);
+      if (!best || cost.sum < least.sum) best = std::move(made), least = cost;
+    }
+    cost_.sum += least.sum, cost_.edges += least.edges;
+    return std::move(*best);
+  }
+
   /// Lays the patch of the corners over a window, its upper left at (left, top), along a least cut.
-  void insert_corner(Patch& window, const Patch& corner, int left, int top) {
+  void insert_corner(Patch& window, const Patch& corner, int left, int top, bool is_vertical, CutCost& cost) const {
     const int x0 = std::max(left, 0), y0 = std::max(top, 0), x1 = std::min(left + corner.width, side_),
               y1 = std::min(top + corner.height, side_);
     Patch inner(x1 - x0, y1 - y0, corner.planes.size()), outer = inner;
     std::vector<Owner> owners(inner.planes[0].size(), Owner::free);
-    const double kept = std::max(2.0, reach_ / 4.0);
+    const double kept = std::max(2.0, reach_ / 8.0);
     for (int y = 0; y < inner.height; ++y)
       for (int x = 0; x < inner.width; ++x) {
         inner.take(x, y, corner, x0 - left + x, y0 - top + y);
@@ -211,7 +231,9 @@ class TileMaker {
         if (r < kept) owners[inner.at(x, y)] = Owner::first;
         if (r > reach_ - 1) owners[inner.at(x, y)] = Owner::second;
       }
-    cut(inner, outer, scales_, owners, cost_);
+    Joint joint;  // The edge: texels on its two sides stay neighbours of one picture.
+    (is_vertical ? joint.column : joint.row) = half_ - (is_vertical ? x0 : y0);
+    cut(inner, outer, scales_, owners, cost, joint);
     for (int y = 0; y < inner.height; ++y)
       for (int x = 0; x < inner.width; ++x)
         if (owners[inner.at(x, y)] == Owner::first) window.take(x0 + x, y0 + y, inner, x, y);
