@@ -18,6 +18,9 @@
 #include "papilla/core/temporary_folder.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/image_file.hpp"
+#include "papilla/io/scene_file.hpp"
+#include "papilla/pipeline/bake_file.hpp"
+#include "papilla/pipeline/environment.hpp"
 
 namespace papilla {
 namespace {
@@ -533,6 +536,51 @@ TEST_F(ObjectTexturesTest, RendersAPartOntoItsCarrier) {
   ASSERT_TRUE(material.haptic && material.haptic->height && material.normal_texture);
   EXPECT_GT(made.carriers[0].relief_mm, 1);  // Of 2 mm, less what the slope limit rounds off.
   EXPECT_LE(made.carriers[0].relief_mm, 2 + 1e-3);
+}
+
+TEST_F(ObjectTexturesTest, GoThroughAFile) {
+  const std::filesystem::path input = folder_.path() / "in.glb", output = folder_.path() / "out.glb";
+  Scene plates_up = plates(4);
+  plates_up.up = UpAxis::y;  // So that places stay as they are.
+  write_scene(plates_up, input, {});
+  Materials rules;
+  rules.materials["skin"].name = "skin";
+  rules.materials["skin"].stiffness = 640;
+  rules.assign.emplace_back().part = "plate";
+  rules.assign.back().material = "skin";
+  rules.decals = {decal()};
+  rules.decals[0].height.emplace().depth_mm = 0.5;
+  rules.decals[0].box = box_at({50, 50, 0}, k_down, k_north, 40, 20, 5);
+  const BakeFileResult result = bake_file(input, output, rules, {});
+  EXPECT_FALSE(result.way.in_place);
+  EXPECT_NEAR(result.object_textures.decals.at(0).area_mm2, 800, 1e-3);
+  EXPECT_EQ(plan_file(input, rules, {}).object_textures_made.decals.at(0).triangles,
+            result.object_textures.decals[0].triangles);
+  const Scene scene = read_scene(output, {});
+  const auto found =
+      std::find_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.name == "logo"; });
+  ASSERT_NE(found, scene.materials.end());
+  EXPECT_EQ(found->alpha_mode, "MASK");
+  ASSERT_TRUE(found->haptic && found->haptic->height);
+  EXPECT_EQ(found->haptic->stiffness, 640);
+}
+
+TEST_F(ObjectTexturesTest, AMaterialsEnvironmentIsEditedInPlace) {
+  const std::filesystem::path input = folder_.path() / "in.glb", output = folder_.path() / "out.glb";
+  write_scene(plates(2), input, {});
+  const std::filesystem::path sky = folder_.path() / "sky.png";
+  write_color_image(sky, {4, 2, std::vector<unsigned char>(3 * 8, 200)});
+  Materials rules;
+  rules.materials["skin"].name = "skin";
+  rules.materials["skin"].environment = sky;
+  rules.assign.emplace_back().part = "plate";
+  rules.assign.back().material = "skin";
+  EXPECT_TRUE(bake_file(input, output, rules, {}).way.in_place);
+  const Scene scene = read_scene(output, {});
+  EXPECT_EQ(environment_of(scene.materials.at(0)), read_environment(sky, k_material_environment_width));
+  rules.materials["skin"].environment.clear();
+  bake_file(output, input, rules, {});
+  EXPECT_FALSE(environment_of(read_scene(input, {}).materials.at(0)));
 }
 
 TEST(ReadCarrierPicture, CropsCutsOutAndChangesContrast) {
