@@ -42,10 +42,6 @@ class PictureInput {
   /// @throws InvalidInput naming the file and the row when it is damaged there.
   void read(int top, int rows, float* values);
   void read(int top, int rows, unsigned char* values);
-  /// All rows of a picture that is not tiled, with all of its channels.
-  void read_stored(unsigned char* values);
-
-  int stored_channels() const noexcept { return stored().channels; }
   /// The same of the first `channels` channels. @pre 0 < channels <= stored_channels().
   void read_channels(int top, int rows, int channels, float* values);
   void read_channels(int top, int rows, int channels, unsigned char* values);
