@@ -60,7 +60,7 @@ analyze    | grain.png                                       | grain.png        
 prepare    | grain.png                                       | grain.png                        | --output --json
 synthesize | fractal --like grain.png --size 32              | grain.png                        | --output --relief --json
 height     | grain.png                                       | grain.png                        | --output --normal --json
-texture    | dots --library lib.recipes -o made --size 8     | lib.recipes                      | --json
+texture    | dots --library lib.recipes -o made --size 8     | lib.recipes                      | --json --glsl --wgsl
 weather    | scene.glb -c config.json                        | scene.glb config.json            | --output --json
 fit        | stroke.csv                                      | stroke.csv                       | --output --picture --json
 plan       | scene.glb -m rules.json --reach volume.json --view volume2.json | scene.glb rules.json volume.json volume2.json | --json
