@@ -2,12 +2,12 @@
 // Follows `papilla weather --live`: pixels of materials that change, and mistakes in its recipes.
 const $ = (id) => document.getElementById(id);
 
-/** What /looks answers: a JSON text behind its length, and the pixels that it tells the places of. */
+/** What /looks answers: a JSON text behind its length, and the pixels that it tells the places of. Pictures that stay have no key. */
 function parse(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const json = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const pixels = (place) => place && new Uint8Array(buffer, 4 + length + place.at, place.bytes);
-  for (const look of json.materials) for (const map of ['color', 'normal', 'shine']) look[map] = pixels(look[map]);
+  for (const look of json.materials) for (const map of ['color', 'normal', 'shine']) if (map in look) look[map] = pixels(look[map]);
   return json;
 }
 

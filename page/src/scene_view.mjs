@@ -210,9 +210,9 @@ export class SceneView {
       const standard = this.standard[look.material], place = this.data.materials[look.material].base_map;
       if (!standard.isMeshStandardMaterial || !place) continue;
       const had = [standard.map, standard.normalMap, standard.roughnessMap, standard.alphaTest].map(Boolean).join();
-      standard.map = pixelTexture(standard.map, look.color, look, place, true);
+      if ('color' in look) standard.map = pixelTexture(standard.map, look.color, look, place, true);
       if (look.normal) standard.normalMap = pixelTexture(standard.normalMap, look.normal, look, place, false);
-      standard.roughnessMap = standard.metalnessMap = pixelTexture(standard.roughnessMap, look.shine, look, place, false);
+      if ('shine' in look) standard.roughnessMap = standard.metalnessMap = pixelTexture(standard.roughnessMap, look.shine, look, place, false);
       Object.assign(standard, { roughness: look.roughness, metalness: look.metallic });
       standard.color.setRGB(1, 1, 1);
       standard.transparent = look.alpha_mode === 'BLEND';

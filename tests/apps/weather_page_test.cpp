@@ -97,6 +97,7 @@ TEST(LiveLooks, GivesWhatChangedAndTellsOfMistakes) {
   EXPECT_EQ(json["materials"][0]["material"], 2);
   EXPECT_EQ(json["materials"][0]["roughness"], 0.25);
   EXPECT_TRUE(json["materials"][0]["shine"].is_null());
+  EXPECT_FALSE(json["materials"][0].contains("normal")) << "the same as before";
   EXPECT_EQ(pixels, "\x32\x32\x32\xff");
   EXPECT_EQ(looks_since(routes, 0).first["materials"].size(), 2U);
   live.update(looks_of(b, look(50)));

@@ -16,17 +16,22 @@ Json place_of(const std::vector<unsigned char>& pixels, std::string& all) {
   return place;
 }
 
-Json look_json(std::size_t material, const WeatheredLook& look, std::string& pixels) {
-  return {{"material", material},
-          {"width", look.width},
-          {"height", look.height},
-          {"color", place_of(look.color, pixels)},
-          {"normal", place_of(look.normal, pixels)},
-          {"shine", place_of(look.shine, pixels)},
-          {"roughness", look.roughness},
-          {"metallic", look.metallic},
-          {"opacity", look.opacity},
-          {"alpha_mode", look.alpha_mode}};
+struct PictureOfLook {
+  const char* name;
+  std::vector<unsigned char> WeatheredLook::*pixels;
+};
+constexpr PictureOfLook k_pictures[] = {
+    {"color", &WeatheredLook::color}, {"normal", &WeatheredLook::normal}, {"shine", &WeatheredLook::shine}};
+
+/// @param versions  since which the pictures are these. @param since  what the page shows.
+Json look_json(std::size_t material, const WeatheredLook& look, const std::array<std::uint64_t, 3>& versions,
+               std::uint64_t since, std::string& pixels) {
+  Json json = {{"material", material},         {"width", look.width},       {"height", look.height},
+               {"roughness", look.roughness},  {"metallic", look.metallic}, {"opacity", look.opacity},
+               {"alpha_mode", look.alpha_mode}};
+  for (std::size_t k = 0; k < versions.size(); ++k)
+    if (versions[k] > since) json[k_pictures[k].name] = place_of(look.*k_pictures[k].pixels, pixels);
+  return json;
 }
 
 }  // namespace
@@ -49,8 +54,15 @@ void LiveLooks::take(const WeatherLooks& looks) {
   ++version_, ++events_;
   problem_.clear();
   looks_.resize(looks.materials.size());
-  for (std::size_t m = 0; m < looks_.size(); ++m)
-    if (looks_[m].look != looks.materials[m]) looks_[m] = {looks.materials[m], version_};
+  for (std::size_t m = 0; m < looks_.size(); ++m) {
+    if (looks_[m].look == looks.materials[m]) continue;
+    const Look before = std::exchange(looks_[m], {looks.materials[m], version_, {}});
+    for (std::size_t k = 0; k < before.pictures.size(); ++k) {
+      const auto pixels = k_pictures[k].pixels;
+      const bool same = before.look && looks_[m].look && *before.look.*pixels == *looks_[m].look.*pixels;
+      looks_[m].pictures[k] = same ? before.pictures[k] : version_;
+    }
+  }
 }
 
 void LiveLooks::tell(const std::string& problem) {
@@ -82,17 +94,18 @@ std::string LiveLooks::event(std::uint64_t& seen) const {
 }
 
 SharedText LiveLooks::changed_since(std::uint64_t version) const {
-  std::vector<std::pair<std::size_t, std::shared_ptr<const WeatheredLook>>> changed;
+  std::vector<std::pair<std::size_t, Look>> changed;
   Json json;
   {
     const std::scoped_lock lock(mutex_);
     json = {{"page", pages_}, {"version", version_}};
     for (std::size_t m = 0; m < looks_.size(); ++m)
-      if (looks_[m].look && looks_[m].version > version) changed.emplace_back(m, looks_[m].look);
+      if (looks_[m].look && looks_[m].version > version) changed.emplace_back(m, looks_[m]);
   }
   std::string pixels;
   json["materials"] = Json::array();
-  for (const auto& [material, look] : changed) json["materials"].push_back(look_json(material, *look, pixels));
+  for (const auto& [material, now] : changed)
+    json["materials"].push_back(look_json(material, *now.look, now.pictures, version, pixels));
   const std::string text = json.dump();
   auto all = std::make_shared<std::string>();
   for (int k = 0; k < 4; ++k) all->push_back(static_cast<char>(text.size() >> 8 * k & 0xFF));

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -17,7 +19,8 @@ namespace papilla::app {
 ///
 /// `/` is the page, `/live` tells by events "looks" which page, which version of the looks and which mistake there is
 /// now, and `/looks` gives, for the body {"since": VERSION}, what has changed since: the length of a JSON text in four
-/// bytes, least first, the text, and pixels that it tells the places of.
+/// bytes, least first, the text, and pixels that it tells the places of. Pictures that are the same as then have no
+/// key.
 class LiveLooks {
  public:
   /// A scene that is laid out anew: pages load themselves again.
@@ -37,7 +40,8 @@ class LiveLooks {
  private:
   struct Look {
     std::shared_ptr<const WeatheredLook> look;
-    std::uint64_t version = 0;  ///< Since which it is this.
+    std::uint64_t version = 0;                   ///< Since which it is this.
+    std::array<std::uint64_t, 3> pictures = {};  ///< The same of its colour, normal and shine.
   };
   void take(const WeatherLooks& looks);
   std::string event(std::uint64_t& seen) const;
