@@ -3,6 +3,8 @@
 import { lit, recipe, shell } from './panels.mjs';
 
 const SHEET = 'awk -f "$MAKE/sheet.awk" >sheet.obj';
+const SKY = 'papilla texture "base|stretch=true|colorfunction=colmix(hsv(.58,.3+.5*y,1-.3*y),<.25,.2,.15>,step(y,.5))" -o sky --size 512x256 --channels color';
+const CHROME = `echo '{"materials": {"chrome": {"metallic": 1, "roughness": 0.05, "color": "#f0f0f0"}}, "assign": [{"part": "*", "material": "chrome"}]}' >chrome.json`;
 const GRAINS = ['spheres6', 'quads6', 'ovals6', 'spheres8', 'quads8', 'ovals8'];
 const grain = (kind) => `papilla synthesize grain --kind ${kind} --size 400 -o ${kind}.png --relief ${kind}.exr`;
 const photograph = (from, light, more = '') => `papilla synthesize photo ${from}.exr --light ${light} --albedo-noise 0.04 --blur-px 0.7 --noise 0.01${more} -o ${from}.jpg`;
@@ -20,7 +22,7 @@ const recipePhotograph = (name, text, light, depth) => [
   photograph(name, light),
 ];
 
-const plate = (size) => `{"materials": {"m": {"texture": "checker|scale=.5", "size_mm": [${size}, ${size}], "unwrap": "triplanar"}}, "assign": [{"part": "*", "material": "m"}]}`;
+const plate = (size) => `{"materials": {"m": {"texture": "checker|scale=.5", "size_mm": [${size}, ${size}], "unwrap": "triplanar", "show": "picture"}}, "assign": [{"part": "*", "material": "m"}]}`;
 
 export const figures = [
   {
@@ -47,16 +49,16 @@ export const figures = [
     differs: 'coloured by distortion (symmetric Dirichlet)',
   },
   {
-    number: '4.8', title: 'Environment mapping', columns: 2, tile: 480,
+    number: '4.4', title: 'An environment as picture and in a chrome handle (4.4, 4.8)', columns: 2, tile: 420,
     panels: [
-      shell('the source\'s formula (`equal-area`)', 'equal-area.png', [SHEET, 'papilla unwrap sheet.obj --method environment --environment-map equal-area -o e.glb --picture equal-area.png']),
-      shell('sphere map', 'sphere-map.png', [SHEET, 'papilla unwrap sheet.obj --method environment --environment-map sphere -o s.glb --picture sphere-map.png']),
+      shell('equirectangular picture', 'sky/color.png', [SKY]),
+      shell('mirrored', 'report/scene.png', [SKY, CHROME, 'papilla bake "$DATA/exchange/handle.step" -m chrome.json -o chrome.glb --report report --pictures --environment sky/color.png']),
     ],
-    differs: 'where the uv of a bulging sheet lie for an eye in front of it',
+    differs: 'looked up by direction for every pixel; coordinates by the source\'s formula are `unwrap --method environment --environment-map equal-area`, those of a mirroring ball `sphere`',
   },
   {
     number: '4.11', title: 'Planar triple projection with a fine and a coarse grain', columns: 2, tile: 560,
-    panels: [12, 60].map((size) => shell(`chequers of ${size / 2} mm`, `${size}/report/scene.png`, [
+    panels: [12, 60].map((size) => shell(`chequers of ${size / 2} mm`, `${size}/report/close-up-m.png`, [
       `mkdir -p ${size}`, `echo '${plate(size)}' >${size}/materials.json`,
       `papilla bake "$DATA/cockpit.step" --chord 1 -m ${size}/materials.json -o ${size}/cockpit.glb --report ${size}/report --pictures`])),
     differs: 'classes by the largest component of the normal (the source\'s 45° leave directions without a class), smoothed, without overlaps; jumps at borders are reported',

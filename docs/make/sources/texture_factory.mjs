@@ -8,6 +8,8 @@ const curve = (f) => grey(`base|afunction=${f}|mainfunction=step(y,.55-.4*a)`, `
 const wall = 'brick|switching=true|round=.25|cols=<.62,.60,.56>,<.55,.2,.13>';
 const grass = 'fbm|scale=.06|h=.3|cols=<.05,.12,.02>,<.3,.5,.1>';
 
+const SPOTTED = 'multi|textures=plaster,[dirt|scale=.4]';
+
 const FBM = ['fbm', 'heteroterrain', 'multifractal', 'hybridmultifractal', 'ridgedmultifractal'];
 const CELLS = ['f1', 'f2', 'f2-f1', 'f3*f3-f2*f2'];
 
@@ -19,8 +21,8 @@ const noises = [
   {
     number: '2.7', title: 'A tile laid again and again, and Wang tiles (2.7, 2.9)', columns: 2, tile: 400,
     panels: [
-      shell('one tile, 8 × 8 times', 'tiled.png', ['papilla texture worn_leather -o worn --channels color --size 64 --time .8 --seamless', `oiiotool ${Array(64).fill('worn/color.png').join(' ')} --mosaic 8x8 -o tiled.png`]),
-      shell('eight Wang tiles, 8 × 8', 'wang/wang.plane.png', ['papilla texture worn_leather -o wang --channels color --size 256 --time .8 --wang 64']),
+      shell('one tile, 8 × 8 times', 'tiled.png', [`papilla texture '${SPOTTED}' -o worn --channels color --size 96 --time .7 --seamless`, `oiiotool ${Array(64).fill('worn/color.png').join(' ')} --mosaic 8x8 -o tiled.png`]),
+      shell('eight Wang tiles, 8 × 8', 'wang/wang.plane.png', [`papilla texture '${SPOTTED}' -o wang --channels color --size 384 --time .7 --wang 96`]),
     ],
     differs: 'there photographs of a wall and squares with coloured edges',
   },
@@ -30,7 +32,7 @@ const noises = [
       shell('before', 'spots.png', ['papilla texture "multi|textures=brick_wall,[fbm|scale=.8|octaves=2|cols=black,black|alphafunction=clampunit(main*1.4-.5)]" -o before --channels color --size 300', 'cp before/color.png spots.png']),
       shell('after', 'even.png', ['papilla prepare spots.png -o even.png']),
     ],
-    differs: '`prepare`, which also makes the borders match, in place of a high pass alone',
+    differs: '`prepare`, which also makes the borders match, in place of a high pass alone; it works on the grey picture',
   },
   {
     number: '4.2', title: 'Noise, turbulence, absolute turbulence, and sines that they bend', columns: 5, tile: 128,
