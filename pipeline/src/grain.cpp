@@ -229,10 +229,16 @@ QuantityMap over_mean(Quantity quantity, std::vector<float> values, double mean)
   return {quantity, std::move(values)};
 }
 
+/// The folder of MATERIALS.json, of which `file` is this folder and the recipe's text, in which a / leads nowhere.
+std::filesystem::path folder_of(const std::filesystem::path& file, const std::string& recipe) {
+  const std::string& whole = file.native();
+  return whole.ends_with(recipe) ? whole.substr(0, whole.size() - recipe.size()) : file.parent_path().string();
+}
+
 /// A recipe of MATERIALS.json. @param key  where it stands.
 ProceduralTexture compile_recipe(const MaterialRule& rule, const std::filesystem::path& file, const std::string& recipe,
                                  const std::string& key, const RecipeLibrary& library, bool seamless = true) {
-  CompileOptions options = recipe_options(file.parent_path());
+  CompileOptions options = recipe_options(folder_of(file, recipe));
   options.source = "material '" + rule.name + "', " + key;
   options.seamless = seamless;
   options.time = rule.time;

@@ -66,6 +66,13 @@ echo '{"method": "lscn"}' >"$out/bad.json"
 says "--method: 'lscn' is none of" 2 "$papilla" unwrap "$out/coarse.glb" -o "$out/u.glb" --config "$out/bad.json"
 says "missing.json: does not exist" 3 "$papilla" unwrap "$out/coarse.glb" -o "$out/u.glb" --config "$out/missing.json"
 
+# A picture that a recipe of MATERIALS.json names is looked for in that file's folder.
+mkdir -p "$out/named/pictures"
+"$papilla" synthesize grain --kind quads6 --size 64 -o "$out/named/pictures/grain.png" --quiet || fail "synthesize"
+echo '{"materials": {"m": {"texture": "image|picpath=pictures/grain.png", "size_mm": [40, 40]}}, "assign": [{"part": "*", "material": "m"}]}' >"$out/named/m.json"
+"$papilla" plan "$out/coarse.glb" -m "$out/named/m.json" --json "$out/named/plan.json" --quiet || fail "a picture in a folder below MATERIALS.json"
+grep -q 'does not exist' "$out/named/plan.json" && fail "a picture in a folder below MATERIALS.json is not found"
+
 says "unknown option '--devise'; did you mean '--device'?" 2 "$player" --devise sim
 says "--motion: 'strok' is none of stroke,circle,slide,tap; did you mean 'stroke'?" 2 "$player" a.glb --motion strok
 

@@ -58,9 +58,10 @@ export const figures = [
   },
   {
     number: '4.11', title: 'Planar triple projection with a fine and a coarse grain', columns: 2, tile: 560,
-    panels: [12, 60].map((size) => shell(`chequers of ${size / 2} mm`, `${size}/report/close-up-m.png`, [
+    panels: [12, 60].map((size) => shell(`chequers of ${size / 4} mm`, `seat-${size}.png`, [
       `mkdir -p ${size}`, `echo '${plate(size)}' >${size}/materials.json`,
-      `papilla bake "$DATA/cockpit.step" --chord 1 -m ${size}/materials.json -o ${size}/cockpit.glb --report ${size}/report --pictures`])),
+      `papilla bake "$DATA/cockpit.step" --chord 1 -m ${size}/materials.json -o ${size}/cockpit.glb --report ${size}/report --pictures`,
+      `oiiotool ${size}/report/scene.png --cut 520x480+660+290 -o seat-${size}.png`])),
     differs: 'classes by the largest component of the normal (the source\'s 45° leave directions without a class), smoothed, without overlaps; jumps at borders are reported',
   },
   {
