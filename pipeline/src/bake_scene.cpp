@@ -20,6 +20,7 @@
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
+#include "scene_textures.hpp"
 
 namespace papilla {
 namespace {
@@ -175,7 +176,8 @@ void process(Work& work, const PartContext& context, const UnwrapOptions& option
 /// Adds pictures and materials to the scene, each once.
 class SceneMaterials {
  public:
-  SceneMaterials(BakeResult& result, const Materials& rules) : result_(result), scene_(result.scene), rules_(rules) {
+  SceneMaterials(BakeResult& result, const Materials& rules)
+      : result_(result), scene_(result.scene), rules_(rules), textures_(scene_) {
     result_.mm_per_uv.resize(scene_.materials.size());
   }
 
@@ -292,12 +294,12 @@ class SceneMaterials {
 
   void attach_pictures(Material& material, const Grain& grain, std::optional<UvTransform> transform) {
     TextureReference normal;
-    normal.texture = texture_of(grain.normal_png);
+    normal.texture = textures_.add(grain.normal_png);
     normal.transform = transform;
     material.normal_texture = normal;
     if (!grain.picture || material.base_color_texture) return;
     TextureReference picture;
-    picture.texture = texture_of(*grain.picture);
+    picture.texture = textures_.add(*grain.picture);
     picture.transform = transform;
     material.base_color_texture = picture;
     material.base_color = {1, 1, 1, material.base_color[3]};
@@ -310,22 +312,8 @@ class SceneMaterials {
     material.metallic_roughness_texture.reset();
     if (!grain.shine) return;
     TextureReference& shine = material.metallic_roughness_texture.emplace();
-    shine.texture = texture_of(*grain.shine);
+    shine.texture = textures_.add(*grain.shine);
     shine.transform = transform;
-  }
-
-  std::uint32_t texture_of(const EncodedImage& image) {
-    const auto [it, is_new] = textures_.try_emplace(image.name, 0);
-    if (!is_new) return it->second;
-    scene_.images.push_back(image);
-    Texture texture;
-    texture.image = static_cast<std::uint32_t>(scene_.images.size() - 1);
-    texture.name = image.name;
-    texture.min_filter = 9987;  // linear, mip-mapped
-    texture.mag_filter = 9729;  // linear
-    scene_.textures.push_back(std::move(texture));
-    it->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
-    return it->second;
   }
 
   static void note_origin(Material& material, const MaterialRule& rule, const std::string& original_name,
@@ -342,7 +330,7 @@ class SceneMaterials {
   BakeResult& result_;
   Scene& scene_;
   const Materials& rules_;
-  std::map<std::string, std::uint32_t> textures_;
+  SceneTextures textures_;
   std::vector<SolidUse> solids_;
   std::vector<double> kept_mm_of_solid_;  ///< Of each.
   std::map<std::tuple<std::uint32_t, std::string, double, bool, bool>, std::uint32_t> made_;

@@ -123,10 +123,12 @@ HeightFileOptions HeightOption::options(std::uint64_t seed, const ProgressCallba
 void TextureOption::add_to(CLI::App& verb) {
   verb.add_option("recipe", recipe, "Recipe: type|parameter=value|..., or the name of one")->type_name("RECIPE");
   writes_into(verb.add_option("-o,--output", output, "Folder of the pictures"))->type_name("DIR");
-  reads(verb.add_option("--on", on,
-                        "Put the recipe on all surfaces of a scene: DIR gets scene.glb and its pictures, an atlas of "
-                        "recipes that read posx, posy, posz, normaldot or sky, else a tile of --size-mm"))
-      ->type_name("SCENE");
+  CLI::Option* placed =
+      reads(
+          verb.add_option("--on", on,
+                          "Put the recipe on all surfaces of a scene: DIR gets scene.glb and its pictures, an atlas of "
+                          "recipes that read posx, posy, posz, normaldot or sky, else a tile of --size-mm"))
+          ->type_name("SCENE");
   verb.add_option("--size", size_, "Texels a side, or width and height")
       ->expected(1, 2)
       ->delimiter('x')
@@ -173,9 +175,11 @@ void TextureOption::add_to(CLI::App& verb) {
               ->excludes(steps)
               ->excludes(normal)
               ->excludes(preview);
-  writes(verb.add_option("--glsl", glsl, "Write the recipe as a fragment shader in GLSL ES 3.00 too"))
-      ->type_name("FILE");
-  writes(verb.add_option("--wgsl", wgsl, "The same in WGSL"))->type_name("FILE");
+  CLI::Option* as_glsl =
+      writes(verb.add_option("--glsl", glsl, "Write the recipe as a fragment shader in GLSL ES 3.00 too"))
+          ->type_name("FILE");
+  CLI::Option* as_wgsl = writes(verb.add_option("--wgsl", wgsl, "The same in WGSL"))->type_name("FILE");
+  for (CLI::Option* of_a_picture : {normal, preview, steps, wang_, as_glsl, as_wgsl}) placed->excludes(of_a_picture);
   reads(verb.add_option("--library", libraries, "Files of named recipes, on top of the built-in ones"))
       ->type_name("FILE");
   verb.add_option("--sheet", sheet, "A contact sheet: of all types, or of the library")

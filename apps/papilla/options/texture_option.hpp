@@ -52,7 +52,7 @@ class TextureOption {
  private:
   std::string age_;
   const CLI::Option* time_ = nullptr;
-  const CLI::Option* wang_ = nullptr;
+  CLI::Option* wang_ = nullptr;
   int wang_side_ = 0;
   std::string channels_ = "color,bump";
   std::vector<int> size_{512};

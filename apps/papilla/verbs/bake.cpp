@@ -51,17 +51,13 @@ struct Options {
 
 /// The page, report.json, what hands feel of it, and pictures if they are wanted; what they are and took is added to
 /// the JSON.
-void write_report(const Options& options, const Materials& rules, const BakeResult& result, const VerbContext& context,
-                  const Stopwatch& total, Json& json) {
+/// @param page  with the environment that lights the scene.
+void write_report(const Options& options, const Materials& rules, const BakeResult& result,
+                  const PageSceneOptions& page, const VerbContext& context, const Stopwatch& total, Json& json) {
   const fs::path folder = options.report;
-  PageSceneOptions page;
-  std::shared_ptr<const EnvironmentLight> light;
-  if (!options.environment.empty()) {
-    page.environment = read_environment(options.environment, k_scene_environment_width);
-    light = std::make_shared<EnvironmentLight>(*page.environment);
-  }
   if (options.pictures) {
     const Stopwatch clock;
+    const auto light = page.environment ? std::make_shared<const EnvironmentLight>(*page.environment) : nullptr;
     json["pictures"] = write_bake_pictures(result, folder, light, context.progress);
     json["seconds"]["pictures"] = clock.seconds();
   }
@@ -95,6 +91,8 @@ Json run(const Options& options, VerbContext& context) {
   const Stopwatch total;
   const Materials rules = read_materials(options.materials, options.material_library);
   wanted.bake.library = load_recipes(options.libraries);
+  PageSceneOptions page;
+  if (!options.environment.empty()) page.environment = read_environment(options.environment, k_scene_environment_width);
   const BakeFileResult result = bake_file(options.input, options.output, rules, wanted, context.progress);
 
   const std::size_t triangles = drawn_triangles(result.scene), bytes = size_with_named_files(options.output);
@@ -118,7 +116,7 @@ Json run(const Options& options, VerbContext& context) {
   context.console.print(changes_line(result.changes));
   context.console.print(
       shown_format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
-  if (!options.report.empty()) write_report(options, rules, result, context, total, json);
+  if (!options.report.empty()) write_report(options, rules, result, page, context, total, json);
   return json;
 }
 

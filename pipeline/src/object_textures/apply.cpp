@@ -19,11 +19,10 @@
 #include "papilla/pipeline/grain.hpp"
 #include "papilla/pipeline/object_textures.hpp"
 #include "papilla/texture/normal_map.hpp"
+#include "scene_textures.hpp"
 
 namespace papilla {
 namespace {
-
-constexpr int k_clamp_to_edge = 33071, k_linear = 9729, k_linear_mip_mapped = 9987;  // glTF's numbers.
 
 /// Surfaces of one node: its slots that a rule means.
 struct SelectedUse {
@@ -97,7 +96,8 @@ struct PictureLook {
 /// Adds materials, pictures and nodes to a scene, each once.
 class SceneAdditions {
  public:
-  SceneAdditions(Scene& scene, ObjectTextures& result) : scene_(scene), result_(result) {}
+  SceneAdditions(Scene& scene, ObjectTextures& result)
+      : scene_(scene), result_(result), textures_(scene, SceneTextures::k_clamp_to_edge) {}
 
   /// @param below  Material of what is below, or replaced, if it has any.
   std::uint32_t add_material(const PictureLook& look, std::optional<std::uint32_t> below,
@@ -138,27 +138,13 @@ class SceneAdditions {
  private:
   TextureReference reference_to(const EncodedImage& image) {
     TextureReference reference;
-    reference.texture = texture_of(image);
+    reference.texture = textures_.add(image);
     return reference;
-  }
-
-  std::uint32_t texture_of(const EncodedImage& image) {
-    const auto [it, is_new] = textures_.try_emplace(image.name, 0);
-    if (!is_new) return it->second;
-    scene_.images.push_back(image);
-    Texture texture;
-    texture.image = static_cast<std::uint32_t>(scene_.images.size() - 1);
-    texture.name = image.name;
-    texture.wrap_s = texture.wrap_t = k_clamp_to_edge;
-    texture.min_filter = k_linear_mip_mapped, texture.mag_filter = k_linear;
-    scene_.textures.push_back(std::move(texture));
-    it->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
-    return it->second;
   }
 
   Scene& scene_;
   ObjectTextures& result_;
-  std::map<std::string, std::uint32_t> textures_;
+  SceneTextures textures_;
 };
 
 EncodedImage png_image(const std::string& name, std::vector<std::byte> bytes) {
