@@ -10,6 +10,7 @@
 #include <set>
 
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/meshing/sight_lines.hpp"
 #include "papilla/pipeline/pictures/scene_render.hpp"
@@ -73,6 +74,7 @@ std::vector<const BakedSurface*> largest_surfaces(const std::vector<BakedSurface
 
 /// The spot of a surface nearest to the middle of its area before which nothing stands in the way, with the normal
 /// there, in the frame of the scene; the nearest of all when that is true of none.
+/// @param extent_mm  Height of what is seen; less for a surface that is smaller, which then fills the picture.
 std::optional<CloseUp> close_up_of(const BakedSurface& surface, const std::vector<Instance>& uses, UpAxis up,
                                    const SightLines& sight, double extent_mm) {
   const auto use = std::find_if(uses.begin(), uses.end(), [&](const Instance& u) { return u.part == surface.part; });
@@ -80,15 +82,18 @@ std::optional<CloseUp> close_up_of(const BakedSurface& surface, const std::vecto
   std::vector<CloseUp> spots;
   Vec3 sum;
   double area = 0;
+  Bounds3 bounds;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     const auto corner = [&](int k) { return transform_point(use->world, surface.mesh.corner(t, k)); };
     const Vec3 twice = cross(corner(1) - corner(0), corner(2) - corner(0));
     if (!(norm(twice) > 0)) continue;
-    spots.push_back({(1.0 / 3) * (corner(0) + corner(1) + corner(2)), normalized(twice), extent_mm});
+    spots.push_back({(1.0 / 3) * (corner(0) + corner(1) + corner(2)), normalized(twice)});
     sum = sum + norm(twice) * spots.back().point;
     area += norm(twice);
+    for (int k = 0; k < 3; ++k) bounds.add(corner(k));
   }
   if (spots.empty()) return std::nullopt;
+  for (CloseUp& spot : spots) spot.extent_mm = std::min(extent_mm, bounds.diagonal());
   const auto aside = [&](const CloseUp& spot) { return norm(spot.point - (1 / area) * sum); };
   std::stable_sort(spots.begin(), spots.end(), [&](const CloseUp& a, const CloseUp& b) { return aside(a) < aside(b); });
   const auto seen = std::find_if(spots.begin(), spots.end(), [&](const CloseUp& spot) {
@@ -97,7 +102,7 @@ std::optional<CloseUp> close_up_of(const BakedSurface& surface, const std::vecto
   return seen == spots.end() ? spots.front() : *seen;
 }
 
-/// The largest surface of every grain, so near that three repeats fill the picture.
+/// The largest surface of every grain, so near that three repeats of it or the whole surface fill the picture.
 void add_close_ups(const BakeResult& result, const std::vector<const BakedSurface*>& by_size, SceneViewOptions render,
                    PictureFolder& pictures) {
   render.mode = RenderMode::material;
