@@ -35,6 +35,7 @@ if(PAPILLA_BUILD_TOOLKIT)
   set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
   find_package(CGAL REQUIRED)
   find_package(Boost 1.74 REQUIRED)  # Headers only: Beast, Asio and Math.
+  find_package(OpenSSL REQUIRED COMPONENTS Crypto)
   find_package(TBB REQUIRED)
   find_package(Ceres REQUIRED)
   find_package(OpenCASCADE REQUIRED)

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   add_plan(program);
   add_bake(program);
   add_view(program);
+  add_cache(program);
   add_evaluate(program);
 
   const bool as_json = wants_json_on_stdout(argc, argv);

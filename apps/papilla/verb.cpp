@@ -11,6 +11,7 @@
 
 #include "file_options.hpp"
 #include "option_checks.hpp"
+#include "options/cache_option.hpp"
 #include "options/config_option.hpp"
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/error.hpp"
@@ -35,7 +36,17 @@ struct CommonOptions {
   std::uint64_t seed = 1;
   std::uint64_t max_memory = 0;
   std::optional<double> time_limit_s;
+  CacheOption cache;
 };
+
+/// What a run did with its cache, for JSON and people; then the cache is brought within its limit.
+void close_cache(const StageCache& cache, std::uint64_t limit, const Console& console, Json& result) {
+  result["cache"] = cache_json(cache);
+  console.print(cache_line(cache));
+  std::uint64_t written = 0;
+  for (const auto& [stage, count] : cache.counts()) written += count.bytes_written;
+  if (written > 0) cache.store().evict(limit);
+}
 
 /// The values of the options that name files to read, separated by commas.
 std::string inputs_of(const CLI::App& verb) {
@@ -48,14 +59,13 @@ std::string inputs_of(const CLI::App& verb) {
   return names;
 }
 
-void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDeadline at_deadline,
-              const VerbBody& body) {
+void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbInfo& info, const VerbBody& body) {
   const bool json_on_stdout = common.json == "-";
   std::optional<oneapi::tbb::global_control> limit;
   if (common.threads > 0)
     limit.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
 
-  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, {}, {}, common.seed, 0};
+  VerbContext context{Console(common.quiet || json_on_stdout), {}, common.threads, {}, {}, common.seed, nullptr, 0};
   if (common.time_limit_s) {
     context.deadline = Deadline(*common.time_limit_s);
     context.read_deadline = Deadline(2 * *common.time_limit_s + k_more_for_reading_s);
@@ -65,7 +75,11 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDea
   if (wants_json || (common.progress == "auto" && !common.quiet && ::isatty(STDERR_FILENO)))
     printer = std::make_shared<ProgressPrinter>(wants_json ? ProgressPrinter::Form::json : ProgressPrinter::Form::line);
   std::string stage = "reading";
-  const bool cancels = at_deadline == VerbInfo::AtDeadline::is_cancelled;
+  const bool remembers = info.remembers == VerbInfo::Remembers::yes;
+  const std::uint64_t cache_limit = remembers ? common.cache.limit() : 0;
+  const std::unique_ptr<StageCache> cache = remembers ? common.cache.open() : nullptr;
+  context.cache = cache.get();
+  const bool cancels = info.at_deadline == VerbInfo::AtDeadline::is_cancelled;
   context.progress = [printer, &stage, cancels, deadline = context.deadline](const Progress& done) {
     if (stage != done.stage) stage = done.stage;
     if (printer) printer->report(done.stage, done.fraction);
@@ -75,6 +89,7 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, VerbInfo::AtDea
   Json result;
   try {
     result = body(context);
+    if (cache) close_cache(*cache, cache_limit, context.console, result);
   } catch (const Cancelled&) {
     throw SolverFailure(
         fmt::format("the time limit of {:g} s is reached, at '{}': no result", *common.time_limit_s, stage));
@@ -132,10 +147,11 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->check(not_negative())
       ->type_name("S")
       ->group("Common");
-  verb->callback([verb, common, at_deadline = info.at_deadline, body = std::move(body)] {
+  if (info.remembers == VerbInfo::Remembers::yes) common->cache.add_to(*verb);
+  verb->callback([verb, common, info, body = std::move(body)] {
     declare_files(*verb);
     require_outputs(*verb);
-    run_verb(*verb, *common, at_deadline, body);
+    run_verb(*verb, *common, info, body);
   });
   return verb;
 }

@@ -10,6 +10,10 @@
 #include "papilla/core/deadline.hpp"
 #include "papilla/core/progress.hpp"
 
+namespace papilla {
+class StageCache;
+}
+
 namespace papilla::app {
 
 /// Where a verb's text for people goes: stdout, unless --quiet or `--json -` claims it.
@@ -33,7 +37,8 @@ struct VerbContext {
   Deadline deadline;       ///< --time-limit.
   Deadline read_deadline;  ///< Of reading, before which there is no result to end with: twice the limit and a minute.
   std::uint64_t seed = 1;
-  int exit_code = 0;  ///< Set by a verb that ends normally but not with 0.
+  const StageCache* cache = nullptr;  ///< Of verbs that remember results; null: none is wanted.
+  int exit_code = 0;                  ///< Set by a verb that ends normally but not with 0.
 };
 
 struct VerbInfo {
@@ -42,6 +47,8 @@ struct VerbInfo {
   std::string example;  ///< A command line that works as printed.
   /// What a time limit does: the verb ends with the best valid result so far, or it is cancelled and has none.
   enum class AtDeadline { ends, is_cancelled } at_deadline = AtDeadline::is_cancelled;
+  /// Whether it has --cache: results of its stages are found again.
+  enum class Remembers { no, yes } remembers = Remembers::no;
 };
 
 /// The body of a verb: does the work, prints for people, returns the machine-readable result.

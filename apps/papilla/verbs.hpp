@@ -24,6 +24,7 @@ void add_study(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
 void add_view(CLI::App& program);
+void add_cache(CLI::App& program);
 void add_evaluate(CLI::App& program);
 
 }  // namespace papilla::app

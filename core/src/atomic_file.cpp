@@ -207,9 +207,9 @@ class Temporary {
     if (::fchmod(file_, mode) != 0) fail(path_, errno);
   }
 
-  void rename() {
+  void rename(Durability durability) {
     // Forces the data to the disk, so that the rename can't overtake it.
-    if (::fsync(file_) != 0 && errno != EINVAL) fail(path_, errno);
+    if (durability == Durability::synced && ::fsync(file_) != 0 && errno != EINVAL) fail(path_, errno);
     if (::renameat(folder_, name_.c_str(), folder_, path_.filename().c_str()) != 0) fail(path_, errno);
     name_.clear();
   }
@@ -300,7 +300,8 @@ void require_space(const Place& place, const fs::path& path, std::uintmax_t byte
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write, std::uintmax_t bytes) {
+void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write, std::uintmax_t bytes,
+                      Durability durability) {
   const Place place = place_of(path);
   note_output(path);
   if (!place.is_replaced()) {
@@ -316,7 +317,7 @@ void write_atomically(const fs::path& path, const std::function<void(std::ostrea
   const Registration registration(place.folder / temporary.name());
   fill(temporary.file(), path, write);
   if (place.old) temporary.adopt(*place.old);
-  temporary.rename();
+  temporary.rename(durability);
 }
 
 void require_writable(const fs::path& path) {

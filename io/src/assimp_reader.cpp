@@ -30,8 +30,9 @@
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/unit_name.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/haptic/material_tag_stream.hpp"
 #include "papilla/io/isolated.hpp"
-#include "papilla/io/scene_stream.hpp"
+#include "papilla/io/pipe_stream.hpp"
 #include "scene_pictures.hpp"
 
 namespace papilla {
@@ -252,12 +253,9 @@ Scene read_assimp(const std::filesystem::path& path, const ReadOptions& options,
   require_file(path);
   Scene scene;
   const auto run = [&](const ProgressCallback&) { scene = read_in_child(path, *format, options); };
-  const auto send = [&](int pipe) {
-    ValueSender sender(pipe);
-    sender(scene);
-    sender.flush();
-  };
-  run_isolated({path, "the library assimp", run, send, [&](int pipe) { ValueReceiver{pipe}(scene); }}, progress);
+  run_isolated({path, "the library assimp", run, [&](int pipe) { send_values(pipe, scene); },
+                [&](int pipe) { receive_values(pipe, scene); }},
+               progress);
   PictureReader(path, scene).read();
   if (format->is_assumed && !options.millimetres_per_unit && scene.millimetres_per_unit == 1)
     hint_at_unit(scene, path.stem().string());

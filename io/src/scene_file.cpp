@@ -5,8 +5,10 @@
 #include <string>
 
 #include "mesh_file_scene.hpp"
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
+#include "papilla/haptic/material_tag_stream.hpp"
 #include "papilla/io/assimp_reader.hpp"
 #include "papilla/io/cad_reader.hpp"
 #include "papilla/io/glb_writer.hpp"
@@ -23,8 +25,9 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& options, const ProgressCallback& progress) {
+Scene make_cad_scene(const std::filesystem::path& path, const ReadOptions& options, const ProgressCallback& progress) {
   CadReadOptions cad;
+  cad.cache = options.cache;
   cad.chord_mm = options.chord_mm;
   cad.angle_deg = options.angle_deg;
   cad.max_edge_mm = options.max_edge_mm;
@@ -32,6 +35,20 @@ Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& optio
   Scene scene = read_cad(path, cad, nullptr, progress);
   scene.up = options.up.value_or(scene.up);
   return scene;
+}
+
+/// A STEP file may name others that hold parts of it: they are not in its bytes.
+bool names_other_files(const std::string& bytes) { return bytes.find("DOCUMENT_FILE") != std::string::npos; }
+
+/// With a cache, a file that was read before with the same options is not given to the library again.
+Scene read_cad_scene(const std::filesystem::path& path, const ReadOptions& options, const ProgressCallback& progress) {
+  if (options.cache == nullptr) return make_cad_scene(path, options, progress);
+  const std::string bytes = read_file(path);
+  if (names_other_files(bytes)) return make_cad_scene(path, options, progress);
+  const auto make = [&] { return make_cad_scene(path, options, progress); };
+  return remembered(options.cache, "scene", CacheUse::read_write, make, sha256(bytes.data(), bytes.size()),
+                    path.filename(), options)
+      .value;
 }
 
 /// The formats that state no unit.

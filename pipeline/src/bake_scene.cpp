@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "bake_solid.hpp"
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -163,13 +164,21 @@ void process(Work& work, const PartContext& context, const UnwrapOptions& option
     work.report.reason = surface.uv_note;
     work.report.mesh = work.mesh;
     work.report.mesh.uv = scaled(work.mesh.uv, surface.uv_mm_per_unit);
-    work.report.seams = kept_seams(work.report.mesh, options, grains.at(surface.material));
+    const Grain& grain = grains.at(surface.material);
+    const auto make = [&] { return kept_seams(work.report.mesh, options, grain); };
+    work.report.seams = remembered(options.method.cache, "seams", CacheUse::read_write, make, work.report.mesh,
+                                   grain.size_mm, options.grain_mm)
+                            .value;
     work.report.seam_mm = work.report.seams.seam_mm;
   }
   Stopwatch clock;
   MeasureOptions measure;
   measure.overlap = !options.method.deadline.passed();
-  work.report.distortion = measure_distortion(work.report.mesh, work.report.mesh.uv, measure);
+  const TriangleMesh& mesh = work.report.mesh;
+  const auto make = [&] { return measure_distortion(mesh, mesh.uv, measure); };
+  work.report.distortion = remembered(options.method.cache, "measure", use_until(options.method.deadline), make,
+                                      mesh.positions, mesh.triangles, mesh.uv, measure)
+                               .value;
   work.measure = clock.seconds();
 }
 
@@ -407,12 +416,13 @@ void drop_unused_textures(Scene& scene) {
 
 /// Makes the grains that the surfaces use.
 std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& rules, const RecipeLibrary& library,
-                                         const Deadline& deadline, const ProgressCallback& progress) {
+                                         const Deadline& deadline, const StageCache* cache,
+                                         const ProgressCallback& progress) {
   const std::set<std::string> names = grains_of(plan.surfaces);
   std::map<std::string, Grain> grains;
   for (const std::string& name : names) {
     report_progress(progress, "grain " + name, static_cast<double>(grains.size()) / static_cast<double>(names.size()));
-    grains.emplace(name, make_grain(rules.materials.at(name), library, deadline));
+    grains.emplace(name, make_grain(rules.materials.at(name), library, deadline, cache));
   }
   return grains;
 }
@@ -539,6 +549,7 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
   const double to_finish = k_seconds_to_finish * triangles_of_parts(scene);
   BakePlanOptions plan = options.plan;
   plan.sides.deadline = options.plan.sides.deadline.earlier_by(to_finish);
+  plan.sides.cache = options.unwrap.method.cache;
   result.plan = plan_bake(std::move(scene), rules, plan, progress);
   const std::vector<PartSurface>& surfaces = result.plan.surfaces;
   result.scene = std::move(result.plan.scene);
@@ -547,8 +558,8 @@ BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& op
                     {"simplify", result.plan.simplify_seconds}};
   const PartContext context = unwrap_context(result.scene, {});
   leave_out(result.scene, result.plan.perception);
-  result.grains =
-      make_grains(result.plan, rules, options.library, options.unwrap.method.deadline.earlier_by(to_finish), progress);
+  result.grains = make_grains(result.plan, rules, options.library, options.unwrap.method.deadline.earlier_by(to_finish),
+                              options.unwrap.method.cache, progress);
   for (const PartSurface& surface : surfaces) {
     if (surface.material.empty() || surface.is_left_out || result.environments.contains(surface.material)) continue;
     const std::filesystem::path& picture = rules.materials.at(surface.material).environment;

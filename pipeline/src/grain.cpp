@@ -12,10 +12,13 @@
 #include <string_view>
 #include <utility>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/near_name.hpp"
+#include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/haptic/material_tag_stream.hpp"
 #include "papilla/haptic/tag_limits.hpp"
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/height_file.hpp"
@@ -37,6 +40,15 @@
 #include "surface/painted_surface.hpp"
 
 namespace papilla {
+
+// Arrays of C among the fields.
+template <>
+inline constexpr std::size_t k_field_count<MapRule> = 3;
+template <>
+inline constexpr std::size_t k_field_count<MaterialRule> = 25;
+template <>
+inline constexpr std::size_t k_field_count<Grain> = 25;
+
 namespace {
 
 /// More samples than this a side show and feel like nothing: at 40 mm a repeat they are finer than 0.04 mm.
@@ -236,9 +248,17 @@ std::filesystem::path folder_of(const std::filesystem::path& file, const std::st
 }
 
 /// A recipe of MATERIALS.json. @param key  where it stands.
+/// @param pictures  gets the digests of the pictures that it reads; may be null.
 ProceduralTexture compile_recipe(const MaterialRule& rule, const std::filesystem::path& file, const std::string& recipe,
-                                 const std::string& key, const RecipeLibrary& library, bool seamless = true) {
+                                 const std::string& key, const RecipeLibrary& library, bool seamless = true,
+                                 std::vector<Digest>* pictures = nullptr) {
   CompileOptions options = recipe_options(folder_of(file, recipe));
+  if (pictures != nullptr)
+    options.read_picture = [pictures, read = options.read_picture](const std::string& path) {
+      RecipePicture picture = read(path);
+      pictures->push_back(key_of("recipe picture", picture));
+      return picture;
+    };
   options.source = "material '" + rule.name + "', " + key;
   options.seamless = seamless;
   options.time = rule.time;
@@ -315,7 +335,7 @@ Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
   }
 }
 
-std::string key_of(Quantity quantity) { return "maps/" + std::string(map_key(quantity)); }
+std::string key_of_map(Quantity quantity) { return "maps/" + std::string(map_key(quantity)); }
 
 /// The grey values of a map's picture or recipe.
 HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& map, const RecipeLibrary& library) {
@@ -327,12 +347,12 @@ HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& m
   }
   std::error_code error;
   if (!std::filesystem::exists(map.picture, error) && looks_like_recipe(map.recipe, library)) {
-    RenderedTexture made = render_tile(compile_recipe(rule, map.picture, map.recipe, key_of(quantity), library),
+    RenderedTexture made = render_tile(compile_recipe(rule, map.picture, map.recipe, key_of_map(quantity), library),
                                        1U << static_cast<unsigned>(Channel::bump));
     return {made.width, made.height, std::move(made.values[Channel::bump]), 1, 1, true};
   }
   const auto place = [&](const Error& unread) {
-    return "material '" + rule.name + "', " + key_of(quantity) + ": " + unread.what();
+    return "material '" + rule.name + "', " + key_of_map(quantity) + ": " + unread.what();
   };
   try {
     Picture picture = read_reduced_picture(map.picture, k_most_samples);
@@ -344,6 +364,26 @@ HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& m
   } catch (const InvalidInput& unread) {
     throw InvalidInput(place(unread));
   }
+}
+
+/// Digests of the pictures that a rule's grain is made from, in the order in which the rule names them. What can't be
+/// read is left out: make_grain() says so.
+std::vector<Digest> picture_digests(const MaterialRule& rule, const RecipeLibrary& library) {
+  std::vector<Digest> digests;
+  const auto add = [&](const std::filesystem::path& file, const std::string& recipe, const std::string& key) {
+    std::error_code error;
+    if (recipe.starts_with(k_grain_prefix)) return;
+    if (std::filesystem::is_regular_file(file, error)) {
+      const std::string bytes = read_file(file);
+      digests.push_back(sha256(bytes.data(), bytes.size()));
+    } else if (looks_like_recipe(recipe, library)) {
+      compile_recipe(rule, file, recipe, key, library, true, &digests);
+    }
+  };
+  add(rule.texture, rule.recipe, "texture");
+  for (const auto& image : rule.height.images) add(image, {}, "height.images");
+  for (const auto& [quantity, map] : rule.maps) add(map.picture, map.recipe, key_of_map(quantity));
+  return digests;
 }
 
 /// The maps of the rule, and those of its recipe for other quantities, in multiples of the constants, over one picture.
@@ -382,8 +422,8 @@ void add_maps(const MaterialRule& rule, QuantityMaps maps, const double (&size_m
   apply_constants(rule, constants, grain.stiffness_factor, grain.damping_factor);
   for (const Quantity lost : scale_by_constants(grain.tag.maps, constants))
     if (rule.maps.contains(lost))
-      grain.warnings.push_back(
-          fmt::format("material '{}': {}: multiplies a constant that is 0, and is left out", rule.name, key_of(lost)));
+      grain.warnings.push_back(fmt::format("material '{}': {}: multiplies a constant that is 0, and is left out",
+                                           rule.name, key_of_map(lost)));
   if (grain.tag.maps)
     grain.tag.maps->uv_transform.scale = {grain.size_mm[0] / size_mm[0], grain.size_mm[1] / size_mm[1]};
 }
@@ -543,36 +583,8 @@ void describe_picture(const TextureReading& reading, Vec2 mm_per_px, Grain& grai
   grain.tag.symmetry = tag;
 }
 
-}  // namespace
-
-double default_max_slope(double static_friction) {
-  constexpr double k_share = 1.0 / 3, k_most = 1;
-  return static_friction > 0 ? std::min(k_most, k_share / static_friction) : k_most;
-}
-
-GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
-  GrainPlan plan{rule.name, {}, {}};
-  try {
-    const Source source = read_source(rule, library);
-    read_maps(rule, source.maps, library);
-    if (!rule.height.images.empty()) {
-      require_picture(rule, source);
-      about_images(rule, [&] { return width_of_picture_files(rule.height.images); });
-      plan.steps = stereo_plan(rule.height);
-      return plan;
-    }
-    if (source.computed) return plan;
-    Grain grain;
-    find_size(rule, source.grey, grain.size_mm);
-    look_at(rule, source, grain);
-    plan.steps = plan_relief(source.grey, read_texture(source.grey), relief_options(rule, source, grain));
-  } catch (const Error& error) {
-    plan.problem = error.what();
-  }
-  return plan;
-}
-
-Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline) {
+/// make_grain() without looking into a cache.
+Grain make_whole_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline) {
   Grain grain;
   const Stopwatch analyze_clock;
   Source source = read_source(rule, library);
@@ -613,6 +625,45 @@ Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const D
   finish_relief(rule, reading.stop != StopReason::time_limit, rule.name, grain);
   grain.height_seconds += height_clock.seconds() - grain.normal_map_seconds;
   return grain;
+}
+
+}  // namespace
+
+double default_max_slope(double static_friction) {
+  constexpr double k_share = 1.0 / 3, k_most = 1;
+  return static_friction > 0 ? std::min(k_most, k_share / static_friction) : k_most;
+}
+
+GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
+  GrainPlan plan{rule.name, {}, {}};
+  try {
+    const Source source = read_source(rule, library);
+    read_maps(rule, source.maps, library);
+    if (!rule.height.images.empty()) {
+      require_picture(rule, source);
+      about_images(rule, [&] { return width_of_picture_files(rule.height.images); });
+      plan.steps = stereo_plan(rule.height);
+      return plan;
+    }
+    if (source.computed) return plan;
+    Grain grain;
+    find_size(rule, source.grey, grain.size_mm);
+    look_at(rule, source, grain);
+    plan.steps = plan_relief(source.grey, read_texture(source.grey), relief_options(rule, source, grain));
+  } catch (const Error& error) {
+    plan.problem = error.what();
+  }
+  return plan;
+}
+
+Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline,
+                 const StageCache* cache) {
+  const auto make = [&] { return make_whole_grain(rule, library, deadline); };
+  if (cache == nullptr) return make();
+  auto [grain, found] = remembered(cache, "grain", use_until(deadline), make, rule, picture_digests(rule, library),
+                                   library.recipes(), library.colours());
+  if (found) grain.analyze_seconds = grain.height_seconds = grain.normal_map_seconds = 0;
+  return std::move(grain);
 }
 
 std::optional<ProceduralTexture> recipe_of(const MaterialRule& rule, const RecipeLibrary& library, bool seamless) {

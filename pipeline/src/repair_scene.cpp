@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/node_places.hpp"
@@ -13,7 +14,8 @@
 namespace papilla {
 namespace {
 
-std::vector<RepairResult> repair_parts(Scene& scene, const RepairOptions& options, const ProgressCallback& progress) {
+std::vector<RepairResult> repair_parts(Scene& scene, const RepairOptions& options, const StageCache* cache,
+                                       const ProgressCallback& progress) {
   std::vector<RepairResult> results(scene.parts.size());
   RepairOptions repair_options = options;
   const bool single = scene.parts.size() == 1;
@@ -21,7 +23,10 @@ std::vector<RepairResult> repair_parts(Scene& scene, const RepairOptions& option
   SharedProgress done(single ? ProgressCallback() : progress, "repair", static_cast<double>(results.size()));
   oneapi::tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
     try {
-      results[i] = repair(std::move(scene.parts[i].mesh), repair_options);
+      const auto make = [&] { return repair(std::move(scene.parts[i].mesh), repair_options); };
+      results[i] =
+          remembered(cache, "repair", use_until(repair_options.deadline), make, scene.parts[i].mesh, repair_options)
+              .value;
     } catch (const InvalidInput& error) {
       throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }
@@ -46,7 +51,7 @@ RepairSceneResult repair_scene(Scene scene, const RepairSceneOptions& options, c
   RepairSceneResult result;
   result.before = total_statistics(part_statistics(scene, progress));
   if (!options.keep_copies) result.shared = share_identical_parts(scene);
-  result.parts = repair_parts(scene, options.repair, progress);
+  result.parts = repair_parts(scene, options.repair, options.sides.cache, progress);
   result.total = total_repair(result.parts);
   show_both_sides(scene, slots_without_back(result.parts), options.sides.add_materials);
   if (result.total.unfinished_triangles > 0) result.stop = StopReason::time_limit;

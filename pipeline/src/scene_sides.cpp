@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -52,6 +53,53 @@ Volume turned(const Transform& turn, const Volume& volume) {
 /// The rotation back.
 Transform transposed(const Transform& t) {
   return {t[0], t[4], t[8], 0, t[1], t[5], t[9], 0, t[2], t[6], t[10], 0, 0, 0, 0, 1};
+}
+
+/// What of a part tells its sides, and its name in the result.
+struct SeenPart {
+  std::string name;
+  Digest mesh;  ///< Of positions, triangles and slots.
+  std::vector<std::uint32_t> materials;
+};
+
+SeenPart seen_part(const Part& part) {
+  return {shown_name(part), key_of("seen part", part.mesh.positions, part.mesh.triangles, part.mesh.material),
+          part.materials};
+}
+
+/// find_sides() without looking into a cache.
+SceneSides make_sides(const Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {
+  SceneSides found;
+  const Stopwatch clock;
+  const Transform turn = to_y_up(scene.up);  // places are looked for along axes: as in the file that is written
+  const std::vector<PlacedMesh> uses = placed_meshes(scene, instances(scene), turn);
+  SheetSideOptions viewpoint;
+  if (options.inside) viewpoint.inside = transform_point(turn, *options.inside);
+  for (const Volume& volume : view) viewpoint.view.push_back(turned(turn, volume));
+  SheetSides sides;
+  try {
+    sides = find_sheet_sides(uses, viewpoint);
+  } catch (const InvalidInput& error) {
+    found.skipped = error.what();
+    return found;
+  }
+  std::unordered_map<const TriangleMesh*, MeshSheets*> of_mesh;
+  for (MeshSheets& mesh : sides.meshes)
+    if (!mesh.sheets.empty()) of_mesh.emplace(mesh.mesh, &mesh);
+  found.viewpoint = sides.viewpoint;
+  found.eye = transform_point(transposed(turn), sides.eye);
+  found.enclosure = sides.enclosure;
+  for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
+    const auto mesh = of_mesh.find(&scene.parts[p].mesh);
+    if (mesh == of_mesh.end()) continue;
+    found.parts.push_back(summary_of(scene.parts[p], *mesh->second));
+    found.open_components += found.parts.back().open_components;
+    found.facing_away += found.parts.back().facing_away;
+    found.ambiguous += found.parts.back().ambiguous;
+    found.sheets.push_back({p, std::move(mesh->second->sheets), std::move(mesh->second->turn)});
+  }
+  found.seconds = clock.seconds();
+  return found;
 }
 
 }  // namespace
@@ -116,36 +164,17 @@ SceneSides find_sides(const Scene& scene, const SceneSideOptions& options, std::
     found.skipped = "the time limit left no time for it";
     return found;
   }
-  const Stopwatch clock;
-  const Transform turn = to_y_up(scene.up);  // places are looked for along axes: as in the file that is written
-  const std::vector<PlacedMesh> uses = placed_meshes(scene, instances(scene), turn);
-  SheetSideOptions viewpoint;
-  if (options.inside) viewpoint.inside = transform_point(turn, *options.inside);
-  for (const Volume& volume : view) viewpoint.view.push_back(turned(turn, volume));
-  SheetSides sides;
-  try {
-    sides = find_sheet_sides(uses, viewpoint);
-  } catch (const InvalidInput& error) {
-    found.skipped = error.what();
-    return found;
-  }
-  std::unordered_map<const TriangleMesh*, MeshSheets*> of_mesh;
-  for (MeshSheets& mesh : sides.meshes)
-    if (!mesh.sheets.empty()) of_mesh.emplace(mesh.mesh, &mesh);
-  found.viewpoint = sides.viewpoint;
-  found.eye = transform_point(transposed(turn), sides.eye);
-  found.enclosure = sides.enclosure;
-  for (std::uint32_t p = 0; p < scene.parts.size(); ++p) {
-    const auto mesh = of_mesh.find(&scene.parts[p].mesh);
-    if (mesh == of_mesh.end()) continue;
-    found.parts.push_back(summary_of(scene.parts[p], *mesh->second));
-    found.open_components += found.parts.back().open_components;
-    found.facing_away += found.parts.back().facing_away;
-    found.ambiguous += found.parts.back().ambiguous;
-    found.sheets.push_back({p, std::move(mesh->second->sheets), std::move(mesh->second->turn)});
-  }
-  found.seconds = clock.seconds();
-  return found;
+  const auto make = [&] { return make_sides(scene, options, view); };
+  if (options.cache == nullptr) return make();
+  std::vector<SeenPart> parts;
+  for (const Part& part : scene.parts) parts.push_back(seen_part(part));
+  std::vector<std::string> blending;
+  for (const Material& material : scene.materials) blending.push_back(material.alpha_mode);
+  // Found at once or not at all: the deadline cuts nothing short.
+  auto [sides, was_there] = remembered(options.cache, "sides", CacheUse::read_write, make, parts, blending, scene.nodes,
+                                       scene.roots, scene.up, options, std::vector<Volume>(view.begin(), view.end()));
+  if (was_there) sides.seconds = 0;
+  return std::move(sides);
 }
 
 SceneSides turn_sheets(Scene& scene, const SceneSideOptions& options, std::span<const Volume> view) {

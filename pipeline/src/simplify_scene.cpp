@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/node_places.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
@@ -23,7 +24,8 @@ SimplifyResult simplify_part(const TriangleMesh& mesh, const SimplifySceneOption
   if (o.ratio)
     options.target_triangles = std::max<std::size_t>(
         1, static_cast<std::size_t>(std::ceil(*o.ratio * static_cast<double>(mesh.triangles.size()))));
-  return simplify(mesh, options);
+  const auto make = [&] { return simplify(mesh, options); };
+  return remembered(o.cache, "simplify", use_until(options.deadline), make, mesh, options).value;
 }
 
 std::vector<SimplifyResult> simplify_parts(const Scene& scene, const SimplifySceneOptions& options,
@@ -92,7 +94,8 @@ SimplifySceneResult simplify_scene(Scene scene, const SimplifySceneOptions& opti
     if (options.levels.asked()) originals.push_back(std::move(scene.parts[i].mesh));
     scene.parts[i].mesh = std::move(result.parts[i].mesh);
   }
-  if (options.levels.asked()) result.levels = add_levels(scene, originals, options.levels, options.simplify, finest_mm);
+  if (options.levels.asked())
+    result.levels = add_levels(scene, originals, options.levels, options.simplify, finest_mm, options.cache);
   for (const LevelReport& level : result.levels)
     if (level.stop == StopReason::time_limit) result.stop = level.stop;
   result.triangles_after = drawn_triangles(scene);
@@ -134,10 +137,13 @@ struct Level {
 };
 
 std::vector<Level> coarser_levels(const TriangleMesh& mesh, std::size_t finest_triangles,
-                                  const std::vector<double>& tolerances, const SimplifyOptions& simplify) {
+                                  const std::vector<double>& tolerances, const SimplifyOptions& simplify,
+                                  const StageCache* cache) {
   std::vector<Level> levels;
   if (mesh.triangles.empty()) return levels;
-  std::vector<SimplifyResult> all = levels_of_detail(mesh, tolerances, simplify);
+  const auto make = [&] { return levels_of_detail(mesh, tolerances, simplify); };
+  std::vector<SimplifyResult> all =
+      remembered(cache, "levels", use_until(simplify.deadline), make, mesh, tolerances, simplify).value;
   std::size_t last = finest_triangles;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::size_t triangles = all[i].mesh.triangles.size();
@@ -151,12 +157,12 @@ std::vector<Level> coarser_levels(const TriangleMesh& mesh, std::size_t finest_t
 }  // namespace
 
 std::vector<LevelReport> add_levels(Scene& scene, std::span<const TriangleMesh> originals, const LevelOptions& options,
-                                    const SimplifyOptions& simplify, double finest_mm) {
+                                    const SimplifyOptions& simplify, double finest_mm, const StageCache* cache) {
   const std::vector<double> wanted = tolerances(originals, options, finest_mm);
   std::vector<std::vector<Level>> levels(scene.parts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, levels.size(), [&](std::size_t i) {
     try {
-      levels[i] = coarser_levels(originals[i], scene.parts[i].mesh.triangles.size(), wanted, simplify);
+      levels[i] = coarser_levels(originals[i], scene.parts[i].mesh.triangles.size(), wanted, simplify, cache);
     } catch (const InvalidInput& error) {
       throw InvalidInput("part '" + shown_name(scene.parts[i]) + "': " + error.what());
     }

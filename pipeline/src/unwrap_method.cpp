@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/meshing/chart_cuts.hpp"
 #include "papilla/meshing/cut_open.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
@@ -152,22 +153,6 @@ Flattening map_or_halve(const TriangleMesh& mesh, ChartSet charts, MethodOptions
   }
 }
 
-/// Why the whole part should be projected, or nothing.
-std::string reason_for_triplanar(double extent_mm, const PartContext& context) {
-  // Parts are small below this fraction of the scene, many from this number on, and grain is fine when it repeats so
-  // many times over the part.
-  constexpr double k_small = 0.05, k_fine = 20;
-  constexpr std::size_t k_many = 50;
-  const double tile = std::max(context.tile_mm.x, context.tile_mm.y);
-  if (!(tile > 0)) return {};
-  if (extent_mm < tile) return fmt::format("its extent of {:.3g} mm is less than one repeat of the grain", extent_mm);
-  if (context.parts >= k_many && extent_mm < k_small * context.scene_extent_mm && extent_mm > k_fine * tile)
-    return fmt::format(
-        "it is one of {} parts, {:.2g} of the scene's extent, and the grain repeats {:.0f} times over it",
-        context.parts, extent_mm / context.scene_extent_mm, extent_mm / tile);
-  return {};
-}
-
 Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const PartContext& context,
                          FlattenedPart& part) {
   const Stopwatch clock;
@@ -176,7 +161,12 @@ Flattening chart_and_map(const TriangleMesh& mesh, const MethodOptions& o, const
     report_progress(o.progress, done.stage, k_share_of_charts * done.fraction);
     return !o.deadline.passed();
   };
-  const ChartSet charts = segment_charts(mesh, segmentation).charts;
+  const PlacedGrain& grain = o.grains.front();
+  const auto segment = [&] { return segment_charts(mesh, segmentation).charts; };
+  // A segmentation whose time is up is cancelled: what there is is whole. Its grain is a function, and not in the key.
+  const ChartSet charts = remembered(o.cache, "charts", CacheUse::read_write, segment, mesh, segmentation, grain.source,
+                                     grain.vector, context.up, segmentation.grain != nullptr)
+                              .value;
   part.segment_seconds += clock.seconds();
   part.choices.clear();
   return map_or_halve(mesh, charts, o, part.choices);
@@ -220,6 +210,21 @@ Flattening flatten(const TriangleMesh& mesh, const MethodOptions& o, const PartC
 
 }  // namespace
 
+std::string reason_to_project(const PartContext& context) {
+  // Parts are small below this fraction of the scene, many from this number on, and grain is fine when it repeats so
+  // many times over the part.
+  constexpr double k_small = 0.05, k_fine = 20;
+  constexpr std::size_t k_many = 50;
+  const double tile = std::max(context.tile_mm.x, context.tile_mm.y), extent_mm = context.extent_mm;
+  if (!(tile > 0)) return {};
+  if (extent_mm < tile) return fmt::format("its extent of {:.3g} mm is less than one repeat of the grain", extent_mm);
+  if (context.parts >= k_many && extent_mm < k_small * context.scene_extent_mm && extent_mm > k_fine * tile)
+    return fmt::format(
+        "it is one of {} parts, {:.2g} of the scene's extent, and the grain repeats {:.0f} times over it",
+        context.parts, extent_mm / context.scene_extent_mm, extent_mm / tile);
+  return {};
+}
+
 ChartSet given_charts(const TriangleMesh& mesh, ChartSource source) {
   if (source == ChartSource::uv) return open_closed_charts(mesh, uv_charts(mesh));
   require_manifold(mesh);
@@ -261,11 +266,13 @@ void project_for_want_of_time(const TriangleMesh& mesh, MethodOptions& o, Flatte
 
 }  // namespace
 
-FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& context, const MethodOptions& options) {
+FlattenedPart flatten_part(const TriangleMesh& mesh, const PartContext& given, const MethodOptions& options) {
+  PartContext context = given;
+  if (!(context.extent_mm > 0)) context.extent_mm = bounds_of(mesh).diagonal();
   MethodOptions o = prepare(mesh, options, context);
   FlattenedPart part;
   if (o.method == UnwrapMethod::automatic && o.charts == ChartSource::automatic) {
-    part.reason = reason_for_triplanar(bounds_of(mesh).diagonal(), context);
+    part.reason = reason_to_project(context);
     if (!part.reason.empty()) o.method = UnwrapMethod::triplanar;
   }
   const bool may_project = takes_charts(o.method) && o.charts != ChartSource::keep;

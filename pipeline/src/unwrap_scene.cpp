@@ -8,8 +8,10 @@
 #include <exception>
 #include <utility>
 
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/io/node_places.hpp"
+#include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/repair.hpp"
 #include "papilla/meshing/uv_charts.hpp"
 #include "papilla/meshing/weld.hpp"
@@ -17,7 +19,22 @@
 #include "papilla/pipeline/part_statistics.hpp"
 
 namespace papilla {
+
+template <class Stream, class Value>
+requires std::is_same_v<std::remove_const_t<Value>, UnwrappedPart>
+void visit_value(Stream& stream, Value& part) {
+  stream(static_cast<std::conditional_t<std::is_const_v<Value>, const FlattenedPart, FlattenedPart>&>(part));
+  stream(part.seams, part.grain_continued_mm, part.opposed_edges, part.shared_edges, part.nonmanifold_edges);
+  stream(part.opposed_pairs, part.repaired, part.failure, part.repair_seconds, part.solve_seconds);
+}
+
 namespace {
+
+/// A part on its way into a cache.
+struct UnwrappedMesh {
+  TriangleMesh mesh;  ///< Welded or repaired.
+  UnwrappedPart part;
+};
 
 /// The uv and charts of all parts that have some, in one list: chart and value numbers follow one another.
 struct AllCharts {
@@ -126,30 +143,16 @@ void require_uv_of_parts(const Scene& scene) {
     }
 }
 
-}  // namespace
-
-double grain_size(const UnwrapOptions& options) {
-  if (options.grain_mm) return *options.grain_mm;
-  const double tile = std::min(options.tile_mm.x, options.tile_mm.y);
-  return tile > 0 ? tile / 8 : 1;
-}
-
-PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
-  PartContext context;
-  context.up = scene.up;
-  context.tile_mm = tile_mm;
-  context.parts = scene.parts.size();
-  context.scene_extent_mm = scene_bounds(scene).diagonal();
-  return context;
-}
-
-UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
+/// What unwrap_part() makes, without looking into a cache.
+UnwrappedPart make_uv(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
   UnwrappedPart result;
   const Stopwatch repair_clock;
   if (options.repair) {
     RepairOptions in_time;
     in_time.deadline = options.method.deadline;
-    result.repaired = repair(std::move(mesh), in_time);
+    const auto make = [&] { return repair(std::move(mesh), in_time); };
+    result.repaired =
+        remembered(options.method.cache, "repair", use_until(in_time.deadline), make, mesh, in_time).value;
     mesh = std::exchange(result.repaired->mesh, {});
   } else {
     mesh = weld_equal(std::move(mesh)).mesh;
@@ -169,6 +172,43 @@ UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const 
   return result;
 }
 
+}  // namespace
+
+double grain_size(const UnwrapOptions& options) {
+  if (options.grain_mm) return *options.grain_mm;
+  const double tile = std::min(options.tile_mm.x, options.tile_mm.y);
+  return tile > 0 ? tile / 8 : 1;
+}
+
+PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
+  PartContext context;
+  context.up = scene.up;
+  context.tile_mm = tile_mm;
+  context.parts = scene.parts.size();
+  context.scene_extent_mm = scene_bounds(scene).diagonal();
+  return context;
+}
+
+UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
+  PartContext own = context;
+  own.extent_mm = bounds_of(mesh).diagonal();
+  const MethodOptions& method = options.method;
+  if (method.cache == nullptr) return make_uv(mesh, own, options);
+  const auto make = [&] {
+    UnwrappedMesh made{mesh, {}};
+    made.part = make_uv(made.mesh, own, options);
+    return made;
+  };
+  // Identical parts of other names, and of scenes of another size, share a result.
+  const std::string named = named_parts(method).empty() ? std::string() : context.part;
+  auto [result, found] =
+      remembered(method.cache, "uv", use_until(method.deadline), make, mesh, options.repair, options.tile_mm,
+                 grain_size(options), method, own.up, own.tile_mm, named, reason_to_project(own));
+  mesh = std::move(result.mesh);
+  if (found) result.part.repair_seconds = result.part.segment_seconds = result.part.solve_seconds = 0;
+  return std::move(result.part);
+}
+
 UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const ProgressCallback& progress) {
   const Stopwatch clock;
   if (std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.mesh.triangles.empty(); }))
@@ -179,6 +219,7 @@ UnwrapResult unwrap_scene(Scene scene, const UnwrapOptions& options, const Progr
   double triangles = 0;
   for (const Part& part : result.scene.parts) triangles += static_cast<double>(part.mesh.triangles.size());
   UnwrapOptions in_time = options;
+  in_time.sides.cache = options.method.cache;
   in_time.sides.deadline = in_time.method.deadline =
       options.method.deadline.earlier_by(k_seconds_to_finish * triangles);
   result.sides = turn_sheets(result.scene, in_time.sides);

@@ -53,8 +53,9 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->group("Input");
 }
 
-ReadOptions SceneOptions::read_options() const {
+ReadOptions SceneOptions::read_options(const StageCache* cache) const {
   ReadOptions options;
+  options.cache = cache;
   options.chord_mm = quality.empty() ? chord_mm : k_qualities.at(quality);
   options.angle_deg = angle_deg;
   options.max_edge_mm = max_edge_mm;

@@ -14,7 +14,8 @@ struct SceneOptions {
   double chord_mm = 0.1, angle_deg = 20, max_edge_mm = 0;
 
   void add_to(CLI::App& verb);
-  ReadOptions read_options() const;
+  /// @param cache  of the verb (VerbContext), for CAD files.
+  ReadOptions read_options(const StageCache* cache) const;
 };
 
 }  // namespace papilla::app

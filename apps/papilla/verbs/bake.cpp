@@ -82,8 +82,9 @@ Json run(const Options& options, VerbContext& context) {
   BakeFileOptions wanted = options.bake;
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options(options.output);
-  wanted.read = options.scene.read_options();
+  wanted.read = options.scene.read_options(context.cache);
   wanted.bake.unwrap.method.deadline = wanted.bake.plan.deadline = wanted.bake.plan.sides.deadline = context.deadline;
+  wanted.bake.unwrap.method.cache = context.cache;
   wanted.read_deadline = context.read_deadline;
   wanted.write = options.write_options();
   wanted.for_pictures = options.pictures;
@@ -128,7 +129,7 @@ void add_bake(CLI::App& program) {
       program,
       {"bake", "The main job: grain and touch onto a scene, as glTF; a glTF scene keeps all else that it holds.",
        "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report",
-       VerbInfo::AtDeadline::ends},
+       VerbInfo::AtDeadline::ends, VerbInfo::Remembers::yes},
       [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))

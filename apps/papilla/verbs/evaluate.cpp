@@ -110,7 +110,7 @@ Json run(const Options& options, VerbContext& context) {
   if (is_stability && !evaluation.files.empty())
     throw UsageError("evaluate stability: has its own inputs and takes no FILE");
   check_param(options);
-  evaluation.read = options.read.read_options();
+  evaluation.read = options.read.read_options(nullptr);
   evaluation.seconds = options.seconds.value_or(is_stability ? k_stability_seconds : evaluation.seconds);
   EvaluationFolder folder(options.folder, evaluation.kind);
   Json json = evaluation_json(evaluation, std::time(nullptr), context.threads, context.seed);

@@ -27,8 +27,9 @@ struct Options {
 
 Json run(const Options& options, VerbContext& context) {
   const PerceptionOptions wanted = options.perception.options();
-  const SceneSideOptions look = options.sides.options();
-  const Scene scene = read_scene(options.file, options.read.read_options(), context.progress);
+  SceneSideOptions look = options.sides.options();
+  look.cache = context.cache;
+  const Scene scene = read_scene(options.file, options.read.read_options(context.cache), context.progress);
   const std::vector<MeshStatistics> statistics = part_statistics(scene, context.progress);
   std::optional<ScenePerception> perception;
   if (wanted.asked()) perception = measure_perception(scene, wanted, context.progress);
@@ -52,10 +53,11 @@ Json run(const Options& options, VerbContext& context) {
 
 void add_inspect(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"inspect", "Show what a file holds: parts, materials, and what is wrong with the meshes.",
-                             "papilla inspect seat.obj --json -"},
-                            [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb =
+      add_verb(program,
+               {"inspect", "Show what a file holds: parts, materials, and what is wrong with the meshes.",
+                "papilla inspect seat.obj --json -", VerbInfo::AtDeadline::is_cancelled, VerbInfo::Remembers::yes},
+               [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("file", options->file, "STL, OBJ, PLY, OFF, GLB, glTF, FBX, 3MF, DAE, AC, X3D or BLEND file"))
       ->type_name("FILE")
       ->required();

@@ -98,7 +98,7 @@ Json run(const Options& options, VerbContext& context) {
   measure.normalize = options.normalize;
   measure.texture_px = {options.texture_px, options.texture_px};
   measure.uv_per_texture = {options.uv_per_texture, options.uv_per_texture};
-  Scene scene = read_scene(options.input, options.scene.read_options(), context.progress);
+  Scene scene = read_scene(options.input, options.scene.read_options(context.cache), context.progress);
   const SceneDistortion distortion = named_by(options.input, [&] { return measure_scene(scene, measure); });
   Json result = distortion_json(distortion.report);
   result["normalize"] = uv_normalization_name(options.normalize);

@@ -55,9 +55,10 @@ Json suggest(const PlannedFile& plan, const Options& options, const Console& con
 
 Json run(const Options& options, VerbContext& context) {
   BakeFileOptions wanted;
-  wanted.read = options.scene.read_options();
+  wanted.read = options.scene.read_options(context.cache);
   wanted.bake.plan.perception = options.perception.options();
   wanted.bake.plan.sides = options.sides.options();
+  wanted.bake.unwrap.method.cache = wanted.bake.plan.sides.cache = context.cache;
   wanted.bake.plan.keep_copies = options.keep_copies;
   const Materials rules = read_materials(options.materials, options.library);
   const PlannedFile plan = plan_file(options.input, rules, wanted, context.progress);
@@ -100,7 +101,8 @@ void add_plan(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"plan", "Show what bake would do, surface by surface, and why; writes nothing.",
-                             "papilla plan data/cockpit.step -m examples/materials.json"},
+                             "papilla plan data/cockpit.step -m examples/materials.json",
+                             VerbInfo::AtDeadline::is_cancelled, VerbInfo::Remembers::yes},
                             [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
   reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json"))->type_name("FILE")->required();

@@ -32,8 +32,9 @@ Json run(const Options& options, VerbContext& context) {
   RepairSceneOptions repair = options.repair;
   if (options.verify) repair.repair.sample_above = std::numeric_limits<std::size_t>::max();
   repair.sides = options.sides.options(options.out);
-  Scene scene =
-      read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.read_deadline));
+  repair.sides.cache = context.cache;
+  Scene scene = read_scene(options.in, options.read.read_options(context.cache),
+                           progress_until(context.progress, context.read_deadline));
   repair.repair.deadline = repair.sides.deadline =
       context.deadline.earlier_by(k_finishing_s * static_cast<double>(drawn_triangles(scene)));
   RepairSceneResult result =
@@ -52,10 +53,11 @@ Json run(const Options& options, VerbContext& context) {
 
 void add_repair(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"repair", "Make clean, oriented, manifold parts of whatever a file holds.",
-                             "papilla repair scan.stl -o clean.glb", VerbInfo::AtDeadline::ends},
-                            [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb =
+      add_verb(program,
+               {"repair", "Make clean, oriented, manifold parts of whatever a file holds.",
+                "papilla repair scan.stl -o clean.glb", VerbInfo::AtDeadline::ends, VerbInfo::Remembers::yes},
+               [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("in", options->in, "STL, OBJ, PLY, OFF, GLB, glTF, FBX, 3MF, DAE, AC, X3D or BLEND file"))
       ->type_name("IN")
       ->required();

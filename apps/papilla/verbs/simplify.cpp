@@ -52,8 +52,9 @@ Json run(const Options& options, VerbContext& context) {
   wanted.perception = options.perception.options();
   wanted.simplify.two_sided = !options.one_sided;
   wanted.simplify.keep_faces = !options.merge_faces;
-  Scene scene =
-      read_scene(options.in, options.read.read_options(), progress_until(context.progress, context.read_deadline));
+  wanted.cache = context.cache;
+  Scene scene = read_scene(options.in, options.read.read_options(context.cache),
+                           progress_until(context.progress, context.read_deadline));
   wanted.simplify.deadline = context.deadline.earlier_by(k_writing_s * static_cast<double>(drawn_triangles(scene)));
   SimplifySceneResult result =
       named_by(options.in, [&] { return simplify_scene(std::move(scene), wanted, context.progress); });
@@ -100,10 +101,11 @@ void add_goals(CLI::App& verb, Options& options) {
 
 void add_simplify(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"simplify", "Leave out triangles within a tolerance that is measured, both ways.",
-                             "papilla simplify dash.glb -o light.glb --tolerance 0.1", VerbInfo::AtDeadline::ends},
-                            [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb = add_verb(
+      program,
+      {"simplify", "Leave out triangles within a tolerance that is measured, both ways.",
+       "papilla simplify dash.glb -o light.glb --tolerance 0.1", VerbInfo::AtDeadline::ends, VerbInfo::Remembers::yes},
+      [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("in", options->in, "File to read"))->type_name("IN")->required();
   writes(verb->add_option("-o,--output", options->out, "GLB, OBJ, PLY, OFF or STL file to write"))
       ->type_name("OUT")

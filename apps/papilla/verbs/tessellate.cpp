@@ -21,7 +21,7 @@ struct Options {
 
 Json run(const Options& options, VerbContext& context) {
   const Stopwatch clock;
-  const ReadOptions read = options.read.read_options();
+  const ReadOptions read = options.read.read_options(nullptr);
   if (!is_cad_extension(options.in))
     throw InvalidInput(options.in + ": is no CAD file (.step .stp .p21 .iges .igs .brep .brp)");
   CadReadOptions cad;

@@ -42,8 +42,9 @@ Json run(const Options& options, VerbContext& context) {
   UnwrapOptions unwrap = options.unwrap.options();
   unwrap.sides = options.sides.options(options.output);
   unwrap.method.deadline = context.deadline;
-  Scene scene =
-      read_scene(options.input, options.scene.read_options(), progress_until(context.progress, context.read_deadline));
+  unwrap.method.cache = context.cache;
+  Scene scene = read_scene(options.input, options.scene.read_options(context.cache),
+                           progress_until(context.progress, context.read_deadline));
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
       named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
@@ -68,10 +69,11 @@ Json run(const Options& options, VerbContext& context) {
 
 void add_unwrap(CLI::App& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = add_verb(program,
-                            {"unwrap", "Make charts and texture coordinates in millimetres.",
-                             "papilla unwrap part.stl -o part.glb --picture part.png", VerbInfo::AtDeadline::ends},
-                            [options](VerbContext& context) { return run(*options, context); });
+  CLI::App* verb = add_verb(
+      program,
+      {"unwrap", "Make charts and texture coordinates in millimetres.",
+       "papilla unwrap part.stl -o part.glb --picture part.png", VerbInfo::AtDeadline::ends, VerbInfo::Remembers::yes},
+      [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("IN", options->input, "Mesh, CAD or glTF file"))->type_name("IN")->required();
   writes(verb->add_option("-o,--output", options->output, "File with texture coordinates: .glb, .obj"))
       ->type_name("OUT")

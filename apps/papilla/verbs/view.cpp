@@ -32,7 +32,7 @@ struct Options {
 };
 
 PageScene scene_of(const std::string& file, const Options& options, const VerbContext& context) {
-  ReadOptions read = options.scene.read_options();
+  ReadOptions read = options.scene.read_options(context.cache);
   read.tag_channel = true;
   PageSceneOptions page = options.page;
   if (!options.environment.empty()) page.environment = read_environment(options.environment, k_scene_environment_width);
@@ -92,7 +92,8 @@ void add_view(CLI::App& program) {
   CLI::App* verb =
       add_verb(program,
                {"view", "Write a page that shows a scene, its uv and how it feels, and open it in the browser.",
-                "papilla view cockpit.glb -o cockpit.html --no-open"},
+                "papilla view cockpit.glb -o cockpit.html --no-open", VerbInfo::AtDeadline::is_cancelled,
+                VerbInfo::Remembers::yes},
                [options](VerbContext& context) { return run(*options, context); });
   reads(verb->add_option("FILE", options->input,
                          "GLB of any producer, or another file that is read; with --follow what the player plays, "

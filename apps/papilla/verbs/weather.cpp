@@ -20,7 +20,8 @@ struct Options {
 };
 
 Json run(const Options& options, VerbContext& context) {
-  WeatherBuilder builder(options.scene, read_scene(options.scene, options.read.read_options(), context.progress));
+  WeatherBuilder builder(options.scene,
+                         read_scene(options.scene, options.read.read_options(context.cache), context.progress));
   WeatherBuild build = builder.build(options.build, options.live, context);
   if (!options.live) return weather_build_json(build);
   const std::string url = follow_weather(options.build, options.follow, builder, context, build);

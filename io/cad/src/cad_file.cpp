@@ -10,52 +10,19 @@
 #include "cad_document.hpp"
 #include "cad_parallel.hpp"
 #include "cad_plugin.hpp"
-#include "cad_tessellate.hpp"
 #include "cad_tree.hpp"
+#include "meshed_shape.hpp"
 #include "occt_session.hpp"
+#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/unit_name.hpp"
+#include "papilla/haptic/material_tag_stream.hpp"
 #include "papilla/io/isolated.hpp"
-#include "papilla/io/scene_stream.hpp"
+#include "papilla/io/pipe_stream.hpp"
 
 namespace papilla {
-
-// What a report sends through the pipe of its process.
-
-template <class Pipe, class Value>
-requires std::is_same_v<std::remove_const_t<Value>, CadPartReport>
-void visit_value(Pipe& pipe, Value& part) {
-  pipe(part.part), pipe(part.max_deviation_mm), pipe(part.max_angle_deg), pipe(part.added_nodes);
-}
-
-template <class Pipe, class Value>
-requires std::is_same_v<std::remove_const_t<Value>, CadFaceNote>
-void visit_value(Pipe& pipe, Value& note) { pipe(note.part), pipe(note.face), pipe(note.reason), pipe(note.tried); }
-
-template <class Pipe, class Value>
-requires std::is_same_v<std::remove_const_t<Value>, CadReport>
-void visit_value(Pipe& pipe, Value& report) {
-  pipe(report.solids), pipe(report.faces), pipe(report.triangles), pipe(report.added_nodes);
-  pipe(report.dropped_triangles), pipe(report.failed_faces), pipe(report.repaired_faces), pipe(report.off_faces);
-  pipe(report.parts), pipe(report.max_deviation_mm), pipe(report.max_angle_deg);
-  pipe(report.seconds_read), pipe(report.seconds_tessellate), pipe(report.seconds_convert);
-}
-
 namespace {
-
-void send(int pipe, const Scene& scene, const CadReport& report) {
-  ValueSender sender(pipe);
-  sender(scene);
-  sender(report);
-  sender.flush();
-}
-
-void receive(int pipe, Scene& scene, CadReport& report) {
-  ValueReceiver receiver(pipe);
-  receiver(scene);
-  receiver(report);
-}
 
 void check_options(const CadReadOptions& options) {
   const auto refuse = [](const std::string& what, double value) {
@@ -93,21 +60,23 @@ std::size_t count_solids(const TopoDS_Shape& shape) {
   return count;
 }
 
-void add_mesh(Part& part, cad::TessellatedShape shape, const std::vector<std::uint32_t>& face_materials,
-              CadReport& report) {
+/// @param face_materials slot of each CAD face, by number, or empty.
+void add_mesh(Part& part, cad::MeshedShape shape, const std::vector<std::uint32_t>& face_materials, CadReport& report) {
   for (const cad::FaceTrouble& trouble : shape.troubles)
     (trouble.solved ? report.repaired_faces : report.failed_faces)
         .push_back({part.id, trouble.number, trouble.reason, trouble.tried});
   for (const cad::FaceOff& off : shape.off) report.off_faces.push_back({part.id, off.number, off.reason, {}});
   report.parts.push_back({part.id, shape.max_deviation_mm, shape.max_angle_deg, shape.added_nodes});
-  report.faces += shape.faces.size();
+  report.faces += shape.faces;
   report.added_nodes += shape.added_nodes;
   report.max_deviation_mm = std::max(report.max_deviation_mm, shape.max_deviation_mm);
   report.max_angle_deg = std::max(report.max_angle_deg, shape.max_angle_deg);
-  cad::ShapeMesh mesh = cad::to_mesh(std::move(shape), face_materials);
-  report.triangles += mesh.mesh.triangles.size();
-  report.dropped_triangles += mesh.dropped_triangles;
-  part.mesh = std::move(mesh.mesh);
+  report.triangles += shape.mesh.triangles.size();
+  report.dropped_triangles += shape.dropped_triangles;
+  part.mesh = std::move(shape.mesh);
+  if (face_materials.empty()) return;
+  part.mesh.material.reserve(part.mesh.face.size());
+  for (const std::uint32_t face : part.mesh.face) part.mesh.material.push_back(face_materials[face]);
 }
 
 void warn_of_faces(const CadReport& report, Scene& scene) {
@@ -172,7 +141,7 @@ Scene read(const std::filesystem::path& path, const CadReadOptions& options, Cad
   report.seconds_read = watch.restart();
 
   allow_processor_time(tessellating_seconds(tree.shapes));
-  std::vector<cad::TessellatedShape> shapes = cad::tessellate(tree.shapes, unscaled, progress);
+  std::vector<cad::MeshedShape> shapes = cad::mesh_shapes(tree.shapes, unscaled, progress);
   report.seconds_tessellate = watch.restart();
 
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -213,13 +182,19 @@ Scene cad::read_file(const std::filesystem::path& path, const CadReadOptions& op
   filled = {};
   if (!options.isolated) return read_in_this_process(path, options, filled, progress);
   Scene scene;
+  CacheCounts counts;  // Of the child's copy of the cache.
   run_isolated({path, "the CAD library",
                 [&](const ProgressCallback& child_progress) {
                   cad::after_fork();
+                  if (options.cache != nullptr) options.cache->take_counts();  // The caller's.
                   scene = read_in_this_process(path, options, filled, child_progress);
+                  if (options.cache != nullptr) counts = options.cache->take_counts();
                 },
-                [&](int pipe) { send(pipe, scene, filled); }, [&](int pipe) { receive(pipe, scene, filled); }},
+                [&](int pipe) { send_values(pipe, scene, filled, counts); },
+                [&](int pipe) { receive_values(pipe, scene, filled, counts); }},
                progress);
+  if (options.cache != nullptr)
+    for (const auto& [stage, count] : counts) options.cache->add(stage, count);
   return scene;
 }
 

@@ -361,13 +361,12 @@ class Gatherer {
 
 }  // namespace
 
-ShapeMesh to_mesh(TessellatedShape shape, const std::vector<std::uint32_t>& face_materials) {
+ShapeMesh to_mesh(TessellatedShape shape) {
   ShapeMesh result;
   Gatherer gatherer(shape.points, result);
   for (std::uint32_t number = 0; number < shape.faces.size(); ++number) {
     gatherer.add(shape.faces[number], number);
     shape.faces[number] = {};
-    if (!face_materials.empty()) result.mesh.material.resize(result.mesh.triangles.size(), face_materials[number]);
   }
   return result;
 }

@@ -53,7 +53,6 @@ struct ShapeMesh {
 };
 
 /// The faces' triangles as one mesh, welded along shared edges. Empties the faces.
-/// @param face_materials slot of each CAD face, by number, or empty.
-ShapeMesh to_mesh(TessellatedShape shape, const std::vector<std::uint32_t>& face_materials);
+ShapeMesh to_mesh(TessellatedShape shape);
 
 }  // namespace papilla::cad

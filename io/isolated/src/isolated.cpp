@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "papilla/core/error.hpp"
-#include "papilla/io/scene_stream.hpp"
+#include "papilla/io/pipe_stream.hpp"
 
 namespace papilla {
 namespace {

@@ -9,6 +9,12 @@
 
 namespace papilla {
 
+/// Whether a new file is on the disk when it gets its name.
+enum class Durability {
+  synced,   ///< It is, so that a loss of power can't leave a file of that name without content.
+  unsynced  ///< The system writes it when it likes: for what can be made again and is read with a sum.
+};
+
 /// Lets `write` fill a temporary file in the folder of `path` and renames it to `path` when that
 /// succeeded, so that a crash, an exception or a full disk neither leaves half a file nor destroys
 /// the old one. A file that is replaced keeps its mode bits, and its owner and group where that is permitted. A
@@ -23,7 +29,7 @@ namespace papilla {
 /// note_output() of file_guard.hpp;
 ///         whatever `write` throws passes through after the temporary file is removed.
 void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream& out)>& write,
-                      std::uintmax_t bytes = 0);
+                      std::uintmax_t bytes = 0, Durability durability = Durability::synced);
 
 /// The same for content that fits into memory.
 void write_atomically(const std::filesystem::path& path, std::string_view content);

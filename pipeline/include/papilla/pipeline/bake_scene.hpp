@@ -22,7 +22,9 @@ namespace papilla {
 /// Options of bake_scene().
 struct BakeOptions {
   BakePlanOptions plan;
-  UnwrapOptions unwrap;  ///< Method, repair, layout and tile are set per surface by its material and plan.
+  /// Method, repair, layout and tile are set per surface by its material and plan. Its method's cache is that of the
+  /// whole bake: sides, grains, uv and measures.
+  UnwrapOptions unwrap;
   RecipeLibrary library = RecipeLibrary::builtin();  ///< What the rules' recipes may name.
 };
 

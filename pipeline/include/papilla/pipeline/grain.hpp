@@ -20,6 +20,8 @@
 
 namespace papilla {
 
+class StageCache;
+
 /// Longer pictures are read at a whole fraction of their size, which is still finer than a relief may be.
 inline constexpr int k_most_grain_side = 2048;
 
@@ -89,9 +91,10 @@ double default_max_slope(double static_friction);
 /// rule's time. Heights beyond what a tag may have (tag_limits.hpp) are shrunk or moved with a warning, slopes beyond
 /// the rule's are limited by limit_slope().
 /// @param library  what recipes may name. @param deadline of searches in the picture: what they leave out is a warning.
+/// @param cache  remembers grains by rule, recipes and the bytes of the pictures; null: none.
 /// @throws IoError, InvalidInput naming the picture or the place in the recipe.
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library = RecipeLibrary::builtin(),
-                 const Deadline& deadline = {});
+                 const Deadline& deadline = {}, const StageCache* cache = nullptr);
 
 /// The tag of a surface: of its grain, which may be null, and the rule's constants.
 /// @param kept_mm_per_unit  of uv that stay, on which a transform brings the grain to its scale; 0: the uv are repeats.

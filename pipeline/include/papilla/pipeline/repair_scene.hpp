@@ -16,7 +16,7 @@ namespace papilla {
 
 struct RepairSceneOptions {
   RepairOptions repair;
-  SceneSideOptions sides;
+  SceneSideOptions sides;    ///< Its cache is that of repairs, too.
   bool keep_copies = false;  ///< Do not make identical parts instances of one.
 };
 

@@ -17,6 +17,8 @@
 
 namespace papilla {
 
+class StageCache;
+
 /// "inside", "both_sides_seen" and so on, as in reports.
 std::string_view to_string(Viewpoint viewpoint) noexcept;
 std::string_view to_string(SideReason reason) noexcept;
@@ -27,7 +29,8 @@ struct SceneSideOptions {
   std::optional<Vec3> inside;  ///< A point where people are, mm in the scene's frame; not given: it is looked for.
   /// Parts without material get one where a sheet must be seen from both sides. Only glTF has a place for that.
   bool add_materials = true;
-  Deadline deadline = {};  ///< After it sheets stay as they are.
+  Deadline deadline = {};             ///< After it sheets stay as they are.
+  const StageCache* cache = nullptr;  ///< Remembers find_sides().
 };
 
 /// The sheets of one part: its pieces with a border.

@@ -16,6 +16,8 @@
 
 namespace papilla {
 
+class StageCache;
+
 /// Which coarser levels of detail parts get.
 struct LevelOptions {
   std::optional<int> count;           ///< Levels beside the finest, each within four times the tolerance of the last.
@@ -40,7 +42,8 @@ struct LevelReport {
 /// @param finest_mm Tolerance of the scene's meshes; 0 with `count`: levels start from 1e-4 of the largest diagonal.
 /// @throws InvalidInput when the tolerances do not ascend from `finest_mm`; naming the part.
 std::vector<LevelReport> add_levels(Scene& scene, std::span<const TriangleMesh> originals, const LevelOptions& options,
-                                    const SimplifyOptions& simplify, double finest_mm);
+                                    const SimplifyOptions& simplify, double finest_mm,
+                                    const StageCache* cache = nullptr);
 
 /// For programs that do not know MSFT_lod: every level becomes a part, and each node that shows one keeps its place and
 /// gets a child a level, named NAME_LOD0, NAME_LOD1, ... All of them are shown.
@@ -55,6 +58,7 @@ struct SimplifySceneOptions {
   LevelOptions levels;                 ///< Coarser levels of detail beside the result.
   PerceptionOptions perception;        ///< Parts to be left out before.
   bool keep_copies = false;            ///< Do not make identical parts instances of one.
+  const StageCache* cache = nullptr;   ///< Remembers what parts are simplified to, and their levels.
 };
 
 struct SimplifySceneResult {

@@ -21,6 +21,8 @@
 
 namespace papilla {
 
+class StageCache;
+
 /// The vertex nearest to a place gets this uv [mm].
 struct PlacedPin {
   Vec3 position;
@@ -146,7 +148,12 @@ struct PartContext {
   std::string part;            ///< Its name.
   std::size_t parts = 1;       ///< That are unwrapped together.
   double scene_extent_mm = 0;  ///< Bounding diagonal of all of them as they stand in the scene.
+  double extent_mm = 0;        ///< Bounding diagonal of the part as it came; 0: of the mesh that is mapped.
 };
+
+/// Why automatic projects a whole part, whatever its shape: it is smaller than one repeat of the grain, or a small one
+/// among many under fine grain. Empty: it does not.
+std::string reason_to_project(const PartContext& context);
 
 /// The chosen method and the options of each. Orientation, tile and fallback are set for all by flatten_part().
 struct MethodOptions {
@@ -175,6 +182,7 @@ struct MethodOptions {
   ProgressCallback progress;  ///< Told the fraction of a part that is charted and mapped; may be empty.
   /// What iterates ends then, charts and parts without a map are projected instead; charts that have to be kept fail.
   Deadline deadline;
+  const StageCache* cache = nullptr;  ///< Remembers charts and maps; with a deadline it is only read.
 };
 
 /// The patterns of part names that the grains, pins and lines have.

@@ -51,6 +51,7 @@ class RecipeLibrary {
   /// All files read, with includes, in the order of reading; also those that could not be read.
   const std::vector<std::filesystem::path>& files() const noexcept { return files_; }
   const std::map<std::string, std::string, std::less<>>& recipes() const noexcept { return recipes_; }
+  const std::map<std::string, std::string, std::less<>>& colours() const noexcept { return colours_; }
 
  private:
   /// Whether messages quote the text.

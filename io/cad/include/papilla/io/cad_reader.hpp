@@ -13,6 +13,8 @@
 
 namespace papilla {
 
+class StageCache;
+
 /// Who decides where triangles go. `mesher` is for comparison.
 enum class CadMeshing {
   refined,  ///< Refined until chord and angle hold, measured against the exact surface.
@@ -29,6 +31,7 @@ struct CadReadOptions {
   std::optional<double> millimetres_per_unit;  ///< Instead of the file's unit. BREP states none: 1 then.
   CadMeshing meshing = CadMeshing::refined;
   bool isolated = true;  ///< Read in a child process, so that no file can crash, hang or starve the caller.
+  const StageCache* cache = nullptr;  ///< Remembers the triangles of every shape.
 };
 
 /// A CAD face that made trouble.

@@ -14,7 +14,7 @@ struct IsolatedWork {
   std::filesystem::path path;                        ///< The file, as messages name it.
   std::string library;                               ///< As messages name it: "the CAD library".
   std::function<void(const ProgressCallback&)> run;  ///< In the child.
-  std::function<void(int pipe)> send;                ///< In the child, after run(): what it made (scene_stream.hpp).
+  std::function<void(int pipe)> send;                ///< In the child, after run(): what it made (pipe_stream.hpp).
   std::function<void(int pipe)> receive;             ///< In the caller.
 };
 
