@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DROOT=... -DHEADER=... -DVERSIONS=... -P CodeVersion.cmake
-# Writes the header with the digest of the sources that results depend on, when it is another one.
+# cmake -DROOT=... -DSOURCE=... -DVERSIONS=... -P CodeVersion.cmake
+# Writes the source with the digest of the sources that results depend on, when it is another one.
 set(folders core meshing param texture haptic io procedural pipeline cache)
 list(TRANSFORM folders PREPEND ${ROOT}/)
 set(patterns)
@@ -16,14 +16,14 @@ foreach(name IN LISTS files)
 endforeach()
 string(SHA256 digest "${text}")
 set(content "// Written by cmake/CodeVersion.cmake.
-#pragma once
+#include \"code_version.hpp\"
 
-inline constexpr char k_code_version[] = \"${digest}\";
+const char* const papilla::k_code_version = \"${digest}\";
 ")
 set(old "")
-if(EXISTS ${HEADER})
-  file(READ ${HEADER} old)
+if(EXISTS ${SOURCE})
+  file(READ ${SOURCE} old)
 endif()
 if(NOT old STREQUAL content)
-  file(WRITE ${HEADER} "${content}")
+  file(WRITE ${SOURCE} "${content}")
 endif()

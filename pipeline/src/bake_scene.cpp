@@ -12,7 +12,6 @@
 #include <tuple>
 
 #include "bake_solid.hpp"
-#include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -21,121 +20,13 @@
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/measure.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
+#include "prepared_bake.hpp"
 #include "scene_textures.hpp"
 
 namespace papilla {
 namespace {
 
 bool runs(const PartSurface& surface, Stage stage) { return decision(surface.plan, stage).run; }
-
-/// A surface on its way through the stages.
-struct Work {
-  const PartSurface* surface = nullptr;
-  const MaterialRule* rule = nullptr;
-  TriangleMesh mesh;  ///< uv: repeats of the grain when new, as they were when kept.
-  BakedSurface report;
-  const Work* equal_to = nullptr;  ///< An earlier one of the same mesh and rule, which gets new uv for both.
-  double repair = 0, charts = 0, unwrap = 0, measure = 0;
-};
-
-/// uv in millimetres -> repeats of the grain. Whole repeats are taken off chart by chart, so that float coordinates
-/// keep their precision.
-CornerAttribute<Vec2> repeats_of(const Flattening& flattening, const double (&size_mm)[2]) {
-  CornerAttribute<Vec2> uv = flattening.uv;
-  for (Vec2& value : uv.values) value = {value.x / size_mm[0], value.y / size_mm[1]};
-  std::vector<Bounds2> bounds(flattening.charts.count);
-  std::vector<std::uint32_t> chart_of_value(uv.values.size(), 0);
-  for (std::size_t t = 0; t < uv.indices.size(); ++t) {
-    const std::uint32_t chart = flattening.charts.of_triangle[t];
-    for (const Index i : uv.indices[t]) {
-      chart_of_value[i] = chart;
-      bounds[chart].add(uv.values[i]);
-    }
-  }
-  for (std::size_t i = 0; i < uv.values.size(); ++i) {
-    const Vec2 low = bounds[chart_of_value[i]].low, whole{std::floor(low.x), std::floor(low.y)};
-    uv.values[i] = uv.values[i] - whole;
-  }
-  return uv;
-}
-
-CornerAttribute<Vec2> scaled(CornerAttribute<Vec2> uv, double factor) {
-  for (Vec2& value : uv.values) value = factor * value;
-  return uv;
-}
-
-/// What single precision adds to a number.
-double rounding(double x) { return static_cast<double>(static_cast<float>(x)) - x; }
-
-/// Moves what is measured, uv in millimetres, by what a GLB's rounding does to what is written: positions in metres,
-/// repeats of the grain with v downwards.
-void round_as_written(TriangleMesh& measured, const CornerAttribute<Vec2>& repeats, const double (&size_mm)[2]) {
-  for (Vec3& p : measured.positions)
-    p = p + (1 / k_metres_per_mm) *
-                Vec3{rounding(k_metres_per_mm * p.x), rounding(k_metres_per_mm * p.y), rounding(k_metres_per_mm * p.z)};
-  for (std::size_t i = 0; i < repeats.values.size(); ++i) {
-    const Vec2 repeat = repeats.values[i];
-    measured.uv.values[i] =
-        measured.uv.values[i] + Vec2{size_mm[0] * rounding(repeat.x), -size_mm[1] * rounding(1 - repeat.y)};
-  }
-}
-
-/// How many charts each method got.
-std::string charts_by_method(const std::vector<ChartChoice>& choices) {
-  std::map<std::string, std::size_t> count;
-  for (const ChartChoice& choice : choices) ++count[choice.method];
-  std::string text;
-  for (const auto& [method, charts] : count)
-    text += fmt::format("{}{} {}", text.empty() ? "charts: " : ", ", charts, method);
-  return text;
-}
-
-void unwrap_surface(Work& work, PartContext context, UnwrapOptions options, const Grain& grain) {
-  // "keep" gets here where there is nothing to keep.
-  const bool is_method = unwrap_methods().contains(work.rule->unwrap);
-  const std::string wanted = is_method ? work.rule->unwrap : "auto";
-  context.part = work.surface->label;
-  context.tile_mm = options.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
-  if (work.rule->unwrap_options) {
-    const MethodOptions common = std::exchange(options.method, *work.rule->unwrap_options);
-    options.method.effort = common.effort;
-    options.method.deadline = common.deadline;
-    options.method.progress = common.progress;
-  }
-  options.method.method = unwrap_methods().at(wanted);
-  options.layout = UvLayout::tile;
-  options.repair = runs(*work.surface, Stage::repair);
-  UnwrappedPart part = unwrap_part(work.mesh, context, options);
-  work.repair = part.repair_seconds;
-  work.report.repaired = std::move(part.repaired);
-  work.charts = part.segment_seconds;
-  work.unwrap = part.solve_seconds;
-  work.report.method = part.method;
-  work.report.reason = !part.reason.empty() ? part.reason
-                       : wanted == "levy"   ? "as the material says, " + charts_by_method(part.choices)
-                       : wanted != "auto"   ? "as the material says"
-                                            : charts_by_method(part.choices);
-  work.report.stop = part.flattening.stop;
-  work.report.charts = part.flattening.charts.count;
-  work.report.seam_mm = part.flattening.charts.seam_length_mm;
-  work.report.grain_continued_mm = part.grain_continued_mm;
-  work.report.seams = part.seams;
-  for (const ChartNote& note : part.flattening.notes) work.report.notes.push_back(note.reason);
-  work.mesh.uv = repeats_of(part.flattening, grain.size_mm);
-  work.report.mesh = work.mesh;
-  work.report.mesh.uv = std::move(part.flattening.uv);
-  round_as_written(work.report.mesh, work.mesh.uv, grain.size_mm);
-}
-
-/// The seams of uv that stay, in millimetres: their mesh need not be welded, nor have uv everywhere.
-SeamVisibility kept_seams(const TriangleMesh& mesh, UnwrapOptions options, const Grain& grain) {
-  std::vector<Index> with_uv;
-  for (Index t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.uv.has_value(t)) with_uv.push_back(t);
-  const TriangleMesh welded = weld_equal(extract_triangles(mesh, with_uv)).mesh;
-  options.tile_mm = {grain.size_mm[0], grain.size_mm[1]};
-  return seam_visibility(welded, welded.uv, {.tile_mm = options.tile_mm, .grain_mm = grain_size(options)});
-}
 
 /// Share of the seams that must turn the grain to be worth a warning.
 constexpr double k_chevron_share = 0.1;
@@ -148,38 +39,6 @@ std::optional<std::string> chevron_warning(const BakedSurface& surface) {
       "part '{}': the grain jumps in direction at the seams of its own uv, on {:.0f} % of them or {:.4g} mm, by {:.0f} "
       "degrees on average over all of them",
       surface.label, 100 * seams.turned_mm / seams.seam_mm, seams.turned_mm, seams.mean_turn_deg);
-}
-
-void process(Work& work, const PartContext& context, const UnwrapOptions& options,
-             const std::map<std::string, Grain>& grains) {
-  const PartSurface& surface = *work.surface;
-  work.report.part = surface.part;
-  work.report.slot = surface.slot;
-  work.report.label = surface.label;
-  work.report.material = surface.material;
-  if (runs(surface, Stage::unwrap)) {
-    unwrap_surface(work, context, options, grains.at(surface.material));
-  } else {
-    work.report.method = "kept";
-    work.report.reason = surface.uv_note;
-    work.report.mesh = work.mesh;
-    work.report.mesh.uv = scaled(work.mesh.uv, surface.uv_mm_per_unit);
-    const Grain& grain = grains.at(surface.material);
-    const auto make = [&] { return kept_seams(work.report.mesh, options, grain); };
-    work.report.seams = remembered(options.method.cache, "seams", CacheUse::read_write, make, work.report.mesh,
-                                   grain.size_mm, options.grain_mm)
-                            .value;
-    work.report.seam_mm = work.report.seams.seam_mm;
-  }
-  Stopwatch clock;
-  MeasureOptions measure;
-  measure.overlap = !options.method.deadline.passed();
-  const TriangleMesh& mesh = work.report.mesh;
-  const auto make = [&] { return measure_distortion(mesh, mesh.uv, measure); };
-  work.report.distortion = remembered(options.method.cache, "measure", use_until(options.method.deadline), make,
-                                      mesh.positions, mesh.triangles, mesh.uv, measure)
-                               .value;
-  work.measure = clock.seconds();
 }
 
 /// Adds pictures and materials to the scene, each once.
@@ -428,9 +287,9 @@ std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& 
 }
 
 /// Puts the parts with grain together again from their surfaces.
-void reassemble(Scene& scene, const std::vector<PartSurface>& surfaces, std::vector<Work>& works) {
-  std::map<std::uint32_t, std::vector<Work*>> by_part;
-  for (Work& work : works)
+void reassemble(Scene& scene, const std::vector<PartSurface>& surfaces, std::vector<SurfaceWork>& works) {
+  std::map<std::uint32_t, std::vector<SurfaceWork*>> by_part;
+  for (SurfaceWork& work : works)
     if (runs(*work.surface, Stage::unwrap)) by_part[work.surface->part].push_back(&work);
   for (auto& [number, changed] : by_part) {
     Part& part = scene.parts[number];
@@ -438,25 +297,26 @@ void reassemble(Scene& scene, const std::vector<PartSurface>& surfaces, std::vec
     for (const PartSurface& surface : surfaces) {
       if (surface.part != number) continue;
       const auto work =
-          std::find_if(changed.begin(), changed.end(), [&](const Work* w) { return w->surface == &surface; });
-      append_mesh(mesh, work != changed.end() ? (*work)->mesh : extract_triangles(part.mesh, surface.triangles));
+          std::find_if(changed.begin(), changed.end(), [&](const SurfaceWork* w) { return w->surface == &surface; });
+      append_mesh(mesh, work != changed.end() ? (*work)->output.mesh : extract_triangles(part.mesh, surface.triangles));
     }
     part.mesh = std::move(mesh);
   }
 }
 
 /// Finds surfaces that get the same new uv, bit for bit.
-void find_equal(std::vector<Work>& works) {
-  std::map<std::tuple<const MaterialRule*, std::size_t, double>, std::vector<const Work*>> known;
-  for (Work& work : works) {
+void find_equal(std::vector<SurfaceWork>& works) {
+  std::map<std::tuple<const MaterialRule*, std::size_t, double>, std::vector<const SurfaceWork*>> known;
+  for (SurfaceWork& work : works) {
     if (!runs(*work.surface, Stage::unwrap)) continue;
     // Equal parts of different names may be meant to differ.
     if (work.rule->unwrap_options && !named_parts(*work.rule->unwrap_options).empty()) continue;
     double sum = 0;
-    for (const Vec3& p : work.mesh.positions) sum += p.x + 2 * p.y + 3 * p.z;
-    std::vector<const Work*>& candidates = known[{work.rule, work.mesh.triangles.size(), sum}];
-    const auto equal = std::find_if(candidates.begin(), candidates.end(), [&](const Work* other) {
-      return other->mesh.positions == work.mesh.positions && other->mesh.triangles == work.mesh.triangles;
+    for (const Vec3& p : work.input.mesh.positions) sum += p.x + 2 * p.y + 3 * p.z;
+    std::vector<const SurfaceWork*>& candidates = known[{work.rule, work.input.mesh.triangles.size(), sum}];
+    const auto equal = std::find_if(candidates.begin(), candidates.end(), [&](const SurfaceWork* other) {
+      return other->input.mesh.positions == work.input.mesh.positions &&
+             other->input.mesh.triangles == work.input.mesh.triangles;
     });
     if (equal == candidates.end())
       candidates.push_back(&work);
@@ -466,9 +326,9 @@ void find_equal(std::vector<Work>& works) {
 }
 
 /// Patterns of a material's unwrap that fit none of the parts that it gives new uv.
-std::vector<std::string> warn_of_unmatched_parts(const std::vector<Work>& works) {
+std::vector<std::string> warn_of_unmatched_parts(const std::vector<SurfaceWork>& works) {
   std::map<const MaterialRule*, std::vector<std::string>> labels;
-  for (const Work& work : works)
+  for (const SurfaceWork& work : works)
     if (runs(*work.surface, Stage::unwrap)) labels[work.rule].push_back(work.surface->label);
   std::set<std::string> warnings;  // in the order of names, not of addresses
   for (const auto& [rule, parts] : labels) {
@@ -481,24 +341,61 @@ std::vector<std::string> warn_of_unmatched_parts(const std::vector<Work>& works)
   return {warnings.begin(), warnings.end()};
 }
 
-void take_over(const Work& source, Work& work) {
+void name_report(const PartSurface& surface, BakedSurface& report) {
+  report.part = surface.part, report.slot = surface.slot;
+  report.label = surface.label;
+  report.material = surface.material;
+}
+
+void take_over(const SurfaceWork& source, SurfaceWork& work) {
   const PartSurface& surface = *work.surface;
-  work.mesh = source.mesh;
-  work.report = source.report;
-  work.report.part = surface.part, work.report.slot = surface.slot;
-  work.report.label = surface.label;
-  work.report.same_as = source.report.label;
+  work.output.mesh = source.output.mesh;
+  work.output.report = source.output.report;
+  name_report(surface, work.output.report);
+  work.output.report.same_as = source.surface->label;
+}
+
+/// bake_surface() of all that have no equal.
+void bake_surfaces(std::vector<SurfaceWork>& works, const ProgressCallback& progress) {
+  double triangles = 0;
+  for (const SurfaceWork& work : works) triangles += static_cast<double>(work.surface->triangles.size());
+  SharedProgress done(progress, "surfaces", triangles);
+  oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
+    SurfaceWork& work = works[i];
+    WorkProgress worked(done, static_cast<double>(work.surface->triangles.size()));
+    try {
+      work.input.options.method.progress = worked.callback();
+      if (work.equal_to == nullptr) work.output = bake_surface(std::move(work.input));
+    } catch (const SolverFailure& error) {
+      throw SolverFailure("part '" + work.surface->label + "': " + error.what());
+    } catch (const InvalidInput& error) {
+      throw InvalidInput("part '" + work.surface->label + "': " + error.what());
+    }
+    name_report(*work.surface, work.output.report);
+    worked.reach(1);
+  });
+}
+
+/// Leaves surfaces as they came.
+void leave_without_grain(const std::set<PartSlot>& surfaces, BakeResult& result) {
+  if (surfaces.empty()) return;
+  for (PartSurface& surface : result.plan.surfaces) {
+    if (!surfaces.contains({surface.part, surface.slot})) continue;
+    surface.material.clear();
+    surface.plan.fill({false, "it was to be left without grain"});
+    result.scene.warnings.push_back("part '" + surface.label + "': left as it came, without grain");
+  }
 }
 
 /// Adds up what the surfaces took.
-void finish(std::vector<Work>& works, BakeResult& result) {
-  for (Work& work : works) {
-    result.seconds["repair"] += work.repair;
-    result.seconds["charts"] += work.charts;
-    result.seconds["unwrap"] += work.unwrap;
-    result.seconds["measure"] += work.measure;
-    if (const auto warning = chevron_warning(work.report)) result.scene.warnings.push_back(*warning);
-    result.surfaces.push_back(std::move(work.report));
+void finish(std::vector<SurfaceWork>& works, BakeResult& result) {
+  for (SurfaceWork& work : works) {
+    result.seconds["repair"] += work.output.repair_seconds;
+    result.seconds["charts"] += work.output.charts_seconds;
+    result.seconds["unwrap"] += work.output.unwrap_seconds;
+    result.seconds["measure"] += work.output.measure_seconds;
+    if (const auto warning = chevron_warning(work.output.report)) result.scene.warnings.push_back(*warning);
+    result.surfaces.push_back(std::move(work.output.report));
   }
 }
 
@@ -543,84 +440,83 @@ RepairResult repair_of(const std::vector<BakedSurface>& surfaces) {
   return total_repair(repaired);
 }
 
-BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
-                      const ProgressCallback& progress) {
-  BakeResult result;
+PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options,
+                          const ProgressCallback& progress) {
+  PreparedBake prepared;
+  BakeResult& result = prepared.result;
   const double to_finish = k_seconds_to_finish * triangles_of_parts(scene);
+  const StageCache* cache = options.unwrap.method.cache;
   BakePlanOptions plan = options.plan;
   plan.sides.deadline = options.plan.sides.deadline.earlier_by(to_finish);
-  plan.sides.cache = options.unwrap.method.cache;
+  plan.sides.cache = cache;
   result.plan = plan_bake(std::move(scene), rules, plan, progress);
-  const std::vector<PartSurface>& surfaces = result.plan.surfaces;
   result.scene = std::move(result.plan.scene);
+  leave_without_grain(options.without_grain, result);
+  const std::vector<PartSurface>& surfaces = result.plan.surfaces;
   result.seconds = {{"sides", result.plan.sides.seconds},
                     {"leave_out", result.plan.perception_seconds},
                     {"simplify", result.plan.simplify_seconds}};
   const PartContext context = unwrap_context(result.scene, {});
   leave_out(result.scene, result.plan.perception);
   result.grains = make_grains(result.plan, rules, options.library, options.unwrap.method.deadline.earlier_by(to_finish),
-                              options.unwrap.method.cache, progress);
-  for (const PartSurface& surface : surfaces) {
-    if (surface.material.empty() || surface.is_left_out || result.environments.contains(surface.material)) continue;
-    const std::filesystem::path& picture = rules.materials.at(surface.material).environment;
-    if (!picture.empty())
-      result.environments[surface.material] = environment_json(read_environment(picture, k_material_environment_width));
-  }
+                              cache, progress);
   for (const auto& [name, grain] : result.grains) {
     for (const std::string& warning : grain.warnings) result.scene.warnings.push_back(warning);
     result.seconds["analyze"] += grain.analyze_seconds;
     result.seconds["height"] += grain.height_seconds;
     result.seconds["normal_map"] += grain.normal_map_seconds;
   }
-
-  std::vector<Work> works;
   double triangles = 0;
-  for (const PartSurface& surface : surfaces) {
-    if (!runs(surface, Stage::measure)) continue;
-    works.emplace_back();
-    works.back().surface = &surface;
-    works.back().rule = &rules.materials.at(surface.material);
-    triangles += static_cast<double>(surface.triangles.size());
-  }
-  for (Work& work : works) {
-    // A whole part keeps the numbers of its vertices, so that it is mapped as by unwrap_scene().
-    const TriangleMesh& mesh = result.scene.parts[work.surface->part].mesh;
-    const std::vector<std::uint32_t>& own = work.surface->triangles;
-    work.mesh = own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own);
-  }
-  for (std::string& warning : warn_of_unmatched_parts(works)) result.scene.warnings.push_back(std::move(warning));
-  if (options.plan.in_place && !options.plan.keep_copies) find_equal(works);
+  for (const PartSurface& surface : surfaces)
+    if (runs(surface, Stage::measure)) triangles += static_cast<double>(surface.triangles.size());
   UnwrapOptions in_time = options.unwrap;
   in_time.method.deadline = options.unwrap.method.deadline.earlier_by(k_seconds_to_finish * triangles);
-  SharedProgress done(progress, "surfaces", triangles);
-  oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
-    Work& work = works[i];
-    WorkProgress worked(done, static_cast<double>(work.surface->triangles.size()));
-    try {
-      UnwrapOptions own = in_time;
-      own.method.progress = worked.callback();
-      if (work.equal_to == nullptr) process(work, context, own, result.grains);
-    } catch (const SolverFailure& error) {
-      throw SolverFailure("part '" + work.surface->label + "': " + error.what());
-    } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + work.surface->label + "': " + error.what());
-    }
-    worked.reach(1);
-  });
+  for (const PartSurface& surface : surfaces) {
+    if (!runs(surface, Stage::measure)) continue;
+    // A whole part keeps the numbers of its vertices, so that it is mapped as by unwrap_scene().
+    const TriangleMesh& mesh = result.scene.parts[surface.part].mesh;
+    const std::vector<std::uint32_t>& own = surface.triangles;
+    SurfaceWork& work = prepared.works.emplace_back();
+    work.surface = &surface;
+    work.rule = &rules.materials.at(surface.material);
+    work.input =
+        surface_input(surface, *work.rule, own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own),
+                      result.grains.at(surface.material), context, in_time);
+  }
+  for (std::string& warning : warn_of_unmatched_parts(prepared.works))
+    result.scene.warnings.push_back(std::move(warning));
+  if (options.plan.in_place && !options.plan.keep_copies) find_equal(prepared.works);
+  return prepared;
+}
+
+BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
+                      const ProgressCallback& progress) {
+  PreparedBake prepared = prepare_bake(std::move(scene), rules, options, progress);
+  BakeResult result = std::move(prepared.result);
+  std::vector<SurfaceWork>& works = prepared.works;
+  const std::vector<PartSurface>& surfaces = result.plan.surfaces;
+  for (const PartSurface& surface : surfaces) {
+    if (surface.material.empty() || surface.is_left_out || result.environments.contains(surface.material)) continue;
+    const std::filesystem::path& picture = rules.materials.at(surface.material).environment;
+    if (!picture.empty())
+      result.environments[surface.material] = environment_json(read_environment(picture, k_material_environment_width));
+  }
+  bake_surfaces(works, progress);
 
   if (options.plan.in_place) {
-    for (Work& work : works)
+    for (SurfaceWork& work : works)
       if (work.equal_to != nullptr) take_over(*work.equal_to, work);
-    for (Work& work : works)
-      if (runs(*work.surface, Stage::unwrap)) work.report.uv = std::move(work.mesh.uv);
+    for (SurfaceWork& work : works)
+      if (runs(*work.surface, Stage::unwrap)) work.output.report.uv = std::move(work.output.mesh.uv);
     finish(works, result);
     return result;
   }
   reassemble(result.scene, surfaces, works);
   SceneMaterials materials(result, rules);
   std::set<const PartSurface*> without_back;
-  for (const Work& work : works)
-    if (work.report.repaired && !work.report.repaired->two_sided.empty()) without_back.insert(work.surface);
+  for (const SurfaceWork& work : works)
+    if (const auto& repaired = work.output.report.repaired; repaired && !repaired->two_sided.empty())
+      without_back.insert(work.surface);
   std::vector<std::pair<const PartSurface*, std::uint32_t>> chosen;
   for (const PartSurface& surface : surfaces)
     if (!surface.material.empty() && !surface.is_left_out)

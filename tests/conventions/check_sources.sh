@@ -44,7 +44,7 @@ licences() {
 }
 
 # Folders of libraries, and all folders with C++ files.
-readonly libraries=(core meshing param texture procedural haptic io study pipeline)
+readonly libraries=(core cache meshing param texture procedural haptic io study pipeline)
 readonly all_cpp=("${libraries[@]}" apps tests data examples)
 
 readonly gpl_headers=' <(CGAL/|fftw3)'
@@ -94,9 +94,10 @@ allowed_modules() {
     texture) echo 'core|texture' ;;
     procedural) echo 'core|texture|procedural' ;;
     haptic) echo 'core|haptic|texture' ;;
-    io) echo 'core|haptic|texture|meshing|io' ;;
+    cache) echo 'core|cache' ;;
+    io) echo 'core|cache|haptic|texture|meshing|io' ;;
     study) echo 'core|study' ;;
-    pipeline) echo 'core|haptic|texture|meshing|io|param|procedural|study|pipeline' ;;
+    pipeline) echo 'core|cache|haptic|texture|meshing|io|param|procedural|study|pipeline' ;;
     apps/player) echo 'core|haptic|io' ;;
   esac
 }
@@ -148,6 +149,7 @@ readonly library_uses='
 <meshoptimizer\.h> meshoptimizer libmeshoptimizer-dev meshoptimizer::meshoptimizer
 <hidapi hidapi-hidraw libhidapi-dev PkgConfig::HIDAPI
 <sha2\.h> libmd libmd-dev PkgConfig::MD
+<openssl/ OpenSSL libssl-dev OpenSSL::Crypto
 <sndfile\.h> sndfile libsndfile1-dev
 <alsa/ alsa libasound2-dev
 <gtest/ GTest libgtest-dev GTest::gtest_main

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct BakeOptions {
   /// whole bake: sides, grains, uv and measures.
   UnwrapOptions unwrap;
   RecipeLibrary library = RecipeLibrary::builtin();  ///< What the rules' recipes may name.
+  std::set<PartSlot> without_grain;                  ///< Surfaces of the plan that stay as they came.
 };
 
 /// A surface with grain, as it was baked.

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "papilla/pipeline/bake_scene.hpp"
+#include "surface_bake.hpp"
+
+namespace papilla {
+
+/// A surface on its way through the stages.
+struct SurfaceWork {
+  const PartSurface* surface = nullptr;
+  const MaterialRule* rule = nullptr;
+  SurfaceInput input;
+  SurfaceOutput output;
+  const SurfaceWork* equal_to = nullptr;  ///< In place: an earlier one of the same mesh and rule; gets uv for both.
+};
+
+/// What comes before the surfaces are baked.
+struct PreparedBake {
+  BakeResult result;               ///< Plan, scene and grains.
+  std::vector<SurfaceWork> works;  ///< Their pointers lead into the plan and the rules.
+};
+
+/// The first half of bake_scene(): plan_bake() and the grains.
+PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options,
+                          const ProgressCallback& progress);
+
+}  // namespace papilla
