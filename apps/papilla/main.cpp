@@ -55,6 +55,8 @@ int main(int argc, char** argv) {
   add_study(program);
   add_plan(program);
   add_bake(program);
+  add_split(program);
+  add_merge(program);
   add_view(program);
   add_cache(program);
   add_evaluate(program);

@@ -23,6 +23,8 @@ void add_fit(CLI::App& program);
 void add_study(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_bake(CLI::App& program);
+void add_split(CLI::App& program);
+void add_merge(CLI::App& program);
 void add_view(CLI::App& program);
 void add_cache(CLI::App& program);
 void add_evaluate(CLI::App& program);

@@ -102,19 +102,6 @@ std::vector<Entry> entries_of(const fs::path& folder) {
   return result;
 }
 
-bool is_entry_whole(const fs::path& path) {
-  const File file(path);
-  struct stat about {};
-  const auto bytes = file < 0 ? std::nullopt : open_content(file, about);
-  if (!bytes) return false;
-  EntrySource source(file, *bytes);
-  std::vector<char> block(k_buffer);
-  while (source.most_bytes() > 0)
-    source.read(block.data(), static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), source.most_bytes())));
-  Digest expected{};
-  return read_fully(file, expected.data(), expected.size()) && source.is_whole(expected);
-}
-
 bool is_earlier(const std::timespec& a, const std::timespec& b) {
   return std::pair(a.tv_sec, a.tv_nsec) < std::pair(b.tv_sec, b.tv_nsec);
 }
@@ -179,33 +166,20 @@ bool ContentStore::contains(std::string_view stage, const Digest& key) const {
   return ::access(path_of(stage, key).c_str(), R_OK) == 0;
 }
 
-bool ContentStore::read(std::string_view stage, const Digest& key,
-                        const std::function<void(EntrySource&)>& take) const {
-  const fs::path path = path_of(stage, key);
+bool read_entry(const fs::path& path, const std::function<void(EntrySource&)>& take) try {
   const File file(path);
-  if (file < 0) return false;
   struct stat about {};
-  try {
-    if (const auto bytes = open_content(file, about)) {
-      EntrySource source(file, *bytes);
-      take(source);
-      Digest expected{};
-      if (read_fully(file, expected.data(), expected.size()) && source.is_whole(expected)) {
-        if (about.st_mtim.tv_sec + k_seconds_between_marks < std::time(nullptr))
-          ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
-        return true;
-      }
-    }
-  } catch (const IoError&) {
-  }
-  ::unlink(path.c_str());
+  const auto bytes = file < 0 ? std::nullopt : open_content(file, about);
+  if (!bytes) return false;
+  EntrySource source(file, *bytes);
+  take(source);
+  Digest expected{};
+  return read_fully(file, expected.data(), expected.size()) && source.is_whole(expected);
+} catch (const IoError&) {
   return false;
 }
 
-std::uint64_t ContentStore::write(std::string_view stage, const Digest& key,
-                                  const std::function<void(EntrySink&)>& give) const {
-  const fs::path path = path_of(stage, key);
-  make_folder(path.parent_path());
+std::uint64_t write_entry(const fs::path& path, const std::function<void(EntrySink&)>& give, Durability durability) {
   std::uint64_t bytes = 0;
   write_atomically(
       path,
@@ -217,8 +191,37 @@ std::uint64_t ContentStore::write(std::string_view stage, const Digest& key,
         const Digest sum = sink.finish();
         out.write(reinterpret_cast<const char*>(sum.data()), static_cast<std::streamsize>(sum.size()));
       },
-      0, Durability::unsynced);
+      0, durability);
   return bytes;
+}
+
+bool is_entry_whole(const fs::path& path) {
+  return read_entry(path, [](EntrySource& source) {
+    std::vector<char> block(k_buffer);
+    while (source.most_bytes() > 0)
+      source.read(block.data(), static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), source.most_bytes())));
+  });
+}
+
+bool ContentStore::read(std::string_view stage, const Digest& key,
+                        const std::function<void(EntrySource&)>& take) const {
+  const fs::path path = path_of(stage, key);
+  struct stat about {};
+  if (::stat(path.c_str(), &about) != 0) return false;
+  if (!read_entry(path, take)) {
+    ::unlink(path.c_str());
+    return false;
+  }
+  if (about.st_mtim.tv_sec + k_seconds_between_marks < std::time(nullptr))
+    ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+  return true;
+}
+
+std::uint64_t ContentStore::write(std::string_view stage, const Digest& key,
+                                  const std::function<void(EntrySink&)>& give) const {
+  const fs::path path = path_of(stage, key);
+  make_folder(path.parent_path());
+  return write_entry(path, give, Durability::unsynced);
 }
 
 StoreStatistics ContentStore::statistics() const {

@@ -11,6 +11,7 @@ namespace papilla {
 struct StageCache::Counts {
   std::mutex mutex;
   CacheCounts of_stage;
+  std::vector<std::pair<std::string, Digest>> results;
   std::string problem;
 };
 
@@ -37,6 +38,17 @@ void StageCache::add(const std::string& stage, const CacheCount& count) const {
   CacheCount& sum = counts_->of_stage[stage];
   sum.found += count.found, sum.made += count.made;
   sum.bytes_read += count.bytes_read, sum.bytes_written += count.bytes_written;
+}
+
+std::vector<std::pair<std::string, Digest>> StageCache::results() const {
+  const std::scoped_lock lock(counts_->mutex);
+  return counts_->results;
+}
+
+void StageCache::note(std::string_view stage, const Digest& key, const CacheCount& count) const {
+  add(std::string(stage), count);
+  const std::scoped_lock lock(counts_->mutex);
+  counts_->results.emplace_back(stage, key);
 }
 
 std::uint64_t StageCache::write(std::string_view stage, const Digest& key,

@@ -11,6 +11,7 @@
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
+#include "prepared_bake.hpp"
 #include "solid_grain.hpp"
 
 namespace papilla {
@@ -153,6 +154,22 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
   return true;
 }
 
+/// The scene as bake_file() has it before it plans, and how it will be written.
+Scene read_for_bake(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
+                    BakeWay& way, BakePlanOptions& plan, const ProgressCallback& progress) {
+  Scene scene;
+  GltfOrigin origin;
+  way = bake_way(input, options, rules);
+  if (way.in_place) {
+    scene = read_for_edit(input, options.read, progress, origin);
+    if (assigns_groups_apart(scene, rules, origin.nodes)) way = {false, k_instances_apart};
+  }
+  if (!way.in_place) scene = read_scene(input, options.read, progress);
+  plan.in_place = way.in_place;
+  if (plan.in_place) plan.levels = std::move(origin.levels);
+  return scene;
+}
+
 }  // namespace
 
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options, const Materials& rules) {
@@ -168,20 +185,18 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
   return {true, "only tags and what the grain needs are added"};
 }
 
+PreparedBake prepare_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
+                          BakeWay& way, const ProgressCallback& progress) {
+  BakeOptions bake = options.bake;
+  Scene scene = read_for_bake(input, rules, options, way, bake.plan, progress);
+  return prepare_bake(std::move(scene), rules, bake, progress);
+}
+
 PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
                       const ProgressCallback& progress) {
   PlannedFile result;
-  result.way = bake_way(input, options, rules);
-  Scene scene;
-  GltfOrigin origin;
-  if (result.way.in_place) {
-    scene = read_for_edit(input, options.read, progress, origin);
-    if (assigns_groups_apart(scene, rules, origin.nodes)) result.way = {false, k_instances_apart};
-  }
-  if (!result.way.in_place) scene = read_scene(input, options.read, progress);
   BakePlanOptions plan = options.bake.plan;
-  plan.in_place = result.way.in_place;
-  if (plan.in_place) plan.levels = std::move(origin.levels);
+  Scene scene = read_for_bake(input, rules, options, result.way, plan, progress);
   static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
   for (const std::string& name : grains_of(result.surfaces))
     result.grains.push_back(plan_grain(rules.materials.at(name), options.bake.library));

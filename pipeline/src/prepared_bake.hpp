@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
+#include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
 #include "surface_bake.hpp"
 
@@ -26,5 +28,9 @@ struct PreparedBake {
 /// The first half of bake_scene(): plan_bake() and the grains.
 PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options,
                           const ProgressCallback& progress);
+
+/// The same of a file, as bake_file() would read it.
+PreparedBake prepare_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
+                          BakeWay& way, const ProgressCallback& progress);
 
 }  // namespace papilla

@@ -1,124 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string>
 
+#include "bake/bake_arguments.hpp"
+#include "bake/job_text.hpp"
 #include "exit_code.hpp"
 #include "file_options.hpp"
-#include "json/scene_json.hpp"
-#include "json/touch_json.hpp"
-#include "option_checks.hpp"
-#include "options/environment_option.hpp"
-#include "options/material_library_option.hpp"
-#include "options/perception_option.hpp"
-#include "options/scene_option.hpp"
-#include "options/side_option.hpp"
-#include "options/touch_option.hpp"
-#include "options/unwrap_option.hpp"
-#include "page/page_report.hpp"
-#include "papilla/core/atomic_file.hpp"
-#include "papilla/io/named_files.hpp"
-#include "papilla/pipeline/bake_file.hpp"
-#include "papilla/pipeline/recipe_source.hpp"
-#include "scene_output.hpp"
-#include "shown_format.hpp"
-#include "text/scene_text.hpp"
-#include "text/touch_text.hpp"
+#include "papilla/pipeline/bake_jobs.hpp"
 #include "verbs.hpp"
 
 namespace papilla::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr const char *k_mpeg = "MPEG_material_haptic", *k_khr = "KHR_physics_rigid_bodies";
-
 struct Options {
-  std::string input, materials, material_library, output, report, environment;
-  std::vector<std::string> libraries, mirrors;
-  bool pictures = false;
-  BakeFileOptions bake;
-  PerceptionOption perception;
-  SideOption sides;
-  SceneOptions scene;
-  TouchOptions touch;
-
-  GlbWriteOptions write_options() const {
-    const auto mirrored = [&](const char* name) { return std::count(mirrors.begin(), mirrors.end(), name) > 0; };
-    return {.mirror_mpeg_haptics = mirrored(k_mpeg), .mirror_khr_physics = mirrored(k_khr)};
-  }
+  BakeArguments arguments;
+  BakeOutputs outputs;
+  std::string job;
 };
 
-/// The page, report.json, what hands feel of it, and pictures if they are wanted; what they are and took is added to
-/// the JSON.
-/// @param page  with the environment that lights the scene.
-void write_report(const Options& options, const Materials& rules, const BakeResult& result,
-                  const PageSceneOptions& page, const VerbContext& context, const Stopwatch& total, Json& json) {
-  const fs::path folder = options.report;
-  if (options.pictures) {
-    const Stopwatch clock;
-    const auto light = page.environment ? std::make_shared<const EnvironmentLight>(*page.environment) : nullptr;
-    json["pictures"] = write_bake_pictures(result, folder, light, context.progress);
-    json["seconds"]["pictures"] = clock.seconds();
-  }
-  const Stopwatch touching;
-  const TouchReport touch = report_touch(rules, result.plan.surfaces, result.grains, options.touch);
-  json["touch"] = touch_json(touch);
-  json["seconds"]["touch"] = touching.seconds();
-  context.console.print(touch_text(touch));
-  const Stopwatch clock;
-  write_report_page(options.output, json, result.grains, folder / "index.html", page, context.progress);
-  json["page"] = "index.html";
-  json["seconds"]["page"] = clock.seconds();
-  json["seconds"]["total"] = total.seconds();
-  write_atomically(folder / "report.json", json_text(json));
-  context.console.print(shown_format("{}: plan, distortion, times{}\n{}: the same to look at and to touch\n",
-                                     (folder / "report.json").string(), options.pictures ? "; pictures beside it" : "",
-                                     (folder / "index.html").string()));
+/// --job FOLDER/ID.
+Json run_one_job(const std::filesystem::path& job, const VerbContext& context) {
+  const std::filesystem::path folder = job.parent_path().empty() ? "." : job.parent_path();
+  const JobResult result = run_job(folder, job.filename().string(), context.progress);
+  context.console.print(job_line(job.string(), result));
+  return job_json(job.filename().string(), result);
+}
+
+void require(const std::string& value, const char* name) {
+  if (value.empty()) throw UsageError(std::string(name) + " is required");
 }
 
 Json run(const Options& options, VerbContext& context) {
-  if (!is_gltf_file(options.output)) throw UsageError("--output: '" + options.output + "' must end in .glb or .gltf");
-  BakeFileOptions wanted = options.bake;
-  wanted.bake.plan.perception = options.perception.options();
-  wanted.bake.plan.sides = options.sides.options(options.output);
-  wanted.read = options.scene.read_options(context.cache);
-  wanted.bake.unwrap.method.deadline = wanted.bake.plan.deadline = wanted.bake.plan.sides.deadline = context.deadline;
-  wanted.bake.unwrap.method.cache = context.cache;
-  wanted.read_deadline = context.read_deadline;
-  wanted.write = options.write_options();
-  wanted.for_pictures = options.pictures;
-  if (!options.report.empty()) make_folder(options.report);  // Before the work: a wrong path is known at once.
-  const Stopwatch total;
-  const Materials rules = read_materials(options.materials, options.material_library);
-  wanted.bake.library = load_recipes(options.libraries);
-  PageSceneOptions page;
-  if (!options.environment.empty()) page.environment = read_environment(options.environment, k_scene_environment_width);
-  const BakeFileResult result = bake_file(options.input, options.output, rules, wanted, context.progress);
-
-  const std::size_t triangles = drawn_triangles(result.scene), bytes = size_with_named_files(options.output);
-  Json json = bake_json(result, wanted.bake);
-  json["way"] = way_json(result.way);
-  json["changes"] = changes_json(result.changes);
-  json["rules"] = rules_json(result.plan.rules);
-  json["contact"] = contact_models_json(rules);
-  json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
-  context.console.print(way_line(result.way) + sides_text(result.plan.sides, true) +
-                        left_out_table(result.scene, result.plan.perception));
-  if (const auto& budget = result.plan.budget)
-    context.console.print(shown_format("budget of {} triangles: {} within {:.3g} mm{}\n", *wanted.bake.plan.budget,
-                                       budget->triangles, budget->tolerance_mm,
-                                       budget->reached                          ? ""
-                                       : budget->stop == StopReason::time_limit ? ", not reached in time"
-                                                                                : "; more deviation saves hardly any"));
-  context.console.print(bake_table(result) + object_textures_text(result.object_textures) +
-                        contact_models_text(rules, result.plan.surfaces));
-  print_notes(result.scene, context.console);
-  context.console.print(changes_line(result.changes));
-  context.console.print(
-      shown_format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
-  if (!options.report.empty()) write_report(options, rules, result, page, context, total, json);
-  return json;
+  if (!options.job.empty()) return run_one_job(options.job, context);
+  require(options.arguments.input, "SCENE");
+  require(options.arguments.materials, "--materials");
+  require(options.outputs.output, "--output");
+  return write_bake(options.arguments, options.outputs, options.arguments.options(options.outputs.output, context),
+                    context);
 }
 
 }  // namespace
@@ -131,40 +50,12 @@ void add_bake(CLI::App& program) {
        "papilla bake data/cockpit.step -m examples/materials.json -o cockpit.glb --report report",
        VerbInfo::AtDeadline::ends, VerbInfo::Remembers::yes},
       [options](VerbContext& context) { return run(*options, context); });
-  reads(verb->add_option("SCENE", options->input, "CAD, mesh or glTF file"))->type_name("IN")->required();
-  reads(verb->add_option("-m,--materials", options->materials, "MATERIALS.json: what surfaces look and feel like"))
-      ->type_name("FILE")
-      ->required();
-  writes(verb->add_option("-o,--output", options->output, "GLB to write, or .gltf with files beside it"))
-      ->type_name("OUT")
-      ->required();
-  reads(verb->add_option("--library", options->libraries, "Files of named recipes, on top of the built-in ones"))
-      ->type_name("FILE");
-  add_material_library(*verb, options->material_library);
-  verb->add_flag("--keep-copies", options->bake.bake.plan.keep_copies, "Do not make identical parts instances of one");
-  add_effort(*verb, options->bake.bake.unwrap.method.effort);
-  verb->add_option("--budget", options->bake.bake.plan.budget,
-                   "Triangles that the scene may draw: simplified with the smallest common tolerance that meets it")
-      ->type_name("N")
-      ->check(positive());
-  verb->add_option(
-          "--mirror", options->mirrors,
-          "Repeat what the haptic tags say in drafts of others' extensions, as far as they have a place for it")
-      ->type_name("NAME")
-      ->transform(one_of({k_mpeg, k_khr}));
-  auto* const report = writes_into(verb->add_option("--report", options->report,
-                                                    "Folder for a page to look at (index.html) and report.json"),
-                                   {"index.html", "report.json"})
-                           ->type_name("DIR");
-  add_environment(*verb, options->environment)->needs(report);
-  verb->add_flag("--strict", options->bake.bake.plan.strict, "Refuse rules that take no surface");
-  verb->add_flag("--pictures", options->pictures,
-                 "Pictures into the report's folder, too: the scene, a checker, close-ups, uv layouts, reliefs")
-      ->needs(report);
-  options->perception.add_to(*verb);
-  options->sides.add_to(*verb);
-  add_stroke_speed(*verb, options->touch);
-  options->scene.add_to(*verb);
+  options->arguments.add_to(*verb);
+  options->outputs.add_to(*verb);
+  CLI::Option* const job =
+      verb->add_option("--job", options->job, "Do one job of papilla split, FOLDER/ID, and nothing else");
+  reads(job)->type_name("JOB");
+  for (const char* other : {"SCENE", "--materials", "--output", "--report"}) job->excludes(verb->get_option(other));
 }
 
 }  // namespace papilla::app

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "papilla/cache/digest.hpp"
+#include "papilla/core/atomic_file.hpp"
 #include "papilla/core/progress.hpp"
 
 namespace papilla {
@@ -49,6 +50,17 @@ class EntrySink {
   Sha256 sum_;
   std::uint64_t bytes_ = 0;
 };
+
+/// Lets `take` read an entry; all of it has to be taken. What was taken is worth something only when this returns true.
+/// @return false when the file is absent, no entry, or its sum is wrong.
+bool read_entry(const std::filesystem::path& path, const std::function<void(EntrySource&)>& take);
+
+/// Lets `give` write an entry, atomically. @return the file's bytes. @throws IoError as write_atomically().
+std::uint64_t write_entry(const std::filesystem::path& path, const std::function<void(EntrySink&)>& give,
+                          Durability durability);
+
+/// Reads all of an entry for its sum.
+bool is_entry_whole(const std::filesystem::path& path);
 
 /// Of the entries of one stage.
 struct StoreCount {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "papilla/cache/content_store.hpp"
 #include "papilla/cache/stage_key.hpp"
@@ -45,6 +46,8 @@ class StageCache {
   CacheCounts counts() const;       ///< Of all calls so far.
   CacheCounts take_counts() const;  ///< The same, and begins anew.
   std::string problem() const;
+  /// Stage and key of every result that was found or put, in no order.
+  std::vector<std::pair<std::string, Digest>> results() const;
   /// Adds what a child process did.
   void add(const std::string& stage, const CacheCount& count) const;
 
@@ -58,7 +61,7 @@ class StageCache {
       ValueReader{source}(value.emplace());
     });
     if (found)
-      add(std::string(stage), count);
+      note(stage, key, count);
     else
       value.reset();
     return value;
@@ -69,10 +72,11 @@ class StageCache {
     CacheCount count{.made = 1};
     if (use == CacheUse::read_write)
       count.bytes_written = write(stage, key, [&](EntrySink& sink) { ValueWriter{sink}(value); });
-    add(std::string(stage), count);
+    note(stage, key, count);
   }
 
  private:
+  void note(std::string_view stage, const Digest& key, const CacheCount& count) const;
   std::uint64_t write(std::string_view stage, const Digest& key, const std::function<void(EntrySink&)>& give) const;
 
   ContentStore store_;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
+#include <string>
 #include <string_view>
-#include <type_traits>
 
 #include "papilla/cache/digest.hpp"
-#include "papilla/core/deadline.hpp"
 #include "papilla/core/value_stream.hpp"
 
 namespace papilla {
@@ -18,17 +16,9 @@ const Digest& code_digest();
 
 namespace stage_key {
 
-template <class T>
-struct IsFunction : std::false_type {};
-template <class T>
-struct IsFunction<std::function<T>> : std::true_type {};
-
-/// Computes digests of values. What does not change a complete result is left out: callbacks, deadlines, and pointers,
-/// which the pipeline sets only inside of a stage.
+/// Computes digests of values.
 struct Sink {
-  template <class T>
-  static constexpr bool leaves_out = std::is_same_v<T, Deadline> || std::is_pointer_v<T> || IsFunction<T>::value;
-
+  static constexpr bool leaves_out_transient = true;
   void write(const void* data, std::size_t size) { sum.write(data, size); }
   Sha256 sum;
 };
@@ -36,7 +26,7 @@ struct Sink {
 }  // namespace stage_key
 
 /// The key of a stage's result: a digest of the code, the stage's name, and all that goes into it. Field by field
-/// (value_stream.hpp), so that options that get a new field make new keys.
+/// (value_stream.hpp), so that options that get a new field make new keys; what is transient is left out.
 template <class... Inputs>
 Digest key_of(std::string_view stage, const Inputs&... inputs) {
   stage_key::Sink sink;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "papilla/core/deadline.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/fields.hpp"
 #include "papilla/core/vec.hpp"
@@ -41,7 +43,15 @@ inline constexpr bool k_is_dense<std::array<T, N>> = k_is_dense<T>;
 template <class T, std::size_t N>
 inline constexpr bool k_is_dense<T[N]> = k_is_dense<T>;
 
-/// Gives the bytes of values to `Sink::write(const void* data, std::size_t size)`.
+/// What is no part of a value for streams that leave it out: callbacks, deadlines, and pointers, which tell a
+/// computation how to run and do not change a result that is complete.
+template <class T>
+inline constexpr bool k_is_transient = std::is_pointer_v<T> || std::is_same_v<T, Deadline>;
+template <class T>
+inline constexpr bool k_is_transient<std::function<T>> = true;
+
+/// Gives the bytes of values to `Sink::write(const void* data, std::size_t size)`. Without transient ones where there
+/// is a `Sink::leaves_out_transient`.
 template <class Sink>
 class ValueWriter {
  public:
@@ -57,7 +67,7 @@ class ValueWriter {
 
   template <class T>
   void write(const T& value) {
-    if constexpr (requires { requires Sink::template leaves_out<T>; }) {
+    if constexpr (k_is_transient<T> && requires { Sink::leaves_out_transient; }) {
     } else if constexpr (std::is_same_v<T, bool>) {
       write(static_cast<std::uint8_t>(value));
     } else if constexpr (k_is_dense<T>) {
@@ -147,7 +157,8 @@ class ValueReader {
 
   template <class T>
   void read(T& value) {
-    if constexpr (std::is_same_v<T, bool>) {
+    if constexpr (k_is_transient<T> && requires { Source::leaves_out_transient; }) {
+    } else if constexpr (std::is_same_v<T, bool>) {
       std::uint8_t byte = 0;
       read(byte);
       if (byte > 1) throw IoError("a truth value is neither 0 nor 1");
