@@ -188,6 +188,11 @@ Xvfb xvfb
 localedef locales
 qemu-system qemu-system-x86
 cpio cpio
+slurmctld slurmctld
+slurmd slurmd
+sbatch slurm-client
+munged munge
+snakemake snakemake
 check_sources\.sh clang-format'
 
 # The pattern that shows the use of name $2 by table $1.
