@@ -81,6 +81,7 @@ kill_node() {
 }
 
 start_cluster() {
+  trap 'exit 143' TERM INT HUP  # so that a test that is ended stops its daemons, too
   cluster=$(mktemp -d /tmp/papilla-cluster.XXXXXX)
   chmod 755 "$cluster"
   mkdir "$cluster/state" "$cluster/spool"
