@@ -12,6 +12,7 @@
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
 #include "prepared_bake.hpp"
+#include "remembered_plan.hpp"
 #include "solid_grain.hpp"
 
 namespace papilla {
@@ -170,6 +171,32 @@ Scene read_for_bake(const std::filesystem::path& input, const Materials& rules, 
   return scene;
 }
 
+/// What the cache of the bake has for a plan.
+RememberedPlan remembered_plan(const BakePlan& plan, const Materials& rules, const BakeOptions& options) {
+  RememberedPlan remembered;
+  const StageCache* cache = options.unwrap.method.cache;
+  if (cache == nullptr) return remembered;
+  std::map<std::string, Grain> grains;
+  for (const std::string& name : grains_of(plan.surfaces)) try {
+      if (auto grain = find_grain(rules.materials.at(name), options.library, *cache)) {
+        remembered.grains.insert(name);
+        grains.emplace(name, std::move(*grain));
+      }
+    } catch (const Error&) {  // The plan of the grain says what is wrong.
+    }
+  const PartContext context = unwrap_context(plan.scene, {});
+  remembered.surfaces.assign(plan.surfaces.size(), 0);
+  for (std::size_t i = 0; i < plan.surfaces.size(); ++i) {
+    const PartSurface& surface = plan.surfaces[i];
+    const auto grain = grains.find(surface.material);
+    if (grain == grains.end() || !decision(surface.plan, Stage::unwrap).run) continue;
+    const SurfaceInput input = surface_input(surface, rules.materials.at(surface.material),
+                                             surface_mesh(plan.scene, surface), grain->second, context, options.unwrap);
+    remembered.surfaces[i] = cache->store().contains("uv", uv_key(input.mesh, input.context, input.options));
+  }
+  return remembered;
+}
+
 }  // namespace
 
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options, const Materials& rules) {
@@ -200,6 +227,7 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
   static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
   for (const std::string& name : grains_of(result.surfaces))
     result.grains.push_back(plan_grain(rules.materials.at(name), options.bake.library));
+  result.remembered = remembered_plan(result, rules, options.bake);
   if (has_object_textures(rules)) {
     Scene made = result.scene;
     result.object_textures_made =

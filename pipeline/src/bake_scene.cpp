@@ -473,15 +473,11 @@ PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions
   in_time.method.deadline = options.unwrap.method.deadline.earlier_by(k_seconds_to_finish * triangles);
   for (const PartSurface& surface : surfaces) {
     if (!runs(surface, Stage::measure)) continue;
-    // A whole part keeps the numbers of its vertices, so that it is mapped as by unwrap_scene().
-    const TriangleMesh& mesh = result.scene.parts[surface.part].mesh;
-    const std::vector<std::uint32_t>& own = surface.triangles;
     SurfaceWork& work = prepared.works.emplace_back();
     work.surface = &surface;
     work.rule = &rules.materials.at(surface.material);
-    work.input =
-        surface_input(surface, *work.rule, own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own),
-                      result.grains.at(surface.material), context, in_time);
+    work.input = surface_input(surface, *work.rule, surface_mesh(result.scene, surface),
+                               result.grains.at(surface.material), context, in_time);
   }
   for (std::string& warning : warn_of_unmatched_parts(prepared.works))
     result.scene.warnings.push_back(std::move(warning));

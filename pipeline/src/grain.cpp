@@ -36,6 +36,7 @@
 #include "papilla/texture/texture_reading.hpp"
 #include "papilla/texture/tiling.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
+#include "remembered_plan.hpp"
 #include "solid_grain.hpp"
 #include "surface/painted_surface.hpp"
 
@@ -656,12 +657,19 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   return plan;
 }
 
+Digest grain_key(const MaterialRule& rule, const RecipeLibrary& library) {
+  return key_of("grain", rule, picture_digests(rule, library), library.recipes(), library.colours());
+}
+
+std::optional<Grain> find_grain(const MaterialRule& rule, const RecipeLibrary& library, const StageCache& cache) {
+  return cache.find<Grain>("grain", grain_key(rule, library));
+}
+
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline,
                  const StageCache* cache) {
   const auto make = [&] { return make_whole_grain(rule, library, deadline); };
   if (cache == nullptr) return make();
-  auto [grain, found] = remembered(cache, "grain", use_until(deadline), make, rule, picture_digests(rule, library),
-                                   library.recipes(), library.colours());
+  auto [grain, found] = remembered_by(grain_key(rule, library), *cache, "grain", use_until(deadline), make);
   if (found) grain.analyze_seconds = grain.height_seconds = grain.normal_map_seconds = 0;
   return std::move(grain);
 }

@@ -126,6 +126,11 @@ void keep_uv(SurfaceInput& input, SurfaceOutput& output) {
 
 }  // namespace
 
+TriangleMesh surface_mesh(const Scene& scene, const PartSurface& surface) {
+  const TriangleMesh& mesh = scene.parts[surface.part].mesh;
+  return surface.triangles.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, surface.triangles);
+}
+
 SurfaceInput surface_input(const PartSurface& surface, const MaterialRule& rule, TriangleMesh mesh, const Grain& grain,
                            PartContext context, UnwrapOptions options) {
   SurfaceInput input;

@@ -33,6 +33,10 @@ struct SurfaceOutput {
   double repair_seconds = 0, charts_seconds = 0, unwrap_seconds = 0, measure_seconds = 0;
 };
 
+/// A surface as a mesh of its own. A whole part keeps the numbers of its vertices, so that it is mapped as by
+/// unwrap_scene().
+TriangleMesh surface_mesh(const Scene& scene, const PartSurface& surface);
+
 /// @param mesh The surface. @param options,context Of the whole bake.
 SurfaceInput surface_input(const PartSurface& surface, const MaterialRule& rule, TriangleMesh mesh, const Grain& grain,
                            PartContext context, UnwrapOptions options);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,15 @@ struct BakeFileResult : BakeResult {
 /// As far as file name, options and rules tell.
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options, const Materials& rules = {});
 
+/// What a bake would find in the cache.
+struct RememberedPlan {
+  std::set<std::string> grains;        ///< Materials.
+  std::vector<std::uint8_t> surfaces;  ///< 1: the uv of that surface of the plan. Empty without a cache.
+};
+
 struct PlannedFile : BakePlan {
   BakeWay way;
+  RememberedPlan remembered;
   std::vector<GrainPlan> grains;        ///< Of the materials whose grain is used.
   ObjectTextures object_textures_made;  ///< Triangles of decals and carriers.
 };
