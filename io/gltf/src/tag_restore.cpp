@@ -29,7 +29,8 @@ bool same_box(const Bounds3& a, const Bounds3& b) {
 
 class TagRestorer {
  public:
-  TagRestorer(Scene& scene, const TagManifest& manifest) : scene_(scene), manifest_(manifest) {
+  TagRestorer(Scene& scene, const TagManifest& manifest, const PartTriangles& triangles)
+      : scene_(scene), manifest_(manifest), triangles_(triangles) {
     by_.resize(manifest.materials.size());
     for (std::uint32_t e = 0; e < by_.size(); ++e)
       if (!is_kept(manifest.materials[e])) missing_.insert(e);
@@ -95,7 +96,7 @@ class TagRestorer {
   }
 
   void restore_surfaces() {
-    const std::vector<SurfaceGroup> groups = surface_groups(scene_);
+    const std::vector<SurfaceGroup> groups = surface_groups(scene_, triangles_);
     const std::set<std::uint32_t> merged = merged_materials(groups);
     for (const SurfaceGroup& group : groups) {
       const bool doubtful = merged.contains(group.material);
@@ -159,6 +160,7 @@ class TagRestorer {
 
   Scene& scene_;
   const TagManifest& manifest_;
+  const PartTriangles& triangles_;
   std::set<std::uint32_t> missing_;
   std::vector<std::string> by_;  ///< How each entry was restored.
   std::map<std::pair<std::uint32_t, std::optional<std::uint32_t>>, std::uint32_t> made_;
@@ -166,7 +168,13 @@ class TagRestorer {
 
 }  // namespace
 
-TagSurvival restore_tags(Scene& scene, const TagManifest& manifest) { return TagRestorer(scene, manifest).run(); }
+TagSurvival restore_tags(Scene& scene, const TagManifest& manifest) {
+  return restore_tags(scene, manifest, mesh_triangles(scene));
+}
+
+TagSurvival restore_tags(Scene& scene, const TagManifest& manifest, const PartTriangles& triangles) {
+  return TagRestorer(scene, manifest, triangles).run();
+}
 
 std::string survival_sentence(const TagSurvival& tags) {
   if (tags.missing.empty()) return "";
