@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -273,16 +274,27 @@ void drop_unused_textures(Scene& scene) {
   scene.images = std::move(images);
 }
 
-/// Makes the grains that the surfaces use.
+/// Makes the grains that the surfaces use, side by side.
 std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& rules, const RecipeLibrary& library,
                                          const Deadline& deadline, const StageCache* cache,
                                          const ProgressCallback& progress) {
-  const std::set<std::string> names = grains_of(plan.surfaces);
+  const std::set<std::string> wanted = grains_of(plan.surfaces);
+  const std::vector<std::string> names(wanted.begin(), wanted.end());
+  std::vector<Grain> made(names.size());
+  std::vector<std::exception_ptr> failures(names.size());
+  SharedProgress done(progress, "grains", static_cast<double>(names.size()));
+  oneapi::tbb::parallel_for(std::size_t{0}, names.size(), [&](std::size_t i) {
+    try {
+      made[i] = make_grain(rules.materials.at(names[i]), library, deadline, cache);
+    } catch (const Error&) {
+      failures[i] = std::current_exception();
+    }
+    done.add(1);
+  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);  // The first in the order of names, whatever was first in time.
   std::map<std::string, Grain> grains;
-  for (const std::string& name : names) {
-    report_progress(progress, "grain " + name, static_cast<double>(grains.size()) / static_cast<double>(names.size()));
-    grains.emplace(name, make_grain(rules.materials.at(name), library, deadline, cache));
-  }
+  for (std::size_t i = 0; i < names.size(); ++i) grains.emplace(names[i], std::move(made[i]));
   return grains;
 }
 
