@@ -10,6 +10,7 @@
 #include "option_checks.hpp"
 #include "options/environment_option.hpp"
 #include "options/material_library_option.hpp"
+#include "options/output_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
@@ -41,11 +42,15 @@ struct Options {
   PerceptionOption perception;
   SideOption sides;
   SceneOptions scene;
+  OutputOptions stored;
   TouchOptions touch;
 
   GlbWriteOptions write_options() const {
     const auto mirrored = [&](const char* name) { return std::count(mirrors.begin(), mirrors.end(), name) > 0; };
-    return {.mirror_mpeg_haptics = mirrored(k_mpeg), .mirror_khr_physics = mirrored(k_khr)};
+    GlbWriteOptions write = stored.write_options(output);
+    write.mirror_mpeg_haptics = mirrored(k_mpeg);
+    write.mirror_khr_physics = mirrored(k_khr);
+    return write;
   }
 };
 
@@ -102,6 +107,9 @@ Json run(const Options& options, VerbContext& context) {
   json["rules"] = rules_json(result.plan.rules);
   json["contact"] = contact_models_json(rules);
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
+  Json stored = storage_json(wanted.write, result.sizes);
+  if (result.way.in_place) stored.erase("meshes"), stored.erase("images");  // They are the file's own.
+  json["output"].update(stored);
   context.console.print(way_line(result.way) + sides_text(result.plan.sides, true) +
                         left_out_table(result.scene, result.plan.perception));
   if (const auto& budget = result.plan.budget)
@@ -114,6 +122,7 @@ Json run(const Options& options, VerbContext& context) {
                         contact_models_text(rules, result.plan.surfaces));
   print_notes(result.scene, context.console);
   context.console.print(changes_line(result.changes));
+  context.console.print(storage_text(wanted.write, result.sizes));
   context.console.print(
       shown_format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
   if (!options.report.empty()) write_report(options, rules, result, page, context, total, json);
@@ -164,6 +173,7 @@ void add_bake(CLI::App& program) {
   options->sides.add_to(*verb);
   add_stroke_speed(*verb, options->touch);
   options->scene.add_to(*verb);
+  options->stored.add_to(*verb);
 }
 
 }  // namespace papilla::app
