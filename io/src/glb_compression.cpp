@@ -81,11 +81,14 @@ Json bounds_json(std::span<const std::array<float, 3>> positions) {
 #ifdef PAPILLA_HAVE_MESHOPT
 namespace {
 
+constexpr unsigned k_unused = ~0U;  ///< Of vertices whose triangles rounding has collapsed.
+
 template <class T>
-void remap(std::vector<T>& values, const std::vector<unsigned>& to) {
+void remap(std::vector<T>& values, const std::vector<unsigned>& to, std::size_t used) {
   if (values.empty()) return;
-  std::vector<T> moved(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) moved[to[i]] = values[i];
+  std::vector<T> moved(used);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (to[i] != k_unused) moved[to[i]] = values[i];
   values = std::move(moved);
 }
 
@@ -96,11 +99,12 @@ void reorder(GlbArrays& arrays) {
   auto* indices = arrays.triangles.front().data();
   meshopt_optimizeVertexCacheStrip(indices, indices, corners, count);
   std::vector<unsigned> to(count);
-  meshopt_optimizeVertexFetchRemap(to.data(), indices, corners, count);
+  const std::size_t used = meshopt_optimizeVertexFetchRemap(to.data(), indices, corners, count);
   for (Triangle& triangle : arrays.triangles)
     for (Index& corner : triangle) corner = to[corner];
-  remap(arrays.positions, to), remap(arrays.normals, to), remap(arrays.tangents, to);
-  remap(arrays.uv0, to), remap(arrays.uv1, to), remap(arrays.cad_uv, to), remap(arrays.colors, to);
+  remap(arrays.positions, to, used), remap(arrays.normals, to, used), remap(arrays.tangents, to, used);
+  remap(arrays.uv0, to, used), remap(arrays.uv1, to, used), remap(arrays.cad_uv, to, used),
+      remap(arrays.colors, to, used);
 }
 
 /// Writes attribute by attribute, with streams of meshopt or as they are.
@@ -115,9 +119,10 @@ class CompressedWriter {
     attributes["POSITION"] = grid_.origin ? write_whole_positions() : write_positions();
     attributes["NORMAL"] = write_directions(arrays_.normals, "VEC3");
     if (!arrays_.tangents.empty()) attributes["TANGENT"] = write_directions(arrays_.tangents, "VEC4");
-    if (!arrays_.uv0.empty()) attributes["TEXCOORD_0"] = write_reals(arrays_.uv0, grid_.uv[0], "VEC2", {});
-    if (!arrays_.uv1.empty()) attributes["TEXCOORD_1"] = write_reals(arrays_.uv1, grid_.uv[1], "VEC2", {});
-    if (!arrays_.cad_uv.empty()) attributes["_CAD_UV"] = write_reals(arrays_.cad_uv, grid_.cad_uv, "VEC2", {});
+    if (!arrays_.uv0.empty()) attributes["TEXCOORD_0"] = write_reals(arrays_.uv0, grid_.uv[0], "VEC2", Json::object());
+    if (!arrays_.uv1.empty()) attributes["TEXCOORD_1"] = write_reals(arrays_.uv1, grid_.uv[1], "VEC2", Json::object());
+    if (!arrays_.cad_uv.empty())
+      attributes["_CAD_UV"] = write_reals(arrays_.cad_uv, grid_.cad_uv, "VEC2", Json::object());
     if (!arrays_.colors.empty()) {
       const std::size_t view = add_view(arrays_.colors, "NONE");
       attributes["COLOR_0"] = add_accessor(view, k_unsigned_short, "VEC4", {{"normalized", true}});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "glb_compression.hpp"
@@ -38,37 +39,49 @@ class DracoPrimitive {
     }
   }
 
+  /// @param unused  values that no vertex has.
   /// @returns the id of the attribute in the stream.
   template <class T, std::size_t N>
-  int add(Type type, const std::vector<std::array<T, N>>& values) {
+  int add(Type type, const std::vector<std::array<T, N>>& values, const std::vector<std::array<T, N>>& unused = {}) {
     constexpr bool k_is_float = std::is_same_v<T, float>;
     draco::GeometryAttribute attribute;
     attribute.Init(type, nullptr, N, k_is_float ? draco::DT_FLOAT32 : draco::DT_UINT16, !k_is_float, sizeof(T) * N, 0);
-    const int id = mesh_.AddAttribute(attribute, true, points_);
-    for (std::uint32_t i = 0; i < points_; ++i)
-      mesh_.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), values[i].data());
+    const int id = mesh_.AddAttribute(attribute, false, points_ + static_cast<std::uint32_t>(unused.size()));
+    draco::PointAttribute& added = *mesh_.attribute(id);
+    for (std::uint32_t i = 0; i < points_; ++i) {
+      added.SetPointMapEntry(draco::PointIndex(i), draco::AttributeValueIndex(i));
+      added.SetAttributeValue(draco::AttributeValueIndex(i), values[i].data());
+    }
+    for (std::uint32_t i = 0; i < unused.size(); ++i)
+      added.SetAttributeValue(draco::AttributeValueIndex(points_ + i), unused[i].data());
     return id;
   }
 
-  /// Values that are multiples of 2^exponent, which Draco then keeps exactly.
+  /// Values that are multiples of 2^exponent, which Draco then keeps exactly. Its steps are the values' range over
+  /// 2^bits − 1: an unused value makes them 2^exponent. (The range that its options can hold has six decimals.)
   template <std::size_t N>
   int add_on_grid(Type type, const std::vector<std::array<float, N>>& values, int exponent) {
-    Grid grid{add(type, values), exponent, N, {values.front().begin(), values.front().end()}, 0};
-    std::vector<float> high = grid.origin;
+    std::array<float, N> low = values.front(), high = low;
     for (const auto& value : values)
       for (std::size_t k = 0; k < N; ++k) {
-        grid.origin[k] = std::min(grid.origin[k], value[k]);
+        low[k] = std::min(low[k], value[k]);
         high[k] = std::max(high[k], value[k]);
       }
+    double steps = 1;
     for (std::size_t k = 0; k < N; ++k)
-      grid.steps = std::max(grid.steps, std::ldexp(double{high[k]} - double{grid.origin[k]}, -exponent));
-    grids_.push_back(std::move(grid));
-    return grids_.back().attribute;
+      steps = std::max(steps, std::ldexp(double{high[k]} - double{low[k]}, -exponent));
+    const int bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(steps)));
+    std::array<float, N> last = low;
+    last[0] = static_cast<float>(double{low[0]} + std::ldexp(std::ldexp(1.0, bits) - 1, exponent));
+    const int id = add(type, values, {last});
+    bits_.emplace_back(id, bits);
+    return id;
   }
 
   int add_directions(Type type, const std::vector<std::array<float, 3>>& values) {
-    directions_ = add(type, values);
-    return directions_;
+    const int id = add(type, values);
+    bits_.emplace_back(id, k_direction_bits);
+    return id;
   }
 
   /// @param points, triangles  get the numbers of the decoded mesh.
@@ -79,13 +92,7 @@ class DracoPrimitive {
     encoder.SetTrackEncodedProperties(true);
     encoder.SetSpeedOptions(k_speed, k_speed);
     encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-    for (const Grid& grid : grids_) {
-      const int bits = std::max(1, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(grid.steps))));
-      const double range = std::ldexp(std::ldexp(1.0, bits) - 1, grid.exponent);
-      encoder.SetAttributeExplicitQuantization(grid.attribute, bits, grid.dimensions, grid.origin.data(),
-                                               static_cast<float>(range));
-    }
-    if (directions_ >= 0) encoder.SetAttributeQuantization(directions_, k_direction_bits);
+    for (const auto& [attribute, bits] : bits_) encoder.SetAttributeQuantization(attribute, bits);
     draco::EncoderBuffer stream;
     if (const draco::Status status = encoder.EncodeToBuffer(&stream); !status.ok())
       throw InvalidInput("write_glb: libdraco: " + status.error_msg_string());
@@ -97,16 +104,9 @@ class DracoPrimitive {
  private:
   static constexpr int k_speed = 0;  // The smallest streams.
 
-  struct Grid {
-    int attribute = 0, exponent = 0, dimensions = 0;
-    std::vector<float> origin;
-    double steps = 0;
-  };
-
   std::uint32_t points_;
   draco::Mesh mesh_;
-  std::vector<Grid> grids_;
-  int directions_ = -1;
+  std::vector<std::pair<int, int>> bits_;  ///< Attributes whose values are rounded, and to what.
 };
 
 }  // namespace

@@ -108,8 +108,10 @@ void MaterialWriter::write_images(Json& gltf) {
     Json json = Json::object();
     if (files_ != nullptr)
       json["uri"] = files_->add_picture(image);
-    else
+    else if (made == recoded_.end())
       json["bufferView"] = buffer_.add_view(image.bytes, GlbBuffer::Target::none);
+    else  // It does not outlive this writer.
+      json["bufferView"] = buffer_.add_view(std::vector<std::byte>(image.bytes), GlbBuffer::Target::none);
     json["mimeType"] = image.mime_type;
     add_name_and_extras(json, image.name, image.extras_json, fmt::format("image {}", i));
     image_number_[i] = gltf["images"].size();

@@ -41,10 +41,11 @@ constexpr double k_cad_range = 2.25;  ///< Of the CAD (u,v).
 
 EncodedImage grain_picture() {
   ColorImage image{k_texels, k_texels, {}};
+  std::minstd_rand random(7);
   for (int y = 0; y < k_texels; ++y)
     for (int x = 0; x < k_texels; ++x)
       for (const double value : {0.5 + 0.3 * std::sin(0.13 * x), 0.5 + 0.3 * std::sin(0.07 * (x + y)), 0.95})
-        image.pixels.push_back(static_cast<unsigned char>(std::lround(255 * value)));
+        image.pixels.push_back(static_cast<unsigned char>(std::lround(250 * value) + static_cast<long>(random() % 5)));
   EncodedImage encoded;
   encoded.name = "normal.grain";
   encoded.mime_type = "image/png";
@@ -58,7 +59,7 @@ HeightTag grain_height() {
   HeightTag height;
   height.uri = "data:image/png;base64," + encode_base64(bytes);
   height.sha256 = sha256_hex(bytes);
-  height.size = {128, 128};
+  height.size = {128, 4};
   height.scale_m = 2e-4;
   height.offset_m = -1e-4;
   height.metres_per_uv = {1e-3 * k_side_mm / k_repeats, 1e-3 * k_side_mm / k_repeats};
@@ -72,7 +73,6 @@ Material grain_material(const std::string& name, double red) {
   material.normal_texture = TextureReference{0, 0, 1, {}};
   material.haptic.emplace();
   material.haptic->stiffness = 600;
-  material.haptic->static_friction = material.haptic->dynamic_friction = 0.3;
   material.haptic->height = grain_height();
   return material;
 }
@@ -154,6 +154,14 @@ struct Corner {
   Vec3 normal;
   Vec2 uv, uv1, cad_uv;
 };
+
+/// The use of the part that a node shows, or the child of it that shows its levels of detail.
+Instance use_by(const Scene& scene, const std::string& node) {
+  for (const Instance& instance : instances(scene))
+    if (const std::string& name = scene.nodes[instance.node].name; name == node || name == node + "_LOD0")
+      return instance;
+  throw InvalidInput("no node " + node);
+}
 
 /// Corners of an instance's triangles by the number in their colour.
 std::map<long, std::array<Corner, 3>> corners_of(const Scene& scene, const Instance& instance) {
@@ -248,13 +256,13 @@ TEST_F(GlbCompression, EveryCodecKeepsAllAttributesWithinTheirBounds) {
     SCOPED_TRACE(name);
     options.meshes = coding;
     const Scene back = written(scene, options);
-    const auto before = instances(scene), after = instances(back);
-    ASSERT_EQ(after.size(), 2U);
-    EXPECT_EQ(after[0].part, after[1].part);
-    EXPECT_EQ(back.parts[after[0].part].materials.size(), 2U);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double size = std::cbrt(determinant(before[i].world));
-      const auto here = corners_of(scene, before[i]), there = corners_of(back, after[i]);
+    ASSERT_EQ(instances(back).size(), 2U);
+    ASSERT_EQ(back.parts.size(), 1U);
+    EXPECT_EQ(back.parts[0].materials.size(), 2U);
+    for (const char* node : {"seat", "belt"}) {
+      const Instance before = use_by(scene, node);
+      const double size = std::cbrt(determinant(before.world));
+      const auto here = corners_of(scene, before), there = corners_of(back, use_by(back, node));
       ASSERT_EQ(here.size(), there.size());
       double moved = 0;
       for (const auto& [number, corners] : here) {
@@ -281,7 +289,7 @@ TEST_F(GlbCompression, EveryCodecGivesTheSameVertices) {
   for (const MeshCoding coding : {MeshCoding::draco, MeshCoding::quantize}) {
     options.meshes = coding;
     const Scene other = written(scene, options);
-    const auto a = corners_of(first, instances(first)[0]), b = corners_of(other, instances(other)[0]);
+    const auto a = corners_of(first, use_by(first, "seat")), b = corners_of(other, use_by(other, "seat"));
     for (const auto& [number, corners] : a) {
       const auto same = turned_like(corners, b.at(number));
       for (std::size_t k = 0; k < 3; ++k) {
@@ -380,7 +388,7 @@ TEST_F(GlbCompression, PrecisionIsWhatIsAskedFor) {
     options.most_rounding_mm = most;
     const Scene back = written(scene, options);
     double moved = 0;
-    const auto here = corners_of(scene, instances(scene)[0]), there = corners_of(back, instances(back)[0]);
+    const auto here = corners_of(scene, use_by(scene, "seat")), there = corners_of(back, use_by(back, "seat"));
     for (const auto& [number, corners] : there) {
       const auto whole = turned_like(corners, here.at(number));
       for (std::size_t k = 0; k < 3; ++k) moved = std::max(moved, norm(whole[k].position - corners[k].position));
@@ -398,19 +406,21 @@ TEST_F(GlbCompression, SameSceneSameBytes) {
     options.pictures = PictureCoding::webp;
     write_glb(scene, folder_ / "a.glb", options);
     write_glb(scene, folder_ / "b.glb", options);
-    EXPECT_EQ(content_of(folder_ / "a.glb"), content_of(folder_ / "b.glb")) << name;
+    EXPECT_TRUE(content_of(folder_ / "a.glb") == content_of(folder_ / "b.glb")) << name;
   }
 }
 
 TEST_F(GlbCompression, ATriangleThatRoundingCollapsesIsLeftOut) {
   Scene scene = compressible_scene();
   GlbWriteOptions options;
-  options.meshes = MeshCoding::draco;
-  options.most_rounding_mm = 8;  // Steps of 7.8 mm: the cells have 5 mm.
-  const Scene back = written(scene, options);
-  const std::size_t left = back.parts[0].mesh.triangles.size();
-  EXPECT_GT(left, 0U);
-  EXPECT_LT(left, scene.parts[0].mesh.triangles.size() / 2);
+  for (const auto& [name, coding] : k_codings) {
+    SCOPED_TRACE(name);
+    options.meshes = coding;
+    options.most_rounding_mm = 8;  // Steps of 7.8 mm: the cells have 5 mm.
+    const std::size_t left = written(scene, options).parts[0].mesh.triangles.size();
+    EXPECT_GT(left, 0U);
+    EXPECT_LT(left, scene.parts[0].mesh.triangles.size() / 2);
+  }
   options.most_rounding_mm = 5000;
   EXPECT_TRUE(instances(written(scene, options)).empty() || written(scene, options).parts[0].mesh.triangles.empty());
 }
@@ -451,7 +461,7 @@ TEST_F(GlbCompression, GrainsThatDifferDoNotShare) {
   EXPECT_EQ(sizes.tag_pictures.copies, 2U);
 }
 
-/// Forces along a stroke over the patch, 0.6 mm below its smooth surface. In the frame of the file.
+/// Forces along a stroke over the patch without friction, 0.4 mm below its smooth surface. In the frame of the file.
 std::vector<Vec3> forces_of(const std::filesystem::path& file, const Transform& world) {
   const HapticScene scene = load_haptic_scene(file);
   EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0].warning.message;
@@ -460,7 +470,7 @@ std::vector<Vec3> forces_of(const std::filesystem::path& file, const Transform& 
   std::vector<Vec3> forces;
   for (int i = 0; i <= 400; ++i) {
     const double u = 0.2 + 0.6 * i / 400, v = 0.37 + 0.2 * i / 400,
-                 below = i == 0 ? -5 : 0.6 - scene.probe_radius_m * 1e3;
+                 below = i == 0 ? -5 : 0.4 - scene.probe_radius_m * 1e3;
     const Vec3 place{40 + k_side_mm * u, 6 * std::sin(3 * u + 2 * v) - below, -k_side_mm * v};
     const Vec3 hand = 1e-3 * transform_point(world, place);
     if (i == 0) proxy.reset(hand);
@@ -477,10 +487,13 @@ TEST_F(GlbCompression, ForcesAreThoseOfTheFileWithoutCompression) {
   const std::vector<Vec3> plain = forces_of(folder_ / "plain.glb", world);
   double largest = 0;
   for (const Vec3& force : plain) largest = std::max(largest, norm(force));
-  ASSERT_GT(largest, 0.2);
+  ASSERT_GT(largest, 0.1);
   // A surface moved by e changes the force by k e; relief of slope s moved along it by d changes it by k s d.
   const double rounding_m = 1e-3 * k_side_mm / 16384, texel_m = 1e-3 * k_side_mm / k_repeats / k_texels;
   const double slope = 2e-4 * 2 * std::numbers::pi / (1e-3 * k_side_mm / k_repeats);
+  // Where the stroke leaves a facet the force turns by their angle, in one file a tick before the other: by the
+  // curvature of the patch, at most 6 mm (3² + 2²) / side², over the diagonal of a cell.
+  const double edge = 6 * 13 / (k_side_mm * k_side_mm) * std::sqrt(2) * k_side_mm / k_cells;
   const double bound = 600 * (rounding_m + slope * 0.1 * texel_m);
   for (const auto& [name, coding] : k_codings) {
     GlbWriteOptions options;
@@ -488,9 +501,12 @@ TEST_F(GlbCompression, ForcesAreThoseOfTheFileWithoutCompression) {
     options.pictures = PictureCoding::webp;
     write_glb(scene, folder_ / "small.glb", options);
     const std::vector<Vec3> small = forces_of(folder_ / "small.glb", world);
-    double most = 0;
-    for (std::size_t i = 0; i < plain.size(); ++i) most = std::max(most, norm(small[i] - plain[i]));
-    EXPECT_LE(most, 4 * bound) << name << ": friction and the tilt of facets come on top";
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < plain.size(); ++i) differences.push_back(norm(small[i] - plain[i]));
+    std::sort(differences.begin(), differences.end());
+    const double most = differences.back(), usual = differences[differences.size() * 9 / 10];
+    EXPECT_LE(usual, bound) << name;
+    EXPECT_LE(most, bound + edge * largest) << name;
     EXPECT_GT(most, 0);
     RecordProperty(name, std::to_string(most));
   }
