@@ -149,6 +149,7 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
   result.seconds["write"] = write_clock.seconds();
   result.scene = std::move(edited.scene);
   result.changes = std::move(edited.changes);
+  result.sizes.tag_pictures = edited.tag_pictures;
   for (std::string& note : edited.notes) result.scene.warnings.push_back(std::move(note));
   if (options.for_pictures) read_again(output, result);
   result.seconds["total"] = total.seconds();
@@ -208,6 +209,8 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
   if (perception.leave_out_unreachable || perception.leave_out_unseen) return {false, "parts are to be left out"};
   if (options.write.mirror_mpeg_haptics || options.write.mirror_khr_physics)
     return {false, "tags are to be mirrored in extensions"};
+  if (options.write.meshes != MeshCoding::none) return {false, "meshes are to be compressed"};
+  if (options.write.pictures != PictureCoding::as_is) return {false, "pictures are to be stored in another format"};
   if (has_solid_recipe(rules, options.bake.library)) return {false, k_reads_surface};
   return {true, "only tags and what the grain needs are added"};
 }
@@ -251,7 +254,7 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
   result.seconds["read"] = read_seconds;
   const Stopwatch write_clock;
-  for (std::string& loss : write_scene(result.scene, output, options.write))
+  for (std::string& loss : write_scene(result.scene, output, options.write, &result.sizes))
     result.scene.losses.push_back(std::move(loss));
   result.seconds["write"] = write_clock.seconds();
   result.seconds["total"] = total.seconds();

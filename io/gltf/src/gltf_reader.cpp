@@ -433,12 +433,45 @@ void find_missing_tags(const std::filesystem::path& tags, const PartTriangles& t
   std::optional<TagManifest> manifest = take_tag_manifest(scene);
   if (!tags.empty()) {
     GltfTriangles other(tags);
+    complete_tag_pictures(other.scene);
     manifest = tag_manifest(other.scene, triangles_of(other));
     if (manifest->materials.empty()) throw InvalidInput(tags.string() + ": has no haptic tag");
   }
   if (!manifest) return;
   scene.tags = restore_tags(scene, *manifest, triangles);
   if (const std::string sentence = survival_sentence(scene.tags); !sentence.empty()) scene.warnings.push_back(sentence);
+}
+
+bool has_whole_positions(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
+  for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    const auto found = primitive.attributes.find("POSITION");
+    if (found == primitive.attributes.end()) continue;
+    const auto number = static_cast<std::size_t>(found->second);
+    if (number < model.accessors.size() && model.accessors[number].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      return true;
+  }
+  return false;
+}
+
+/// Positions of whole numbers have no unit: the scale of the first node that shows them is theirs. Where meshes are not
+/// read the nodes keep it.
+void scale_whole_positions(const Document& document, Scene& scene) {
+  std::vector<double> scale(scene.parts.size(), 0);
+  for (Node& node : scene.nodes) {
+    if (!node.part || scene.parts[*node.part].mesh.positions.empty() || *node.part >= document.model.meshes.size() ||
+        !has_whole_positions(document.model, document.model.meshes[*node.part]))
+      continue;
+    double& s = scale[*node.part];
+    if (s == 0) {
+      s = std::cbrt(std::abs(determinant(node.local)));
+      if (!(s > 0)) s = 1;
+      for (Vec3& p : scene.parts[*node.part].mesh.positions) p = s * p;
+    }
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 3; ++column) node.local[4 * row + column] /= s;
+    for (const std::uint32_t child : node.children)
+      for (std::size_t i = 0; i < 12; ++i) scene.nodes[child].local[i] *= s;
+  }
 }
 
 /// Lists the content of the document that a scene can't hold.
@@ -485,6 +518,7 @@ void read_rest(Document& document, AccessorReader& reader, const std::filesystem
   std::iota(origin.nodes.begin(), origin.nodes.end(), 0U);
   read_roots(document, scene);
   expand_instances(document, reader, scene, origin);  // appends nodes: those of the file keep their numbers
+  scale_whole_positions(document, scene);
   keep_finest_levels(document, coarser_parts, scene, origin);
   note_losses(document, scene);
   read_asset(document, scene);

@@ -77,13 +77,9 @@ class TagRestorer {
   /// A picture of the same bytes, within another tag.
   bool find_picture(PlacedPicture& picture) {
     if (!picture.image.empty()) return true;  // By its name, as ever.
-    for (Material& other : scene_.materials) {
-      if (!other.haptic) continue;
-      for (const PlacedPicture* known : pictures_of(*other.haptic))
-        if (known->sha256 == picture.sha256 && !known->uri.empty()) {
-          picture.uri = known->uri;
-          return true;
-        }
+    if (const std::string* uri = tag_picture(scene_, picture.sha256)) {
+      picture.uri = *uri;
+      return true;
     }
     return false;
   }
@@ -167,6 +163,26 @@ class TagRestorer {
 };
 
 }  // namespace
+
+const std::string* tag_picture(const Scene& scene, const std::string& sha256) {
+  for (const Material& material : scene.materials) {
+    if (!material.haptic) continue;
+    const std::optional<HeightTag>& height = material.haptic->height;
+    const std::optional<MapsTag>& maps = material.haptic->maps;
+    if (height && height->sha256 == sha256 && !height->uri.empty()) return &height->uri;
+    if (maps && maps->sha256 == sha256 && !maps->uri.empty()) return &maps->uri;
+  }
+  return nullptr;
+}
+
+void complete_tag_pictures(Scene& scene) {
+  for (Material& material : scene.materials) {
+    if (!material.haptic) continue;
+    for (PlacedPicture* picture : pictures_of(*material.haptic))
+      if (picture->uri.empty() && picture->image.empty())
+        if (const std::string* uri = tag_picture(scene, picture->sha256)) picture->uri = *uri;
+  }
+}
 
 TagSurvival restore_tags(Scene& scene, const TagManifest& manifest) {
   return restore_tags(scene, manifest, mesh_triangles(scene));

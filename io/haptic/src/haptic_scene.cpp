@@ -222,8 +222,12 @@ class Builder {
       made.backing_stiffness = tag.backing->stiffness;
       made.backing_depth_m = tag.backing->depth_m;
     }
-    made.height = add_relief(tag, material, warnings);
-    made.channels = add_channels(tag, material, warnings);
+    if (tag.height)
+      made.height =
+          load_once(reliefs_, made_of_relief(tag), warnings, [&] { return add_relief(tag, material, warnings); });
+    if (tag.maps)
+      made.channels =
+          load_once(channels_, made_of_channels(tag), warnings, [&] { return add_channels(tag, material, warnings); });
     if (!tag.force_model) return made;
     made.model = model_of(tag);
     made.amplitude = tag.force_model->amplitude;
@@ -235,9 +239,53 @@ class Builder {
     return made;
   }
 
+  /// Materials that differ in colour have the same pictures: they are decoded and kept once.
+  struct Loaded {
+    MaterialTag tag;  ///< With the members that the picture's field depends on.
+    std::uint32_t number = 0;
+    std::vector<HapticWarning> warnings;
+  };
+
+  static void forget_places(MaterialTag& tag) {
+    for (PlacedPicture* picture : pictures_of(tag)) picture->uri.clear(), picture->image.clear();
+  }
+
+  static MaterialTag made_of_relief(const MaterialTag& tag) {
+    MaterialTag key;
+    key.height = tag.height;
+    key.roughness = tag.roughness;
+    key.force_model = tag.force_model;
+    key.static_friction = largest_static_friction(tag);
+    forget_places(key);
+    return key;
+  }
+
+  static MaterialTag made_of_channels(const MaterialTag& tag) {
+    MaterialTag key;
+    key.height = tag.height;
+    key.maps = tag.maps;
+    forget_places(key);
+    return key;
+  }
+
+  /// What `load` gives for the first tag of a key.
+  template <class Load>
+  std::optional<std::uint32_t> load_once(std::vector<Loaded>& known, MaterialTag key,
+                                         std::vector<HapticWarning>& warnings, const Load& load) {
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Loaded& l) { return l.tag == key; });
+    if (found != known.end()) {
+      warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
+      return found->number;
+    }
+    const std::size_t before = warnings.size();
+    const std::optional<std::uint32_t> number = load();
+    const auto first = warnings.begin() + static_cast<std::ptrdiff_t>(before);
+    if (number) known.push_back({std::move(key), *number, {first, warnings.end()}});
+    return number;
+  }
+
   std::optional<std::uint32_t> add_channels(const MaterialTag& tag, std::size_t material,
                                             std::vector<HapticWarning>& warnings) {
-    if (!tag.maps) return std::nullopt;
     std::optional<ChannelField> field = find_maps(*tag.maps, scene_, file_, material, warnings, options_.probe_radius_m,
                                                   tag.height ? tag.height->metres_per_uv : Vec2{});
     ++(field ? result.channels_loaded : result.channels_missing);
@@ -251,7 +299,6 @@ class Builder {
 
   std::optional<std::uint32_t> add_relief(const MaterialTag& tag, std::size_t material,
                                           std::vector<HapticWarning>& warnings) {
-    if (!tag.height) return std::nullopt;
     std::optional<HeightField> field = find_height_map(*tag.height, scene_, file_, material, warnings);
     ++(field ? result.maps_loaded : result.maps_missing);
     if (!field && tag.roughness && tag.roughness->rms_height_m > 0) {
@@ -363,6 +410,7 @@ class Builder {
   HapticSceneOptions options_;
   std::vector<std::optional<std::uint32_t>> tagged_;  // Index in result.materials of a scene material with a tag.
   std::vector<int> tex_coord_;
+  std::vector<Loaded> reliefs_, channels_;
   std::map<std::uint32_t, std::size_t> without_uv_;
   std::size_t added_triangles_ = 0;
   bool any_shading_ = false, any_uv_ = false;

@@ -25,7 +25,7 @@ struct BakeFileOptions {
 
 /// How a bake is written: a glTF file is edited where nothing is asked for that changes its meshes or nodes (fewer
 /// triangles, parts left out, decals, pictures in the place of surfaces, instances of one node with different
-/// materials), everything else is written anew.
+/// materials, compression), everything else is written anew.
 struct BakeWay {
   bool in_place = false;
   std::string reason;
@@ -34,6 +34,7 @@ struct BakeWay {
 struct BakeFileResult : BakeResult {
   BakeWay way;
   std::vector<GltfChange> changes;  ///< Of an edited file.
+  GlbSizes sizes;                   ///< Of one edited in place only the tags' pictures.
 };
 
 /// As far as file name, options and rules tell.

@@ -63,10 +63,11 @@ struct HapticScene {
 /// Pictures of stiffness, friction and damping are read as they are; where one is lost the constants are used (warning
 /// maps_lost).
 ///
-/// Maps of materials that no triangle uses are not read; maps are halved while they stay fine enough for the
-/// shortest wavelength. A KHR_texture_transform of the normal texture (without one: of the base colour) that differs
-/// from the tag's, as packers that quantise coordinates write it, replaces the tag's (warning uv_transform). Other
-/// codes: those of the tag, tags_missing and tag_restored (Scene::tags), uv_missing, uv_degenerate, probe_dilation.
+/// Maps of materials that no triangle uses are not read, those of like tags once; maps are halved while they stay fine
+/// enough for the shortest wavelength. A KHR_texture_transform of the normal texture (without one: of the base colour)
+/// that differs from the tag's, as packers that quantise coordinates write it, replaces the tag's (warning
+/// uv_transform). Other codes: those of the tag, tags_missing and tag_restored (Scene::tags), uv_missing,
+/// uv_degenerate, probe_dilation.
 /// @param path of the file, for messages and for sidecar files next to it.
 /// @throws InvalidInput naming `path` when no tagged material has triangles, or none is within reach.
 HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options = {});
