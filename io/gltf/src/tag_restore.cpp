@@ -15,13 +15,6 @@ constexpr double k_area_tolerance = 0.02;  // Quantized positions and mild simpl
 constexpr double k_box_tolerance = 0.005;  // Of the box's diagonal.
 constexpr double k_merged = 1.05;          // A material of more than this times its surfaces' area is several ones.
 
-/// Whether two tags feel the same, wherever their height maps are kept.
-bool same_feel(MaterialTag a, MaterialTag b) {
-  for (MaterialTag* tag : {&a, &b})
-    for (PlacedPicture* picture : pictures_of(*tag)) picture->uri.clear(), picture->image.clear();
-  return a == b;
-}
-
 bool same_box(const Bounds3& a, const Bounds3& b) {
   const double most = k_box_tolerance * std::max(a.diagonal(), b.diagonal());
   return norm(a.low - b.low) <= most && norm(a.high - b.high) <= most;
@@ -163,6 +156,12 @@ class TagRestorer {
 };
 
 }  // namespace
+
+bool same_feel(MaterialTag a, MaterialTag b) {
+  for (MaterialTag* tag : {&a, &b})
+    for (PlacedPicture* picture : pictures_of(*tag)) picture->uri.clear(), picture->image.clear();
+  return a == b;
+}
 
 const std::string* tag_picture(const Scene& scene, const std::string& sha256) {
   for (const Material& material : scene.materials) {

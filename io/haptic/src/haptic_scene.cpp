@@ -43,7 +43,7 @@ class Builder {
         tex_coord_[i] = tex_coord_of(*tag).value_or(0);
         result.names.push_back(scene_.materials[i].name.empty() ? "material " + std::to_string(i)
                                                                 : scene_.materials[i].name);
-        result.materials.push_back(contact_material(*tag, i, warnings));
+        add_material(*tag, i, warnings);
         any_shading_ = any_shading_ || tag->force_shading;
         any_uv_ = any_uv_ || needs_uv(result.materials.back());
       }
@@ -206,6 +206,28 @@ class Builder {
     return material.height || material.stimulus || material.channels;
   }
 
+  /// A material whose pictures are decoded, and what that had to warn of.
+  struct Felt {
+    MaterialTag tag;
+    std::vector<HapticWarning> warnings;
+  };
+
+  /// Materials that differ in colour feel the same: their pictures are decoded and kept once.
+  void add_material(const MaterialTag& tag, std::size_t material, std::vector<HapticWarning>& warnings) {
+    std::size_t like = 0;
+    while (like < felt_.size() && !same_feel(felt_[like].tag, tag)) ++like;
+    Felt felt{tag, {}};
+    for (PlacedPicture* picture : pictures_of(felt.tag)) picture->uri.clear();
+    if (like < felt_.size()) {
+      felt.warnings = felt_[like].warnings;
+      result.materials.push_back(ContactMaterial(result.materials[like]));
+    } else {
+      result.materials.push_back(contact_material(tag, material, felt.warnings));
+    }
+    warnings.insert(warnings.end(), felt.warnings.begin(), felt.warnings.end());
+    felt_.push_back(std::move(felt));
+  }
+
   ContactMaterial contact_material(const MaterialTag& tag, std::size_t material, std::vector<HapticWarning>& warnings) {
     ContactMaterial made;
     made.stiffness = tag.stiffness;
@@ -222,12 +244,8 @@ class Builder {
       made.backing_stiffness = tag.backing->stiffness;
       made.backing_depth_m = tag.backing->depth_m;
     }
-    if (tag.height)
-      made.height =
-          load_once(reliefs_, made_of_relief(tag), warnings, [&] { return add_relief(tag, material, warnings); });
-    if (tag.maps)
-      made.channels =
-          load_once(channels_, made_of_channels(tag), warnings, [&] { return add_channels(tag, material, warnings); });
+    if (tag.height) made.height = add_relief(tag, material, warnings);
+    if (tag.maps) made.channels = add_channels(tag, material, warnings);
     if (!tag.force_model) return made;
     made.model = model_of(tag);
     made.amplitude = tag.force_model->amplitude;
@@ -237,51 +255,6 @@ class Builder {
     if (tag.roughness && tag.roughness->fractal_dimension) made.hurst = 3 - *tag.roughness->fractal_dimension;
     if (is_stimulus(made.model)) std::swap(made.height, made.stimulus);
     return made;
-  }
-
-  /// Materials that differ in colour have the same pictures: they are decoded and kept once.
-  struct Loaded {
-    MaterialTag tag;  ///< With the members that the picture's field depends on.
-    std::uint32_t number = 0;
-    std::vector<HapticWarning> warnings;
-  };
-
-  static void forget_places(MaterialTag& tag) {
-    for (PlacedPicture* picture : pictures_of(tag)) picture->uri.clear(), picture->image.clear();
-  }
-
-  static MaterialTag made_of_relief(const MaterialTag& tag) {
-    MaterialTag key;
-    key.height = tag.height;
-    key.roughness = tag.roughness;
-    key.force_model = tag.force_model;
-    key.static_friction = largest_static_friction(tag);
-    forget_places(key);
-    return key;
-  }
-
-  static MaterialTag made_of_channels(const MaterialTag& tag) {
-    MaterialTag key;
-    key.height = tag.height;
-    key.maps = tag.maps;
-    forget_places(key);
-    return key;
-  }
-
-  /// What `load` gives for the first tag of a key.
-  template <class Load>
-  std::optional<std::uint32_t> load_once(std::vector<Loaded>& known, MaterialTag key,
-                                         std::vector<HapticWarning>& warnings, const Load& load) {
-    const auto found = std::find_if(known.begin(), known.end(), [&](const Loaded& l) { return l.tag == key; });
-    if (found != known.end()) {
-      warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
-      return found->number;
-    }
-    const std::size_t before = warnings.size();
-    const std::optional<std::uint32_t> number = load();
-    const auto first = warnings.begin() + static_cast<std::ptrdiff_t>(before);
-    if (number) known.push_back({std::move(key), *number, {first, warnings.end()}});
-    return number;
   }
 
   std::optional<std::uint32_t> add_channels(const MaterialTag& tag, std::size_t material,
@@ -410,7 +383,7 @@ class Builder {
   HapticSceneOptions options_;
   std::vector<std::optional<std::uint32_t>> tagged_;  // Index in result.materials of a scene material with a tag.
   std::vector<int> tex_coord_;
-  std::vector<Loaded> reliefs_, channels_;
+  std::vector<Felt> felt_;
   std::map<std::uint32_t, std::size_t> without_uv_;
   std::size_t added_triangles_ = 0;
   bool any_shading_ = false, any_uv_ = false;

@@ -63,6 +63,9 @@ std::optional<TagManifest> take_tag_manifest(Scene& scene);
 /// something is missing.
 TagSurvival restore_tags(Scene& scene, const TagManifest& manifest);
 
+/// Whether two tags feel the same, wherever their pictures are kept.
+bool same_feel(MaterialTag a, MaterialTag b);
+
 /// The URI of a picture that some haptic tag of the scene has, by its SHA-256; null when none does. Files hold each of
 /// these pictures once, whatever the number of tags that name it.
 const std::string* tag_picture(const Scene& scene, const std::string& sha256);
