@@ -488,13 +488,14 @@ TEST_F(GlbCompression, ForcesAreThoseOfTheFileWithoutCompression) {
   double largest = 0;
   for (const Vec3& force : plain) largest = std::max(largest, norm(force));
   ASSERT_GT(largest, 0.1);
-  // A surface moved by e changes the force by k e; relief of slope s moved along it by d changes it by k s d.
+  // A surface moved by e changes the force by k e, and by k s e where that moves its relief of slope s along it, as the
+  // rounding of texture coordinates does by d.
   const double rounding_m = 1e-3 * k_side_mm / 16384, texel_m = 1e-3 * k_side_mm / k_repeats / k_texels;
-  const double slope = 2e-4 * 2 * std::numbers::pi / (1e-3 * k_side_mm / k_repeats);
+  const double slope = 1e-4 * 4 * 2 * std::numbers::pi / (1e-3 * k_side_mm / k_repeats);  // Four waves a repeat.
   // Where the stroke leaves a facet the force turns by their angle, in one file a tick before the other: by the
   // curvature of the patch, at most 6 mm (3² + 2²) / side², over the diagonal of a cell.
   const double edge = 6 * 13 / (k_side_mm * k_side_mm) * std::sqrt(2) * k_side_mm / k_cells;
-  const double bound = 600 * (rounding_m + slope * 0.1 * texel_m);
+  const double bound = 600 * (rounding_m * (1 + slope) + slope * 0.1 * texel_m);
   for (const auto& [name, coding] : k_codings) {
     GlbWriteOptions options;
     options.meshes = coding;
