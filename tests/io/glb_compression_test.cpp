@@ -494,6 +494,8 @@ TEST_F(GlbCompression, ForcesAreThoseOfTheFileWithoutCompression) {
   // Where the stroke leaves a facet the force turns by their angle, in one file a tick before the other: by the
   // curvature of the patch, at most 6 mm (3² + 2²) / side², over the diagonal of a cell.
   const double edge = 6 * 13 / (k_side_mm * k_side_mm) * std::sqrt(2) * k_side_mm / k_cells;
+  // The facets themselves turn when their corners move, by at most two roundings over the legs of a cell.
+  const double turned = 2 * std::sqrt(2) * k_cells / 16384.0;
   const double bound = 600 * (rounding_m + slope * 0.1 * texel_m);
   for (const auto& [name, coding] : k_codings) {
     GlbWriteOptions options;
@@ -506,7 +508,7 @@ TEST_F(GlbCompression, ForcesAreThoseOfTheFileWithoutCompression) {
     std::sort(differences.begin(), differences.end());
     const double most = differences.back(), usual = differences[differences.size() * 9 / 10];
     EXPECT_LE(usual, bound) << name;
-    EXPECT_LE(most, bound + edge * largest) << name;
+    EXPECT_LE(most, bound + (edge + turned) * largest) << name;
     EXPECT_GT(most, 0);
     RecordProperty(name, std::to_string(most));
   }
