@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grain_source.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/progress_until.hpp"
 #include "papilla/core/read_file.hpp"
@@ -13,7 +14,6 @@
 #include "papilla/pipeline/hex_colour.hpp"
 #include "prepared_bake.hpp"
 #include "remembered_plan.hpp"
-#include "solid_grain.hpp"
 
 namespace papilla {
 namespace {
