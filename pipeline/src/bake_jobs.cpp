@@ -179,16 +179,9 @@ JobResult run_job(const fs::path& folder, const std::string& id, const ProgressC
   SharedProgress done(progress, "surfaces", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
     WorkProgress worked(done, static_cast<double>(inputs[i].mesh.triangles.size()));
-    const std::string label = inputs[i].label;
-    try {
-      inputs[i].options.method.cache = &cache;
-      inputs[i].options.method.progress = worked.callback();
-      bake_surface(std::move(inputs[i]));
-    } catch (const SolverFailure& error) {
-      throw SolverFailure("part '" + label + "': " + error.what());
-    } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + label + "': " + error.what());
-    }
+    inputs[i].options.method.cache = &cache;
+    inputs[i].options.method.progress = worked.callback();
+    bake_surface(std::move(inputs[i]));
     worked.reach(1);
   });
   if (const std::string problem = cache.problem(); !problem.empty()) throw IoError(problem);

@@ -375,14 +375,8 @@ void bake_surfaces(std::vector<SurfaceWork>& works, const ProgressCallback& prog
   oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
     SurfaceWork& work = works[i];
     WorkProgress worked(done, static_cast<double>(work.surface->triangles.size()));
-    try {
-      work.input.options.method.progress = worked.callback();
-      if (work.equal_to == nullptr) work.output = bake_surface(std::move(work.input));
-    } catch (const SolverFailure& error) {
-      throw SolverFailure("part '" + work.surface->label + "': " + error.what());
-    } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + work.surface->label + "': " + error.what());
-    }
+    work.input.options.method.progress = worked.callback();
+    if (work.equal_to == nullptr) work.output = bake_surface(std::move(work.input));
     name_report(*work.surface, work.output.report);
     worked.reach(1);
   });

@@ -43,7 +43,7 @@ SurfaceInput surface_input(const PartSurface& surface, const MaterialRule& rule,
 
 /// unwrap_part() where the surface gets new uv, and measure_distortion() of what is written. The method's cache is
 /// asked first.
-/// @throws InvalidInput, SolverFailure of the method, without the part's name.
+/// @throws InvalidInput, SolverFailure of the method, naming the part.
 SurfaceOutput bake_surface(SurfaceInput input);
 
 }  // namespace papilla
