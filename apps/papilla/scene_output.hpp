@@ -3,8 +3,9 @@
 
 #include <string>
 
+#include "json/json.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/io/scene.hpp"
+#include "papilla/io/scene_file.hpp"
 #include "verb.hpp"
 
 namespace papilla::app {
@@ -12,10 +13,18 @@ namespace papilla::app {
 /// Prints the scene's warnings and losses, a line each.
 void print_notes(const Scene& scene, const Console& console);
 
+/// How the data of a written glTF file are stored, and what they take in bytes: {meshes{coding, bytes, uncompressed},
+/// images{coding, bytes, uncompressed}, height_maps{count, bytes, tags}}.
+Json storage_json(const WriteOptions& options, const GlbSizes& sizes);
+
+/// The same in a line or two; empty when nothing was compressed and no tag has a height map.
+std::string storage_text(const WriteOptions& options, const GlbSizes& sizes);
+
 /// Writes a verb's result in the format of the extension, adds what that format has no place for to Scene::losses, and
 /// prints the notes. The verb puts them into its JSON as "losses" and "warnings".
+/// @returns storage_json(), null for other formats than glTF.
 /// @throws InvalidInput, IoError as write_scene().
-void write_output(Scene& scene, const std::string& path, const Console& console);
+Json write_output(Scene& scene, const std::string& path, const WriteOptions& options, const Console& console);
 
 /// The result of `work`, with the file's name in front of what it throws about the file's content.
 template <class Work>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
+#include <malloc.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -33,7 +34,7 @@
 #include "papilla/haptic/sim_device.hpp"
 #include "papilla/haptic/stroke.hpp"
 #include "papilla/haptic/tag_limits.hpp"
-#include "papilla/io/gltf_reader.hpp"
+#include "papilla/io/haptic_scene.hpp"
 #include "real_surface.hpp"
 #include "report.hpp"
 #include "standard_output.hpp"
@@ -92,6 +93,7 @@ HapticSceneOptions scene_options(const Options& options, const DeviceChoice& cho
   scene.probe_radius_m = probe_radius_m(options, choice);
   scene.shortest_wave_m = 2 * options.speed / options.rate_hz;
   scene.overlay = !options.no_overlay;
+  scene.tags = options.tags;
   if (options.is_real()) return scene;  // The hand is not in the frame of the scene.
   if (!options.origin.empty() && choice.preset == nullptr) {
     scene.reach_around = {{options.origin[0], options.origin[1], options.origin[2]}};
@@ -216,12 +218,7 @@ int run(const Options& options) {
 
   const Stopwatch clock;
   const FileStamp stamp = stamp_of(options.file);
-  HapticScene scene;
-  {
-    const Scene read = read_gltf(options.file, {.tags = options.tags, .tag_channel = true});
-    scene = haptic_scene(read, options.file, scene_options(options, choice));
-    report.tags = read.tags;
-  }
+  HapticScene scene = load_haptic_scene(options.file, scene_options(options, choice));
   ContactSurface surface = [&] {
     try {
       return ContactSurface(scene.mesh, scene.materials, std::move(scene.heights), scene.probe_radius_m,
@@ -241,6 +238,7 @@ int run(const Options& options) {
   const bool centred = choice.preset == nullptr && !real_part;
   const Vec3 origin = centred ? workspace_origin(options, scene, surface) : Vec3{};
   scene.mesh = {};
+  ::malloc_trim(0);  // Or what loading took is locked into memory with the rest.
   report.load_seconds = clock.seconds();
   report.probe_radius_m = surface.probe_radius_m();
   report.triangles = surface.triangles();
@@ -251,6 +249,7 @@ int run(const Options& options) {
   report.roughness_overlays = scene.roughness_overlays;
   report.channels_loaded = scene.channels_loaded;
   report.channels_missing = scene.channels_missing;
+  report.tags = std::move(scene.tags);
   report.triangles_out_of_reach = scene.triangles_out_of_reach;
   report.warnings = std::move(scene.warnings);
   report.material_names = std::move(scene.names);

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "papilla/core/error.hpp"
+#include "papilla/core/hex.hpp"
 
 namespace papilla {
 
@@ -43,13 +44,6 @@ Digest sha256(const void* data, std::size_t size) {
   return sum.finish();
 }
 
-std::string to_hex(const Digest& digest) {
-  std::string text;
-  for (const std::uint8_t byte : digest) {
-    text += "0123456789abcdef"[byte >> 4];
-    text += "0123456789abcdef"[byte & 15];
-  }
-  return text;
-}
+std::string to_hex(const Digest& digest) { return hex_digits(digest); }
 
 }  // namespace papilla

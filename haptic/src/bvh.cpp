@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bvh.hpp"
 
-#include <numeric>
-
 #include "papilla/core/error.hpp"
 
 namespace papilla {
@@ -35,18 +33,35 @@ int bin_of(float c, float low, float scale) noexcept {
   return std::clamp(static_cast<int>((c - low) * scale), 0, k_bins - 1);
 }
 
-/// The cheapest of the 15 planes of one axis by Σ area × count of both sides.
-void try_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items, const Box3f& centres,
-              std::size_t axis, Split& best) {
-  const float extent = centres.high[axis] - centres.low[axis];
-  if (!(extent > 0) || !std::isfinite(static_cast<float>(k_bins) / extent)) return;
-  const float scale = static_cast<float>(k_bins) / extent;
-  std::array<Bin, k_bins> bins;
-  for (const std::uint32_t item : items) {
-    Bin& bin = bins[static_cast<std::size_t>(bin_of(centre(boxes[item], axis), centres.low[axis], scale))];
-    bin.box.add(boxes[item]);
-    ++bin.count;
+/// Boxes of the items and of their centres.
+struct Extent {
+  Box3f all, centres;
+
+  explicit Extent(std::span<const BoxedItem> items) noexcept {
+    for (const BoxedItem& item : items) {
+      all.add(item.box);
+      const std::array<float, 3> c = {centre(item.box, 0), centre(item.box, 1), centre(item.box, 2)};
+      centres.add(Box3f{c, c});
+    }
   }
+};
+
+/// The bins of an axis; none where the centres have no extent.
+struct Bins {
+  float low = 0, scale = 0;
+  std::array<Bin, k_bins> bins{};
+
+  Bins(const Box3f& centres, std::size_t axis) noexcept : low(centres.low[axis]) {
+    const float extent = centres.high[axis] - low;
+    if (extent > 0 && std::isfinite(static_cast<float>(k_bins) / extent)) scale = static_cast<float>(k_bins) / extent;
+  }
+  int of(float c) const noexcept { return bin_of(c, low, scale); }
+};
+
+/// The cheapest of the 15 planes of one axis by Σ area × count of both sides.
+void try_axis(const Bins& axis_bins, std::size_t axis, std::size_t count, Split& best) {
+  if (axis_bins.scale == 0) return;
+  const auto& bins = axis_bins.bins;
   std::array<double, k_bins> above{};
   Bin sum;
   for (std::size_t i = k_bins - 1; i > 0; --i) {
@@ -59,56 +74,56 @@ void try_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items
     sum.box.add(bins[i].box);
     sum.count += bins[i].count;
     const double cost = half_area(sum.box) * sum.count + above[i + 1];
-    if (sum.count > 0 && sum.count < items.size() && cost < best.cost) best = {axis, static_cast<int>(i), cost};
+    if (sum.count > 0 && sum.count < count && cost < best.cost) best = {axis, static_cast<int>(i), cost};
   }
 }
 
 /// Reorders `items` and returns how many belong to the first child.
-std::size_t partition_items(std::span<const Box3f> boxes, std::span<std::uint32_t> items, int depth) {
-  Box3f centres;
-  for (const std::uint32_t item : items) {
-    const std::array<float, 3> c = {centre(boxes[item], 0), centre(boxes[item], 1), centre(boxes[item], 2)};
-    centres.add(Box3f{c, c});
-  }
+std::size_t partition_items(std::span<BoxedItem> items, const Box3f& centres, int depth) {
+  std::array<Bins, 3> axes = {Bins(centres, 0), Bins(centres, 1), Bins(centres, 2)};
   Split best;
-  if (depth < k_sah_depth)
-    for (std::size_t axis = 0; axis < 3; ++axis) try_axis(boxes, items, centres, axis, best);
-  if (std::isfinite(best.cost)) {
-    const float low = centres.low[best.axis], scale = static_cast<float>(k_bins) / (centres.high[best.axis] - low);
-    const auto middle = std::partition(items.begin(), items.end(), [&](std::uint32_t item) {
-      return bin_of(centre(boxes[item], best.axis), low, scale) <= best.bin;
-    });
-    return static_cast<std::size_t>(middle - items.begin());
+  if (depth < k_sah_depth) {
+    for (const BoxedItem& item : items)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Bin& bin = axes[axis].bins[static_cast<std::size_t>(axes[axis].of(centre(item.box, axis)))];
+        bin.box.add(item.box);
+        ++bin.count;
+      }
+    for (std::size_t axis = 0; axis < 3; ++axis) try_axis(axes[axis], axis, items.size(), best);
   }
-  return items.size() / 2;
+  if (!std::isfinite(best.cost)) return items.size() / 2;
+  const Bins& bins = axes[best.axis];
+  const auto middle = std::partition(items.begin(), items.end(), [&](const BoxedItem& item) {
+    return bins.of(centre(item.box, best.axis)) <= best.bin;
+  });
+  return static_cast<std::size_t>(middle - items.begin());
 }
 
 }  // namespace
 
-Bvh::Bvh(std::span<const Box3f> boxes, std::uint32_t leaf_size) : order_(boxes.size()) {
-  if (boxes.size() > (std::size_t{1} << 31)) throw InvalidInput("Bvh: more than 2^31 boxes");
-  if (boxes.empty()) return;
-  std::iota(order_.begin(), order_.end(), 0U);
+Bvh::Bvh(std::span<BoxedItem> items, std::uint32_t leaf_size) {
+  if (items.size() > (std::size_t{1} << 31)) throw InvalidInput("Bvh: more than 2^31 boxes");
+  if (items.empty()) return;
+  items_ = static_cast<std::uint32_t>(items.size());
   struct Task {
     std::uint32_t node, first, count;
     int depth;
   };
-  nodes_.reserve(4 * (boxes.size() / leaf_size) + 2);
+  nodes_.reserve(4 * (items.size() / leaf_size) + 2);
   nodes_.resize(k_root + 1);
-  std::vector<Task> tasks{{k_root, 0, static_cast<std::uint32_t>(boxes.size()), 0}};
+  std::vector<Task> tasks{{k_root, 0, items_, 0}};
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
-    const std::span<std::uint32_t> items(order_.data() + task.first, task.count);
-    Box3f box;
-    for (const std::uint32_t item : items) box.add(boxes[item]);
-    nodes_[task.node].box = box;
+    const std::span<BoxedItem> own = items.subspan(task.first, task.count);
+    const Extent extent(own);
+    nodes_[task.node].box = extent.all;
     if (task.count <= leaf_size) {
       nodes_[task.node].first = task.first;
       nodes_[task.node].count = task.count;
       continue;
     }
-    const auto left = static_cast<std::uint32_t>(partition_items(boxes, items, task.depth));
+    const auto left = static_cast<std::uint32_t>(partition_items(own, extent.centres, task.depth));
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[task.node].first = child;
     nodes_.resize(nodes_.size() + 2);
@@ -128,7 +143,7 @@ std::vector<std::uint32_t> Bvh::number_leaves() {
     begins.push_back(std::exchange(nodes_[leaf].first, static_cast<std::uint32_t>(begins.size())));
     nodes_[leaf].count = 1;
   }
-  begins.push_back(static_cast<std::uint32_t>(order_.size()));
+  begins.push_back(items_);
   return begins;
 }
 

@@ -30,28 +30,31 @@ struct Box3f {
   }
 };
 
+/// A box and the number of what it encloses.
+struct BoxedItem {
+  Box3f box;
+  std::uint32_t item = 0;
+};
+
 /// Bounding volume hierarchy over boxes, as one flat array of 32-byte nodes.
 ///
 /// Built top down with the surface area heuristic over 16 bins per axis [Wald 2007, "On fast construction of SAH-based
 /// bounding volume hierarchies"]; below depth 48, and where all centres coincide, by halving, which bounds the depth by
-/// k_stack. Build: O(n log n), about 0.5 µs per box and level. Deterministic.
-/// Queries are noexcept, use a fixed stack and allocate nothing. They report ranges of leaf_order(); the owner keeps
-/// its items in that order.
+/// k_stack. Build: O(n log n), three passes over the items of each level, in memory order; needs no memory but that of
+/// the items and the nodes. Deterministic.
+/// Queries are noexcept, use a fixed stack and allocate nothing. They report ranges of the items, which the owner keeps
+/// in the order of the build.
 class Bvh {
  public:
   Bvh() = default;
-  /// @param boxes finite, at most 2³¹. @param leaf_size most boxes in a leaf, ≥ 1.
-  explicit Bvh(std::span<const Box3f> boxes, std::uint32_t leaf_size = 4);
+  /// @param items with finite boxes, at most 2³¹; sorted by leaves. @param leaf_size most items in a leaf, ≥ 1.
+  explicit Bvh(std::span<BoxedItem> items, std::uint32_t leaf_size = 4);
 
-  /// leaf_order()[i]: index of the input box at place i.
-  const std::vector<std::uint32_t>& leaf_order() const noexcept { return order_; }
-  /// Moves the order out, for owners that need it only to sort their items.
-  std::vector<std::uint32_t> take_leaf_order() noexcept { return std::exchange(order_, {}); }
-  /// Numbers the leaves in this order; queries then call visit(number, number + 1).
-  /// @returns the first place of each leaf in leaf_order(), and the end of the last.
+  /// Numbers the leaves in the order of the items; queries then call visit(number, number + 1).
+  /// @returns the first place of each leaf, and the end of the last.
   std::vector<std::uint32_t> number_leaves();
   bool empty() const noexcept { return nodes_.empty(); }
-  std::size_t bytes() const noexcept { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
+  std::size_t bytes() const noexcept { return nodes_.size() * sizeof(Node); }
 
   /// Calls visit(begin, end) for each leaf with a point nearer than `radius` to `centre`, in order of distance.
   /// `visit` may shrink `radius`.
@@ -139,7 +142,7 @@ class Bvh {
   }
 
   LargeArray<Node> nodes_;
-  std::vector<std::uint32_t> order_;
+  std::uint32_t items_ = 0;
 };
 
 }  // namespace papilla

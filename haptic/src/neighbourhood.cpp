@@ -42,7 +42,7 @@ struct Neighbourhood::Loops {
 };
 
 /// Plane and edge planes of each triangle. The offsets are taken from the corners, so rounded normals do no harm.
-PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
 void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p) noexcept {
 #pragma GCC ivdep
   for (std::size_t i = 0; i < k_lanes; ++i) {
@@ -90,7 +90,7 @@ void Neighbourhood::Loops::make_prisms(const Corners& t, Prisms& p) noexcept {
 
 /// Box along the mean normal and the coordinate axis that is most orthogonal to it: clusters are split along coordinate
 /// axes. The centre is that of the corners.
-PAPILLA_CPU_CLONES("arch=x86-64-v4", "arch=x86-64-v3")
+PAPILLA_CPU_CLONES("arch=x86-64-v3")
 void Neighbourhood::Loops::make_box(const Corners& t, Box& box) noexcept {
   float n0 = 0, n1 = 0, n2 = 0;
 #pragma GCC ivdep

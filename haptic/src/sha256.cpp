@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "papilla/core/hex.hpp"
+
 namespace papilla {
 
 std::string sha256_hex(std::span<const std::byte> bytes) {
@@ -14,12 +16,7 @@ std::string sha256_hex(std::span<const std::byte> bytes) {
   SHA256Update(&context, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   std::array<std::uint8_t, SHA256_DIGEST_LENGTH> digest{};
   SHA256Final(digest.data(), &context);
-  std::string text;
-  for (const std::uint8_t byte : digest) {
-    text += "0123456789abcdef"[byte >> 4];
-    text += "0123456789abcdef"[byte & 15];
-  }
-  return text;
+  return hex_digits(digest);
 }
 
 }  // namespace papilla

@@ -19,10 +19,10 @@ void prefetch_bytes(const void* from, std::size_t bytes) noexcept {
 
 float middle(const Box3f& box, std::size_t axis) noexcept { return 0.5F * box.low[axis] + 0.5F * box.high[axis]; }
 
-std::size_t widest_axis(std::span<const Box3f> boxes, std::span<const std::uint32_t> items) noexcept {
+std::size_t widest_axis(std::span<const BoxedItem> items) noexcept {
   Box3f centres;
-  for (const std::uint32_t item : items) {
-    const std::array<float, 3> c{middle(boxes[item], 0), middle(boxes[item], 1), middle(boxes[item], 2)};
+  for (const auto& [box, item] : items) {
+    const std::array<float, 3> c{middle(box, 0), middle(box, 1), middle(box, 2)};
     centres.add(Box3f{c, c});
   }
   std::size_t axis = 0;
@@ -32,17 +32,17 @@ std::size_t widest_axis(std::span<const Box3f> boxes, std::span<const std::uint3
 }
 
 /// Halves the items along their widest axis down to groups; all groups but the last are full.
-void sort_into_groups(std::span<const Box3f> boxes, std::span<std::uint32_t> items) {
+void sort_into_groups(std::span<BoxedItem> items) {
   if (items.size() <= k_group) return;
-  const std::size_t axis = widest_axis(boxes, items);
+  const std::size_t axis = widest_axis(items);
   const std::size_t half = (items.size() / 2 + k_group - 1) / k_group * k_group;
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const float x = middle(boxes[a], axis), y = middle(boxes[b], axis);
-                     return x != y ? x < y : a < b;
+                   [axis](const BoxedItem& a, const BoxedItem& b) {
+                     const float x = middle(a.box, axis), y = middle(b.box, axis);
+                     return x != y ? x < y : a.item < b.item;
                    });
-  sort_into_groups(boxes, items.first(half));
-  sort_into_groups(boxes, items.subspan(half));
+  sort_into_groups(items.first(half));
+  sort_into_groups(items.subspan(half));
 }
 
 /// Exponent of the finest power-of-two cells of which 255 span the extent.
@@ -94,17 +94,23 @@ struct TriangleClusters::Weld {
   }
 };
 
-TriangleClusters::TriangleClusters(std::span<const Box3f> boxes,
-                                   const std::function<Vertex(std::uint32_t, std::size_t)>& vertex, bool with_relief) {
+TriangleClusters::TriangleClusters(std::vector<BoxedItem> boxes,
+                                   const std::function<std::array<Vertex, 3>(std::uint32_t)>& corners,
+                                   bool with_relief) {
   build_clusters(boxes);
-  corners_.reserve(boxes.size());
+  order_.reserve(boxes.size());
+  for (const BoxedItem& box : boxes) order_.push_back(box.item);
+  boxes = std::vector<BoxedItem>();  // Not {}, which keeps the memory.
+  corners_.reserve(order_.size());
+  vertices_.reserve(order_.size());  // Meshes of good triangles have fewer: 0.7 of them, with those on borders.
+  if (with_relief) reliefs_.reserve(order_.size());
   Weld weld{*this, with_relief};
   for (Cluster& cluster : clusters_) {
     weld.begin();
     cluster.vertex = static_cast<std::uint32_t>(vertices_.size());
     for (std::uint32_t i = 0; i < cluster.count; ++i) {
-      const std::uint32_t triangle = order_[cluster.first + i];
-      corners_.push_back({weld.add(vertex(triangle, 0)), weld.add(vertex(triangle, 1)), weld.add(vertex(triangle, 2))});
+      const std::array<Vertex, 3> of = corners(order_[cluster.first + i]);
+      corners_.push_back({weld.add(of[0]), weld.add(of[1]), weld.add(of[2])});
     }
     cluster.vertices = static_cast<std::uint8_t>(weld.known.size());
   }
@@ -112,26 +118,25 @@ TriangleClusters::TriangleClusters(std::span<const Box3f> boxes,
   reliefs_.shrink_to_fit();
 }
 
-void TriangleClusters::build_clusters(std::span<const Box3f> boxes) {
+void TriangleClusters::build_clusters(std::span<BoxedItem> boxes) {
   tree_ = Bvh(boxes, k_most);
   const std::vector<std::uint32_t> begins = tree_.number_leaves();
-  order_ = tree_.take_leaf_order();
   clusters_.resize(begins.size() - 1);
   for (std::size_t c = 0; c < clusters_.size(); ++c) {
     Cluster& cluster = clusters_[c];
     cluster.first = begins[c];
     cluster.count = static_cast<std::uint8_t>(begins[c + 1] - begins[c]);
-    const std::span<std::uint32_t> items(order_.data() + begins[c], cluster.count);
-    sort_into_groups(boxes, items);
+    const std::span<BoxedItem> items = boxes.subspan(begins[c], cluster.count);
+    sort_into_groups(items);
     Box3f all;
-    for (const std::uint32_t item : items) all.add(boxes[item]);
+    for (const BoxedItem& item : items) all.add(item.box);
     cluster.origin = all.low;
     for (std::size_t k = 0; k < 3; ++k)
       cluster.exponent[k] = static_cast<std::int8_t>(exponent_of(all.high[k] - all.low[k]));
     for (std::size_t g = 0; g < k_groups; ++g) {
       Box3f group;
       for (std::size_t i = k_group * g; i < std::min<std::size_t>(k_group * (g + 1), items.size()); ++i)
-        group.add(boxes[items[i]]);
+        group.add(items[i].box);
       for (std::size_t k = 0; k < 3; ++k) {
         const bool empty = !(group.low[k] <= group.high[k]);
         cluster.low[k][g] = empty ? 255 : cluster.cell(group.low[k], k);

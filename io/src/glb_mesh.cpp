@@ -10,9 +10,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "glb_compression.hpp"
+#include "papilla/core/bounds.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/io/vertex_normals.hpp"
@@ -28,6 +31,7 @@ struct GlbLayout {
   bool colors = false, tangents = false;
   int tangent_tex_coord = 0;
   bool cad_uv = false;
+  std::optional<VertexGrid> grid;  ///< Nothing: vertices are not rounded.
 };
 
 /// A vertex with everything that must agree for corners to share it. Texture coordinates are glTF's, v down. Zeros are
@@ -280,10 +284,27 @@ class Collector {
         primitive.triangles[begin + i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
     }
     primitive.vertices.finish();
+    if (layout_.grid) drop_collapsed(primitive);
     return primitive;
   }
 
  private:
+  /// Leaves out triangles of which rounding makes a line or a point.
+  static void drop_collapsed(Primitive& primitive) {
+    const auto& at = primitive.vertices.positions;
+    std::erase_if(primitive.triangles, [&](const Triangle& t) {
+      return at[t[0]] == at[t[1]] || at[t[1]] == at[t[2]] || at[t[2]] == at[t[0]];
+    });
+  }
+
+  static void round(const VertexGrid& grid, GlbVertex& vertex) {
+    for (float& x : vertex.position) x = to_grid(x, grid.position);
+    for (float& x : vertex.uv0) x = to_grid(x, grid.uv[0]);
+    for (float& x : vertex.uv1) x = to_grid(x, grid.uv[1]);
+    for (float& x : vertex.cad_uv) x = to_grid(x, grid.cad_uv);
+    vertex.normal = to_octahedron(vertex.normal);
+  }
+
   void fill(std::size_t t, std::span<GlbVertex, 3> corners) const {
     const TriangleMesh& mesh = part_.mesh;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -294,6 +315,7 @@ class Collector {
       if (layout_.tex_coords > 1) corner.uv1 = uv_at(part_, mesh.uv1, t, k);
       if (layout_.cad_uv) corner.cad_uv = cad_uv_at(part_, t, k);
       if (layout_.colors) corner.color = color_at(part_, t, k);
+      if (layout_.grid) round(*layout_.grid, corner);
     }
     const float handedness = layout_.tangents ? handedness_of(corners, layout_.tangent_tex_coord) : 0;
     for (GlbVertex& corner : corners) corner.handedness = handedness;
@@ -321,19 +343,6 @@ std::size_t add_attribute(std::vector<std::array<T, N>>&& values, Json accessor,
       {"componentType", sizeof(T) == 4 ? 5126 : 5123}, {"count", values.size()}, {"type", "VEC" + std::to_string(N)}};
   full.update(accessor);
   return buffer.add_accessor(buffer.add_view(std::move(values), GlbBuffer::Target::vertices), std::move(full));
-}
-
-Json bounds(const std::vector<std::array<float, 3>>& positions) {
-  std::array<float, 3> low = positions.front(), high = low;
-  for (const auto& p : positions)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  const auto exact = [](const std::array<float, 3>& p) {
-    return Json::array({double{p[0]}, double{p[1]}, double{p[2]}});
-  };
-  return {{"min", exact(low)}, {"max", exact(high)}};
 }
 
 std::vector<std::array<float, 4>> tangents_of(const Primitive& primitive, int tex_coord) {
@@ -364,13 +373,23 @@ std::size_t add_indices(Primitive& primitive, GlbBuffer& buffer) {
   return buffer.add_accessor(buffer.add_view(std::move(narrow), GlbBuffer::Target::indices), std::move(accessor));
 }
 
-Json write_primitive(Primitive primitive, const GlbLayout& layout, GlbBuffer& buffer) {
+/// What a primitive takes without compression.
+std::size_t plain_bytes(const Primitive& primitive, const GlbLayout& layout) {
+  const std::size_t count = primitive.vertices.size();
+  const std::size_t vertex =
+      sizeof(float) * (6 + (layout.tangents ? 4 : 0) +
+                       2 * (static_cast<std::size_t>(layout.tex_coords) + (layout.cad_uv ? 1 : 0))) +
+      (layout.colors ? sizeof(std::array<std::uint16_t, 4>) : 0);
+  const std::size_t index = count > std::numeric_limits<std::uint16_t>::max() ? 4 : 2;
+  return count * vertex + 3 * primitive.triangles.size() * index;
+}
+
+Json write_plain(Primitive primitive, std::vector<std::array<float, 4>> tangents, const GlbLayout& layout,
+                 GlbBuffer& buffer) {
   Json attributes = Json::object();
   GlbVertices& vertices = primitive.vertices;
-  std::vector<std::array<float, 4>> tangents;
-  if (layout.tangents) tangents = tangents_of(primitive, layout.tangent_tex_coord);
   const std::size_t indices = add_indices(primitive, buffer);
-  const Json box = bounds(vertices.positions);
+  const Json box = bounds_json(vertices.positions);
   attributes["POSITION"] = add_attribute(std::move(vertices.positions), box, buffer);
   attributes["NORMAL"] = add_attribute(std::move(vertices.normals), Json::object(), buffer);
   if (layout.tangents) attributes["TANGENT"] = add_attribute(std::move(tangents), Json::object(), buffer);
@@ -379,6 +398,76 @@ Json write_primitive(Primitive primitive, const GlbLayout& layout, GlbBuffer& bu
   if (layout.cad_uv) attributes["_CAD_UV"] = add_attribute(std::move(vertices.cad_uv), Json::object(), buffer);
   if (layout.colors) attributes["COLOR_0"] = add_attribute(std::move(vertices.colors), {{"normalized", true}}, buffer);
   return {{"attributes", std::move(attributes)}, {"indices", indices}};
+}
+
+Json write_primitive(Primitive primitive, const GlbLayout& layout, MeshCoding coding, GlbBuffer& buffer) {
+  GlbVertices& vertices = primitive.vertices;
+  std::vector<std::array<float, 4>> tangents;
+  if (layout.tangents) tangents = tangents_of(primitive, layout.tangent_tex_coord);
+  const std::size_t plain = plain_bytes(primitive, layout);
+  buffer.count_mesh(layout.grid ? 0 : plain, plain);
+  if (!layout.grid) return write_plain(std::move(primitive), std::move(tangents), layout, buffer);
+  for (auto& tangent : tangents) {
+    const std::array<float, 3> direction = to_octahedron({tangent[0], tangent[1], tangent[2]});
+    std::copy(direction.begin(), direction.end(), tangent.begin());
+  }
+  GlbArrays arrays{std::move(vertices.positions), std::move(vertices.normals), std::move(tangents), {}, {}, {}, {}, {}};
+  if (layout.tex_coords > 0) arrays.uv0 = std::move(vertices.uv0);
+  if (layout.tex_coords > 1) arrays.uv1 = std::move(vertices.uv1);
+  if (layout.cad_uv) arrays.cad_uv = std::move(vertices.cad_uv);
+  if (layout.colors) arrays.colors = std::move(vertices.colors);
+  arrays.triangles = std::move(primitive.triangles);
+  return write_compressed(std::move(arrays), *layout.grid, coding, buffer);
+}
+
+/// Along the longest side of a part: such errors are asked for, and such are always enough, with 16 bits for
+/// MeshCoding::quantize: a step is at least 1/√3 of the error.
+constexpr double k_steps = 16384, k_enough_steps = 32768;
+constexpr double k_most_rounding_mm = 0.02;
+constexpr double k_cad_uv_share = 1.0 / 65536;
+constexpr double k_texel_share = 0.1;            ///< Of the finest texel: farthest that rounding moves a picture.
+constexpr double k_unseen_texels_per_uv = 4096;  ///< Where no picture lies on texture coordinates.
+
+/// Positions, and CAD (u,v), are rounded alike in a whole part.
+VertexGrid grid_of_part(const Part& part, const GlbWriteOptions& options) {
+  VertexGrid grid;
+  Bounds3 box;
+  for (const Vec3& p : part.mesh.positions)
+    if (is_finite(p)) box.add(k_metres_per_mm * p);
+  const Vec3 size = box.size(), far = upper(box.high, -box.low);
+  const double side = std::max({size.x, size.y, size.z}), largest = std::max({far.x, far.y, far.z, 0.0});
+  const double most = options.most_rounding_mm > 0
+                          ? k_metres_per_mm * options.most_rounding_mm
+                          : std::clamp(k_metres_per_mm * k_most_rounding_mm, side / k_enough_steps, side / k_steps);
+  grid.position = grid_exponent(most, 3, largest);
+  if (options.meshes == MeshCoding::quantize) {
+    std::array<std::int64_t, 3> origin{};
+    const std::array<double, 3> low = {box.low.x, box.low.y, box.low.z}, high = {box.high.x, box.high.y, box.high.z};
+    bool fits = !box.is_empty();
+    for (std::size_t k = 0; fits && k < 3; ++k) {
+      origin[k] = std::llround(std::floor(std::ldexp(low[k], -grid.position)));
+      fits = std::ldexp(high[k], -grid.position) - static_cast<double>(origin[k]) <
+             std::numeric_limits<std::uint16_t>::max();
+    }
+    if (fits) grid.origin = origin;
+  }
+  Bounds2 cad;
+  for (const Vec2& uv : part.mesh.cad_uv.values)
+    if (std::isfinite(uv.x) && std::isfinite(uv.y)) cad.add(uv);
+  const Vec2 span = cad.size(), most_cad = upper(cad.high, Vec2{} - cad.low);
+  grid.cad_uv = grid_exponent(k_cad_uv_share * std::max(span.x, span.y), 1, std::max({most_cad.x, most_cad.y, 0.0}));
+  return grid;
+}
+
+/// By the pictures that lie on them.
+int uv_exponent(const CornerAttribute<Vec2>& uv, std::span<const Index> triangles, double texels_per_uv) {
+  double largest = 1;
+  for (const Index t : triangles) {
+    if (!uv.has_value(t)) continue;
+    for (const Index i : uv.indices[t])
+      if (i < uv.values.size()) largest = std::max({largest, std::abs(uv.values[i].x), std::abs(1 - uv.values[i].y)});
+  }
+  return grid_exponent(k_texel_share / (texels_per_uv > 0 ? texels_per_uv : k_unseen_texels_per_uv), 2, largest);
 }
 
 void check_triangles(const Part& part) {
@@ -404,36 +493,58 @@ std::vector<std::vector<Index>> triangles_by_slot(const Part& part) {
 
 }  // namespace
 
-Json glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, const GlbWriteOptions& options,
-              GlbBuffer& buffer) {
-  if (part.mesh.triangles.empty()) return nullptr;
+GlbMesh glb_mesh(const Part& part, const std::vector<MaterialNeeds>& materials, const GlbWriteOptions& options,
+                 GlbBuffer& buffer) {
+  GlbMesh result;
+  if (part.mesh.triangles.empty()) return result;
   check_triangles(part);
   const CornerAttribute<Vec3> made =
       part.mesh.normals.empty() ? vertex_normals(part.mesh, options.crease_deg) : CornerAttribute<Vec3>{};
   const CornerAttribute<Vec3>& normals = part.mesh.normals.empty() ? made : part.mesh.normals;
+  std::optional<VertexGrid> grid;
+  if (options.meshes != MeshCoding::none) grid = grid_of_part(part, options);
   Json mesh = Json::object();
   if (!part.name.empty()) mesh["name"] = part.name;
   const auto slots = triangles_by_slot(part);
   for (std::size_t slot = 0; slot < slots.size(); ++slot) {
     if (slots[slot].empty()) continue;
     const TriangleMesh& triangles = part.mesh;
-    GlbLayout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0, any_value(triangles.colors, slots[slot]), false, 0,
-                     options.cad_uv && any_value(triangles.cad_uv, slots[slot])};
+    GlbLayout layout{any_value(triangles.uv, slots[slot]) ? 1 : 0,
+                     any_value(triangles.colors, slots[slot]),
+                     false,
+                     0,
+                     options.cad_uv && any_value(triangles.cad_uv, slots[slot]),
+                     grid};
     if (any_value(triangles.uv1, slots[slot])) layout.tex_coords = 2;
+    MaterialNeeds needs;
     if (slot < part.materials.size()) {
       const std::uint32_t number = part.materials[slot];
       if (number >= materials.size()) fail(part, fmt::format("names material {} of {}", number, materials.size()));
-      layout.tex_coords = std::max(layout.tex_coords, materials[number].tex_coords);
-      layout.tangents = materials[number].tangents;
-      layout.tangent_tex_coord = materials[number].tangent_tex_coord;
+      needs = materials[number];
+      layout.tex_coords = std::max(layout.tex_coords, needs.tex_coords);
+      layout.tangents = needs.tangents;
+      layout.tangent_tex_coord = needs.tangent_tex_coord;
     }
-    Json primitive = write_primitive(Collector(part, normals, layout).collect(slots[slot]), layout, buffer);
+    if (grid)
+      layout.grid->uv = {uv_exponent(triangles.uv, slots[slot], needs.texels_per_uv[0]),
+                         uv_exponent(triangles.uv1, slots[slot], needs.texels_per_uv[1])};
+    Primitive collected = Collector(part, normals, layout).collect(slots[slot]);
+    if (collected.triangles.empty()) continue;
+    Json primitive = write_primitive(std::move(collected), layout, options.meshes, buffer);
     if (slot < part.materials.size()) primitive["material"] = part.materials[slot];
     mesh["primitives"].push_back(std::move(primitive));
   }
+  if (!mesh.contains("primitives")) return result;
   if (!part.extras_json.empty())
     mesh["extras"] = parse_scene_json(part.extras_json, fmt::format("part '{}'.extras", part.name));
-  return mesh;
+  result.json = std::move(mesh);
+  if (grid && grid->origin) {
+    const double step = std::ldexp(1.0, grid->position);
+    const auto& [x, y, z] = *grid->origin;
+    result.positions = {
+        step, (step / k_metres_per_mm) * Vec3{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}};
+  }
+  return result;
 }
 
 }  // namespace papilla

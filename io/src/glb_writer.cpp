@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -86,9 +87,10 @@ class NodeWriter {
 
  private:
   std::optional<std::size_t> write_mesh(const Part& part) {
-    Json mesh = glb_mesh(part, needs_, options_, buffer_);
-    if (mesh.is_null()) return std::nullopt;
-    gltf_["meshes"].push_back(std::move(mesh));
+    GlbMesh mesh = glb_mesh(part, needs_, options_, buffer_);
+    if (mesh.json.is_null()) return std::nullopt;
+    gltf_["meshes"].push_back(std::move(mesh.json));
+    positions_of_mesh_.push_back(mesh.positions);
     return gltf_["meshes"].size() - 1;
   }
 
@@ -123,22 +125,22 @@ class NodeWriter {
     if (!source.part || levels_of_part_[*source.part].empty()) return;
     const std::vector<std::size_t>& meshes = levels_of_part_[*source.part];
     std::size_t shown = *node_number_[number];
-    Json place = Json::object();
-    if (gltf_["nodes"][shown].contains("children")) {
+    const bool on_leaf = shows_on_leaf(number);
+    if (on_leaf) {
       gltf_["nodes"][shown]["children"].push_back(gltf_["nodes"].size());
       Json leaf = {{"mesh", gltf_["nodes"][shown]["mesh"]}};
       if (!source.name.empty()) leaf["name"] = level_name(source.name, 0);
+      add_transform(positions_of(*mesh_of_part_[*source.part]), "write_glb", leaf);
       gltf_["nodes"][shown].erase("mesh");
       shown = gltf_["nodes"].size();
       gltf_["nodes"].push_back(std::move(leaf));
-    } else {
-      add_transform(source.local, "write_glb", place);
     }
     Json ids = Json::array(), coverages = Json::array();
     for (std::size_t level = 0; level < meshes.size(); ++level) {
       ids.push_back(gltf_["nodes"].size());
       coverages.push_back(scene_.parts[*source.part].levels[level].screen_coverage);
-      Json node = place;
+      Json node = Json::object();
+      add_transform(multiply(on_leaf ? k_identity : source.local, positions_of(meshes[level])), "write_glb", node);
       if (!source.name.empty()) node["name"] = level_name(source.name, level + 1);
       node["mesh"] = meshes[level];
       gltf_["nodes"].push_back(std::move(node));
@@ -148,13 +150,46 @@ class NodeWriter {
     gltf_["nodes"][shown]["extras"]["MSFT_screencoverage"] = std::move(coverages);
   }
 
+  /// Whether a child of its own shows the node's part: one with levels of detail has no other children.
+  bool shows_on_leaf(std::size_t number) const {
+    const Node& node = scene_.nodes[number];
+    return node.part && !levels_of_part_[*node.part].empty() && !node.children.empty();
+  }
+
+  /// What a mesh does to the node that shows it: millimetres from the positions that are written.
+  Transform positions_of(std::size_t mesh) const {
+    const auto& positions = positions_of_mesh_[mesh];
+    if (!positions) return k_identity;
+    const double s = positions->scale;
+    const Vec3 t = positions->offset_mm;
+    return {s, 0, 0, t.x, 0, s, 0, t.y, 0, 0, s, t.z, 0, 0, 0, 1};
+  }
+
+  /// The inverse, for what stands below such a node.
+  Transform undone_positions_of(std::size_t mesh) const {
+    const auto& positions = positions_of_mesh_[mesh];
+    if (!positions) return k_identity;
+    const double s = 1 / positions->scale;
+    const Vec3 t = -s * positions->offset_mm;
+    return {s, 0, 0, t.x, 0, s, 0, t.y, 0, 0, s, t.z, 0, 0, 0, 1};
+  }
+
+  /// The mesh whose positions the node itself scales.
+  std::optional<std::size_t> own_mesh(std::size_t number) const {
+    const Node& node = scene_.nodes[number];
+    if (!node.part || shows_on_leaf(number)) return std::nullopt;
+    return mesh_of_part_[*node.part];
+  }
+
   void number_nodes() {
     node_number_.resize(scene_.nodes.size());
+    parent_mesh_.resize(scene_.nodes.size());
     std::vector<std::uint32_t> open = scene_.roots;
     while (!open.empty()) {
       const std::uint32_t number = open.back();
       open.pop_back();
       node_number_[number] = 0;
+      for (const std::uint32_t child : scene_.nodes[number].children) parent_mesh_[child] = own_mesh(number);
       open.insert(open.end(), scene_.nodes[number].children.begin(), scene_.nodes[number].children.end());
     }
     std::size_t next = 0;
@@ -167,7 +202,10 @@ class NodeWriter {
     const std::string where = fmt::format("write_glb: node {} '{}'", number, source.name);
     Json json = Json::object();
     if (!source.name.empty()) json["name"] = source.name;
-    add_transform(source.local, where, json);
+    Transform local = source.local;
+    if (parent_mesh_[number]) local = multiply(undone_positions_of(*parent_mesh_[number]), local);
+    if (const auto mesh = own_mesh(number)) local = multiply(local, positions_of(*mesh));
+    add_transform(local, where, json);
     if (source.part && mesh_of_part_[*source.part]) json["mesh"] = *mesh_of_part_[*source.part];
     for (const std::uint32_t child : source.children) json["children"].push_back(*node_number_[child]);
     if (!node_extras_[number].empty()) json["extras"] = parse_scene_json(node_extras_[number], where + ".extras");
@@ -198,6 +236,8 @@ class NodeWriter {
   GlbBuffer& buffer_;
   Json& gltf_;
   std::vector<std::optional<std::size_t>> mesh_of_part_, node_number_;
+  std::vector<std::optional<std::size_t>> parent_mesh_;  ///< own_mesh() of the node above.
+  std::vector<std::optional<Dequantization>> positions_of_mesh_;
   std::vector<std::vector<std::size_t>> levels_of_part_;
 };
 
@@ -215,14 +255,27 @@ void collect_extensions(const Json& json, std::set<std::string>& names) {
   }
 }
 
+/// What a reader must know to show the meshes.
+std::set<std::string> required_of_meshes(const Json& gltf, MeshCoding coding) {
+  if (!gltf.contains("meshes")) return {};
+  switch (coding) {
+    case MeshCoding::none: return {};
+    case MeshCoding::meshopt: return {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+    case MeshCoding::draco: return {"KHR_draco_mesh_compression"};
+    case MeshCoding::quantize: break;
+  }
+  return {"KHR_mesh_quantization"};
+}
+
 /// A scene as a glTF document.
 struct GltfDocument {
   Json json;
   GlbBuffer buffer;
   std::vector<std::string> losses;
 
-  GltfDocument(const Scene& scene, const GlbWriteOptions& options, GltfSideFiles* files) : json{{"asset", Json()}} {
-    MaterialWriter materials(scene, buffer, files);
+  GltfDocument(const Scene& scene, const GlbWriteOptions& options, GltfSideFiles* files, GlbSizes* sizes)
+      : json{{"asset", Json()}}, buffer(files != nullptr ? options.largest_buffer : SIZE_MAX) {
+    MaterialWriter materials(scene, options, buffer, files);
     materials.write(json);
     std::string asset_extras = scene.asset.extras_json;
     NodeWriter(scene, options, materials.needs(), buffer, json).write(asset_extras);
@@ -232,42 +285,48 @@ struct GltfDocument {
     std::vector<std::string> not_mirrored;
     if (options.mirror_mpeg_haptics) not_mirrored = mirror_mpeg_haptics(json, buffer);
     if (options.mirror_khr_physics) mirror_khr_physics(json, not_mirrored);
-    if (buffer.size() > 0) {
-      json["buffers"] = Json::array({{{"byteLength", buffer.size()}}});
-      json["bufferViews"] = buffer.views();
-    }
-    if (!buffer.accessors().empty()) json["accessors"] = buffer.accessors();
-    std::set<std::string> extensions;
+    buffer.describe(json);
+    std::set<std::string> extensions, required = required_of_meshes(json, options.meshes);
+    required.insert(materials.required().begin(), materials.required().end());
     collect_extensions(json, extensions);
+    extensions.insert(required.begin(), required.end());
     if (!extensions.empty()) json["extensionsUsed"] = extensions;
-    if (!materials.required().empty()) json["extensionsRequired"] = materials.required();
+    if (!required.empty()) json["extensionsRequired"] = required;
     FormatKeeps keeps;
     keeps.parts = keeps.nodes = keeps.materials = keeps.all_of_materials = keeps.extras = true;
     keeps.normals = keeps.uv = keeps.uv1 = keeps.colors = true;
     keeps.cad_uv = options.cad_uv;
     losses = scene_losses(scene, keeps);
     losses.insert(losses.end(), not_mirrored.begin(), not_mirrored.end());
+    if (sizes == nullptr) return;
+    const TagPictures tags = tag_pictures_in(json.value("materials", Json()));
+    *sizes = {.meshes = buffer.mesh_bytes(),
+              .meshes_uncompressed = buffer.uncompressed_mesh_bytes(),
+              .pictures = materials.picture_bytes(),
+              .pictures_uncompressed = materials.uncompressed_picture_bytes(),
+              .tag_pictures = tags};
   }
 };
 
 }  // namespace
 
 std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path,
-                                   const GlbWriteOptions& options) {
-  GltfDocument document(scene, options, nullptr);
+                                   const GlbWriteOptions& options, GlbSizes* sizes) {
+  GltfDocument document(scene, options, nullptr, sizes);
   const std::string json = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  write_glb_container(path, json, document.buffer.size(), [&](std::ostream& binary) { document.buffer.write(binary); });
+  const std::size_t size = document.buffer.sizes().empty() ? 0 : document.buffer.sizes().front();
+  write_glb_container(path, json, size, [&](std::ostream& binary) { document.buffer.write(0, binary); });
   return std::move(document.losses);
 }
 
 std::vector<std::string> write_gltf(const Scene& scene, const std::filesystem::path& path,
-                                    const GlbWriteOptions& options) {
+                                    const GlbWriteOptions& options, GlbSizes* sizes) {
   GltfSideFiles files(path);
-  GltfDocument document(scene, options, &files);
-  if (document.buffer.size() > 0) {
+  GltfDocument document(scene, options, &files, sizes);
+  for (std::size_t i = 0; i < document.buffer.sizes().size(); ++i) {
     std::ostringstream binary;
-    document.buffer.write(binary);
-    document.json["buffers"][0]["uri"] = files.add_binary(std::move(binary).str());
+    document.buffer.write(i, binary);
+    document.json["buffers"][i]["uri"] = files.add_binary(std::move(binary).str());
   }
   files.write();
   write_atomically(path, document.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

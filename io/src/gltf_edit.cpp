@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "glb_document.hpp"
 #include "gltf_file.hpp"
 #include "gltf_material_edit.hpp"
 #include "gltf_primitive_edit.hpp"
@@ -161,9 +162,16 @@ void edit_file(const std::filesystem::path& source, Scene& scene, const GltfOrig
     result.notes.emplace_back(
         "the file's chunks that glTF does not define are left out: a .gltf has no place for them");
   add_restored(file.json, scene, origin, edits);
+  const std::map<std::string, std::string> tag_pictures = held_tag_pictures(file.json.value("materials", Json()));
   const std::vector<std::uint32_t> meshes = copy_meshes(scene, origin, file);
   const WantedEdits wanted = by_primitive(origin, meshes, edits);
   const std::vector<EditedMaterial> materials = edit_materials(file, wanted, result.notes);
+  std::set<std::size_t> edited;
+  for (const EditedMaterial& material : materials) edited.insert(material.number);
+  if (file.json.contains("materials")) {
+    share_tag_pictures(file.json["materials"], edited, tag_pictures);
+    result.tag_pictures = tag_pictures_in(file.json["materials"]);
+  }
   edit_primitives(file, {source, scene, origin}, wanted, materials, result.notes);
   take_materials(file.json, origin, meshes, scene);
   write_manifest(scene, origin, file.json);

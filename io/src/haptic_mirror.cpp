@@ -66,11 +66,11 @@ class MapTextures {
  public:
   MapTextures(Json& gltf, GlbBuffer& buffer) : gltf_(gltf), buffer_(buffer) {}
 
-  /// The texture of a tag's map; nothing when the tag does not hold the picture itself.
-  std::optional<std::size_t> texture_of(const Json& height, const std::string& name) {
-    const Json* uri = member(height, "uri");
-    if (uri == nullptr || !uri->is_string()) return std::nullopt;
-    const auto [known, is_new] = textures_.try_emplace(uri->get_ref<const std::string&>());
+  /// The texture of a tag's map; nothing when no tag holds the picture itself.
+  std::optional<std::size_t> texture_of(const Json& materials, const Json& height, const std::string& name) {
+    const std::string* uri = tag_picture_uri(materials, height);
+    if (uri == nullptr) return std::nullopt;
+    const auto [known, is_new] = textures_.try_emplace(*uri);
     if (is_new) known->second = write(known->first, name);
     return known->second;
   }
@@ -153,7 +153,7 @@ std::vector<std::string> mirror_mpeg_haptics(Json& gltf, GlbBuffer& buffer) {
     const Json* height = tag == nullptr ? nullptr : member(*tag, "height");
     if (height == nullptr) continue;
     const std::string name = name_of(sources[i]);
-    if (const auto texture = maps.texture_of(*height, name)) {
+    if (const auto texture = maps.texture_of(sources, *height, name)) {
       mirrored[i] = materials.size();
       materials.push_back(mpeg_material(sources[i], *height, *texture));
     } else {

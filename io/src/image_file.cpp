@@ -174,7 +174,7 @@ void write_grey_image(const fs::path& path, const GreyImage& image, int bits, in
     throw InvalidInput(fmt::format("write_grey_image: bits = {} is not 8, 16 or 32", bits));
   const SampleType type = bits == 8 ? SampleType::byte : bits == 16 ? SampleType::word : SampleType::real;
   PictureToStore picture{image.width, image.height, 1, type, image.pitch_mm, image.pitch_mm};
-  picture.jpeg_quality = jpeg_quality;
+  picture.quality = jpeg_quality;
   std::vector<std::byte> profile;
   if (image.curve.size() >= 2 && path.extension() != ".exr") profile = io_detail::profile_of_curve(image.curve);
   picture.profile = profile;

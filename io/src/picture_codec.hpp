@@ -51,7 +51,7 @@ struct PictureToStore {
   SampleType type = SampleType::byte;
   double pitch_mm_x = 0, pitch_mm_y = 0;    ///< 0: none is stored.
   std::span<const std::byte> profile = {};  ///< ICC; empty: none is stored.
-  int jpeg_quality = 98;
+  int quality = 98;                         ///< 1 to 100, of JPEG and WebP.
 };
 
 /// Gives row y of the picture, samples of PictureToStore::type.

@@ -14,6 +14,7 @@
 #include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/mesh_files.hpp"
+#include "papilla/io/tag_manifest.hpp"
 
 namespace papilla {
 namespace {
@@ -69,6 +70,7 @@ Scene read_by_extension(const std::filesystem::path& path, const ReadOptions& op
   if (is_gltf_file(path)) {
     Scene scene = read_gltf(path, {.tags = options.tags, .tag_channel = options.tag_channel, .cad_uv = true});
     scene.up = options.up.value_or(scene.up);
+    complete_tag_pictures(scene);
     return scene;
   }
   if (is_cad_extension(path)) return read_cad_scene(path, options, progress);
@@ -94,11 +96,11 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options, 
   return scene;
 }
 
-std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
-                                     const WriteOptions& options) {
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path, const WriteOptions& options,
+                                     GlbSizes* sizes) {
   const std::string extension = lower_extension(path);
-  if (extension == ".glb") return write_glb(scene, path, options);
-  if (extension == ".gltf") return write_gltf(scene, path, options);
+  if (extension == ".glb") return write_glb(scene, path, options, sizes);
+  if (extension == ".gltf") return write_gltf(scene, path, options, sizes);
   if (extension == ".obj") return write_obj(scene, path);
   if (extension == ".off") return write_off(scene, path);
   if (extension == ".ply") return write_ply(scene, path);

@@ -9,7 +9,7 @@ import { applyView, shadingOf, sideOf, uvMatrix } from './shading.mjs';
 const GL_WRAP = { 33071: THREE.ClampToEdgeWrapping, 33648: THREE.MirroredRepeatWrapping };
 
 /** A full frame that takes longer makes moving unpleasant. */
-const SLOW_MS = 30;
+const SLOW_MS = 30, MOVING_MS = 60;
 const REST_MS = 250, LONGEST_REST_MS = 3000;
 
 export function geometryOf(mesh) {
@@ -327,8 +327,8 @@ export class SceneView {
     this.moved();
   }
 
-  /** While the camera moves, a slow machine draws the coarse triangles in half the resolution; the longer a full frame
-   * takes, the longer it waits for the next move before it begins one. */
+  /** While the camera moves, a slow machine draws the coarse triangles in half the resolution, down to a quarter where a
+   * full frame takes a second; the longer that is, the longer it waits for the next move before it begins one. */
   moved() {
     if (this.slow) this.detail(true);
     clearTimeout(this.rest);
@@ -343,7 +343,8 @@ export class SceneView {
       for (const { geometry, data } of part.meshes)
         if (coarse) geometry.setDrawRange(data.indices.length, data.coarse.length);
         else geometry.setDrawRange(0, data.indices.length);
-    this.renderer.setPixelRatio(coarse ? this.ratio / 2 : this.ratio);
+    const divisor = Math.min(Math.max(Math.sqrt(this.fullMs / MOVING_MS), 2), 4);
+    this.renderer.setPixelRatio(coarse ? this.ratio / divisor : this.ratio);
     this.resize();
     this.invalidate();
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "grain_source.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/progress_until.hpp"
 #include "papilla/core/read_file.hpp"
@@ -12,7 +13,7 @@
 #include "papilla/pipeline/assignment.hpp"
 #include "papilla/pipeline/hex_colour.hpp"
 #include "prepared_bake.hpp"
-#include "solid_grain.hpp"
+#include "remembered_plan.hpp"
 
 namespace papilla {
 namespace {
@@ -148,6 +149,7 @@ bool edit_file(const std::filesystem::path& input, const std::filesystem::path& 
   result.seconds["write"] = write_clock.seconds();
   result.scene = std::move(edited.scene);
   result.changes = std::move(edited.changes);
+  result.sizes.tag_pictures = edited.tag_pictures;
   for (std::string& note : edited.notes) result.scene.warnings.push_back(std::move(note));
   if (options.for_pictures) read_again(output, result);
   result.seconds["total"] = total.seconds();
@@ -170,6 +172,32 @@ Scene read_for_bake(const std::filesystem::path& input, const Materials& rules, 
   return scene;
 }
 
+/// What the cache of the bake has for a plan.
+RememberedPlan remembered_plan(const BakePlan& plan, const Materials& rules, const BakeOptions& options) {
+  RememberedPlan remembered;
+  const StageCache* cache = options.unwrap.method.cache;
+  if (cache == nullptr) return remembered;
+  std::map<std::string, Grain> grains;
+  for (const std::string& name : grains_of(plan.surfaces)) try {
+      if (auto grain = find_grain(rules.materials.at(name), options.library, *cache)) {
+        remembered.grains.insert(name);
+        grains.emplace(name, std::move(*grain));
+      }
+    } catch (const Error&) {  // The plan of the grain says what is wrong.
+    }
+  const PartContext context = unwrap_context(plan.scene, {});
+  remembered.surfaces.assign(plan.surfaces.size(), 0);
+  for (std::size_t i = 0; i < plan.surfaces.size(); ++i) {
+    const PartSurface& surface = plan.surfaces[i];
+    const auto grain = grains.find(surface.material);
+    if (grain == grains.end() || !decision(surface.plan, Stage::unwrap).run) continue;
+    const SurfaceInput input = surface_input(surface, rules.materials.at(surface.material),
+                                             surface_mesh(plan.scene, surface), grain->second, context, options.unwrap);
+    remembered.surfaces[i] = cache->store().contains("uv", uv_key(input.mesh, input.context, input.options));
+  }
+  return remembered;
+}
+
 }  // namespace
 
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options, const Materials& rules) {
@@ -181,6 +209,8 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
   if (perception.leave_out_unreachable || perception.leave_out_unseen) return {false, "parts are to be left out"};
   if (options.write.mirror_mpeg_haptics || options.write.mirror_khr_physics)
     return {false, "tags are to be mirrored in extensions"};
+  if (options.write.meshes != MeshCoding::none) return {false, "meshes are to be compressed"};
+  if (options.write.pictures != PictureCoding::as_is) return {false, "pictures are to be stored in another format"};
   if (has_solid_recipe(rules, options.bake.library)) return {false, k_reads_surface};
   return {true, "only tags and what the grain needs are added"};
 }
@@ -200,6 +230,7 @@ PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules
   static_cast<BakePlan&>(result) = plan_bake(std::move(scene), rules, plan, progress);
   for (const std::string& name : grains_of(result.surfaces))
     result.grains.push_back(plan_grain(rules.materials.at(name), options.bake.library));
+  result.remembered = remembered_plan(result, rules, options.bake);
   if (has_object_textures(rules)) {
     Scene made = result.scene;
     result.object_textures_made =
@@ -223,7 +254,7 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
   static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
   result.seconds["read"] = read_seconds;
   const Stopwatch write_clock;
-  for (std::string& loss : write_scene(result.scene, output, options.write))
+  for (std::string& loss : write_scene(result.scene, output, options.write, &result.sizes))
     result.scene.losses.push_back(std::move(loss));
   result.seconds["write"] = write_clock.seconds();
   result.seconds["total"] = total.seconds();

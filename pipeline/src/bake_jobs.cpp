@@ -133,6 +133,9 @@ std::optional<JobRecord> read_record(const fs::path& path) {
   return whole ? std::optional(std::move(record)) : std::nullopt;
 }
 
+/// The others are steps on the way.
+bool is_asked_by_merge(std::string_view stage) { return stage == "uv" || stage == "seams" || stage == "measure"; }
+
 }  // namespace
 
 fs::path store_of_jobs(const fs::path& folder) { return folder / "store"; }
@@ -176,20 +179,15 @@ JobResult run_job(const fs::path& folder, const std::string& id, const ProgressC
   SharedProgress done(progress, "surfaces", triangles);
   oneapi::tbb::parallel_for(std::size_t{0}, inputs.size(), [&](std::size_t i) {
     WorkProgress worked(done, static_cast<double>(inputs[i].mesh.triangles.size()));
-    const std::string label = inputs[i].label;
-    try {
-      inputs[i].options.method.cache = &cache;
-      inputs[i].options.method.progress = worked.callback();
-      bake_surface(std::move(inputs[i]));
-    } catch (const SolverFailure& error) {
-      throw SolverFailure("part '" + label + "': " + error.what());
-    } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + label + "': " + error.what());
-    }
+    inputs[i].options.method.cache = &cache;
+    inputs[i].options.method.progress = worked.callback();
+    bake_surface(std::move(inputs[i]));
     worked.reach(1);
   });
   if (const std::string problem = cache.problem(); !problem.empty()) throw IoError(problem);
-  const JobRecord record{code_digest(), digest_of_file(path), cache.results()};
+  JobRecord record{code_digest(), digest_of_file(path), {}};
+  for (const auto& [stage, key] : cache.results())
+    if (is_asked_by_merge(stage)) record.results.emplace_back(stage, key);
   make_folder(folder / "results");
   write_entry(
       result_of(folder, id), [&](EntrySink& entry) { ValueWriter{entry}(record); }, Durability::synced);

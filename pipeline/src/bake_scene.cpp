@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -273,16 +274,27 @@ void drop_unused_textures(Scene& scene) {
   scene.images = std::move(images);
 }
 
-/// Makes the grains that the surfaces use.
+/// Makes the grains that the surfaces use, side by side.
 std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& rules, const RecipeLibrary& library,
                                          const Deadline& deadline, const StageCache* cache,
                                          const ProgressCallback& progress) {
-  const std::set<std::string> names = grains_of(plan.surfaces);
+  const std::set<std::string> wanted = grains_of(plan.surfaces);
+  const std::vector<std::string> names(wanted.begin(), wanted.end());
+  std::vector<Grain> made(names.size());
+  std::vector<std::exception_ptr> failures(names.size());
+  SharedProgress done(progress, "grains", static_cast<double>(names.size()));
+  oneapi::tbb::parallel_for(std::size_t{0}, names.size(), [&](std::size_t i) {
+    try {
+      made[i] = make_grain(rules.materials.at(names[i]), library, deadline, cache);
+    } catch (const Error&) {
+      failures[i] = std::current_exception();
+    }
+    done.add(1);
+  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);  // The first in the order of names, whatever was first in time.
   std::map<std::string, Grain> grains;
-  for (const std::string& name : names) {
-    report_progress(progress, "grain " + name, static_cast<double>(grains.size()) / static_cast<double>(names.size()));
-    grains.emplace(name, make_grain(rules.materials.at(name), library, deadline, cache));
-  }
+  for (std::size_t i = 0; i < names.size(); ++i) grains.emplace(names[i], std::move(made[i]));
   return grains;
 }
 
@@ -363,14 +375,8 @@ void bake_surfaces(std::vector<SurfaceWork>& works, const ProgressCallback& prog
   oneapi::tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
     SurfaceWork& work = works[i];
     WorkProgress worked(done, static_cast<double>(work.surface->triangles.size()));
-    try {
-      work.input.options.method.progress = worked.callback();
-      if (work.equal_to == nullptr) work.output = bake_surface(std::move(work.input));
-    } catch (const SolverFailure& error) {
-      throw SolverFailure("part '" + work.surface->label + "': " + error.what());
-    } catch (const InvalidInput& error) {
-      throw InvalidInput("part '" + work.surface->label + "': " + error.what());
-    }
+    work.input.options.method.progress = worked.callback();
+    if (work.equal_to == nullptr) work.output = bake_surface(std::move(work.input));
     name_report(*work.surface, work.output.report);
     worked.reach(1);
   });
@@ -473,15 +479,11 @@ PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions
   in_time.method.deadline = options.unwrap.method.deadline.earlier_by(k_seconds_to_finish * triangles);
   for (const PartSurface& surface : surfaces) {
     if (!runs(surface, Stage::measure)) continue;
-    // A whole part keeps the numbers of its vertices, so that it is mapped as by unwrap_scene().
-    const TriangleMesh& mesh = result.scene.parts[surface.part].mesh;
-    const std::vector<std::uint32_t>& own = surface.triangles;
     SurfaceWork& work = prepared.works.emplace_back();
     work.surface = &surface;
     work.rule = &rules.materials.at(surface.material);
-    work.input =
-        surface_input(surface, *work.rule, own.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, own),
-                      result.grains.at(surface.material), context, in_time);
+    work.input = surface_input(surface, *work.rule, surface_mesh(result.scene, surface),
+                               result.grains.at(surface.material), context, in_time);
   }
   for (std::string& warning : warn_of_unmatched_parts(prepared.works))
     result.scene.warnings.push_back(std::move(warning));

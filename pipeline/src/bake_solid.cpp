@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "grain_source.hpp"
 #include "solid_grain.hpp"
 #include "surface/atlas_uv.hpp"
 #include "surface/painted_surface.hpp"

@@ -5,17 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 
+#include "grain_source.hpp"
 #include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/error.hpp"
-#include "papilla/core/near_name.hpp"
-#include "papilla/core/read_file.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/haptic/material_tag_stream.hpp"
@@ -23,10 +19,8 @@
 #include "papilla/io/image_file.hpp"
 #include "papilla/pipeline/height_file.hpp"
 #include "papilla/pipeline/quantity_maps.hpp"
-#include "papilla/pipeline/recipe_source.hpp"
 #include "papilla/pipeline/stereo_file.hpp"
 #include "papilla/procedural/texture.hpp"
-#include "papilla/texture/grain.hpp"
 #include "papilla/texture/height_from_image.hpp"
 #include "papilla/texture/normal_map.hpp"
 #include "papilla/texture/picture_relief.hpp"
@@ -36,6 +30,7 @@
 #include "papilla/texture/texture_reading.hpp"
 #include "papilla/texture/tiling.hpp"
 #include "papilla/texture/wallpaper_group.hpp"
+#include "remembered_plan.hpp"
 #include "solid_grain.hpp"
 #include "surface/painted_surface.hpp"
 
@@ -51,10 +46,6 @@ inline constexpr std::size_t k_field_count<Grain> = 25;
 
 namespace {
 
-/// More samples than this a side show and feel like nothing: at 40 mm a repeat they are finer than 0.04 mm.
-constexpr int k_most_samples = 1024;
-/// Samples a side of a repeat that is computed.
-constexpr int k_recipe_samples = 512;
 /// Peak to valley of a relief of which nothing is said, as a share of the shorter side of the grain.
 constexpr double k_default_depth = 0.01;
 
@@ -80,19 +71,6 @@ EncodedImage png(std::string name, std::vector<std::byte> bytes) {
   image.bytes = std::move(bytes);
   return image;
 }
-
-/// The picture of a material, from a file or computed.
-struct Source {
-  GreyImage grey;  ///< Of a recipe or test grain: heights.
-  ColorImage color;
-  Transfer transfer = Transfer::automatic;
-  bool solid = false;                     ///< Of a recipe that reads the surface.
-  bool computed = false;                  ///< Of a recipe or a test grain: heights, not a photograph.
-  std::optional<double> friction = {};    ///< Of a recipe: mean of the channel.
-  double stiffness = 1, damping = 1;      ///< The same.
-  Shine shine = {};                       ///< The same, where the rule does not say it.
-  std::optional<QuantityMaps> maps = {};  ///< The same: the channels over their means.
-};
 
 bool measures_pitch(const MaterialRule& rule) {
   using Kind = HeightReference::Kind;
@@ -145,7 +123,7 @@ AnalysisPlan stereo_plan(const HeightRule& rule) {
 }
 
 /// What the class's plan is carried out with.
-PictureReliefOptions relief_options(const MaterialRule& rule, const Source& source, const Grain& grain) {
+PictureReliefOptions relief_options(const MaterialRule& rule, const SourcePicture& source, const Grain& grain) {
   PictureReliefOptions options = rule.height.relief;
   options.height.transfer = source.transfer;
   options.height.pitch_mm = grain.size_mm[0] / source.grey.width;
@@ -200,7 +178,8 @@ HeightMap several_relief(const MaterialRule& rule, StereoFiles made, Grain& grai
 }
 
 /// The relief of the picture over the grain's size, which becomes that of the relief.
-HeightMap make_relief(const MaterialRule& rule, const Source& source, const TextureReading& reading, Grain& grain) {
+HeightMap make_relief(const MaterialRule& rule, const SourcePicture& source, const TextureReading& reading,
+                      Grain& grain) {
   const GreyImage& image = source.grey;
   PictureRelief made = relief_of_picture(image, reading, relief_options(rule, source, grain));
   HeightMap relief = std::move(made.height.map);
@@ -235,183 +214,6 @@ void add_fine_roughness(const MaterialRule& rule, Grain& grain) {
       roughness_above(whole, shortest_playable_wavelength_mm(k_hand_speed_mm_per_s, k_device_rate_hz));
 }
 
-/// A channel in multiples of its mean.
-QuantityMap over_mean(Quantity quantity, std::vector<float> values, double mean) {
-  for (float& v : values) v = mean > 0 ? static_cast<float>(static_cast<double>(v) / mean) : 1;
-  return {quantity, std::move(values)};
-}
-
-/// The folder of MATERIALS.json, of which `file` is this folder and the recipe's text, in which a / leads nowhere.
-std::filesystem::path folder_of(const std::filesystem::path& file, const std::string& recipe) {
-  const std::string& whole = file.native();
-  return whole.ends_with(recipe) ? whole.substr(0, whole.size() - recipe.size()) : file.parent_path().string();
-}
-
-/// A recipe of MATERIALS.json. @param key  where it stands.
-/// @param pictures  gets the digests of the pictures that it reads; may be null.
-ProceduralTexture compile_recipe(const MaterialRule& rule, const std::filesystem::path& file, const std::string& recipe,
-                                 const std::string& key, const RecipeLibrary& library, bool seamless = true,
-                                 std::vector<Digest>* pictures = nullptr) {
-  CompileOptions options = recipe_options(folder_of(file, recipe));
-  if (pictures != nullptr)
-    options.read_picture = [pictures, read = options.read_picture](const std::string& path) {
-      RecipePicture picture = read(path);
-      pictures->push_back(key_of("recipe picture", picture));
-      return picture;
-    };
-  options.source = "material '" + rule.name + "', " + key;
-  options.seamless = seamless;
-  options.time = rule.time;
-  return compile_texture(recipe, library, options);
-}
-
-RenderedTexture render_tile(const ProceduralTexture& texture, unsigned channels) {
-  RenderOptions render;
-  render.width = render.height = k_recipe_samples;
-  render.channels = channels;
-  return render_texture(texture, render);
-}
-
-/// What a recipe gave, as the picture of a material.
-Source painted_source(const MaterialRule& rule, PaintedSurface painted) {
-  const SurfaceRanges& ranges = painted.ranges;
-  SurfacePicture& picture = painted.picture;
-  Source source;
-  source.computed = true;
-  source.friction = ranges.friction.mean();
-  source.stiffness = ranges.stiffness.mean(), source.damping = ranges.damping.mean();
-  source.shine = shine_of(painted, rule.roughness, rule.metallic);
-  source.color = color_of(picture);
-  source.grey = {picture.width, picture.height, std::move(picture.bump), 0, 32};
-  source.maps = QuantityMaps{.width = picture.width, .height = picture.height, .periodic = painted.repeats, .maps = {}};
-  source.maps->maps = {over_mean(Quantity::stiffness, std::move(picture.stiffness), source.stiffness),
-                       over_mean(Quantity::dynamic_friction, std::move(picture.friction), *source.friction),
-                       over_mean(Quantity::damping, std::move(picture.damping), source.damping)};
-  return source;
-}
-
-Source computed_source(const MaterialRule& rule, const ProceduralTexture& recipe) {
-  Source source = painted_source(rule, painted_repeat(render_tile(recipe, painted_channels())));
-  source.solid = reads_surface(recipe);
-  return source;
-}
-
-GrainResult make_test_grain(const MaterialRule& rule, const std::string& name, GrainOptions options) {
-  options.size_px = k_recipe_samples;
-  options.seed = rule.height.relief.height.seed;
-  return synthesize_grain(grain_kind(name.substr(k_grain_prefix.size())), options);
-}
-
-/// A test grain as heights of [0, 1]; its picture is the lit relief.
-Source synthesized_source(const MaterialRule& rule) {
-  const GrainOptions options;
-  const GrainResult made = make_test_grain(rule, rule.recipe, options);
-  Source source;
-  source.computed = true;
-  source.grey = {made.relief.width, made.relief.height, made.relief.mm, 0, 32};
-  for (float& h : source.grey.pixels) h /= static_cast<float>(options.height_mm);
-  for (const float g : made.picture.pixels)
-    source.color.pixels.insert(source.color.pixels.end(), 3,
-                               static_cast<unsigned char>(std::lround(255 * std::clamp(g, 0.0F, 1.0F))));
-  source.color.width = made.picture.width;
-  source.color.height = made.picture.height;
-  return source;
-}
-
-/// A file of that name wins over a recipe of that name.
-Source read_source(const MaterialRule& rule, const RecipeLibrary& library) {
-  if (rule.recipe.starts_with(k_grain_prefix)) return synthesized_source(rule);
-  if (const auto recipe = recipe_of(rule, library, true)) return computed_source(rule, *recipe);
-  try {
-    Picture picture = read_reduced_picture(rule.texture, k_most_grain_side, k_height_bytes_per_pixel + 3);
-    return {std::move(picture.grey), std::move(picture.color),
-            transfer_of_file(rule.height.relief.height.transfer, picture)};
-  } catch (const IoError& unread) {
-    std::vector<std::string_view> recipes;
-    for (const auto& [name, recipe] : library.recipes()) recipes.push_back(name);
-    throw IoError("material '" + rule.name + "', texture: " + unread.what() + did_you_mean(rule.recipe, recipes));
-  } catch (const InvalidInput& unread) {
-    throw InvalidInput("material '" + rule.name + "', texture: " + unread.what());
-  }
-}
-
-std::string key_of_map(Quantity quantity) { return "maps/" + std::string(map_key(quantity)); }
-
-/// The grey values of a map's picture or recipe.
-HeightMap read_map(const MaterialRule& rule, Quantity quantity, const MapRule& map, const RecipeLibrary& library) {
-  if (map.recipe.starts_with(k_grain_prefix)) {
-    const GrainOptions options;
-    HeightMap made = make_test_grain(rule, map.recipe, options).relief;
-    for (float& v : made.mm) v /= static_cast<float>(options.height_mm);
-    return made;
-  }
-  std::error_code error;
-  if (!std::filesystem::exists(map.picture, error) && looks_like_recipe(map.recipe, library)) {
-    RenderedTexture made = render_tile(compile_recipe(rule, map.picture, map.recipe, key_of_map(quantity), library),
-                                       1U << static_cast<unsigned>(Channel::bump));
-    return {made.width, made.height, std::move(made.values[Channel::bump]), 1, 1, true};
-  }
-  const auto place = [&](const Error& unread) {
-    return "material '" + rule.name + "', " + key_of_map(quantity) + ": " + unread.what();
-  };
-  try {
-    Picture picture = read_reduced_picture(map.picture, k_most_samples);
-    return {picture.grey.width, picture.grey.height, std::move(picture.grey.pixels), 1, 1, false};
-  } catch (const IoError& unread) {
-    std::vector<std::string_view> recipes;
-    for (const auto& [name, recipe] : library.recipes()) recipes.push_back(name);
-    throw IoError(place(unread) + did_you_mean(map.recipe, recipes));
-  } catch (const InvalidInput& unread) {
-    throw InvalidInput(place(unread));
-  }
-}
-
-/// Digests of the pictures that a rule's grain is made from, in the order in which the rule names them. What can't be
-/// read is left out: make_grain() says so.
-std::vector<Digest> picture_digests(const MaterialRule& rule, const RecipeLibrary& library) {
-  std::vector<Digest> digests;
-  const auto add = [&](const std::filesystem::path& file, const std::string& recipe, const std::string& key) {
-    std::error_code error;
-    if (recipe.starts_with(k_grain_prefix)) return;
-    if (std::filesystem::is_regular_file(file, error)) {
-      const std::string bytes = read_file(file);
-      digests.push_back(sha256(bytes.data(), bytes.size()));
-    } else if (looks_like_recipe(recipe, library)) {
-      compile_recipe(rule, file, recipe, key, library, true, &digests);
-    }
-  };
-  add(rule.texture, rule.recipe, "texture");
-  for (const auto& image : rule.height.images) add(image, {}, "height.images");
-  for (const auto& [quantity, map] : rule.maps) add(map.picture, map.recipe, key_of_map(quantity));
-  return digests;
-}
-
-/// The maps of the rule, and those of its recipe for other quantities, in multiples of the constants, over one picture.
-QuantityMaps read_maps(const MaterialRule& rule, std::optional<QuantityMaps> of_recipe, const RecipeLibrary& library) {
-  QuantityMaps all = std::move(of_recipe).value_or(QuantityMaps{});
-  std::erase_if(all.maps, [&](const QuantityMap& map) { return rule.maps.contains(map.quantity); });
-  std::map<Quantity, HeightMap> read;
-  for (const auto& [quantity, map] : rule.maps) {
-    const HeightMap& grey = read[quantity] = read_map(rule, quantity, map, library);
-    if (all.maps.empty()) {
-      all.periodic = read.size() == 1 ? grey.periodic : all.periodic && grey.periodic;
-      all.width = std::max(all.width, grey.width), all.height = std::max(all.height, grey.height);
-    }
-  }
-  for (const auto& [quantity, map] : rule.maps) {
-    HeightMap grey = std::move(read[quantity]);
-    const auto [low, high] = std::minmax_element(grey.mm.begin(), grey.mm.end());
-    const float least = *low, most = *high;
-    if (grey.width != all.width || grey.height != all.height) grey = resample(grey, all.width, all.height);
-    // A resampled edge rings.
-    for (float& v : grey.mm)
-      v = static_cast<float>(map.range[0] + (map.range[1] - map.range[0]) *
-                                                std::clamp(static_cast<double>(std::clamp(v, least, most)), 0.0, 1.0));
-    all.maps.push_back({quantity, std::move(grey.mm)});
-  }
-  return all;
-}
-
 /// The maps of the tag. @param size_mm  what the texture shows: the relief may be a tile of it.
 void add_maps(const MaterialRule& rule, QuantityMaps maps, const double (&size_mm)[2], Grain& grain) {
   if (maps.maps.empty()) return;
@@ -429,7 +231,7 @@ void add_maps(const MaterialRule& rule, QuantityMaps maps, const double (&size_m
 }
 
 /// A recipe has its own height.
-void require_picture(const MaterialRule& rule, const Source& source) {
+void require_picture(const MaterialRule& rule, const SourcePicture& source) {
   if (source.computed)
     throw InvalidInput("material '" + rule.name +
                        "', height.images: the texture is a recipe, which has its own height");
@@ -441,7 +243,7 @@ double depth_of(const MaterialRule& rule, const Grain& grain) {
 
 /// A recipe's height is a share of the depth: nothing has to be guessed from shading.
 /// @param depth  of a height of 1, mm.
-HeightMap computed_relief(const MaterialRule& rule, const Source& source, double depth, Grain& grain) {
+HeightMap computed_relief(const MaterialRule& rule, const SourcePicture& source, double depth, Grain& grain) {
   HeightMap relief{source.grey.width,
                    source.grey.height,
                    source.grey.pixels,
@@ -553,7 +355,7 @@ void finish_relief(const MaterialRule& rule, bool dimension, const std::string& 
 }
 
 /// How the picture looks, and whether it is shown.
-void look_at(const MaterialRule& rule, const Source& source, Grain& grain) {
+void look_at(const MaterialRule& rule, const SourcePicture& source, Grain& grain) {
   grain.tiles = measure_tiling(source.grey).tiles;
   grain.monochrome = is_monochrome(source.color);
   if (rule.show == "picture" || (rule.show == "auto" && !grain.monochrome))
@@ -561,7 +363,7 @@ void look_at(const MaterialRule& rule, const Source& source, Grain& grain) {
 }
 
 /// Roughness and metallic of a recipe go with its picture. A test grain has neither channel, and no friction.
-void take_shine(const Source& source, const std::string& name, Grain& grain) {
+void take_shine(const SourcePicture& source, const std::string& name, Grain& grain) {
   if (!grain.picture || !source.friction) return;
   grain.roughness_factor = source.shine.roughness, grain.metallic_factor = source.shine.metallic;
   if (source.shine.picture) grain.shine = png("metallic_roughness." + name, encode_png(*source.shine.picture));
@@ -587,7 +389,7 @@ void describe_picture(const TextureReading& reading, Vec2 mm_per_px, Grain& grai
 Grain make_whole_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline) {
   Grain grain;
   const Stopwatch analyze_clock;
-  Source source = read_source(rule, library);
+  SourcePicture source = read_source(rule, library);
   std::optional<StereoFiles> several;
   const Stopwatch stereo_clock;
   if (!rule.height.images.empty()) {
@@ -637,7 +439,7 @@ double default_max_slope(double static_friction) {
 GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   GrainPlan plan{rule.name, {}, {}};
   try {
-    const Source source = read_source(rule, library);
+    const SourcePicture source = read_source(rule, library);
     read_maps(rule, source.maps, library);
     if (!rule.height.images.empty()) {
       require_picture(rule, source);
@@ -656,27 +458,21 @@ GrainPlan plan_grain(const MaterialRule& rule, const RecipeLibrary& library) {
   return plan;
 }
 
+Digest grain_key(const MaterialRule& rule, const RecipeLibrary& library) {
+  return key_of("grain", rule, picture_digests(rule, library), library.recipes(), library.colours());
+}
+
+std::optional<Grain> find_grain(const MaterialRule& rule, const RecipeLibrary& library, const StageCache& cache) {
+  return cache.find<Grain>("grain", grain_key(rule, library));
+}
+
 Grain make_grain(const MaterialRule& rule, const RecipeLibrary& library, const Deadline& deadline,
                  const StageCache* cache) {
   const auto make = [&] { return make_whole_grain(rule, library, deadline); };
   if (cache == nullptr) return make();
-  auto [grain, found] = remembered(cache, "grain", use_until(deadline), make, rule, picture_digests(rule, library),
-                                   library.recipes(), library.colours());
+  auto [grain, found] = remembered_by(grain_key(rule, library), *cache, "grain", use_until(deadline), make);
   if (found) grain.analyze_seconds = grain.height_seconds = grain.normal_map_seconds = 0;
   return std::move(grain);
-}
-
-std::optional<ProceduralTexture> recipe_of(const MaterialRule& rule, const RecipeLibrary& library, bool seamless) {
-  std::error_code error;
-  if (rule.recipe.starts_with(k_grain_prefix) || std::filesystem::exists(rule.texture, error) ||
-      !looks_like_recipe(rule.recipe, library))
-    return std::nullopt;
-  return compile_recipe(rule, rule.texture, rule.recipe, "texture", library, seamless);
-}
-
-bool reads_surface(const ProceduralTexture& texture) {
-  return texture.depends_on_normal() || texture.depends_on_position() || texture.depends_on_sky() ||
-         texture.depends_on_flow();
 }
 
 Grain solid_grain(const MaterialRule& rule, const Grain& tile, PaintedSurface painted, const std::string& name) {
@@ -687,7 +483,7 @@ Grain solid_grain(const MaterialRule& rule, const Grain& tile, PaintedSurface pa
     grain.size_mm[0] *= painted.picture.width / painted.texels_per_repeat;
     grain.size_mm[1] *= painted.picture.height / painted.texels_per_repeat;
   }
-  Source source = painted_source(rule, std::move(painted));
+  SourcePicture source = painted_source(rule, std::move(painted));
   QuantityMaps maps = *std::exchange(source.maps, std::nullopt);
   const bool periodic = maps.periodic;
   std::erase_if(maps.maps, [&](const QuantityMap& map) { return rule.maps.contains(map.quantity); });

@@ -10,6 +10,7 @@
 
 #include "papilla/cache/stage_cache.hpp"
 #include "papilla/core/bounds.hpp"
+#include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/core/units.hpp"
 #include "papilla/meshing/mesh_assembly.hpp"
@@ -126,6 +127,11 @@ void keep_uv(SurfaceInput& input, SurfaceOutput& output) {
 
 }  // namespace
 
+TriangleMesh surface_mesh(const Scene& scene, const PartSurface& surface) {
+  const TriangleMesh& mesh = scene.parts[surface.part].mesh;
+  return surface.triangles.size() == mesh.triangles.size() ? mesh : extract_triangles(mesh, surface.triangles);
+}
+
 SurfaceInput surface_input(const PartSurface& surface, const MaterialRule& rule, TriangleMesh mesh, const Grain& grain,
                            PartContext context, UnwrapOptions options) {
   SurfaceInput input;
@@ -155,7 +161,7 @@ SurfaceInput surface_input(const PartSurface& surface, const MaterialRule& rule,
   return input;
 }
 
-SurfaceOutput bake_surface(SurfaceInput input) {
+SurfaceOutput bake_surface(SurfaceInput input) try {
   SurfaceOutput output;
   if (input.unwraps)
     unwrap_surface(input, output);
@@ -172,6 +178,10 @@ SurfaceOutput bake_surface(SurfaceInput input) {
                                  .value;
   output.measure_seconds = clock.seconds();
   return output;
+} catch (const SolverFailure& error) {
+  throw SolverFailure("part '" + input.label + "': " + error.what());
+} catch (const InvalidInput& error) {
+  throw InvalidInput("part '" + input.label + "': " + error.what());
 }
 
 }  // namespace papilla

@@ -33,13 +33,17 @@ struct SurfaceOutput {
   double repair_seconds = 0, charts_seconds = 0, unwrap_seconds = 0, measure_seconds = 0;
 };
 
+/// A surface as a mesh of its own. A whole part keeps the numbers of its vertices, so that it is mapped as by
+/// unwrap_scene().
+TriangleMesh surface_mesh(const Scene& scene, const PartSurface& surface);
+
 /// @param mesh The surface. @param options,context Of the whole bake.
 SurfaceInput surface_input(const PartSurface& surface, const MaterialRule& rule, TriangleMesh mesh, const Grain& grain,
                            PartContext context, UnwrapOptions options);
 
 /// unwrap_part() where the surface gets new uv, and measure_distortion() of what is written. The method's cache is
 /// asked first.
-/// @throws InvalidInput, SolverFailure of the method, without the part's name.
+/// @throws InvalidInput, SolverFailure of the method, naming the part.
 SurfaceOutput bake_surface(SurfaceInput input);
 
 }  // namespace papilla

@@ -17,6 +17,7 @@
 #include "papilla/meshing/weld.hpp"
 #include "papilla/param/pack.hpp"
 #include "papilla/pipeline/part_statistics.hpp"
+#include "remembered_plan.hpp"
 
 namespace papilla {
 
@@ -189,6 +190,15 @@ PartContext unwrap_context(const Scene& scene, Vec2 tile_mm) {
   return context;
 }
 
+Digest uv_key(const TriangleMesh& mesh, PartContext context, const UnwrapOptions& options) {
+  context.extent_mm = bounds_of(mesh).diagonal();
+  // Identical parts of other names, and of scenes of another size, share a result.
+  const MethodOptions& method = options.method;
+  const std::string named = named_parts(method).empty() ? std::string() : context.part;
+  return key_of("uv", mesh, options.repair, options.tile_mm, grain_size(options), method, context.up, context.tile_mm,
+                named, reason_to_project(context));
+}
+
 UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const UnwrapOptions& options) {
   PartContext own = context;
   own.extent_mm = bounds_of(mesh).diagonal();
@@ -199,11 +209,8 @@ UnwrappedPart unwrap_part(TriangleMesh& mesh, const PartContext& context, const 
     made.part = make_uv(made.mesh, own, options);
     return made;
   };
-  // Identical parts of other names, and of scenes of another size, share a result.
-  const std::string named = named_parts(method).empty() ? std::string() : context.part;
   auto [result, found] =
-      remembered(method.cache, "uv", use_until(method.deadline), make, mesh, options.repair, options.tile_mm,
-                 grain_size(options), method, own.up, own.tile_mm, named, reason_to_project(own));
+      remembered_by(uv_key(mesh, context, options), *method.cache, "uv", use_until(method.deadline), make);
   mesh = std::move(result.mesh);
   if (found) result.part.repair_seconds = result.part.segment_seconds = result.part.solve_seconds = 0;
   return std::move(result.part);

@@ -43,6 +43,7 @@ std::unique_ptr<Pattern> make_pattern(std::string_view type, TypeArguments& argu
 // By family, one file each.
 std::unique_ptr<Pattern> make_noise_pattern(std::string_view type, TypeArguments& arguments);
 std::unique_ptr<Pattern> make_cell_pattern(std::string_view type, TypeArguments& arguments);
+std::unique_ptr<Pattern> make_seamless_cells(TypeArguments& arguments);  ///< Of voronoiseamless.
 std::unique_ptr<Pattern> make_regular_pattern(std::string_view type, TypeArguments& arguments);
 std::unique_ptr<Pattern> make_effect_pattern(std::string_view type, TypeArguments& arguments);
 std::unique_ptr<Pattern> make_overview_pattern(std::string_view type, TypeArguments& arguments);

@@ -47,6 +47,8 @@ printf 't,x,y,z\n0,0,0,0.01\n0.01,0,0,0.01\n' >hand.csv
 printf 'ISO-10303-21;\n' >part.step
 printf '{}' >own.json
 printf 't,x,y,z,force_x,force_y,force_z\n0,0,0,0,0,0,0\n1,0,0,0,0,0,1\n' >stroke.csv
+"$papilla" split scene.glb -m rules.json -o jobs -q || fail "no jobs"
+"$papilla" bake --job jobs/"$(ls jobs/inputs)" -q || fail "no job"
 printf '{}' >study.json && printf 'study\n' >answers.csv
 
 # What each verb reads and writes: VERB | arguments | inputs among them | option of each output.
@@ -65,6 +67,9 @@ weather    | scene.glb -c config.json                        | scene.glb config.
 fit        | stroke.csv                                      | stroke.csv                       | --output --picture --json
 plan       | scene.glb -m rules.json --reach volume.json --view volume2.json | scene.glb rules.json volume.json volume2.json | --json
 bake       | scene.glb -m rules.json --library lib.recipes --reach volume.json --view volume2.json | scene.glb rules.json lib.recipes volume.json volume2.json | --output --json
+split      | scene.glb -m rules.json --library lib.recipes -o made | scene.glb rules.json lib.recipes | --json
+merge      | jobs                                            | jobs/bake.json jobs/manifest.jsonl scene.glb | --output --json
+cache      | stats                                           |                                  | --json
 materials  | check own.json                                  | own.json                         | --output --picture --json
 study      | analyse study.json answers.csv                  | study.json answers.csv           | --output --answers --json
 view       | scene.glb --tags scene2.glb --no-open           | scene.glb scene2.glb             | --output --json
@@ -86,6 +91,7 @@ while IFS='|' read -r verb arguments inputs outputs; do
     [[ $output == --json ]] && continue
     refused --json "$papilla" "$verb" "${arguments[@]}" "${rest[@]}" "$output" same.out --json ./same.out
   done
+  ((${#inputs[@]})) || continue
   # The same file under another name.
   ln -f "${inputs[0]}" hard.link
   ln -sf "${inputs[0]}" soft.link

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,7 +17,7 @@ struct Bytes {
   }
   void read(void* data, std::size_t size) {
     if (size > text.size() - at) throw IoError("ended");
-    std::memcpy(data, text.data() + at, size);
+    std::copy_n(text.data() + at, size, static_cast<char*>(data));
     at += size;
   }
   std::uint64_t most_bytes() const { return text.size() - at; }

@@ -6,7 +6,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
+#include "haptic/grids_glb.hpp"
 #include "haptic/tagged_glb.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
@@ -55,6 +57,43 @@ TEST(HapticScene, LeavesOutWhatIsOutOfReach) {
   EXPECT_LT(near.mesh.triangles.size(), 60U);
   options.reach_around = {{5, 0, 0}};
   EXPECT_THROW(load_haptic_scene(file.path, options), InvalidInput);
+}
+
+/// Primitive by primitive and as a whole: the same surface. Turned, mirrored, scaled unevenly, oblong, rough.
+TEST(HapticScene, FromAFileFeelsAsFromAScene) {
+  nlohmann::json plain = {{"version", 2}, {"stiffness", 500}, {"forceShading", true}};
+  const File file(testing::grids_glb(23, 41, {{"haptic", tag()}}, {{"haptic", plain}}, testing::sine_png()));
+  const HapticScene by_primitive = load_haptic_scene(file.path);
+  const HapticScene whole = haptic_scene(read_gltf(file.path, {.tag_channel = true}), file.path);
+  EXPECT_TRUE(by_primitive.warnings.empty());
+  EXPECT_EQ(by_primitive.mesh.triangles.size(), 3U * 2 * 2 * 23 * 41);
+  EXPECT_EQ(whole.mesh.triangles.size(), by_primitive.mesh.triangles.size());
+  EXPECT_EQ(by_primitive.names, whole.names);
+  const auto surface = [](const HapticScene& scene) {
+    return ContactSurface(scene.mesh, scene.materials, scene.heights, scene.probe_radius_m);
+  };
+  const ContactSurface a = surface(by_primitive), b = surface(whole);
+  EXPECT_EQ(a.bytes(), b.bytes());
+  EXPECT_NEAR(norm(a.low() - b.low()) + norm(a.high() - b.high()), 0, 1e-9);
+  EXPECT_NEAR(a.tallest_relief_m(), b.tallest_relief_m(), 1e-9);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0, 1);
+  int with_relief = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 size = a.high() - a.low();
+    const Vec3 p = a.low() + Vec3{share(random) * size.x, share(random) * size.y, share(random) * size.z};
+    const auto x = a.closest_point(p, 3), y = b.closest_point(p, 3);
+    ASSERT_TRUE(x && y);
+    ASSERT_NEAR(x->distance_m, y->distance_m, 1e-7);
+    if (norm(x->point - y->point) > 1e-7 || x->material != y->material) continue;  // Two are equally near.
+    EXPECT_NEAR(x->height_m, y->height_m, 1e-8);
+    with_relief += x->height_m > 0;
+    const Vec3 normal = x->face_normal;
+    EXPECT_NEAR(norm(a.shaded_normal(x->point + a.contact_radius_m() * normal, normal) -
+                     b.shaded_normal(y->point + b.contact_radius_m() * normal, normal)),
+                0, 1e-3);
+  }
+  EXPECT_GT(with_relief, 500);
 }
 
 TEST(HapticScene, HalvesMapsThatTheRateCantCarry) {

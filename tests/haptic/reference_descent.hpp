@@ -16,14 +16,16 @@ namespace papilla::testing {
 class ReferenceDescent {
  public:
   ReferenceDescent(const ContactMesh& mesh, double clearance_m) : mesh_(&mesh), clearance_(clearance_m) {
-    std::vector<Box3f> boxes(mesh.triangles.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t)
+    items_.resize(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < items_.size(); ++t) {
+      items_[t].item = t;
       for (const std::uint32_t v : mesh.triangles[t]) {
         const Vec3 p = mesh.positions[v];
         const std::array<float, 3> f{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-        boxes[t].add(Box3f{f, f});
+        items_[t].box.add(Box3f{f, f});
       }
-    tree_ = Bvh(boxes);
+    }
+    tree_ = Bvh(items_);
   }
 
   /// Distance of `proxy` from the local minimum that a point reaches from `from` towards `goal`. The descent is
@@ -54,7 +56,7 @@ class ReferenceDescent {
     Vec3 found;
     tree_.within(p, best, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) {
-        const Vec3 c = closest(tree_.leaf_order()[i], p);
+        const Vec3 c = closest(items_[i].item, p);
         if (norm(p - c) < best) best = norm(p - c), found = c;
       }
     });
@@ -138,7 +140,7 @@ class ReferenceDescent {
     centre_ = x;
     double radius = k_around_m + clearance_;
     tree_.within(x, radius, [&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t i = begin; i < end; ++i) near_.push_back(tree_.leaf_order()[i]);
+      for (std::uint32_t i = begin; i < end; ++i) near_.push_back(items_[i].item);
     });
   }
 
@@ -177,6 +179,7 @@ class ReferenceDescent {
 
   const ContactMesh* mesh_;
   double clearance_;
+  std::vector<BoxedItem> items_;
   Bvh tree_;
   Vec3 centre_;
   std::vector<std::uint32_t> near_;

@@ -79,6 +79,7 @@ void BakeArguments::add_to(CLI::App& verb) {
   perception.add_to(verb);
   sides.add_to(verb);
   scene.add_to(verb);
+  stored.add_to(verb);
 }
 
 Materials BakeArguments::rules() const { return read_materials(materials, material_library); }
@@ -92,7 +93,9 @@ BakeFileOptions BakeArguments::options(const fs::path& output, const VerbContext
   wanted.bake.unwrap.method.deadline = wanted.bake.plan.deadline = wanted.bake.plan.sides.deadline = context.deadline;
   wanted.bake.unwrap.method.cache = context.cache;
   wanted.read_deadline = context.read_deadline;
-  wanted.write = {.mirror_mpeg_haptics = mirrored(k_mpeg), .mirror_khr_physics = mirrored(k_khr)};
+  wanted.write = stored.write_options(output.string());
+  wanted.write.mirror_mpeg_haptics = mirrored(k_mpeg);
+  wanted.write.mirror_khr_physics = mirrored(k_khr);
   wanted.bake.library = load_recipes(libraries);
   return wanted;
 }
@@ -128,6 +131,9 @@ Json write_bake(const BakeArguments& arguments, const BakeOutputs& options, Bake
   json["rules"] = rules_json(result.plan.rules);
   json["contact"] = contact_models_json(rules);
   json["output"] = {{"file", options.output}, {"bytes", bytes}, {"triangles", triangles}};
+  Json stored = storage_json(wanted.write, result.sizes);
+  if (result.way.in_place) stored.erase("meshes"), stored.erase("images");  // They are the file's own.
+  json["output"].update(stored);
   context.console.print(way_line(result.way) + sides_text(result.plan.sides, true) +
                         left_out_table(result.scene, result.plan.perception));
   if (const auto& budget = result.plan.budget)
@@ -140,6 +146,7 @@ Json write_bake(const BakeArguments& arguments, const BakeOutputs& options, Bake
                         contact_models_text(rules, result.plan.surfaces));
   print_notes(result.scene, context.console);
   context.console.print(changes_line(result.changes));
+  context.console.print(storage_text(wanted.write, result.sizes));
   context.console.print(
       shown_format("{}: {} triangles, {:.1f} MB\n", options.output, triangles, static_cast<double>(bytes) / 1e6));
   if (!options.report.empty()) write_report(options, rules, result, page, context, total, json);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "options/output_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
@@ -23,6 +24,7 @@ struct BakeArguments {
   PerceptionOption perception;
   SideOption sides;
   SceneOptions scene;
+  OutputOptions stored;
 
   void add_to(CLI::App& verb);
   Materials rules() const;

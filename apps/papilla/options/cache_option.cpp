@@ -69,8 +69,11 @@ std::uint64_t CacheOption::limit() const {
   if (most_bytes > 0) return most_bytes;
   std::string set = variable(k_limit_variable);
   if (set.empty()) return k_default_limit;
-  const std::string refused = CLI::AsSizeValue(false)(set);
-  const std::uint64_t bytes = refused.empty() ? std::strtoull(set.c_str(), nullptr, 10) : 0;
+  std::uint64_t bytes = 0;
+  try {
+    if (CLI::AsSizeValue(false)(set).empty()) bytes = std::strtoull(set.c_str(), nullptr, 10);
+  } catch (const CLI::ValidationError&) {  // Of an unknown unit.
+  }
   if (bytes == 0)
     throw InvalidInput(std::string(k_limit_variable) + ": '" + variable(k_limit_variable) + "' is no size");
   return bytes;

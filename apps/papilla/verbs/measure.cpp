@@ -114,7 +114,7 @@ Json run(const Options& options, VerbContext& context) {
     print_notes(scene, context.console);
   } else {
     colour_by_distortion(distortion, options.worst, scene);
-    write_output(scene, options.colored, context.console);
+    write_output(scene, options.colored, {}, context.console);
   }
   result["losses"] = scene.losses;
   result["warnings"] = scene.warnings;

@@ -53,6 +53,38 @@ Json suggest(const PlannedFile& plan, const Options& options, const Console& con
   }
 }
 
+std::size_t count_unwrapped(const PlannedFile& plan) {
+  return static_cast<std::size_t>(
+      std::count_if(plan.surfaces.begin(), plan.surfaces.end(),
+                    [](const PartSurface& surface) { return decision(surface.plan, Stage::unwrap).run; }));
+}
+
+/// What a bake would find in the cache.
+std::string remembered_text(const PlannedFile& plan) {
+  const RememberedPlan& found = plan.remembered;
+  if (found.surfaces.empty()) return {};
+  std::string text = shown_format("from the cache: {} of {} grains, the uv of {} of {} surfaces", found.grains.size(),
+                                  grains_of(plan.surfaces).size(),
+                                  std::count(found.surfaces.begin(), found.surfaces.end(), 1), count_unwrapped(plan));
+  constexpr std::size_t k_most_named = 8;
+  std::size_t named = 0;
+  for (std::size_t i = 0; i < plan.surfaces.size(); ++i) {
+    if (found.surfaces[i] != 0 || !decision(plan.surfaces[i].plan, Stage::unwrap).run) continue;
+    if (named++ < k_most_named)
+      text += shown_format("{}{}", named == 1 ? "; to be made: " : ", ", plan.surfaces[i].label);
+  }
+  if (named > k_most_named) text += shown_format(" and {} more", named - k_most_named);
+  return text + "\n";
+}
+
+Json remembered_json(const PlannedFile& plan) {
+  Json surfaces = Json::array(), missing = Json::array();
+  for (std::size_t i = 0; i < plan.surfaces.size(); ++i)
+    if (decision(plan.surfaces[i].plan, Stage::unwrap).run)
+      (plan.remembered.surfaces[i] != 0 ? surfaces : missing).push_back(plan.surfaces[i].label);
+  return {{"grains", plan.remembered.grains}, {"uv", surfaces}, {"uv_to_be_made", missing}};
+}
+
 Json run(const Options& options, VerbContext& context) {
   BakeFileOptions wanted;
   wanted.read = options.scene.read_options(context.cache);
@@ -65,7 +97,7 @@ Json run(const Options& options, VerbContext& context) {
   context.console.print(way_line(plan.way) + plan_table(plan.surfaces) + grains_text(plan.grains) +
                         contact_models_text(rules, plan.surfaces) + rules_table(plan.rules, rules) +
                         sides_text(plan.sides, true) + left_out_table(plan.scene, plan.perception) +
-                        object_textures_text(plan.object_textures_made));
+                        object_textures_text(plan.object_textures_made) + remembered_text(plan));
   const TouchReport touch = report_touch(rules, plan.surfaces, {}, options.touch);
   context.console.print(touch_text(touch));
   print_notes(plan.scene, context.console);
@@ -74,6 +106,7 @@ Json run(const Options& options, VerbContext& context) {
   json["grains"] = grain_plans_json(plan.grains);
   json["contact"] = contact_models_json(rules);
   json["touch"] = touch_json(touch);
+  if (context.cache != nullptr) json["remembered"] = remembered_json(plan);
   json["uv"] = own_uv_json(plan.surfaces);
   json["rules"] = rules_json(plan.rules);
   json["suggestions"] = suggest(plan, options, context.console);
@@ -100,7 +133,9 @@ Json run(const Options& options, VerbContext& context) {
 void add_plan(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
-                            {"plan", "Show what bake would do, surface by surface, and why; writes nothing.",
+                            {"plan",
+                             "Show what bake would do, surface by surface, and why, and what the cache has of it; "
+                             "writes no file.",
                              "papilla plan data/cockpit.step -m examples/materials.json",
                              VerbInfo::AtDeadline::is_cancelled, VerbInfo::Remembers::yes},
                             [options](VerbContext& context) { return run(*options, context); });

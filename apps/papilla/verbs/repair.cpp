@@ -5,6 +5,7 @@
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "option_checks.hpp"
+#include "options/output_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
 #include "papilla/core/progress_until.hpp"
@@ -25,10 +26,12 @@ struct Options {
   RepairSceneOptions repair;
   SideOption sides;
   SceneOptions read;
+  OutputOptions stored;
   bool verify = false;
 };
 
 Json run(const Options& options, VerbContext& context) {
+  const WriteOptions write = options.stored.write_options(options.out);
   RepairSceneOptions repair = options.repair;
   if (options.verify) repair.repair.sample_above = std::numeric_limits<std::size_t>::max();
   repair.sides = options.sides.options(options.out);
@@ -39,13 +42,14 @@ Json run(const Options& options, VerbContext& context) {
       context.deadline.earlier_by(k_finishing_s * static_cast<double>(drawn_triangles(scene)));
   RepairSceneResult result =
       named_by(options.in, [&] { return repair_scene(std::move(scene), repair, context.progress); });
-  write_output(result.scene, options.out, context.console);
+  const Json stored = write_output(result.scene, options.out, write, context.console);
   // What is said is what is written, in the file's precision.
   const WrittenRepair written{total_statistics(part_statistics(read_scene(options.out))),
                               single_precision_mm(result.scene, !repair.sides.add_materials)};
   context.console.print(repair_text(result, written));
   Json json = repair_json(result, written, repair);
   json["output"] = options.out;
+  json["stored"] = stored;
   return json;
 }
 
@@ -84,6 +88,7 @@ void add_repair(CLI::App& program) {
   verb->add_flag("--keep-copies", options->repair.keep_copies, "Do not make identical parts instances of one");
   options->sides.add_to(*verb);
   options->read.add_to(*verb);
+  options->stored.add_to(*verb);
 }
 
 }  // namespace papilla::app

@@ -8,6 +8,7 @@
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
 #include "option_checks.hpp"
+#include "options/output_option.hpp"
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "papilla/core/progress_until.hpp"
@@ -27,6 +28,7 @@ struct Options {
   bool one_sided = false, merge_faces = false, strict = false;
   bool as_nodes = false;  ///< Levels as nodes instead of MSFT_lod.
   SceneOptions read;
+  OutputOptions stored;
 };
 
 void check(const Options& o) {
@@ -48,6 +50,7 @@ void check(const Options& o) {
 
 Json run(const Options& options, VerbContext& context) {
   check(options);
+  const WriteOptions write = options.stored.write_options(options.out);
   SimplifySceneOptions wanted = options.simplify;
   wanted.perception = options.perception.options();
   wanted.simplify.two_sided = !options.one_sided;
@@ -64,7 +67,7 @@ Json run(const Options& options, VerbContext& context) {
   context.console.print(simplify_text(result, wanted));
   Json json = simplify_json(result, wanted);
   if (options.as_nodes) levels_to_nodes(result.scene);
-  write_output(result.scene, options.out, context.console);
+  json["stored"] = write_output(result.scene, options.out, write, context.console);
   json["losses"] = result.scene.losses;
   json["output"] = options.out;
   return json;
@@ -127,6 +130,7 @@ void add_simplify(CLI::App& program) {
   verb->add_flag("--keep-copies", options->simplify.keep_copies, "Do not make identical parts instances of one");
   options->perception.add_to(*verb);
   options->read.add_to(*verb);
+  options->stored.add_to(*verb);
 }
 
 }  // namespace papilla::app

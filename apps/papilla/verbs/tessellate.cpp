@@ -3,6 +3,7 @@
 
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "options/output_option.hpp"
 #include "options/scene_option.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/trace.hpp"
@@ -17,11 +18,13 @@ struct Options {
   std::string in, out;
   bool relative = false, keep_copies = false;
   SceneOptions read;
+  OutputOptions stored;
 };
 
 Json run(const Options& options, VerbContext& context) {
   const Stopwatch clock;
   const ReadOptions read = options.read.read_options(nullptr);
+  const WriteOptions write = options.stored.write_options(options.out);
   if (!is_cad_extension(options.in))
     throw InvalidInput(options.in + ": is no CAD file (.step .stp .p21 .iges .igs .brep .brp)");
   CadReadOptions cad;
@@ -35,7 +38,7 @@ Json run(const Options& options, VerbContext& context) {
   scene.up = read.up.value_or(scene.up);
   std::vector<SharedPart> shared;
   if (!options.keep_copies) shared = share_identical_parts(scene);
-  write_output(scene, options.out, context.console);
+  const Json stored = write_output(scene, options.out, write, context.console);
   context.console.print(tessellation_text(scene, report));
   Json json = tessellation_json(scene, report);
   json["chord_mm"] = read.chord_mm;
@@ -44,6 +47,7 @@ Json run(const Options& options, VerbContext& context) {
   json["identical_parts"] = shared_parts_json(shared, scene);
   json["seconds"] = clock.seconds();
   json["output"] = options.out;
+  json["stored"] = stored;
   return json;
 }
 
@@ -63,6 +67,7 @@ void add_tessellate(CLI::App& program) {
   verb->add_flag("--relative", options->relative, "The chord is a fraction of each part's diagonal");
   verb->add_flag("--keep-copies", options->keep_copies, "Do not make identical parts instances of one");
   options->read.add_to(*verb);
+  options->stored.add_to(*verb);
 }
 
 }  // namespace papilla::app

@@ -7,6 +7,7 @@
 #include "exit_code.hpp"
 #include "file_options.hpp"
 #include "json/scene_json.hpp"
+#include "options/output_option.hpp"
 #include "options/scene_option.hpp"
 #include "options/side_option.hpp"
 #include "options/unwrap_option.hpp"
@@ -25,6 +26,7 @@ namespace {
 struct Options {
   std::string input, output, trace, picture;
   SceneOptions scene;
+  OutputOptions stored;
   SideOption sides;
   UnwrapOption unwrap;
 };
@@ -39,6 +41,7 @@ Json run(const Options& options, VerbContext& context) {
   if (const auto extension = std::filesystem::path(options.output).extension();
       extension == ".stl" || extension == ".STL" || extension == ".off" || extension == ".OFF")
     throw UsageError("-o " + options.output + ": " + extension.string() + " has no place for texture coordinates");
+  const WriteOptions write = options.stored.write_options(options.output);
   UnwrapOptions unwrap = options.unwrap.options();
   unwrap.sides = options.sides.options(options.output);
   unwrap.method.deadline = context.deadline;
@@ -48,7 +51,7 @@ Json run(const Options& options, VerbContext& context) {
   check_held_parts(unwrap.method, options.input, scene);
   UnwrapResult result =
       named_by(options.input, [&] { return unwrap_scene(std::move(scene), unwrap, context.progress); });
-  write_output(result.scene, options.output, context.console);
+  const Json stored = write_output(result.scene, options.output, write, context.console);
   const Scene written = read_scene(options.output);  // what is said is what is written, in the file's precision
   MeasureOptions measure;
   measure.overlap = !context.deadline.passed();
@@ -62,6 +65,7 @@ Json run(const Options& options, VerbContext& context) {
   Json json{{"method", method}};
   json.update(unwrap_json(result, unwrap, distortion));
   json["worst_chart"] = worst_chart_json(written, distortion);
+  json["stored"] = stored;
   return json;
 }
 
@@ -84,6 +88,7 @@ void add_unwrap(CLI::App& program) {
   writes(verb->add_option("--picture", options->picture, "Draw the layout, coloured by distortion"))->type_name("PNG");
   options->sides.add_to(*verb);
   options->scene.add_to(*verb);
+  options->stored.add_to(*verb);
 }
 
 }  // namespace papilla::app

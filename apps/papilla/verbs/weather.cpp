@@ -3,6 +3,7 @@
 
 #include "file_options.hpp"
 #include "option_checks.hpp"
+#include "options/output_option.hpp"
 #include "options/scene_option.hpp"
 #include "verbs.hpp"
 #include "weather/weather_build.hpp"
@@ -17,14 +18,17 @@ struct Options {
   bool live = false;
   WeatherLiveOptions follow;
   SceneOptions read;
+  OutputOptions stored;
 };
 
 Json run(const Options& options, VerbContext& context) {
+  WeatherBuildOptions wanted = options.build;
+  wanted.write = options.stored.write_options(options.build.output);
   WeatherBuilder builder(options.scene,
                          read_scene(options.scene, options.read.read_options(context.cache), context.progress));
-  WeatherBuild build = builder.build(options.build, options.live, context);
+  WeatherBuild build = builder.build(wanted, options.live, context);
   if (!options.live) return weather_build_json(build);
-  const std::string url = follow_weather(options.build, options.follow, builder, context, build);
+  const std::string url = follow_weather(wanted, options.follow, builder, context, build);
   Json json = weather_build_json(build);
   json["url"] = url;
   return json;
@@ -65,6 +69,7 @@ void add_weather(CLI::App& program) {
       ->needs(live);
   verb->add_flag("--no-open", options->follow.no_open, "Don't start a browser for the page")->needs(live);
   options->read.add_to(*verb);
+  options->stored.add_to(*verb);
 }
 
 }  // namespace papilla::app

@@ -85,7 +85,7 @@ WeatherBuild WeatherBuilder::build(const WeatherBuildOptions& options, bool live
       throw InvalidInput(file_ + ", with " + options.config + ": " + reason);
     if (step == 0) context.console.print(layers_text(result.layers));
     const std::string file = file_of(options.output, step, config.times.size());
-    write_output(result.scene, file, context.console);
+    write_output(result.scene, file, options.write, context.console);
     context.console.print(shown_format("{}: time {:.2f}, {} maps, {} of them alike\n", file, config.times[step],
                                        result.images, result.duplicates_removed));
     if (!options.report.empty()) views.push_back({config.times[step], view_of(result.scene)});

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/io/scene_file.hpp"
 #include "papilla/pipeline/weather_scene.hpp"
 #include "papilla/texture/image.hpp"
 #include "verb.hpp"
@@ -18,6 +19,7 @@ struct WeatherBuildOptions {
   std::string config, output, report;  ///< The page's folder; empty: no page.
   bool pictures = false, video = false;
   bool strict = false;  ///< A layer that lies on no surface is an error.
+  WriteOptions write;
 };
 
 struct WeatherBuild {

@@ -111,7 +111,7 @@ void AccessorReader::fail(const std::string& where, const std::string& reason) c
 
 AccessorReader::AccessorReader(const Document& document) : document_(document) {
   std::size_t bytes = 0;
-  for (const tinygltf::Buffer& buffer : document.model.buffers) bytes += buffer.data.size();
+  for (const auto& buffer : document.buffers) bytes += buffer.size();
   budget_ = std::min(k_max_elements, k_free_elements + k_elements_per_byte * bytes);
 }
 
@@ -129,15 +129,14 @@ const tinygltf::Accessor& AccessorReader::accessor(int number, const std::string
 
 std::span<const unsigned char> AccessorReader::range(int number, std::size_t offset, std::size_t length,
                                                      const std::string& what, const std::string& where) const {
-  const tinygltf::Model& model = document_.model;
-  if (number < 0 || static_cast<std::size_t>(number) >= model.buffers.size())
+  if (number < 0 || static_cast<std::size_t>(number) >= document_.buffers.size())
     fail(where, what + " names buffer " + std::to_string(number) + ", which does not exist");
-  const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(number)];
+  const auto buffer = document_.buffers[static_cast<std::size_t>(number)];
   if (document_.empty_buffers.contains(number)) fail(where, "buffer " + std::to_string(number) + " has no data");
-  if (offset > buffer.data.size() || length > buffer.data.size() - offset)
+  if (offset > buffer.size() || length > buffer.size() - offset)
     fail(where, what + " (offset " + std::to_string(offset) + ", length " + std::to_string(length) +
-                    ") exceeds its buffer of " + std::to_string(buffer.data.size()) + " bytes");
-  return {buffer.data.data() + offset, length};
+                    ") exceeds its buffer of " + std::to_string(buffer.size()) + " bytes");
+  return buffer.subspan(offset, length);
 }
 
 std::span<const unsigned char> AccessorReader::view(int number, const std::string& where) {
@@ -172,10 +171,9 @@ AccessorReader::Elements AccessorReader::elements(int view_number, std::size_t o
   return {bytes.data() + offset, stride};
 }
 
-/// Calls use(index, element) for the elements that replace others.
-template <class Use>
+/// Calls take(index, element) for the elements that replace others.
 void AccessorReader::for_each_sparse(const tinygltf::Accessor& accessor, int components, const std::string& where,
-                                     Use use) {
+                                     const Take& take) {
   const auto& sparse = accessor.sparse;
   if (!sparse.isSparse) return;
   const std::string place = where + ", sparse";
@@ -192,12 +190,13 @@ void AccessorReader::for_each_sparse(const tinygltf::Accessor& accessor, int com
     const auto index = static_cast<std::size_t>(load(where_to.at(i), sparse.indices.componentType));
     if (index >= accessor.count)
       fail(place, "index " + std::to_string(index) + " is not below " + std::to_string(accessor.count));
-    use(index, what.at(i));
+    take(index, what.at(i));
   }
 }
 
-std::vector<double> AccessorReader::raw_numbers(const tinygltf::Accessor& accessor, int components,
-                                                const std::string& where) {
+/// Calls take(index, element) for the stored elements and then for those that replace some of them.
+void AccessorReader::for_each(const tinygltf::Accessor& accessor, int components, const std::string& where,
+                              const Take& take) {
   if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
     fail(where, "the accessor's type has not " + std::to_string(components) + " components");
   if (accessor.count == 0) fail(where, "the accessor's count is 0");
@@ -208,15 +207,8 @@ std::vector<double> AccessorReader::raw_numbers(const tinygltf::Accessor& access
     source = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType, components,
                       true, where);
   spend(accessor.count, where);
-  const auto width = static_cast<std::size_t>(components);
-  const std::size_t step = component_size(accessor.componentType);
-  std::vector<double> values(accessor.count * width, 0.0);
-  const auto take = [&](std::size_t i, const unsigned char* at) {
-    for (std::size_t k = 0; k < width; ++k) values[i * width + k] = load(at + k * step, accessor.componentType);
-  };
   for (std::size_t i = 0; source && i < accessor.count; ++i) take(i, source->at(i));
   for_each_sparse(accessor, components, where, take);
-  return values;
 }
 
 std::vector<std::byte> AccessorReader::bytes(int number, const std::string& where) {
@@ -231,7 +223,7 @@ std::vector<std::byte> AccessorReader::bytes(int number, const std::string& wher
         elements(source.bufferView, source.byteOffset, source.count, source.componentType, components, true, place);
   spend(source.count, place);
   std::vector<std::byte> bytes(source.count * size);
-  const auto take = [&](std::size_t i, const unsigned char* at) { std::memcpy(bytes.data() + i * size, at, size); };
+  const Take take = [&](std::size_t i, const unsigned char* at) { std::memcpy(bytes.data() + i * size, at, size); };
   for (std::size_t i = 0; stored && i < source.count; ++i) take(i, stored->at(i));
   for_each_sparse(source, components, place, take);
   return bytes;
@@ -240,23 +232,58 @@ std::vector<std::byte> AccessorReader::bytes(int number, const std::string& wher
 std::vector<double> AccessorReader::numbers(int number, int components, const std::string& where) {
   const std::string place = where + ", accessor " + std::to_string(number);
   const tinygltf::Accessor& source = accessor(number, where);
-  std::vector<double> values = raw_numbers(source, components, place);
+  const auto width = static_cast<std::size_t>(components);
+  const std::size_t step = component_size(source.componentType);
+  std::vector<double> values;
+  for_each(source, components, place, [&](std::size_t i, const unsigned char* at) {
+    if (values.empty()) values.resize(source.count * width);
+    for (std::size_t k = 0; k < width; ++k) values[i * width + k] = load(at + k * step, source.componentType);
+  });
+  values.resize(source.count * width);
   if (source.normalized)
     for (double& value : values) value = normalize(value, source.componentType);
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]))
-      fail(place, "element " + std::to_string(i / static_cast<std::size_t>(components)) + " is not finite");
+    if (!std::isfinite(values[i])) fail(place, "element " + std::to_string(i / width) + " is not finite");
   return values;
 }
+
+template <std::size_t k_components>
+std::vector<std::array<float, k_components>> AccessorReader::floats(int number, const std::string& where) {
+  const std::string place = where + ", accessor " + std::to_string(number);
+  const tinygltf::Accessor& source = accessor(number, where);
+  const std::size_t step = component_size(source.componentType);
+  std::vector<std::array<float, k_components>> values;
+  for_each(source, static_cast<int>(k_components), place, [&](std::size_t i, const unsigned char* at) {
+    if (values.empty()) values.resize(source.count);
+    if (source.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) {
+      std::memcpy(values[i].data(), at, sizeof values[i]);
+      return;
+    }
+    for (std::size_t k = 0; k < k_components; ++k) {
+      const double value = load(at + k * step, source.componentType);
+      values[i][k] = static_cast<float>(source.normalized ? normalize(value, source.componentType) : value);
+    }
+  });
+  values.resize(source.count);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (const float value : values[i])
+      if (!std::isfinite(value)) fail(place, "element " + std::to_string(i) + " is not finite");
+  return values;
+}
+template std::vector<std::array<float, 2>> AccessorReader::floats<2>(int, const std::string&);
+template std::vector<std::array<float, 3>> AccessorReader::floats<3>(int, const std::string&);
 
 std::vector<std::uint32_t> AccessorReader::indices(int number, const std::string& where) {
   const std::string place = where + ", accessor " + std::to_string(number);
   const tinygltf::Accessor& source = accessor(number, where);
   if (!is_unsigned(source.componentType)) fail(place, "indices must be unsigned integers");
-  const std::vector<double> values = raw_numbers(source, 1, place);
-  std::vector<std::uint32_t> result(values.size());
-  std::transform(values.begin(), values.end(), result.begin(), [](double v) { return static_cast<std::uint32_t>(v); });
-  return result;
+  std::vector<std::uint32_t> values;
+  for_each(source, 1, place, [&](std::size_t i, const unsigned char* at) {
+    if (values.empty()) values.resize(source.count);
+    std::memcpy(&values[i], at, component_size(source.componentType));  // Little-endian, the other bytes are zero.
+  });
+  values.resize(source.count);
+  return values;
 }
 
 }  // namespace papilla::gltf

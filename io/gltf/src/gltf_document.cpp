@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -171,7 +172,7 @@ std::string find_missing_member(const Json& document) {
 static_assert(std::endian::native == std::endian::little, "glTF buffers are read in place");
 
 constexpr std::string_view k_magic = "glTF";
-constexpr std::uint32_t k_json_chunk = 0x4e4f534a;
+constexpr std::uint32_t k_json_chunk = 0x4e4f534a, k_binary_chunk = 0x004e4942;
 constexpr std::size_t k_quoted = 80;   ///< Characters of a name from the file in messages.
 constexpr int k_max_json_depth = 200;  ///< Parsing recurses: deeper text would exhaust the stack.
 
@@ -469,19 +470,36 @@ void check_meshopt_numbers(const Json& json, const std::string& file) {
   }
 }
 
-/// The file with another JSON text.
-std::string with_json(std::string_view bytes, bool binary, std::string json) {
-  if (!binary) return json;
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  const std::string_view rest = bytes.substr(std::min<std::size_t>(20 + std::size_t{word(bytes, 12)}, bytes.size()));
-  std::string result(bytes.substr(0, 20));
-  const auto store_word = [&](std::size_t at, std::size_t value) {
-    const auto number = static_cast<std::uint32_t>(value);
-    std::memcpy(result.data() + at, &number, sizeof number);
-  };
-  store_word(8, 20 + json.size() + rest.size());
-  store_word(12, json.size());
-  return result + json + std::string(rest);
+/// The binary chunk of a GLB; nothing when it has none.
+/// @throws InvalidInput when it is damaged.
+std::optional<std::string_view> binary_chunk(std::string_view bytes, const std::string& file) {
+  constexpr std::size_t k_header = 8;
+  bytes = bytes.substr(0, word(bytes, 8));
+  bytes.remove_prefix(20 + std::size_t{word(bytes, 12)});
+  if (bytes.empty()) return std::nullopt;
+  if (bytes.size() < k_header || word(bytes, 0) > bytes.size() - k_header)
+    throw InvalidInput(file + ": the binary chunk exceeds the GLB");
+  if (word(bytes, 4) != k_binary_chunk) throw InvalidInput(file + ": the second GLB chunk is not binary data");
+  return bytes.substr(k_header, word(bytes, 0));
+}
+
+/// Gives the first buffer, whose content is the binary chunk, a byte in the text instead.
+/// @returns its length; nothing when another place holds it, or tinygltf will refuse it.
+/// @throws InvalidInput when the chunk is shorter.
+std::optional<std::size_t> detach_chunk(Json& json, std::size_t chunk_size, const std::string& file) {
+  const auto buffers = json.find("buffers");
+  if (buffers == json.end() || !buffers->is_array() || buffers->empty()) return std::nullopt;
+  Json& buffer = buffers->front();
+  if (!buffer.is_object() || buffer.contains("uri") || !buffer.contains("byteLength") ||
+      !is_index(buffer["byteLength"]))
+    return std::nullopt;
+  const auto length = buffer["byteLength"].get<std::uint64_t>();
+  if (length > chunk_size)
+    throw InvalidInput(file + ": buffers[0].byteLength " + std::to_string(length) + " exceeds the binary chunk of " +
+                       std::to_string(chunk_size) + " bytes");
+  buffer["byteLength"] = 1;
+  buffer["uri"] = k_one_byte;
+  return static_cast<std::size_t>(length);
 }
 
 /// Keeps the encoded bytes. Those of a buffer view are left where they are: its range is not checked yet.
@@ -524,33 +542,34 @@ void add_warnings(std::string_view text, std::vector<std::string>& warnings) {
 Document load_document(const std::filesystem::path& path) {
   Document document;
   document.file = path.string();
-  std::string bytes = read_file(path);
+  const std::string& bytes = document.storage.emplace_back(read_file(path));
   if (bytes.empty()) throw InvalidInput(document.file + ": is empty");
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(document.file + ": is larger than glTF's limit of 4 GiB");
   document.binary = std::string_view(bytes).starts_with(k_magic);
-  Json json = parse_header(document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes), document.file,
-                           document.warnings);
+  std::string_view text = document.binary ? json_chunk(bytes, document.file) : std::string_view(bytes);
+  Json json = parse_header(text, document.file, document.warnings);
   check_meshopt_numbers(json, document.file);
   if (const std::string bad = find_bad_member(json, k_whole); !bad.empty())
     throw InvalidInput(document.file + ": " + bad);
   const auto primitives = count_primitives(json);
-  const bool has_chunk = document.binary && 20 + std::size_t{word(bytes, 12)} < word(bytes, 8);
-  document.empty_buffers = fill_empty_buffers(json, has_chunk);
+  const auto chunk = document.binary ? binary_chunk(bytes, document.file) : std::nullopt;
+  const auto first_length = chunk ? detach_chunk(json, chunk->size(), document.file) : std::nullopt;
+  document.empty_buffers = fill_empty_buffers(json, chunk.has_value());
   const std::vector<Indices> detached = detach_indices(json);
   const bool renamed = rename_picture_types(json), dropped = drop_channels_without_node(json);
   std::vector<ReferencedFile> buffers = detach_buffers(json, path), images = detach_images(json, path);
-  if (!document.empty_buffers.empty() || !detached.empty() || renamed || dropped || !buffers.empty() || !images.empty())
-    bytes = with_json(bytes, document.binary, json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  std::string edited;
+  if (first_length || !document.empty_buffers.empty() || !detached.empty() || renamed || dropped || !buffers.empty() ||
+      !images.empty())
+    text = edited = json.dump(-1, ' ', false, Json::error_handler_t::replace);
 
   tinygltf::TinyGLTF loader = make_loader();
   std::string error, warning;
-  const auto size = static_cast<unsigned>(bytes.size());
   bool good = false;
   try {
-    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    good = document.binary ? loader.LoadBinaryFromMemory(&document.model, &error, &warning, data, size, "")
-                           : loader.LoadASCIIFromString(&document.model, &error, &warning, bytes.data(), size, "");
+    good = loader.LoadASCIIFromString(&document.model, &error, &warning, text.data(),
+                                      static_cast<unsigned>(text.size()), "");
   } catch (const std::exception& failure) {
     error = failure.what();
   }
@@ -558,8 +577,13 @@ Document load_document(const std::filesystem::path& path) {
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m)
     if (document.model.meshes[m].primitives.size() != primitives.at(m))
       throw InvalidInput(document.file + ": " + reason(json, "mesh " + std::to_string(m) + ": " + error));
-  for (const ReferencedFile& file : buffers)
-    document.model.buffers[file.number].data.assign(file.bytes.begin(), file.bytes.end());
+  for (const tinygltf::Buffer& buffer : document.model.buffers) document.buffers.emplace_back(buffer.data);
+  const auto set_content = [&](std::size_t number, std::string_view content) {
+    document.buffers.at(number) = {reinterpret_cast<const unsigned char*>(content.data()), content.size()};
+  };
+  if (first_length) set_content(0, chunk->substr(0, *first_length));
+  document.storage.reserve(1 + buffers.size());  // Not to move the file.
+  for (ReferencedFile& file : buffers) set_content(file.number, document.storage.emplace_back(std::move(file.bytes)));
   for (ReferencedFile& file : images) {
     tinygltf::Image& image = document.model.images[file.number];
     image.image.assign(file.bytes.begin(), file.bytes.end());

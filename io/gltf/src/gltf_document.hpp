@@ -3,26 +3,37 @@
 
 #include <tiny_gltf.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "papilla/io/gltf_origin.hpp"
+#include "papilla/io/gltf_triangles.hpp"
 #include "papilla/io/scene.hpp"
 
 namespace papilla::gltf {
 
-/// A parsed file: everything but the accessors' content, which tinygltf does not check.
+/// A parsed file: everything but the accessors' content, which tinygltf does not check. Buffers are not copied: they
+/// stay where the file was read to.
 struct Document {
+  Document() = default;
+  Document(Document&&) = default;
+  Document(const Document&) = delete;
+
   std::string file;  ///< As messages name it.
   bool binary = false;
   tinygltf::Model model;
-  std::set<int> empty_buffers;  ///< Those without data, as extensions allow them.
+  std::vector<std::string> storage;                     ///< The file, and those that buffers name.
+  std::vector<std::span<const unsigned char>> buffers;  ///< The content of model.buffers, in `storage` or in them.
+  std::set<int> empty_buffers;                          ///< Those without data, as extensions allow them.
   std::vector<std::string> warnings;
 };
 
@@ -55,6 +66,10 @@ class AccessorReader {
   /// @pre no matrices.
   std::vector<std::byte> bytes(int accessor, const std::string& where);
 
+  /// numbers() in single precision, element by element; k_components is 2 or 3.
+  template <std::size_t k_components>
+  std::vector<std::array<float, k_components>> floats(int accessor, const std::string& where);
+
   /// The elements of a scalar accessor of unsigned integers.
   std::vector<std::uint32_t> indices(int accessor, const std::string& where);
 
@@ -70,14 +85,14 @@ class AccessorReader {
 
  private:
   struct Elements;
+  using Take = std::function<void(std::size_t index, const unsigned char* element)>;
   [[noreturn]] void fail(const std::string& where, const std::string& reason) const;
   std::span<const unsigned char> range(int buffer, std::size_t offset, std::size_t length, const std::string& what,
                                        const std::string& where) const;
   Elements elements(int view, std::size_t offset, std::size_t count, int component_type, int components, bool strided,
                     const std::string& where);
-  template <class Use>
-  void for_each_sparse(const tinygltf::Accessor& accessor, int components, const std::string& where, Use use);
-  std::vector<double> raw_numbers(const tinygltf::Accessor& accessor, int components, const std::string& where);
+  void for_each_sparse(const tinygltf::Accessor& accessor, int components, const std::string& where, const Take& take);
+  void for_each(const tinygltf::Accessor& accessor, int components, const std::string& where, const Take& take);
 
   const Document& document_;
   std::size_t budget_ = 0;
@@ -98,5 +113,13 @@ void read_materials(const Document& document, AccessorReader& reader, Scene& sce
 /// @returns GltfOrigin::parts.
 std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReader& reader, bool tag_channel,
                                          bool cad_uv, Scene& scene);
+
+/// The same without their meshes: names, materials and which primitives draw triangles.
+std::vector<GltfOrigin::Part> list_parts(const Document& document, AccessorReader& reader, Scene& scene);
+
+/// Vertices and triangles of a primitive that list_parts() names.
+/// @param channel, normals  as of GltfTriangles::read().
+GltfPrimitive read_primitive(const Document& document, AccessorReader& reader, std::uint32_t mesh, std::uint32_t number,
+                             std::optional<int> channel, bool normals, Scene& scene);
 
 }  // namespace papilla::gltf

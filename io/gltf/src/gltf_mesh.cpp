@@ -88,13 +88,10 @@ class PrimitiveReader {
       scene_.losses.push_back(where + " has no positions and draws nothing");
       return;
     }
-    const auto compressed = primitive.extensions.find(k_draco);
-    const bool use_compressed =
-        compressed != primitive.extensions.end() && (has_draco() || reader_.accessor(*position, where).bufferView < 0);
     Vertices vertices;
     std::vector<Triangle> triangles;
-    if (use_compressed) {
-      read_compressed(primitive, compressed->second, where, vertices, triangles);
+    if (const tinygltf::Value* stream = compressed(primitive, *position, where)) {
+      read_compressed(primitive, *stream, channel_1(primitive.material), where, vertices, triangles);
     } else {
       vertices = read_vertices(primitive, *position, where);
       triangles = read_triangles(primitive, vertices.count, where);
@@ -105,15 +102,75 @@ class PrimitiveReader {
     builder.origin.primitives.push_back({number, slot, first, std::move(triangles)});
   }
 
+  /// Notes which material the primitive has, without its triangles.
+  void list(const tinygltf::Primitive& primitive, std::uint32_t number, const std::string& where,
+            PartBuilder& builder) {
+    if (attribute(primitive, "POSITION"))
+      builder.origin.primitives.push_back({number, material_slot(primitive.material, where, builder), 0, {}});
+    else
+      scene_.losses.push_back(where + " has no positions and draws nothing");
+  }
+
+  GltfPrimitive read_single(const tinygltf::Primitive& primitive, const std::string& where, std::optional<int> channel,
+                            bool normals) {
+    const int position = *attribute(primitive, "POSITION");
+    const std::string uv = "TEXCOORD_" + std::to_string(channel.value_or(0));
+    GltfPrimitive result;
+    if (const tinygltf::Value* stream = compressed(primitive, position, where)) {
+      Vertices vertices;
+      read_compressed(primitive, *stream, uv, where, vertices, result.triangles);
+      result.positions = narrowed<3>(vertices.positions);
+      if (channel) result.uv = narrowed<2>(vertices.uv1);
+      if (normals) result.normals = narrowed<3>(vertices.normals);
+      return result;
+    }
+    result.positions = reader_.floats<3>(position, where + ", POSITION");
+    if (channel) result.uv = optional_floats<2>(primitive, uv.c_str(), result.positions.size(), where);
+    if (normals) result.normals = optional_floats<3>(primitive, "NORMAL", result.positions.size(), where);
+    result.triangles = read_triangles(primitive, result.positions.size(), where);
+    return result;
+  }
+
  private:
+  /// The primitive's Draco stream, if it is what holds the content.
+  const tinygltf::Value* compressed(const tinygltf::Primitive& primitive, int position,
+                                    const std::string& where) const {
+    const auto found = primitive.extensions.find(k_draco);
+    const bool used =
+        found != primitive.extensions.end() && (has_draco() || reader_.accessor(position, where).bufferView < 0);
+    return used ? &found->second : nullptr;
+  }
+
+  template <std::size_t k_components>
+  static std::vector<std::array<float, k_components>> narrowed(const std::vector<double>& numbers) {
+    std::vector<std::array<float, k_components>> result(numbers.size() / k_components);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      result[i / k_components][i % k_components] = static_cast<float>(numbers[i]);
+    return result;
+  }
+
+  template <std::size_t k_components>
+  std::vector<std::array<float, k_components>> optional_floats(const tinygltf::Primitive& primitive, const char* name,
+                                                               std::size_t count, const std::string& where) {
+    const auto accessor = attribute(primitive, name);
+    if (!accessor) return {};
+    const std::string place = where + ", " + name;
+    auto values = reader_.floats<k_components>(*accessor, place);
+    check_count(values.size(), count, place);
+    return values;
+  }
+
+  void check_count(std::size_t found, std::size_t count, const std::string& place) const {
+    if (found != count) throw InvalidInput(document_.file + ": " + place + ": has not as many elements as POSITION");
+  }
+
   std::vector<double> optional_numbers(const tinygltf::Primitive& primitive, const char* name, int components,
                                        std::size_t count, const std::string& where) {
     const auto accessor = attribute(primitive, name);
     if (!accessor) return {};
     const std::string place = where + ", " + name;
     std::vector<double> numbers = reader_.numbers(*accessor, components, place);
-    if (numbers.size() != count * static_cast<std::size_t>(components))
-      throw InvalidInput(document_.file + ": " + place + ": has not as many elements as POSITION");
+    check_count(numbers.size() / static_cast<std::size_t>(components), count, place);
     return numbers;
   }
 
@@ -141,9 +198,9 @@ class PrimitiveReader {
   };
 
   /// KHR_draco_mesh_compression: the stream's attributes stand in for the accessors', triangles for any mode.
-  void read_compressed(const tinygltf::Primitive& primitive, const tinygltf::Value& extension, const std::string& where,
-                       Vertices& vertices, std::vector<Triangle>& triangles) {
-    const std::string uv1 = channel_1(primitive.material);
+  /// @param uv1  name of the attribute that becomes Vertices::uv1.
+  void read_compressed(const tinygltf::Primitive& primitive, const tinygltf::Value& extension, const std::string& uv1,
+                       const std::string& where, Vertices& vertices, std::vector<Triangle>& triangles) {
     std::vector<CompressedAttribute> attributes = {{"POSITION", 3, &vertices.positions},
                                                    {"NORMAL", 3, &vertices.normals},
                                                    {"TEXCOORD_0", 2, &vertices.uv},
@@ -354,6 +411,11 @@ Part finish(PartBuilder builder) {
   return std::move(builder.part);
 }
 
+/// How messages name a primitive.
+std::string name_of(std::size_t mesh, std::size_t primitive) {
+  return "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(primitive);
+}
+
 void note_losses(const tinygltf::Primitive& primitive, const std::string& where, std::set<std::string>& losses) {
   if (!primitive.targets.empty()) losses.insert("morph targets of " + where);
   if (!primitive.extras_json_string.empty()) losses.insert("extras of " + where);
@@ -366,12 +428,10 @@ void note_losses(const tinygltf::Primitive& primitive, const std::string& where,
   }
 }
 
-}  // namespace
-
-std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReader& reader, bool tag_channel,
-                                         bool cad_uv, Scene& scene) {
-  PrimitiveReader primitives(document, reader, tag_channel, cad_uv, scene);
-  std::vector<GltfOrigin::Part> origins;
+/// Calls use(primitive, number, where, builder) for the primitives that draw triangles, and take(builder) for each
+/// mesh.
+template <class Use, class Take>
+void for_each_mesh(const Document& document, Scene& scene, Use use, Take take) {
   std::set<std::string> losses;
   for (std::size_t m = 0; m < document.model.meshes.size(); ++m) {
     const tinygltf::Mesh& mesh = document.model.meshes[m];
@@ -381,7 +441,7 @@ std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReade
     builder.part.extras_json = mesh.extras_json_string;
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       const tinygltf::Primitive& primitive = mesh.primitives[p];
-      const std::string where = "mesh " + std::to_string(m) + ", primitive " + std::to_string(p);
+      const std::string where = name_of(m, p);
       if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
         throw InvalidInput(document.file + ": " + where + ": mode " + std::to_string(primitive.mode) +
                            " is not in 0..6");
@@ -390,13 +450,50 @@ std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReade
         continue;
       }
       note_losses(primitive, where, losses);
-      primitives.read(primitive, static_cast<std::uint32_t>(p), where, builder);
+      use(primitive, static_cast<std::uint32_t>(p), where, builder);
     }
-    origins.push_back(std::move(builder.origin));
-    scene.parts.push_back(finish(std::move(builder)));
+    take(builder);
   }
   scene.losses.insert(scene.losses.end(), losses.begin(), losses.end());
+}
+
+}  // namespace
+
+std::vector<GltfOrigin::Part> read_parts(const Document& document, AccessorReader& reader, bool tag_channel,
+                                         bool cad_uv, Scene& scene) {
+  PrimitiveReader primitives(document, reader, tag_channel, cad_uv, scene);
+  std::vector<GltfOrigin::Part> origins;
+  for_each_mesh(
+      document, scene,
+      [&](const auto& primitive, std::uint32_t number, const std::string& where, PartBuilder& builder) {
+        primitives.read(primitive, number, where, builder);
+      },
+      [&](PartBuilder& builder) {
+        origins.push_back(std::move(builder.origin));
+        scene.parts.push_back(finish(std::move(builder)));
+      });
   return origins;
+}
+
+std::vector<GltfOrigin::Part> list_parts(const Document& document, AccessorReader& reader, Scene& scene) {
+  PrimitiveReader primitives(document, reader, false, false, scene);
+  std::vector<GltfOrigin::Part> origins;
+  for_each_mesh(
+      document, scene,
+      [&](const auto& primitive, std::uint32_t number, const std::string& where, PartBuilder& builder) {
+        primitives.list(primitive, number, where, builder);
+      },
+      [&](PartBuilder& builder) {
+        origins.push_back(std::move(builder.origin));
+        scene.parts.push_back(std::move(builder.part));
+      });
+  return origins;
+}
+
+GltfPrimitive read_primitive(const Document& document, AccessorReader& reader, std::uint32_t mesh, std::uint32_t number,
+                             std::optional<int> channel, bool normals, Scene& scene) {
+  return PrimitiveReader(document, reader, false, false, scene)
+      .read_single(document.model.meshes.at(mesh).primitives.at(number), name_of(mesh, number), channel, normals);
 }
 
 }  // namespace papilla::gltf

@@ -14,8 +14,10 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/io/gltf_triangles.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/io/tag_manifest.hpp"
+#include "surface_groups.hpp"
 
 namespace papilla {
 namespace {
@@ -412,16 +414,64 @@ void read_asset(const Document& document, Scene& scene) {
   asset.xmp_reference_json = member(source.extensions_json_string, k_xmp);
 }
 
-/// Looks for tags that got lost since the file, or the one that the options name, had them.
-void find_missing_tags(const GltfReadOptions& options, Scene& scene) {
+/// The triangles of a file, read when they are asked for. @pre `file` outlives the result.
+PartTriangles triangles_of(GltfTriangles& file) {
+  return [&file](std::uint32_t part, const UseTriangle& use) {
+    for (const GltfTriangles::Primitive& primitive : file.primitives(part)) {
+      const GltfPrimitive found = file.read(part, primitive, std::nullopt, false);
+      const auto corner = [&](Index v) {
+        const auto& p = found.positions[v];
+        return k_mm_per_metre * Vec3{double{p[0]}, double{p[1]}, double{p[2]}};
+      };
+      for (const Triangle& t : found.triangles) use(primitive.slot, {corner(t[0]), corner(t[1]), corner(t[2])});
+    }
+  };
+}
+
+/// Looks for tags that got lost since the file, or the one that `tags` names, had them.
+void find_missing_tags(const std::filesystem::path& tags, const PartTriangles& triangles, Scene& scene) {
   std::optional<TagManifest> manifest = take_tag_manifest(scene);
-  if (!options.tags.empty()) {
-    manifest = tag_manifest(read_gltf(options.tags));
-    if (manifest->materials.empty()) throw InvalidInput(options.tags.string() + ": has no haptic tag");
+  if (!tags.empty()) {
+    GltfTriangles other(tags);
+    complete_tag_pictures(other.scene);
+    manifest = tag_manifest(other.scene, triangles_of(other));
+    if (manifest->materials.empty()) throw InvalidInput(tags.string() + ": has no haptic tag");
   }
   if (!manifest) return;
-  scene.tags = restore_tags(scene, *manifest);
+  scene.tags = restore_tags(scene, *manifest, triangles);
   if (const std::string sentence = survival_sentence(scene.tags); !sentence.empty()) scene.warnings.push_back(sentence);
+}
+
+bool has_whole_positions(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
+  for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    const auto found = primitive.attributes.find("POSITION");
+    if (found == primitive.attributes.end()) continue;
+    const auto number = static_cast<std::size_t>(found->second);
+    if (number < model.accessors.size() && model.accessors[number].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      return true;
+  }
+  return false;
+}
+
+/// Positions of whole numbers have no unit: the scale of the first node that shows them is theirs. Where meshes are not
+/// read the nodes keep it.
+void scale_whole_positions(const Document& document, Scene& scene) {
+  std::vector<double> scale(scene.parts.size(), 0);
+  for (Node& node : scene.nodes) {
+    if (!node.part || scene.parts[*node.part].mesh.positions.empty() || *node.part >= document.model.meshes.size() ||
+        !has_whole_positions(document.model, document.model.meshes[*node.part]))
+      continue;
+    double& s = scale[*node.part];
+    if (s == 0) {
+      s = std::cbrt(std::abs(determinant(node.local)));
+      if (!(s > 0)) s = 1;
+      for (Vec3& p : scene.parts[*node.part].mesh.positions) p = s * p;
+    }
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 3; ++column) node.local[4 * row + column] /= s;
+    for (const std::uint32_t child : node.children)
+      for (std::size_t i = 0; i < 12; ++i) scene.nodes[child].local[i] *= s;
+  }
 }
 
 /// Lists the content of the document that a scene can't hold.
@@ -459,28 +509,17 @@ void move_tag_channel(Material& material) {
   }
 }
 
-}  // namespace
-
-Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options, GltfOrigin* origin_of) {
-  Document document = gltf::load_document(path);
-  Scene scene;
-  scene.format = "glTF";
-  scene.unit = "m";
-  scene.millimetres_per_unit = k_mm_per_metre;
-  scene.up = UpAxis::y;
-  scene.warnings = std::move(document.warnings);
-  AccessorReader reader(document);
-  gltf::read_materials(document, reader, scene);
-  GltfOrigin origin;
-  origin.parts = gltf::read_parts(document, reader, options.tag_channel, options.cad_uv, scene);
-  if (options.tag_channel)
-    for (Material& material : scene.materials) move_tag_channel(material);
+/// All but materials and parts, which are there already.
+/// @param triangles  of the scene, for finding tags.
+void read_rest(Document& document, AccessorReader& reader, const std::filesystem::path& tags, bool coarser_parts,
+               const PartTriangles& triangles, Scene& scene, GltfOrigin& origin) {
   read_nodes(document, scene);
   origin.nodes.resize(scene.nodes.size());
   std::iota(origin.nodes.begin(), origin.nodes.end(), 0U);
   read_roots(document, scene);
   expand_instances(document, reader, scene, origin);  // appends nodes: those of the file keep their numbers
-  keep_finest_levels(document, options.coarser_parts, scene, origin);
+  scale_whole_positions(document, scene);
+  keep_finest_levels(document, coarser_parts, scene, origin);
   note_losses(document, scene);
   read_asset(document, scene);
   try {
@@ -488,12 +527,76 @@ Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& option
   } catch (const InvalidInput& error) {
     throw InvalidInput(document.file + ": " + error.what());
   }
-  find_missing_tags(options, scene);
+  find_missing_tags(tags, triangles, scene);
   // Names, addresses and keys come from the file.
   for (std::vector<std::string>* lines : {&scene.losses, &scene.warnings})
     for (std::string& line : *lines) line = one_line(line);
+}
+
+Scene empty_scene(Document& document) {
+  Scene scene;
+  scene.format = "glTF";
+  scene.unit = "m";
+  scene.millimetres_per_unit = k_mm_per_metre;
+  scene.up = UpAxis::y;
+  scene.warnings = std::move(document.warnings);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options, GltfOrigin* origin_of) {
+  Document document = gltf::load_document(path);
+  Scene scene = empty_scene(document);
+  AccessorReader reader(document);
+  gltf::read_materials(document, reader, scene);
+  GltfOrigin origin;
+  origin.parts = gltf::read_parts(document, reader, options.tag_channel, options.cad_uv, scene);
+  if (options.tag_channel)
+    for (Material& material : scene.materials) move_tag_channel(material);
+  read_rest(document, reader, options.tags, options.coarser_parts, mesh_triangles(scene), scene, origin);
   if (origin_of != nullptr) *origin_of = std::move(origin);
   return scene;
+}
+
+struct GltfTriangles::File {
+  Document document;
+  AccessorReader reader;
+  GltfOrigin origin;
+
+  explicit File(const std::filesystem::path& path) : document(gltf::load_document(path)), reader(document) {}
+};
+
+GltfTriangles::GltfTriangles(const std::filesystem::path& path, const std::filesystem::path& tags)
+    : file_(std::make_unique<File>(path)) {
+  auto& [document, reader, origin] = *file_;
+  scene = empty_scene(document);
+  gltf::read_materials(document, reader, scene);
+  origin.parts = gltf::list_parts(document, reader, scene);
+  read_rest(document, reader, tags, false, triangles_of(*this), scene, origin);
+}
+GltfTriangles::~GltfTriangles() = default;
+GltfTriangles::GltfTriangles(GltfTriangles&&) noexcept = default;
+
+std::vector<GltfTriangles::Primitive> GltfTriangles::primitives(std::uint32_t part) const {
+  const GltfOrigin::Part& origin = file_->origin.parts.at(part);
+  std::vector<Primitive> result;
+  for (const GltfOrigin::Primitive& listed : origin.primitives) {
+    const std::string where = "mesh " + std::to_string(origin.mesh);
+    const tinygltf::Primitive& primitive = file_->document.model.meshes.at(origin.mesh).primitives.at(listed.number);
+    const std::size_t vertices = file_->reader.accessor(primitive.attributes.at("POSITION"), where).count;
+    const std::size_t corners =
+        primitive.indices >= 0 ? file_->reader.accessor(primitive.indices, where).count : vertices;
+    result.push_back(
+        {listed.number, listed.slot, vertices, primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners});
+  }
+  return result;
+}
+
+GltfPrimitive GltfTriangles::read(std::uint32_t part, const Primitive& primitive, std::optional<int> channel,
+                                  bool normals) {
+  return gltf::read_primitive(file_->document, file_->reader, file_->origin.parts.at(part).mesh, primitive.number,
+                              channel, normals, scene);
 }
 
 }  // namespace papilla

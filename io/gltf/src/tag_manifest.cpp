@@ -130,7 +130,15 @@ double area_scale(const Transform& t) {
 
 }  // namespace
 
-std::vector<SurfaceGroup> surface_groups(const Scene& scene) {
+PartTriangles mesh_triangles(const Scene& scene) {
+  return [&scene](std::uint32_t part, const UseTriangle& use) {
+    const TriangleMesh& mesh = scene.parts[part].mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      use(mesh.material.empty() ? 0 : mesh.material[t], {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  };
+}
+
+std::vector<SurfaceGroup> surface_groups(const Scene& scene, const PartTriangles& triangles) {
   std::vector<SurfaceGroup> groups;
   std::set<std::uint32_t> known;
   for (const Instance& instance : instances(scene)) {
@@ -138,17 +146,16 @@ std::vector<SurfaceGroup> surface_groups(const Scene& scene) {
     const Part& part = scene.parts[instance.part];
     const Transform place = multiply(to_y_up(scene.up), instance.world);
     std::map<std::uint32_t, SurfaceGroup> by_slot;
-    for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
-      const std::uint32_t slot = part.mesh.material.empty() ? 0 : part.mesh.material[t];
-      if (slot >= part.materials.size()) continue;
+    triangles(instance.part, [&](std::uint32_t slot, const std::array<Vec3, 3>& corners) {
+      if (slot >= part.materials.size()) return;
       SurfaceGroup& group = by_slot[slot];
       std::array<Vec3, 3> corner;
-      for (int k = 0; k < 3; ++k) {
-        corner[static_cast<std::size_t>(k)] = k_metres_per_mm * transform_point(place, part.mesh.corner(t, k));
-        group.box_m.add(corner[static_cast<std::size_t>(k)]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        corner[k] = k_metres_per_mm * transform_point(place, corners[k]);
+        group.box_m.add(corner[k]);
       }
       group.area_m2 += 0.5 * norm(cross(corner[1] - corner[0], corner[2] - corner[0]));
-    }
+    });
     for (auto& [slot, group] : by_slot) {
       group.part = instance.part, group.node = instance.node, group.slot = slot;
       group.material = part.materials[slot];
@@ -158,9 +165,11 @@ std::vector<SurfaceGroup> surface_groups(const Scene& scene) {
   return groups;
 }
 
-TagManifest tag_manifest(const Scene& scene) {
+TagManifest tag_manifest(const Scene& scene) { return tag_manifest(scene, mesh_triangles(scene)); }
+
+TagManifest tag_manifest(const Scene& scene, const PartTriangles& triangles) {
   TagManifest manifest;
-  const std::vector<SurfaceGroup> groups = surface_groups(scene);
+  const std::vector<SurfaceGroup> groups = surface_groups(scene, triangles);
   std::map<std::uint32_t, std::uint32_t> number;  // of a scene's material in the manifest
   std::set<std::uint32_t> tagged_parts;
   for (const SurfaceGroup& group : groups) {

@@ -15,13 +15,6 @@ constexpr double k_area_tolerance = 0.02;  // Quantized positions and mild simpl
 constexpr double k_box_tolerance = 0.005;  // Of the box's diagonal.
 constexpr double k_merged = 1.05;          // A material of more than this times its surfaces' area is several ones.
 
-/// Whether two tags feel the same, wherever their height maps are kept.
-bool same_feel(MaterialTag a, MaterialTag b) {
-  for (MaterialTag* tag : {&a, &b})
-    for (PlacedPicture* picture : pictures_of(*tag)) picture->uri.clear(), picture->image.clear();
-  return a == b;
-}
-
 bool same_box(const Bounds3& a, const Bounds3& b) {
   const double most = k_box_tolerance * std::max(a.diagonal(), b.diagonal());
   return norm(a.low - b.low) <= most && norm(a.high - b.high) <= most;
@@ -29,7 +22,8 @@ bool same_box(const Bounds3& a, const Bounds3& b) {
 
 class TagRestorer {
  public:
-  TagRestorer(Scene& scene, const TagManifest& manifest) : scene_(scene), manifest_(manifest) {
+  TagRestorer(Scene& scene, const TagManifest& manifest, const PartTriangles& triangles)
+      : scene_(scene), manifest_(manifest), triangles_(triangles) {
     by_.resize(manifest.materials.size());
     for (std::uint32_t e = 0; e < by_.size(); ++e)
       if (!is_kept(manifest.materials[e])) missing_.insert(e);
@@ -76,13 +70,9 @@ class TagRestorer {
   /// A picture of the same bytes, within another tag.
   bool find_picture(PlacedPicture& picture) {
     if (!picture.image.empty()) return true;  // By its name, as ever.
-    for (Material& other : scene_.materials) {
-      if (!other.haptic) continue;
-      for (const PlacedPicture* known : pictures_of(*other.haptic))
-        if (known->sha256 == picture.sha256 && !known->uri.empty()) {
-          picture.uri = known->uri;
-          return true;
-        }
+    if (const std::string* uri = tag_picture(scene_, picture.sha256)) {
+      picture.uri = *uri;
+      return true;
     }
     return false;
   }
@@ -95,7 +85,7 @@ class TagRestorer {
   }
 
   void restore_surfaces() {
-    const std::vector<SurfaceGroup> groups = surface_groups(scene_);
+    const std::vector<SurfaceGroup> groups = surface_groups(scene_, triangles_);
     const std::set<std::uint32_t> merged = merged_materials(groups);
     for (const SurfaceGroup& group : groups) {
       const bool doubtful = merged.contains(group.material);
@@ -159,6 +149,7 @@ class TagRestorer {
 
   Scene& scene_;
   const TagManifest& manifest_;
+  const PartTriangles& triangles_;
   std::set<std::uint32_t> missing_;
   std::vector<std::string> by_;  ///< How each entry was restored.
   std::map<std::pair<std::uint32_t, std::optional<std::uint32_t>>, std::uint32_t> made_;
@@ -166,7 +157,39 @@ class TagRestorer {
 
 }  // namespace
 
-TagSurvival restore_tags(Scene& scene, const TagManifest& manifest) { return TagRestorer(scene, manifest).run(); }
+bool same_feel(MaterialTag a, MaterialTag b) {
+  for (MaterialTag* tag : {&a, &b})
+    for (PlacedPicture* picture : pictures_of(*tag)) picture->uri.clear(), picture->image.clear();
+  return a == b;
+}
+
+const std::string* tag_picture(const Scene& scene, const std::string& sha256) {
+  for (const Material& material : scene.materials) {
+    if (!material.haptic) continue;
+    const std::optional<HeightTag>& height = material.haptic->height;
+    const std::optional<MapsTag>& maps = material.haptic->maps;
+    if (height && height->sha256 == sha256 && !height->uri.empty()) return &height->uri;
+    if (maps && maps->sha256 == sha256 && !maps->uri.empty()) return &maps->uri;
+  }
+  return nullptr;
+}
+
+void complete_tag_pictures(Scene& scene) {
+  for (Material& material : scene.materials) {
+    if (!material.haptic) continue;
+    for (PlacedPicture* picture : pictures_of(*material.haptic))
+      if (picture->uri.empty() && picture->image.empty())
+        if (const std::string* uri = tag_picture(scene, picture->sha256)) picture->uri = *uri;
+  }
+}
+
+TagSurvival restore_tags(Scene& scene, const TagManifest& manifest) {
+  return restore_tags(scene, manifest, mesh_triangles(scene));
+}
+
+TagSurvival restore_tags(Scene& scene, const TagManifest& manifest, const PartTriangles& triangles) {
+  return TagRestorer(scene, manifest, triangles).run();
+}
 
 std::string survival_sentence(const TagSurvival& tags) {
   if (tags.missing.empty()) return "";

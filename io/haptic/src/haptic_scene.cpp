@@ -13,7 +13,7 @@
 #include "papilla/haptic/friction.hpp"
 #include "papilla/haptic/roughness_field.hpp"
 #include "papilla/haptic/stimulus.hpp"
-#include "papilla/io/gltf_reader.hpp"
+#include "papilla/io/gltf_triangles.hpp"
 #include "papilla/io/height_source.hpp"
 #include "papilla/io/tag_manifest.hpp"
 
@@ -23,23 +23,16 @@ namespace {
 class Builder {
  public:
   Builder(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options)
-      : scene_(scene), file_(path), options_(options) {}
-
-  /// Which materials have triangles.
-  std::vector<bool> used_materials() const {
-    std::vector<bool> used(scene_.materials.size(), false);
-    for (const Part& part : scene_.parts)
-      for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
-        const std::uint32_t slot = part.mesh.material.empty() ? 0 : part.mesh.material[t];
-        if (slot < part.materials.size()) used[part.materials[slot]] = true;
-      }
-    return used;
+      : scene_(scene), file_(path), options_(options) {
+    result.probe_radius_m = options.probe_radius_m;
   }
 
-  void add_materials() {
+  /// @param used  which materials have triangles.
+  /// @throws InvalidInput when none has a tag.
+  void add_materials(const std::vector<bool>& used) {
     if (const std::string sentence = survival_sentence(scene_.tags); !sentence.empty())
       result.warnings.push_back({"", {"tags_missing", sentence}});
-    const std::vector<bool> used = used_materials();
+    result.tags = scene_.tags;
     tagged_.resize(scene_.materials.size());
     tex_coord_.resize(scene_.materials.size(), 0);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
@@ -50,11 +43,40 @@ class Builder {
         tex_coord_[i] = tex_coord_of(*tag).value_or(0);
         result.names.push_back(scene_.materials[i].name.empty() ? "material " + std::to_string(i)
                                                                 : scene_.materials[i].name);
-        result.materials.push_back(contact_material(*tag, i, warnings));
+        add_material(*tag, i, warnings);
         any_shading_ = any_shading_ || tag->force_shading;
+        any_uv_ = any_uv_ || needs_uv(result.materials.back());
       }
       for (HapticWarning& warning : warnings) result.warnings.push_back({scene_.materials[i].name, std::move(warning)});
     }
+    if (!result.materials.empty()) return;
+    std::string reason = file_.string() + ": no material has a usable haptic tag";
+    if (!result.warnings.empty()) reason += " (" + result.warnings.front().warning.message + ")";
+    throw InvalidInput(reason);
+  }
+
+  /// Reads the triangles of tagged materials, each primitive once for all its places.
+  void add_file(GltfTriangles& file) {
+    std::vector<std::vector<Transform>> places(scene_.parts.size());
+    for (const Instance& instance : instances(scene_)) places[instance.part].push_back(instance.world);
+    const auto for_each_tagged = [&](const auto& use) {
+      for (std::uint32_t part = 0; part < scene_.parts.size(); ++part)
+        for (const GltfTriangles::Primitive& primitive : file.primitives(part))
+          if (!places[part].empty() && tagged_[scene_.parts[part].materials.at(primitive.slot)])
+            use(part, primitive, scene_.parts[part].materials[primitive.slot]);
+    };
+    std::size_t vertices = 0, triangles = 0;
+    for_each_tagged([&](std::uint32_t part, const GltfTriangles::Primitive& primitive, std::uint32_t) {
+      vertices += std::min(primitive.most_vertices, k_most_reserved) * places[part].size();
+      triangles += std::min(primitive.most_triangles, k_most_reserved) * places[part].size();
+    });
+    reserve(std::min(vertices, k_most_reserved), std::min(triangles, k_most_reserved));
+    for_each_tagged([&](std::uint32_t part, const GltfTriangles::Primitive& primitive, std::uint32_t source) {
+      const ContactMaterial& material = result.materials[*tagged_[source]];
+      const auto channel = needs_uv(material) ? std::optional(tex_coord_[source]) : std::nullopt;
+      const GltfPrimitive read = file.read(part, primitive, channel, material.shading);
+      for (const Transform& place : places[part]) add_primitive(place, read, source);
+    });
   }
 
   void add_instance(const Instance& instance) {
@@ -82,8 +104,7 @@ class Builder {
       for (std::size_t k = 0; k < 3; ++k)
         result.mesh.corner_uv.push_back(has_uv ? gltf_uv(uv.values[uv.indices[t][k]]) : Vec2{});
       if (any_shading_) add_normals(instance.world, mesh, t, result.materials[*tagged_[source]].shading);
-      const ContactMaterial& material = result.materials[*tagged_[source]];
-      if (!has_uv && (material.height || material.stimulus || material.channels)) ++without_uv_[source];
+      if (!has_uv && needs_uv(result.materials[*tagged_[source]])) ++without_uv_[source];
     }
     if (!used) return;
     for (const Vec3& p : mesh.positions)
@@ -97,17 +118,56 @@ class Builder {
     added_triangles_ = result.mesh.triangles.size();
   }
 
+  void add_primitive(const Transform& world, const GltfPrimitive& primitive, std::uint32_t source) {
+    ContactMesh& mesh = result.mesh;
+    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const auto& p : primitive.positions)
+      mesh.positions.push_back(k_metres_per_mm *
+                               transform_point(world, k_mm_per_metre * Vec3{double{p[0]}, double{p[1]}, double{p[2]}}));
+    const std::size_t before = mesh.triangles.size();
+    const bool mirrored = determinant(world) < 0;
+    for (Triangle t : primitive.triangles) {
+      for (Index& vertex : t) vertex += base;
+      if (mirrored) std::swap(t[1], t[2]);
+      if (in_reach(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]))
+        mesh.triangles.push_back(t);
+      else
+        ++result.triangles_out_of_reach;
+    }
+    const std::size_t added = mesh.triangles.size() - before;
+    if (added == 0) {
+      mesh.positions.resize(base);
+      return;
+    }
+    mesh.material.resize(mesh.triangles.size(), *tagged_[source]);
+    if (primitive.uv.empty() && needs_uv(result.materials[*tagged_[source]])) without_uv_[source] += added;
+    if (any_uv_) {
+      mesh.vertex_uv.insert(mesh.vertex_uv.end(), primitive.uv.begin(), primitive.uv.end());
+      mesh.vertex_uv.resize(mesh.positions.size());
+    }
+    if (!any_shading_) return;
+    for (const auto& n : primitive.normals) {
+      const Vec3 turned = turned_normal(world, {double{n[0]}, double{n[1]}, double{n[2]}});
+      mesh.vertex_normals.push_back(
+          {static_cast<float>(turned.x), static_cast<float>(turned.y), static_cast<float>(turned.z)});
+    }
+    mesh.vertex_normals.resize(mesh.positions.size());
+  }
+
   /// Corner normals of a triangle in the frame of the scene; zero, which means the face normal, where there are none.
   void add_normals(const Transform& world, const TriangleMesh& mesh, std::size_t t, bool shaded) {
-    const Vec3 x{world[0], world[4], world[8]}, y{world[1], world[5], world[9]}, z{world[2], world[6], world[10]};
-    const double side = determinant(world) < 0 ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3 n;
       if (shaded && mesh.normals.has_value(t)) n = mesh.normals.values[mesh.normals.indices[t][k]];
-      // Normals transform by the cofactors of the matrix.
-      result.mesh.corner_normals.push_back(side *
-                                           normalized(n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y)));
+      result.mesh.corner_normals.push_back(turned_normal(world, n));
     }
+  }
+
+  /// Normals transform by the cofactors of the matrix.
+  static Vec3 turned_normal(const Transform& world, Vec3 n) {
+    const Vec3 x{world[0], world[4], world[8]}, y{world[1], world[5], world[9]}, z{world[2], world[6], world[10]};
+    const double side = determinant(world) < 0 ? -1 : 1;
+    return side * normalized(n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y));
   }
 
   void finish() {
@@ -117,10 +177,11 @@ class Builder {
                                                     std::to_string(tex_coord_[source]) +
                                                     ", their relief is flat and their maps are those of one place"}});
     std::size_t degenerate = 0;
-    for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
-      const Vec2* uv = &result.mesh.corner_uv[3 * t];
-      if (result.materials[result.mesh.material[t]].height && cross(uv[1] - uv[0], uv[2] - uv[0]) == 0) ++degenerate;
-    }
+    const ContactMesh& mesh = result.mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      degenerate += result.materials[mesh.material[t]].height &&
+                    cross(mesh.uv(t, 1) - mesh.uv(t, 0), mesh.uv(t, 2) - mesh.uv(t, 0)) == 0;
+    if (mesh.triangles.empty()) throw InvalidInput(file_.string() + ": no triangle has a tagged material");
     if (degenerate > 0 && without_uv_.empty())
       result.warnings.push_back(
           {"",
@@ -131,6 +192,42 @@ class Builder {
   HapticScene result;
 
  private:
+  static constexpr std::size_t k_most_reserved = std::size_t{1} << 24;  // A file may promise what it doesn't hold.
+
+  void reserve(std::size_t vertices, std::size_t triangles) {
+    result.mesh.positions.reserve(vertices);
+    if (any_uv_) result.mesh.vertex_uv.reserve(vertices);
+    if (any_shading_) result.mesh.vertex_normals.reserve(vertices);
+    result.mesh.triangles.reserve(triangles);
+    result.mesh.material.reserve(triangles);
+  }
+
+  static bool needs_uv(const ContactMaterial& material) {
+    return material.height || material.stimulus || material.channels;
+  }
+
+  /// A material whose pictures are decoded, and what that had to warn of.
+  struct Felt {
+    MaterialTag tag;
+    std::vector<HapticWarning> warnings;
+  };
+
+  /// Materials that differ in colour feel the same: their pictures are decoded and kept once.
+  void add_material(const MaterialTag& tag, std::size_t material, std::vector<HapticWarning>& warnings) {
+    std::size_t like = 0;
+    while (like < felt_.size() && !same_feel(felt_[like].tag, tag)) ++like;
+    Felt felt{tag, {}};
+    for (PlacedPicture* picture : pictures_of(felt.tag)) picture->uri.clear();
+    if (like < felt_.size()) {
+      felt.warnings = felt_[like].warnings;
+      result.materials.push_back(ContactMaterial(result.materials[like]));
+    } else {
+      result.materials.push_back(contact_material(tag, material, felt.warnings));
+    }
+    warnings.insert(warnings.end(), felt.warnings.begin(), felt.warnings.end());
+    felt_.push_back(std::move(felt));
+  }
+
   ContactMaterial contact_material(const MaterialTag& tag, std::size_t material, std::vector<HapticWarning>& warnings) {
     ContactMaterial made;
     made.stiffness = tag.stiffness;
@@ -147,8 +244,8 @@ class Builder {
       made.backing_stiffness = tag.backing->stiffness;
       made.backing_depth_m = tag.backing->depth_m;
     }
-    made.height = add_relief(tag, material, warnings);
-    made.channels = add_channels(tag, material, warnings);
+    if (tag.height) made.height = add_relief(tag, material, warnings);
+    if (tag.maps) made.channels = add_channels(tag, material, warnings);
     if (!tag.force_model) return made;
     made.model = model_of(tag);
     made.amplitude = tag.force_model->amplitude;
@@ -162,7 +259,6 @@ class Builder {
 
   std::optional<std::uint32_t> add_channels(const MaterialTag& tag, std::size_t material,
                                             std::vector<HapticWarning>& warnings) {
-    if (!tag.maps) return std::nullopt;
     std::optional<ChannelField> field = find_maps(*tag.maps, scene_, file_, material, warnings, options_.probe_radius_m,
                                                   tag.height ? tag.height->metres_per_uv : Vec2{});
     ++(field ? result.channels_loaded : result.channels_missing);
@@ -176,7 +272,6 @@ class Builder {
 
   std::optional<std::uint32_t> add_relief(const MaterialTag& tag, std::size_t material,
                                           std::vector<HapticWarning>& warnings) {
-    if (!tag.height) return std::nullopt;
     std::optional<HeightField> field = find_height_map(*tag.height, scene_, file_, material, warnings);
     ++(field ? result.maps_loaded : result.maps_missing);
     if (!field && tag.roughness && tag.roughness->rms_height_m > 0) {
@@ -288,39 +383,46 @@ class Builder {
   HapticSceneOptions options_;
   std::vector<std::optional<std::uint32_t>> tagged_;  // Index in result.materials of a scene material with a tag.
   std::vector<int> tex_coord_;
+  std::vector<Felt> felt_;
   std::map<std::uint32_t, std::size_t> without_uv_;
   std::size_t added_triangles_ = 0;
-  bool any_shading_ = false;
+  bool any_shading_ = false, any_uv_ = false;
 };
 
 }  // namespace
 
 HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options) {
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const Part& part : scene.parts)
+    for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
+      const std::uint32_t slot = part.mesh.material.empty() ? 0 : part.mesh.material[t];
+      if (slot < part.materials.size()) used[part.materials[slot]] = true;
+    }
   Builder builder(scene, path, options);
-  builder.result.probe_radius_m = options.probe_radius_m;
-  builder.add_materials();
-  if (builder.result.materials.empty()) {
-    std::string reason = path.string() + ": no material has a usable haptic tag";
-    if (!builder.result.warnings.empty()) reason += " (" + builder.result.warnings.front().warning.message + ")";
-    throw InvalidInput(reason);
-  }
+  builder.add_materials(used);
   for (const Instance& instance : instances(scene)) builder.add_instance(instance);
   builder.finish();
-  if (builder.result.mesh.triangles.empty()) throw InvalidInput(path.string() + ": no triangle has a tagged material");
   return std::move(builder.result);
 }
 
 HapticScene load_haptic_scene(const std::filesystem::path& path, const HapticSceneOptions& options) {
-  return haptic_scene(read_gltf(path, {.tag_channel = true}), path, options);
+  GltfTriangles file(path, options.tags);
+  std::vector<bool> used(file.scene.materials.size(), false);
+  for (const Part& part : file.scene.parts)
+    for (const std::uint32_t material : part.materials) used[material] = true;
+  Builder builder(file.scene, path, options);
+  builder.add_materials(used);
+  file.scene.images = std::vector<EncodedImage>();  // Not {}, which keeps the memory.
+  builder.add_file(file);
+  builder.finish();
+  return std::move(builder.result);
 }
 
 LargestMaterial largest_material(const HapticScene& scene) {
   std::vector<double> area(scene.materials.size(), 0.0);
   std::vector<Vec3> moment(scene.materials.size());
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    const auto& corner = scene.mesh.triangles[t];
-    const Vec3 a = scene.mesh.positions[corner[0]], b = scene.mesh.positions[corner[1]],
-               c = scene.mesh.positions[corner[2]];
+    const Vec3 a = scene.mesh.corner(t, 0), b = scene.mesh.corner(t, 1), c = scene.mesh.corner(t, 2);
     const double size = 0.5 * norm(cross(b - a, c - a));
     const std::uint32_t m = scene.mesh.material[t];
     area[m] += size;

@@ -11,6 +11,7 @@
 #include "papilla/haptic/channel_average.hpp"
 #include "papilla/haptic/sha256.hpp"
 #include "papilla/io/decode_grey16.hpp"
+#include "papilla/io/tag_manifest.hpp"
 
 namespace papilla {
 namespace {
@@ -31,10 +32,11 @@ class Finder {
       : tag_(tag), kind_(kind), warnings_(warnings) {}
 
   std::optional<std::string> bytes(const Scene& scene, const std::filesystem::path& file, std::size_t material) const {
-    if (auto found = from_uri(file, material)) return found;
-    const EncodedImage* image = from_image(scene);
-    if (!image) return std::nullopt;
-    return std::string(reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size());
+    if (auto found = from_uri(tag_.uri, file, material)) return found;
+    if (const EncodedImage* image = from_image(scene))
+      return std::string(reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size());
+    const std::string* shared = tag_.uri.empty() ? tag_picture(scene, tag_.sha256) : nullptr;
+    return shared ? from_uri(*shared, file, material) : std::nullopt;
   }
 
   /// What `make` makes of the picture's bytes; nothing, with a warning, when they are none.
@@ -71,17 +73,18 @@ class Finder {
     return false;
   }
 
-  std::optional<std::string> from_uri(const std::filesystem::path& file, std::size_t material) const {
-    if (tag_.uri.empty()) return std::nullopt;
-    if (tag_.is_embedded()) {
-      auto bytes = decode_data_uri(tag_.uri);
+  std::optional<std::string> from_uri(const std::string& uri, const std::filesystem::path& file,
+                                      std::size_t material) const {
+    if (uri.empty()) return std::nullopt;
+    if (uri.starts_with("data:")) {
+      auto bytes = decode_data_uri(uri);
       if (!bytes) warn("_data_uri", std::string("the data: URI of the ") + kind_.what + " is not base64");
       return bytes && matches(bytes_of(*bytes), "data: URI") ? bytes : std::nullopt;
     }
     const Reference reference{
         file.parent_path(),
         file.string() + ": at /materials/" + std::to_string(material) + "/extras/haptic/" + kind_.name + "/uri",
-        percent_decoded(tag_.uri)};
+        percent_decoded(uri)};
     auto bytes = read_reference(reference, ReferenceContent::png);
     if (!bytes) warn("_file", "'" + shown(reference.value) + "' is missing");
     return bytes && matches(bytes_of(*bytes), "'" + shown(reference.value) + "'") ? bytes : std::nullopt;

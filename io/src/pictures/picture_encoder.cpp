@@ -34,7 +34,7 @@ TypeDesc type_of(SampleType type) {
 bool can_hold(const ImageOutput& output, SampleType type) {
   const std::string_view format = output.format_name();
   if (format == "png") return type != SampleType::real;
-  if (format == "jpeg") return type == SampleType::byte;
+  if (format == "jpeg" || format == "webp") return type == SampleType::byte;
   return format != "openexr" || type == SampleType::real;
 }
 
@@ -47,7 +47,8 @@ ImageSpec spec_of(const PictureToStore& picture, std::string_view format) {
     spec.attribute("PixelAspectRatio", static_cast<float>(picture.pitch_mm_x / picture.pitch_mm_y));
   }
   if (picture.channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);  // Colours are stored as they are given.
-  if (format == "jpeg") spec.attribute("Compression", fmt::format("jpeg:{}", picture.jpeg_quality));
+  if (format == "jpeg" || format == "webp")
+    spec.attribute("Compression", fmt::format("{}:{}", format, picture.quality));
   if (!picture.profile.empty())
     spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(picture.profile.size())),
                    picture.profile.data());

@@ -91,17 +91,22 @@ struct Remembered {
   bool found = false;
 };
 
-/// The result of a stage: `make()`, or what it gave before for the same inputs. Without a cache no key is computed.
-/// @param inputs all that the result depends on.
+/// The result of a stage: `make()`, or what it gave before for the same key.
+template <class Make>
+auto remembered_by(const Digest& key, const StageCache& cache, std::string_view stage, CacheUse use, const Make& make)
+    -> Remembered<decltype(make())> {
+  if (auto found = cache.find<decltype(make())>(stage, key)) return {std::move(*found), true};
+  auto value = make();
+  cache.put(stage, key, use, value);
+  return {std::move(value)};
+}
+
+/// The same by the key of `inputs`, all that the result depends on. Without a cache no key is computed.
 template <class Make, class... Inputs>
 auto remembered(const StageCache* cache, std::string_view stage, CacheUse use, const Make& make,
                 const Inputs&... inputs) -> Remembered<decltype(make())> {
   if (cache == nullptr) return {make()};
-  const Digest key = key_of(stage, inputs...);
-  if (auto found = cache->find<decltype(make())>(stage, key)) return {std::move(*found), true};
-  auto value = make();
-  cache->put(stage, key, use, value);
-  return {std::move(value)};
+  return remembered_by(key_of(stage, inputs...), *cache, stage, use, make);
 }
 
 }  // namespace papilla

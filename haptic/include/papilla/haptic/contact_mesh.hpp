@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -69,9 +70,29 @@ struct ContactMaterial : ContactConstants {
 struct ContactMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Vec2> corner_uv;          ///< Three per triangle, or empty. Needed by materials with a relief.
-  std::vector<Vec3> corner_normals;     ///< Three per triangle, or empty: taken from the faces.
+  std::vector<Vec2> corner_uv;       ///< Three per triangle, or empty. Needed by materials with a relief.
+  std::vector<Vec3> corner_normals;  ///< Three per triangle, or empty: taken from the faces.
+  /// In place of these, one per position; or empty. As files store them, in a fifth of the memory.
+  std::vector<std::array<float, 2>> vertex_uv;
+  std::vector<std::array<float, 3>> vertex_normals;
   std::vector<std::uint32_t> material;  ///< Per triangle, index of its ContactMaterial; or empty: all 0.
+
+  Vec3 corner(std::size_t t, std::size_t k) const { return positions[triangles[t][k]]; }
+  bool has_uv() const noexcept { return !corner_uv.empty() || !vertex_uv.empty(); }
+  /// @pre has_uv().
+  Vec2 uv(std::size_t t, std::size_t k) const {
+    if (vertex_uv.empty()) return corner_uv[3 * t + k];
+    const auto& uv = vertex_uv[triangles[t][k]];
+    return {double{uv[0]}, double{uv[1]}};
+  }
+  bool has_normals() const noexcept { return !corner_normals.empty() || !vertex_normals.empty(); }
+  /// @pre has_normals().
+  Vec3 normal(std::size_t t, std::size_t k) const {
+    if (vertex_normals.empty()) return corner_normals[3 * t + k];
+    const auto& n = vertex_normals[triangles[t][k]];
+    return {double{n[0]}, double{n[1]}, double{n[2]}};
+  }
+  std::uint32_t material_of(std::size_t t) const { return material.empty() ? 0 : material[t]; }
 };
 
 }  // namespace papilla

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/io/glb_writer.hpp"
 #include "papilla/io/gltf_origin.hpp"
 #include "papilla/io/scene.hpp"
 
@@ -46,6 +47,7 @@ struct GltfEditResult {
   Scene scene;                      ///< With the materials' tags as written; its uv are those that were read.
   std::vector<GltfChange> changes;  ///< All of them, in the order of the document.
   std::vector<std::string> notes;   ///< What an edit could not do, one sentence each.
+  TagPictures tag_pictures;
 };
 
 /// Writes a glTF file with new haptic tags and, where asked for, relief; all else stays as it is. No member of the
@@ -54,7 +56,8 @@ struct GltfEditResult {
 /// Of parts that the origin says to be of one mesh the first keeps it. The others get copies, of the same name and on
 /// the same data, which the nodes that show them name; animations of the mesh (KHR_animation_pointer) move them, too.
 ///
-/// A tag goes into the material. Where others show the material, too, or tags differ, a copy is appended and named by
+/// A tag goes into the material; of edited tags with the same height map one holds it, as by write_glb(), unless an
+/// unedited one does. Where others show the material, too, or tags differ, a copy is appended and named by
 /// the primitives, and by their variants (KHR_materials_variants); coarser materials (MSFT_lod) are tagged with theirs,
 /// and animations of a material (KHR_animation_pointer) move its copies, too. New uv are one more TEXCOORD of the
 /// primitives; where a vertex needs several, the attributes and morph targets of those that share its buffers are

@@ -25,9 +25,10 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options =
 using WriteOptions = GlbWriteOptions;  ///< Other formats have none.
 
 /// Writes a file by its extension, in any case: .glb, .gltf, .obj, .off, .ply, .stl.
+/// @param sizes  when given and the file is glTF, gets what its data take.
 /// @returns what the format has no place for, one sentence each (Scene::losses are not repeated).
 /// @throws InvalidInput when the extension is unknown or the scene can't be written so; IoError when writing fails.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path,
-                                     const WriteOptions& options = {});
+                                     const WriteOptions& options = {}, GlbSizes* sizes = nullptr);
 
 }  // namespace papilla

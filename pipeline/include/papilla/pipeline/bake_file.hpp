@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,7 @@ struct BakeFileOptions {
 
 /// How a bake is written: a glTF file is edited where nothing is asked for that changes its meshes or nodes (fewer
 /// triangles, parts left out, decals, pictures in the place of surfaces, instances of one node with different
-/// materials), everything else is written anew.
+/// materials, compression), everything else is written anew.
 struct BakeWay {
   bool in_place = false;
   std::string reason;
@@ -32,13 +34,21 @@ struct BakeWay {
 struct BakeFileResult : BakeResult {
   BakeWay way;
   std::vector<GltfChange> changes;  ///< Of an edited file.
+  GlbSizes sizes;                   ///< Of one edited in place only the tags' pictures.
 };
 
 /// As far as file name, options and rules tell.
 BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& options, const Materials& rules = {});
 
+/// What a bake would find in the cache.
+struct RememberedPlan {
+  std::set<std::string> grains;        ///< Materials.
+  std::vector<std::uint8_t> surfaces;  ///< 1: the uv of that surface of the plan. Empty without a cache.
+};
+
 struct PlannedFile : BakePlan {
   BakeWay way;
+  RememberedPlan remembered;
   std::vector<GrainPlan> grains;        ///< Of the materials whose grain is used.
   ObjectTextures object_textures_made;  ///< Triangles of decals and carriers.
 };

@@ -26,11 +26,12 @@ struct GltfReadOptions {
 /// node transforms are honoured, so are compressed meshes (KHR_draco_mesh_compression with bitstream 2.2,
 /// EXT_meshopt_compression; refused by name when the build was made without libdraco or libmeshoptimizer) and
 /// instances (EXT_mesh_gpu_instancing; each becomes a child node). One part per glTF mesh, in the same order, with its
-/// primitives' materials as slots; positions equal in every bit are merged within a part, so that uv seams do not tear
-/// the surface. Skins, morph targets, animations, cameras, lights, points, lines and coarser levels of detail
-/// (MSFT_lod: the finest is read) are listed in `losses`; pictures that are missing in `warnings`. Haptic tags that
-/// other programs dropped or merged are looked for by restore_tags(); `Scene::tags` says what came of it. Links no
-/// heavy library, so that the player can use it.
+/// primitives' materials as slots; positions of whole numbers take over the scale of the first node that shows them;
+/// positions equal in every bit are merged within a part, so that uv seams do not tear the surface. Skins, morph
+/// targets, animations, cameras, lights, points, lines and coarser levels of detail (MSFT_lod: the finest is read) are
+/// listed in `losses`; pictures that are missing in `warnings`. Haptic tags that other programs dropped or merged are
+/// looked for by restore_tags(); `Scene::tags` says what came of it. Links no heavy library, so that the player can use
+/// it.
 ///
 /// Pictures stay encoded, so that those in WebP, AVIF, KTX2 or DDS stop nothing. A required extension that is unknown
 /// is refused where it may touch geometry: it stands at meshes, nodes, accessors or buffers, or nowhere. One that only

@@ -63,6 +63,16 @@ std::optional<TagManifest> take_tag_manifest(Scene& scene);
 /// something is missing.
 TagSurvival restore_tags(Scene& scene, const TagManifest& manifest);
 
+/// Whether two tags feel the same, wherever their pictures are kept.
+bool same_feel(MaterialTag a, MaterialTag b);
+
+/// The URI of a picture that some haptic tag of the scene has, by its SHA-256; null when none does. Files hold each of
+/// these pictures once, whatever the number of tags that name it.
+const std::string* tag_picture(const Scene& scene, const std::string& sha256);
+
+/// Gives every tag its own copy of the pictures that another one holds, so that tags can be dropped and changed.
+void complete_tag_pictures(Scene& scene);
+
 /// "7 of 20 haptic tags are lost …"; empty when none was missing.
 std::string survival_sentence(const TagSurvival& tags);
 

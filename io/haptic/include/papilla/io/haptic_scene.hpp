@@ -31,6 +31,7 @@ struct HapticSceneOptions {
   /// Triangles farther than reach_m from every one of these points are left out. Empty: none.
   std::vector<Vec3> reach_around = {};
   double reach_m = 0;
+  std::filesystem::path tags = {};  ///< As GltfReadOptions::tags; for load_haptic_scene().
 };
 
 /// The haptic part of a scene: the triangles of tagged materials, in metres, in the frame of the file.
@@ -45,6 +46,7 @@ struct HapticScene {
   int roughness_overlays = 0;                     ///< Maps over which roughness was laid.
   int channels_loaded = 0, channels_missing = 0;  ///< Pictures of stiffness, friction and damping.
   std::size_t triangles_out_of_reach = 0;
+  TagSurvival tags;
   std::vector<MaterialWarning> warnings;
 };
 
@@ -61,15 +63,19 @@ struct HapticScene {
 /// Pictures of stiffness, friction and damping are read as they are; where one is lost the constants are used (warning
 /// maps_lost).
 ///
-/// Maps of materials that no triangle uses are not read; maps are halved while they stay fine enough for the
-/// shortest wavelength. A KHR_texture_transform of the normal texture (without one: of the base colour) that differs
-/// from the tag's, as packers that quantise coordinates write it, replaces the tag's (warning uv_transform). Other
-/// codes: those of the tag, tags_missing and tag_restored (Scene::tags), uv_missing, uv_degenerate, probe_dilation.
+/// Maps of materials that no triangle uses are not read, those of like tags once; maps are halved while they stay fine
+/// enough for the shortest wavelength. A KHR_texture_transform of the normal texture (without one: of the base colour)
+/// that differs from the tag's, as packers that quantise coordinates write it, replaces the tag's (warning
+/// uv_transform). Other codes: those of the tag, tags_missing and tag_restored (Scene::tags), uv_missing,
+/// uv_degenerate, probe_dilation.
 /// @param path of the file, for messages and for sidecar files next to it.
 /// @throws InvalidInput naming `path` when no tagged material has triangles, or none is within reach.
 HapticScene haptic_scene(const Scene& scene, const std::filesystem::path& path, const HapticSceneOptions& options = {});
 
-/// The same of a glTF file. @throws IoError, InvalidInput as read_gltf() does.
+/// The same of a glTF file, primitive by primitive: the meshes of the scene are never in memory, and its attributes are
+/// ContactMesh::vertex_uv and vertex_normals. Peak: the file, what its largest primitive draws (32 bytes a vertex and
+/// 12 a triangle at most) and the result (24 to 44 bytes a vertex and 16 a triangle).
+/// @throws IoError, InvalidInput as read_gltf() does.
 HapticScene load_haptic_scene(const std::filesystem::path& path, const HapticSceneOptions& options = {});
 
 /// The material with the largest area, and the centroid of that area.

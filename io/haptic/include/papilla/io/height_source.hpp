@@ -13,9 +13,9 @@
 
 namespace papilla {
 
-/// The bytes of a tag's height map: of its data: URI or of the file next to the glTF, else of the image of that name.
-/// Only bytes with the tag's SHA-256 are accepted. Failures become warnings (height_data_uri, height_file,
-/// height_sha256, height_image).
+/// The bytes of a tag's height map: of its data: URI or of the file next to the glTF, else of the image of that name,
+/// else of another tag that holds a picture of the same sum. Only bytes with the tag's SHA-256 are accepted. Failures
+/// become warnings (height_data_uri, height_file, height_sha256, height_image).
 /// @param file      the glTF file.
 /// @param material  number of the tag's material in it.
 /// @throws InvalidInput, IoError as read_reference(): a URI that leads out of the file's folder or to no PNG picture.
