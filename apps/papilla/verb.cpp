@@ -89,7 +89,7 @@ void run_verb(const CLI::App& verb, const CommonOptions& common, const VerbInfo&
   Json result;
   try {
     result = body(context);
-    if (cache) close_cache(*cache, cache_limit, context.console, result);
+    if (context.cache != nullptr) close_cache(*context.cache, cache_limit, context.console, result);
   } catch (const Cancelled&) {
     throw SolverFailure(
         fmt::format("the time limit of {:g} s is reached, at '{}': no result", *common.time_limit_s, stage));

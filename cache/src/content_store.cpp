@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <optional>
 #include <ostream>
 #include <string_view>
@@ -110,6 +111,13 @@ std::chrono::system_clock::time_point time_point(const std::timespec& time) {
   return std::chrono::system_clock::from_time_t(time.tv_sec);
 }
 
+/// Reads all that is left, for the sum.
+void skip_content(EntrySource& source) {
+  std::vector<char> block(k_buffer);
+  while (source.most_bytes() > 0)
+    source.read(block.data(), static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), source.most_bytes())));
+}
+
 void remove_entry(const Entry& entry, StoreCount& removed) {
   std::error_code error;
   if (!fs::remove(entry.path, error)) return;  // Another process was faster.
@@ -195,13 +203,7 @@ std::uint64_t write_entry(const fs::path& path, const std::function<void(EntrySi
   return bytes;
 }
 
-bool is_entry_whole(const fs::path& path) {
-  return read_entry(path, [](EntrySource& source) {
-    std::vector<char> block(k_buffer);
-    while (source.most_bytes() > 0)
-      source.read(block.data(), static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), source.most_bytes())));
-  });
-}
+bool is_entry_whole(const fs::path& path) { return read_entry(path, skip_content); }
 
 bool ContentStore::read(std::string_view stage, const Digest& key,
                         const std::function<void(EntrySource&)>& take) const {
@@ -222,6 +224,24 @@ std::uint64_t ContentStore::write(std::string_view stage, const Digest& key,
   const fs::path path = path_of(stage, key);
   make_folder(path.parent_path());
   return write_entry(path, give, Durability::unsynced);
+}
+
+std::optional<std::uint64_t> ContentStore::adopt(const ContentStore& from, std::string_view stage,
+                                                 const Digest& key) const {
+  std::uint64_t bytes = 0;
+  const bool whole = from.read(stage, key, [&](EntrySource& source) {
+    bytes = source.most_bytes();
+    skip_content(source);
+  });
+  if (!whole) return std::nullopt;
+  const fs::path theirs = from.path_of(stage, key), ours = path_of(stage, key);
+  make_folder(ours.parent_path());
+  // Of another disk, of a user whose files may not be linked to, or there already.
+  if (::link(theirs.c_str(), ours.c_str()) == 0) return bytes;
+  write_atomically(
+      ours, [&](std::ostream& out) { out << std::ifstream(theirs, std::ios::binary).rdbuf(); }, 0,
+      Durability::unsynced);
+  return bytes;
 }
 
 StoreStatistics ContentStore::statistics() const {

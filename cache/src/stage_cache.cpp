@@ -15,7 +15,8 @@ struct StageCache::Counts {
   std::string problem;
 };
 
-StageCache::StageCache(ContentStore store) : store_(std::move(store)), counts_(std::make_unique<Counts>()) {}
+StageCache::StageCache(ContentStore store, const StageCache* shared)
+    : store_(std::move(store)), shared_(shared), counts_(std::make_unique<Counts>()) {}
 StageCache::~StageCache() = default;
 
 CacheCounts StageCache::counts() const {
@@ -38,6 +39,16 @@ void StageCache::add(const std::string& stage, const CacheCount& count) const {
   CacheCount& sum = counts_->of_stage[stage];
   sum.found += count.found, sum.made += count.made;
   sum.bytes_read += count.bytes_read, sum.bytes_written += count.bytes_written;
+  sum.taken += count.taken, sum.bytes_taken += count.bytes_taken;
+}
+
+void StageCache::report_to_shared() const {
+  if (shared_ == nullptr) return;
+  for (const auto& [stage, count] : counts())
+    shared_->add(stage, {.found = count.taken,
+                         .made = count.made,
+                         .bytes_read = count.bytes_taken,
+                         .bytes_written = count.bytes_written});
 }
 
 std::vector<std::pair<std::string, Digest>> StageCache::results() const {
@@ -54,11 +65,33 @@ void StageCache::note(std::string_view stage, const Digest& key, const CacheCoun
 std::uint64_t StageCache::write(std::string_view stage, const Digest& key,
                                 const std::function<void(EntrySink&)>& give) const try {
   if (!problem().empty()) return 0;
-  return store_.write(stage, key, give);
+  const std::uint64_t bytes = store_.write(stage, key, give);
+  if (shared_ != nullptr) hand_on(stage, key);
+  return bytes;
 } catch (const IoError& error) {
-  const std::scoped_lock lock(counts_->mutex);
-  counts_->problem = error.what();
+  refused(error.what());
   return 0;
+}
+
+bool StageCache::take_over(std::string_view stage, const Digest& key) const try {
+  if (shared_ == nullptr) return false;
+  const std::optional<std::uint64_t> bytes = store_.adopt(shared_->store_, stage, key);
+  if (bytes) add(std::string(stage), {.taken = 1, .bytes_taken = *bytes});
+  return bytes.has_value();
+} catch (const IoError& error) {
+  refused(error.what());
+  return false;
+}
+
+void StageCache::hand_on(std::string_view stage, const Digest& key) const try {
+  if (shared_->problem().empty()) shared_->store_.adopt(store_, stage, key);
+} catch (const IoError& error) {
+  shared_->refused(error.what());
+}
+
+void StageCache::refused(const char* reason) const {
+  const std::scoped_lock lock(counts_->mutex);
+  counts_->problem = reason;
 }
 
 }  // namespace papilla

@@ -144,7 +144,7 @@ SplitResult split_bake(const fs::path& input, const fs::path& folder, const Mate
                        const SplitOptions& split, const ProgressCallback& progress) {
   const Stopwatch clock;
   for (const char* name : {"inputs", "results", "store"}) make_folder(folder / name);
-  const StageCache cache{ContentStore(store_of_jobs(folder))};
+  const StageCache cache(ContentStore(store_of_jobs(folder)), options.read.cache);
   options.read.cache = options.bake.unwrap.method.cache = &cache;
   SplitResult result;
   const PreparedBake prepared = prepare_file(input, rules, options, result.way, progress);
@@ -155,6 +155,7 @@ SplitResult split_bake(const fs::path& input, const fs::path& folder, const Mate
     result.surfaces += works.size();
   }
   if (const std::string problem = cache.problem(); !problem.empty()) throw IoError(problem);
+  cache.report_to_shared();
   result.parts = parts.size();
   result.grains = prepared.result.grains.size();
   result.counts = cache.counts();
@@ -162,7 +163,8 @@ SplitResult split_bake(const fs::path& input, const fs::path& folder, const Mate
   return result;
 }
 
-JobResult run_job(const fs::path& folder, const std::string& id, const ProgressCallback& progress) {
+JobResult run_job(const fs::path& folder, const std::string& id, const StageCache* shared,
+                  const ProgressCallback& progress) {
   const Stopwatch clock;
   JobResult result;
   const fs::path path = input_of(folder, id);
@@ -173,7 +175,7 @@ JobResult run_job(const fs::path& folder, const std::string& id, const ProgressC
     result.seconds = clock.seconds();
     return result;
   }
-  const StageCache cache{ContentStore(store_of_jobs(folder))};
+  const StageCache cache(ContentStore(store_of_jobs(folder)), shared);
   double triangles = 0;
   for (const SurfaceInput& input : inputs) triangles += static_cast<double>(input.mesh.triangles.size());
   SharedProgress done(progress, "surfaces", triangles);
@@ -185,6 +187,7 @@ JobResult run_job(const fs::path& folder, const std::string& id, const ProgressC
     worked.reach(1);
   });
   if (const std::string problem = cache.problem(); !problem.empty()) throw IoError(problem);
+  cache.report_to_shared();
   JobRecord record{code_digest(), digest_of_file(path), {}};
   for (const auto& [stage, key] : cache.results())
     if (is_asked_by_merge(stage)) record.results.emplace_back(stage, key);

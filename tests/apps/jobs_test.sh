@@ -88,4 +88,21 @@ code 3 "--cache: 'rules.json' is no folder" "$papilla" inspect "$scene" --cache 
 code 3 "PAPILLA_CACHE_LIMIT: 'much' is no size" env PAPILLA_CACHE_LIMIT=much "$papilla" inspect "$scene" --cache cache
 code 0 '' "$papilla" bake "$scene" -m rules.json -o limited.glb --effort fast --cache cache --cache-limit 200k
 (($(du -sb cache | cut -f1) < 400000)) || fail "the limit is not kept: $(du -sb cache)"
+
+# Jobs share a cache that is named, with each other and with whole bakes; the user's is none of theirs.
+export XDG_CACHE_HOME=$PWD/home
+code 0 '' "$papilla" bake "$scene" -m rules.json -o cached3.glb --effort fast --cache shared
+code 0 '' "$papilla" split "$scene" -m rules.json -o shared-jobs --effort fast --cache shared --json split.json
+tr -d ' \n' <split.json | grep -qE '"made":\{("[a-z]+":0,?)*\}' ||
+  fail "split made what the cache has: $(cat split.json)"
+for job in shared-jobs/inputs/*; do
+  code 0 '' env PAPILLA_CACHE="$PWD/shared" "$papilla" bake --job "shared-jobs/${job##*/}"
+  grep -qE 'cache: ([0-9]+) of \1 results found in .*/shared' out.txt || fail "a job made what the cache has: $(cat out.txt)"
+done
+rm -r few/results/* few/store/measure
+code 0 '' env -u PAPILLA_CACHE "$papilla" bake --job "few/$(ls few/inputs)"
+[[ -d few/store/measure ]] || fail "nothing was done again"
+[[ ! -e home/papilla ]] || fail "a job wrote into the user's cache"
+code 0 '' "$papilla" merge shared-jobs -o shared.glb
+cmp -s whole.glb shared.glb || fail "another file with a shared cache"
 finish "jobs and cache"

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -175,6 +176,33 @@ TEST(ContentStore, MayBeUsedByManyAtOnce) {
   EXPECT_EQ(wrong, 0);
   const ContentStore store(folder.path());
   EXPECT_TRUE(store.verify().damaged.empty());
+}
+
+TEST(ContentStore, AdoptsTheEntriesOfAnother) {
+  const TemporaryFolder folder("store");
+  const ContentStore from(folder.path() / "from"), to(folder.path() / "to");
+  const std::string text = content(100000, 2);
+  EXPECT_EQ(to.adopt(from, "stage", key(1)), std::nullopt);
+  put(from, 1, text);
+  EXPECT_EQ(to.adopt(from, "stage", key(1)), text.size());
+  struct stat about {};
+  ASSERT_EQ(::stat(to.path_of("stage", key(1)).c_str(), &about), 0);
+  EXPECT_EQ(about.st_nlink, 2u);  // One file, which counts once on the disk.
+  from.clear();
+  EXPECT_EQ(get(to, 1), text);
+
+  // What is in the place of the entry is replaced, by a copy.
+  put(from, 1, text);
+  change_byte(to.path_of("stage", key(1)), 500);
+  EXPECT_EQ(to.adopt(from, "stage", key(1)), text.size());
+  EXPECT_EQ(get(to, 1), text);
+  EXPECT_EQ(fs::hard_link_count(to.path_of("stage", key(1))), 1u);
+
+  change_byte(from.path_of("stage", key(1)), 500);
+  EXPECT_EQ(ContentStore(folder.path() / "third").adopt(from, "stage", key(1)), std::nullopt);
+  EXPECT_FALSE(from.contains("stage", key(1)));
+  std::ofstream(folder.path() / "file") << "x";
+  EXPECT_THROW(ContentStore(folder.path() / "file").adopt(to, "stage", key(1)), IoError);
 }
 
 TEST(ContentStore, AFolderThatCannotBeMadeIsAnError) {

@@ -89,6 +89,49 @@ TEST(StageCache, Counts) {
   EXPECT_TRUE(cache.counts().empty());
 }
 
+TEST(StageCache, TakesOverFromASharedCacheAndHandsOn) {
+  const TemporaryFolder folder("stage");
+  const ContentStore others(folder.path() / "others");
+  const auto ask = [&](const char* own, int input, const StageCache* shared) {
+    const StageCache cache(ContentStore(folder.path() / own), shared);
+    remembered(
+        &cache, "n", CacheUse::read_write, [&] { return input; }, input);
+    cache.report_to_shared();
+    return cache.take_counts()["n"];
+  };
+  const StageCache first(others), second(others);
+  EXPECT_EQ(ask("a", 1, &first).made, 1u);  // Into both.
+  EXPECT_EQ(first.counts().at("n").made, 1u);
+  EXPECT_EQ(first.counts().at("n").bytes_written, sizeof(int) + 48);
+  const CacheCount taken = ask("b", 1, &second);
+  EXPECT_EQ(taken.found, 1u);
+  EXPECT_EQ(taken.taken, 1u);
+  EXPECT_EQ(second.counts().at("n").found, 1u);
+  EXPECT_EQ(second.counts().at("n").bytes_read, sizeof(int));
+  EXPECT_EQ(ask("b", 1, nullptr).found, 1u);  // Its own by now, whatever becomes of the shared one.
+  EXPECT_EQ(ask("b", 1, &second).taken, 0u);
+  EXPECT_EQ(second.counts().at("n").found, 1u);
+}
+
+TEST(StageCache, ASharedCacheThatIsDamagedOrRefusesCostsNoResult) {
+  const TemporaryFolder folder("stage");
+  const StageCache shared{ContentStore(folder.path() / "shared")};
+  const Digest key = key_of("n", 1);
+  shared.put("n", key, CacheUse::read_write, 7);
+  std::filesystem::resize_file(shared.store().path_of("n", key), 50);
+  const StageCache own(ContentStore(folder.path() / "own"), &shared);
+  EXPECT_EQ(own.find<int>("n", key), std::nullopt);
+  EXPECT_FALSE(shared.store().contains("n", key));
+
+  std::ofstream(folder.path() / "file") << "x";
+  const StageCache none{ContentStore(folder.path() / "file")};
+  const StageCache over_none(ContentStore(folder.path() / "over_none"), &none);
+  over_none.put("n", key, CacheUse::read_write, 7);
+  EXPECT_EQ(over_none.find<int>("n", key), 7);
+  EXPECT_EQ(over_none.problem(), "");
+  EXPECT_NE(none.problem().find("file"), std::string::npos);
+}
+
 TEST(StageCache, AStoreThatRefusesIsAProblemAndNoError) {
   const TemporaryFolder folder("stage");
   std::ofstream(folder.path() / "file") << "x";

@@ -20,7 +20,7 @@ sources() {
   ((${#existing[@]})) || return 0
   find "${existing[@]}" \( -name node_modules -o -name build \) -prune -o -type f \
     \( -name '*.?pp' -o -name '*.h' -o -name '*.c' -o -name '*.cmake' -o -name CMakeLists.txt -o -name '*.sh' -o -name '*.mjs' \
-    -o -name run \) -print | sort
+    -o -name '*.py' -o -name run \) -print | sort
 }
 cpp_sources() { sources "$@" | grep -E '\.([ch]pp|h|c)$' || true; }
 
@@ -193,6 +193,8 @@ slurmd slurmd
 sbatch slurm-client
 munged munge
 snakemake snakemake
+python3 python3
+import.yaml python3-yaml
 check_sources\.sh clang-format'
 
 # The pattern that shows the use of name $2 by table $1.

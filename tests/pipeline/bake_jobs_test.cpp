@@ -171,6 +171,24 @@ TEST_F(BakeJobs, PartsGoTogetherUpToATriangleCount) {
   EXPECT_EQ(merge(), bake());
 }
 
+TEST_F(BakeJobs, ASharedCacheSavesTheWorkOfAnotherSplit) {
+  const std::string whole = bake();
+  const StageCache filled{ContentStore(folder_ / "cache")};
+  bake(&filled);
+  const StageCache shared{ContentStore(folder_ / "cache")};
+  BakeFileOptions options;
+  options.read.cache = &shared;
+  const SplitResult split = split_bake(scene_, jobs(), rules(), options, {});
+  for (const char* stage : {"scene", "sides"}) expect(shared, stage, 1, 0);
+  expect(shared, "grain", 2, 0);
+  for (const BakeJob& job : split.jobs) EXPECT_FALSE(run_job(jobs(), job.id, &shared).was_done);
+  expect(shared, "uv", 2, 0);
+  expect(shared, "measure", 2, 0);
+  shared.store().clear();  // What jobs need is theirs.
+  EXPECT_EQ(merge(), whole);
+  for (const auto& [stage, counted] : merged_) EXPECT_EQ(counted.made, 0u) << stage;
+}
+
 TEST_F(BakeJobs, SaysWhatIsWrongWithAResult) {
   const SplitResult split = this->split();
   const std::string id = split.jobs[0].id;

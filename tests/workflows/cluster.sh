@@ -1,42 +1,37 @@
 # SPDX-License-Identifier: MIT
-# Slurm of one machine, for tests that are sourced with it: start_cluster, start_node, kill_node, stop_cluster.
-# Munge, controller and node are those of Debian, with sockets, ports and folders of their own.
+# Slurm of one machine, for tests that are sourced with it: start_cluster, start_node, lose_node, stop_cluster.
+# Munge, controller and node are Debian's, run by whoever runs the test, with a socket, ports and folders of their own.
+# The test has sourced tidy.sh.
 
-# Ends the test as skipped when this machine can't run the given programs as root.
-need() {
-  local program
-  for program in "$@"; do
-    command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
-  done
-}
+readonly -a cluster_programs=(munged slurmctld slurmd sbatch)
 
-need_root() { ((EUID == 0)) || { echo 'skipped: Slurm can be started by root only'; exit 77; }; }
-
-# Waits until a command succeeds: within SECONDS COMMAND ...
-within() {
-  local left=$(($1 * 10))
-  shift
-  until "$@" >/dev/null 2>&1; do
-    ((left-- > 0)) || { echo "gave up waiting for: $*" >&2; return 1; }
-    sleep 0.1
-  done
+# Prints ports that nobody listens on, below those that the kernel gives to clients: free_ports HOW_MANY
+free_ports() {
+  python3 -c '
+import random, socket, sys
+found = []
+while len(found) < int(sys.argv[1]):
+    with socket.socket() as trial:
+        port = random.randrange(10240, 32768)
+        try:
+            trial.bind(("", port))
+        except OSError:
+            continue
+        found.append(port)
+print(*found)' "$1"
 }
 
 write_slurm_conf() {
-  local host cpus
-  host=$(hostname)
-  cpus=$(($(nproc) < 2 ? 1 : 2))
-  local -a port
-  mapfile -t port < <(python3 -c '
-import socket
-sockets = [socket.socket() for _ in range(2)]
-for s in sockets:
-    s.bind(("", 0))
-print(*(s.getsockname()[1] for s in sockets), sep="\n")')
+  local host user controller_port node_port
+  host=$(hostname -s)
+  user=$(id -un)
+  read -r controller_port node_port < <(free_ports 2)
+  # Two processors, whatever the machine has (config_overrides): so many jobs run at a time.
   cat >"$SLURM_CONF" <<CONF
 ClusterName=test
 SlurmctldHost=$host(127.0.0.1)
-SlurmUser=root
+SlurmUser=$user
+SlurmdUser=$user
 AuthType=auth/munge
 AuthInfo=socket=$cluster/munge.socket,cred_expire=5
 CredType=cred/munge
@@ -50,39 +45,50 @@ SlurmctldPidFile=$cluster/controller.pid
 SlurmdPidFile=$cluster/node.pid
 SlurmctldLogFile=$cluster/controller.log
 SlurmdLogFile=$cluster/node.log
-SlurmctldPort=${port[0]}
-SlurmdPort=${port[1]}
+SlurmctldPort=$controller_port
+SlurmdPort=$node_port
+SlurmdParameters=config_overrides
 ReturnToService=2
 SlurmdTimeout=20
+BatchStartTimeout=1
+MessageTimeout=60
 KillWait=2
-MinJobAge=600
+MinJobAge=3600
 SchedulerParameters=sched_interval=2,sched_min_interval=0,batch_sched_delay=0
 JobAcctGatherType=jobacct_gather/none
 AccountingStorageType=accounting_storage/none
 MpiDefault=none
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$cpus RealMemory=500 State=UNKNOWN
+NodeName=$host NodeAddr=127.0.0.1 CPUs=2 RealMemory=500 State=UNKNOWN
 PartitionName=main Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
 }
 
-# The pid that a daemon wrote, when that process is there.
-pid_of() { [[ -s $1 ]] && kill -0 "$(<"$1")" 2>/dev/null && cat "$1"; }
+node_is_up() { sinfo -h -o %t | grep -qE '^(idle|mix|alloc)$'; }
 
 # Daemons keep no descriptor of the test: ctest waits for whoever holds its pipe.
 start_node() {
   slurmd -f "$SLURM_CONF" </dev/null >"$cluster/slurmd.out" 2>&1
-  within 60 sh -c 'sinfo -h -o %t | grep -qE "^(idle|mix|alloc)$"'
+  within 120 node_is_up
 }
 
-# As when the machine is lost: without a word to anyone.
-kill_node() {
+# As when the machine is lost, without a word to anyone: its daemon, and from the top down what Slurm's keeper of the step
+# runs there, of which one process is given: lose_node PID
+lose_node() {
+  local pid=$1
+  local -a gone=("$pid")
   kill -KILL "$(<"$cluster/node.pid")"
   rm "$cluster/node.pid"
+  until [[ $(<"/proc/$pid/comm") == slurmstepd ]]; do
+    pid=$(parent_of "$pid")
+    ((pid > 1)) || fail "process $1 does not run below slurmstepd"
+    gone=("$pid" "${gone[@]}")
+  done
+  kill -KILL "${gone[@]}"
 }
 
 start_cluster() {
-  trap 'exit 143' TERM INT HUP  # so that a test that is ended stops its daemons, too
   cluster=$(mktemp -d /tmp/papilla-cluster.XXXXXX)
+  tidy_also stop_cluster cluster
   chmod 755 "$cluster"
   mkdir "$cluster/state" "$cluster/spool"
   export SLURM_CONF=$cluster/slurm.conf
@@ -90,24 +96,28 @@ start_cluster() {
   (umask 077 && head -c 1024 /dev/urandom >"$cluster/munge.key")
   munged --force --key-file="$cluster/munge.key" --socket="$cluster/munge.socket" --pid-file="$cluster/munge.pid" \
     --log-file="$cluster/munge.log" --seed-file="$cluster/munge.seed" </dev/null >"$cluster/munged.out" 2>&1
-  within 20 test -S "$cluster/munge.socket"
+  within 60 test -S "$cluster/munge.socket"
   slurmctld -f "$SLURM_CONF" </dev/null >"$cluster/slurmctld.out" 2>&1
-  within 30 scontrol ping
+  within 120 scontrol ping
   start_node
 }
 
+# Whatever state it is in; done again it does nothing.
 stop_cluster() {
-  [[ -n ${cluster-} ]] || return 0
+  [[ -n ${cluster-} && -d $cluster ]] || return 0
+  export SLURM_CONF=$cluster/slurm.conf
   local daemon pid
   # Jobs first: their processes would outlive the node's daemon.
-  if pid_of "$cluster/controller.pid" >/dev/null; then
-    scancel --user="$(id -un)" >/dev/null 2>&1 || true
-    within 20 sh -c 'test -z "$(squeue -h)"' || true
+  if is_alive "$cluster/controller.pid"; then
+    scancel --user="$(id -un)" >/dev/null 2>&1
+    within 20 sh -c 'test -z "$(squeue -h)"' 2>/dev/null
   fi
   for daemon in node controller munge; do
-    pid=$(pid_of "$cluster/$daemon.pid") || continue
-    kill "$pid"
-    within 20 sh -c "! kill -0 $pid" || kill -KILL "$pid"
+    is_alive "$cluster/$daemon.pid" || continue
+    pid=$(<"$cluster/$daemon.pid")
+    kill "$pid" 2>/dev/null
+    within 20 sh -c "! kill -0 $pid" 2>/dev/null || kill -KILL "$pid" 2>/dev/null
   done
+  end_those_with "SLURM_CONF=$SLURM_CONF"
   rm -rf "$cluster"
 }

@@ -5,20 +5,20 @@
 set -euo pipefail
 readonly papilla=$1 source=$2 work=$3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+. "$here/tidy.sh"
 . "$here/cluster.sh"
 . "$here/bake_whole.sh"
-need_root
-need munged slurmctld slurmd sbatch python3
+need "${cluster_programs[@]}" python3
 
 rm -rf "$work"
-mkdir -p "$work/hold"
+mkdir -p "$work"
 cd "$work"
-export HOLD=$work/hold REAL_PAPILLA=$papilla PAPILLA=$here/held_papilla.sh
-passed=no
-trap '[[ $passed == yes ]] || show_logs jobs/logs/* "$cluster"/*.log; stop_cluster' EXIT
+trap 'end_test jobs/logs/* "${cluster-none}"/*.log' EXIT
+trap 'exit 143' TERM INT HUP
+hold_jobs_in "$work/hold"
+export PAPILLA=$here/held_papilla.sh
 start_cluster
 
-fail() { echo "FAILED: $*"; exit 1; }
 array() { "$source/workflows/slurm/array.sh" "$@"; }
 
 bake_whole whole.glb
@@ -33,17 +33,10 @@ killed=$job
 catch_job
 cancelled=${array}_$task
 scancel "$cancelled"
-within 30 sh -c "! kill -0 $pid"
+within 60 sh -c "! kill -0 $pid"
 catch_job
 lost=${array}_$task
-kill_node
-# What ran there is gone with the machine: papilla and all above it up to Slurm's keeper of the step.
-gone=("$pid")
-until [[ $(<"/proc/${gone[-1]}/comm") == slurmstepd ]]; do
-  gone+=("$(sed 's/.*) . \([0-9]*\) .*/\1/' "/proc/${gone[-1]}/stat")")
-  ((gone[-1] > 1)) || fail "process $pid does not run below slurmstepd"
-done
-kill -KILL "${gone[@]}"
+lose_node "$pid"
 start_node
 wait "$submitter" || fail 'the merge ended with an error'
 cmp whole.glb out.glb || fail 'disturbed: other bytes than the whole bake'

@@ -5,23 +5,21 @@
 set -euo pipefail
 readonly profile=$1 papilla=$2 source=$3 work=$4
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+. "$here/tidy.sh"
 . "$here/cluster.sh"
 . "$here/bake_whole.sh"
 need snakemake
-if [[ $profile == slurm ]]; then
-  need_root
-  need munged slurmctld slurmd sbatch python3
-fi
+[[ $profile == local ]] || need "${cluster_programs[@]}" python3
 
 rm -rf "$work"
-mkdir -p "$work/hold"
+mkdir -p "$work"
 cd "$work"
-export HOLD=$work/hold REAL_PAPILLA=$papilla USER=${USER:-$(id -un)} XDG_CACHE_HOME=$work/user-cache
-passed=no
-trap '[[ $passed == yes ]] || show_logs run*.txt "${cluster-none}"/*.log .snakemake/slurm_logs/*/*; stop_cluster' EXIT
+trap 'end_test run*.txt .snakemake/slurm_logs/*/* "${cluster-none}"/*.log' EXIT
+trap 'exit 143' TERM INT HUP
+hold_jobs_in "$work/hold"
+export USER=${USER:-$(id -un)} XDG_CACHE_HOME=$work/user-cache
 [[ $profile == local ]] || start_cluster
 
-fail() { echo "FAILED: $*"; exit 1; }
 # One machine has no room for the memory that the profile asks of a node.
 flow() {
   local -a small=()

@@ -79,6 +79,8 @@ std::uint64_t CacheOption::limit() const {
   return bytes;
 }
 
+bool is_cache_named(const CLI::App& verb) { return verb.count("--cache") > 0 || !variable(k_folder_variable).empty(); }
+
 Json cache_json(const StageCache& cache) {
   Json found = Json::object(), made = Json::object();
   std::uint64_t read = 0, written = 0;

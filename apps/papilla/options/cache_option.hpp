@@ -24,6 +24,9 @@ struct CacheOption {
   std::uint64_t limit() const;
 };
 
+/// Whether --cache or PAPILLA_CACHE name the cache; else it is the user's.
+bool is_cache_named(const CLI::App& verb);
+
 /// {"folder": ..., "found": {"uv": 12, ...}, "made": {...}, "bytes_read": ..., "bytes_written": ..., "problem": ...}
 Json cache_json(const StageCache& cache);
 

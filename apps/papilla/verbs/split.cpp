@@ -78,7 +78,8 @@ void add_split(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = add_verb(program,
                             {"split", "Divides a bake into jobs that many machines do side by side.",
-                             "papilla split data/cockpit.step -m examples/materials.json -o jobs --by triangles=20000"},
+                             "papilla split data/cockpit.step -m examples/materials.json -o jobs --by triangles=20000",
+                             VerbInfo::AtDeadline::is_cancelled, VerbInfo::Remembers::yes},
                             [options](VerbContext& context) { return run(*options, context); });
   options->verb = verb;
   options->arguments.add_to(*verb);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -102,6 +103,10 @@ class ContentStore {
 
   /// Lets `give` write an entry. @return its bytes. @throws IoError when the folder or the disk refuse.
   std::uint64_t write(std::string_view stage, const Digest& key, const std::function<void(EntrySink&)>& give) const;
+
+  /// Takes over an entry of another store: as one more name of the same file where one disk holds both, else as a copy.
+  /// @return the bytes of its content; nothing when `from` has no whole one. @throws IoError as write().
+  std::optional<std::uint64_t> adopt(const ContentStore& from, std::string_view stage, const Digest& key) const;
 
   StoreStatistics statistics() const;
   /// Reads every entry and removes those whose sum is wrong. Cost: as reading all bytes.

@@ -20,6 +20,8 @@ namespace papilla {
 struct CacheCount {
   std::size_t found = 0, made = 0;
   std::uintmax_t bytes_read = 0, bytes_written = 0;
+  std::size_t taken = 0;  ///< Of those found the ones that only the shared cache had.
+  std::uintmax_t bytes_taken = 0;
 };
 
 using CacheCounts = std::map<std::string, CacheCount>;  ///< By stage.
@@ -37,7 +39,10 @@ inline CacheUse use_until(const Deadline& deadline) {
 /// nothing is written from then on.
 class StageCache {
  public:
-  explicit StageCache(ContentStore store);
+  /// @param shared A cache that others use, too, behind `store`: a result that only it has is taken over from there,
+  /// and
+  ///               what is made here becomes an entry of both. Null: there is none.
+  explicit StageCache(ContentStore store, const StageCache* shared = nullptr);
   ~StageCache();
   StageCache(const StageCache&) = delete;
   StageCache& operator=(const StageCache&) = delete;
@@ -48,6 +53,8 @@ class StageCache {
   std::string problem() const;
   /// Stage and key of every result that was found or put, in no order.
   std::vector<std::pair<std::string, Digest>> results() const;
+  /// Adds to the shared cache's counts what was taken from it, and what was made and it lacked.
+  void report_to_shared() const;
   /// Adds what a child process did.
   void add(const std::string& stage, const CacheCount& count) const;
 
@@ -56,10 +63,11 @@ class StageCache {
   std::optional<Value> find(std::string_view stage, const Digest& key) const {
     std::optional<Value> value;
     CacheCount count{.found = 1};
-    const bool found = store_.read(stage, key, [&](EntrySource& source) {
+    const auto take = [&](EntrySource& source) {
       count.bytes_read = source.most_bytes();
       ValueReader{source}(value.emplace());
-    });
+    };
+    const bool found = store_.read(stage, key, take) || (take_over(stage, key) && store_.read(stage, key, take));
     if (found)
       note(stage, key, count);
     else
@@ -78,8 +86,14 @@ class StageCache {
  private:
   void note(std::string_view stage, const Digest& key, const CacheCount& count) const;
   std::uint64_t write(std::string_view stage, const Digest& key, const std::function<void(EntrySink&)>& give) const;
+  /// Of the shared cache's entry. @return whether there is one now in the own store.
+  bool take_over(std::string_view stage, const Digest& key) const;
+  /// An entry of the own store into the shared cache.
+  void hand_on(std::string_view stage, const Digest& key) const;
+  void refused(const char* reason) const;
 
   ContentStore store_;
+  const StageCache* shared_;
   struct Counts;
   std::unique_ptr<Counts> counts_;
 };

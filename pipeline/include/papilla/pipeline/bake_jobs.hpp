@@ -52,7 +52,7 @@ struct SplitResult {
 std::filesystem::path store_of_jobs(const std::filesystem::path& folder);
 
 /// @param folder Is made when it is missing. What a split of the same scene left there is used again.
-/// @param options As of bake_file(); their caches do not matter.
+/// @param options As of bake_file(). Their cache, read.cache, is shared with others: what it has is taken from there.
 /// @throws as plan_file() and make_grain(); IoError when the folder can't be written.
 SplitResult split_bake(const std::filesystem::path& input, const std::filesystem::path& folder, const Materials& rules,
                        BakeFileOptions options, const SplitOptions& split, const ProgressCallback& progress = {});
@@ -65,9 +65,11 @@ struct JobResult {
 };
 
 /// Does one job; done again it changes nothing. Surfaces run in parallel.
+/// @param shared A cache of other bakes: what it has is taken from there, and what is made goes there, too. Or null.
 /// @throws InvalidInput when its input is missing, damaged or of another version of the program; IoError when the
 ///         store can't be written; SolverFailure, InvalidInput naming the part.
-JobResult run_job(const std::filesystem::path& folder, const std::string& id, const ProgressCallback& progress = {});
+JobResult run_job(const std::filesystem::path& folder, const std::string& id, const StageCache* shared = nullptr,
+                  const ProgressCallback& progress = {});
 
 /// What is wrong with a job's result; empty when it is whole. Reads all of it.
 std::string problem_of_job(const std::filesystem::path& folder, const std::string& id);
