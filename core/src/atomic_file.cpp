@@ -303,7 +303,7 @@ void require_space(const Place& place, const fs::path& path, std::uintmax_t byte
 void write_atomically(const fs::path& path, const std::function<void(std::ostream&)>& write, std::uintmax_t bytes,
                       Durability durability) {
   const Place place = place_of(path);
-  note_output(path);
+  if (durability == Durability::synced) note_output(path);  // What can be made again may be written twice.
   if (!place.is_replaced()) {
     const int opened = ::open(place.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
     if (opened < 0) fail(path, errno);

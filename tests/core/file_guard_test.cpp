@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <functional>
+#include <ostream>
 
 #include "papilla/core/atomic_file.hpp"
 #include "papilla/core/read_file.hpp"
@@ -33,6 +34,18 @@ class FileGuard : public testing::Test {
   }
   const TemporaryFolder folder_{"papilla-guard"};
 };
+
+TEST_F(FileGuard, WhatCanBeMadeAgainMayBeWrittenTwice) {
+  const auto write = [&](Durability durability) {
+    return refusal([&] {
+      write_atomically(
+          folder_ / "entry", [](std::ostream& out) { out << "x"; }, 0, durability);
+    });
+  };
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(write(Durability::unsynced), "");
+  EXPECT_EQ(write(Durability::synced), "");
+  EXPECT_NE(write(Durability::synced), "");
+}
 
 TEST_F(FileGuard, AnOutputIsNoInput) {
   const fs::path in = make("in");
