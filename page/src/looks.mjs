@@ -47,7 +47,7 @@ export class Looks {
       await this.three.setLooks(materials);
       this.shown = version;
       Object.assign($('looks').dataset, { version, count: ++this.count });
-      this.say(`Change ${this.count} is shown.`);
+      if (this.wanted <= version) this.say(`Change ${this.count} is shown.`);  // laying out the page anew each time costs a picture
     } catch (error) {
       return this.say(`A change could not be shown: ${error.message}`, 'lost');
     } finally {

@@ -180,8 +180,16 @@ class Cutter {
 std::optional<SurfaceTexels> one_repeat(std::span<const SurfaceTriangle> surface, const SurfaceReading& reading,
                                         int size) {
   SurfaceTexels texels(0, 0, size, size, true);
-  for (const SurfaceTriangle& t : surface)
+  const bool reads_nothing = reading.directions.empty() && !reading.position && !reading.sky;
+  double drawn = 0;  // Texels, since it was last asked whether any is left.
+  for (const SurfaceTriangle& t : surface) {
     if (draw(texels, t, size, reading) > 0) return std::nullopt;
+    if (!reads_nothing) continue;
+    drawn += std::abs(cross(t.uv[1] - t.uv[0], t.uv[2] - t.uv[0])) / 2 * size * size;
+    if (drawn < static_cast<double>(texels.count())) continue;
+    if (std::find(texels.covered.begin(), texels.covered.end(), 0) == texels.covered.end()) break;
+    drawn = 0;
+  }
   grow(texels, k_gutter);
   // What no surface shows is painted, too, and looks upwards.
   for (std::size_t at = 0; at < texels.count(); ++at)
