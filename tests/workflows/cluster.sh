@@ -61,6 +61,8 @@ MpiDefault=none
 NodeName=$host NodeAddr=127.0.0.1 CPUs=2 RealMemory=500 State=UNKNOWN
 PartitionName=main Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
+  # None is used, but a container may have none for Slurm 22.05 to look at, which then refuses to start.
+  echo CgroupPlugin=cgroup/v1 >"$cluster/cgroup.conf"
 }
 
 node_is_up() { sinfo -h -o %t | grep -qE '^(idle|mix|alloc)$'; }

@@ -13,6 +13,7 @@
 # The same command again resumes: jobs with a whole result answer at once.
 # What a job is killed by (memory, a lost machine) is tried three times within a round.
 # Slurm's own options go by its variables: SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT, SBATCH_MEM_PER_CPU, ...
+# Jobs share the cache that PAPILLA_CACHE names, with each other and with other bakes.
 # PAPILLA names the program, when it is not the papilla of PATH. What jobs print goes to jobs/logs/.
 set -euo pipefail
 
