@@ -27,9 +27,9 @@ constexpr double k_crept = 2;           // ε: a longer step along a crease may 
 constexpr double k_press = 8;           // ε: twice the error of a resting proxy, which is τ [g]
 constexpr double k_same_normal = 0.95;  // cosine: normal of a plane that is found again [b]
 // Steps along a crease, and along a relief against friction.
-constexpr double k_same_way = 0.9;      // cosine between two steps that a secant may connect [b]
-constexpr double k_longest_stride = 4;  // of the planes' step, where the secant has no root ahead [b]
-constexpr double k_relief_stride = 2;   // of the step that friction leaves: 4 passes places that hold a proxy [b]
+constexpr double k_same_way = 0.9;        // cosine between two steps that a secant may connect [b]
+constexpr double k_longest_stride = 4;    // of the planes' step, where the secant has no root ahead [b]
+constexpr double k_relief_stride = 1.25;  // of the step that friction leaves: 2 passes places that hold [b]
 // Hops towards the nearest place.
 constexpr double k_least_hop = 8;         // τ: a nearer place is left to the descent [b]
 constexpr double k_far = 1.5;             // travel: longest hop; a proxy that moved farther slipped down a slope [b]
