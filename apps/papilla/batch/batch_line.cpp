@@ -20,6 +20,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/near_name.hpp"
 #include "papilla/core/read_file.hpp"
+#include "parsing_only.hpp"
 #include "shown_format.hpp"
 #include "verbs.hpp"
 
@@ -92,11 +93,11 @@ class DryProgram {
   DryProgram() : program_("", k_program) {
     program_.require_subcommand(1);
     add_verbs(program_);
-    for (CLI::App* verb : program_.get_subcommands({})) verb->callback([] {});
   }
 
   /// @throws InvalidInput, IoError saying what is wrong with the words.
   const CLI::App& parsed(std::vector<std::string> words) {
+    const ParsingOnly parsing_only;
     std::reverse(words.begin(), words.end());  // As CLI11 wants them.
     try {
       program_.parse(words);
