@@ -35,6 +35,18 @@ const { levels, triangles_after: finest } = JSON.parse(readFileSync(at('levels.j
 assert.equal(levels.length, 2);
 assert(finest > 2 * levels[0].triangles && levels[0].triangles > 2 * levels[1].triangles);
 
+// The same levels as files: the triangles of each, below the same shares, and none of MSFT_lod.
+run('simplify', at('sphere.obj'), '-o', at('files.glb'), '--lod-tolerances', '0.2,0.6', '--lod-files', '--json', at('files.json'));
+const { lod_files: files } = JSON.parse(readFileSync(at('files.json')));
+assert.deepEqual(files.map(({ file, triangles, tolerance_mm: mm }) => [file, triangles, mm]),
+  [[at('files.lod1.glb'), levels[0].triangles, 0.2], [at('files.lod2.glb'), levels[1].triangles, 0.6]]);
+for (const [i, { file, screen_coverage: share }] of files.entries()) {
+  assert(Math.abs(share - Math.sqrt(3) * 100 / (2000 * [0.2, 0.6][i])) < 1e-6);
+  run('inspect', file, '--json', at('inspected.json'));
+  assert.equal(JSON.parse(readFileSync(at('inspected.json'))).totals.triangles, files[i].triangles);
+}
+assert(!readFileSync(at('files.glb')).includes('MSFT_lod') && readFileSync(at('levels.glb')).includes('MSFT_lod'));
+
 run('view', at('levels.glb'), '-o', at('levels.html'), '--no-open');
 const { page, complaints } = await open(browser, at('levels.html'));
 const canvas = page.locator('#canvas3d');
