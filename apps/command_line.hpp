@@ -62,6 +62,12 @@ inline std::string unknown_word(const CLI::App& program) {
   return "unknown verb '" + word + "'" + did_you_mean(word, {known.begin(), known.end()}, word.size());
 }
 
+/// What is wrong with a command line, for people.
+inline std::string parse_error_text(const CLI::App& program, const CLI::ParseError& error) {
+  std::string message = unknown_word(program);
+  return message.empty() ? error.what() : message;
+}
+
 /// Prints what CLI11 throws in place of a result, help included. @returns the exit code.
 /// @param as_json An error is printed as JSON, too. @throws IoError as print_out().
 inline int report_parse_error(const CLI::App& program, const CLI::ParseError& error, bool as_json) {
@@ -69,8 +75,7 @@ inline int report_parse_error(const CLI::App& program, const CLI::ParseError& er
   const bool is_wrong = program.exit(error, out, complaint) != 0;
   print_out(out.str());
   if (!is_wrong) return k_exit_done;
-  std::string message = unknown_word(program);
-  if (message.empty()) message = error.what();
+  const std::string message = parse_error_text(program, error);
   // The rest says how to get help.
   std::string text = complaint.str();
   if (text.starts_with(error.what())) text = text.substr(std::string_view(error.what()).size());

@@ -38,28 +38,7 @@ int main(int argc, char** argv) {
       "'papilla VERB --help' shows the options of a verb and an example.");
 
   using namespace papilla::app;
-  add_inspect(program);
-  add_tessellate(program);
-  add_repair(program);
-  add_simplify(program);
-  add_unwrap(program);
-  add_measure(program);
-  add_analyze(program);
-  add_prepare(program);
-  add_synthesize(program);
-  add_height(program);
-  add_texture(program);
-  add_weather(program);
-  add_materials(program);
-  add_fit(program);
-  add_study(program);
-  add_plan(program);
-  add_bake(program);
-  add_split(program);
-  add_merge(program);
-  add_view(program);
-  add_cache(program);
-  add_evaluate(program);
+  add_verbs(program);
 
   const bool as_json = wants_json_on_stdout(argc, argv);
   program.parse_complete_callback([&] { refuse_no_numbers(program); });

@@ -18,6 +18,7 @@
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/trace.hpp"
 #include "papilla/io/picture_memory.hpp"
+#include "parsing_only.hpp"
 #include "progress_printer.hpp"
 #include "standard_output.hpp"
 
@@ -27,6 +28,7 @@ namespace {
 constexpr double k_more_for_reading_s = 60;
 
 int g_exit_code = 0;
+bool g_parsing_only = false;
 
 struct CommonOptions {
   std::string json;
@@ -149,12 +151,16 @@ CLI::App* add_verb(CLI::App& program, const VerbInfo& info, VerbBody body) {
       ->group("Common");
   if (info.remembers == VerbInfo::Remembers::yes) common->cache.add_to(*verb);
   verb->callback([verb, common, info, body = std::move(body)] {
+    if (g_parsing_only) return;
     declare_files(*verb);
     require_outputs(*verb);
     run_verb(*verb, *common, info, body);
   });
   return verb;
 }
+
+ParsingOnly::ParsingOnly() noexcept { g_parsing_only = true; }
+ParsingOnly::~ParsingOnly() { g_parsing_only = false; }
 
 int verb_exit_code() noexcept { return g_exit_code; }
 

@@ -28,5 +28,9 @@ void add_merge(CLI::App& program);
 void add_view(CLI::App& program);
 void add_cache(CLI::App& program);
 void add_evaluate(CLI::App& program);
+void add_batch(CLI::App& program);
+
+/// All of them, in the order of the help.
+void add_verbs(CLI::App& program);
 
 }  // namespace papilla::app

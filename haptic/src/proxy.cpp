@@ -26,9 +26,10 @@ constexpr double k_held = 0.1;          // travel: in a crease, a proxy that mov
 constexpr double k_crept = 2;           // ε: a longer step along a crease may have reached the end of a wall [b]
 constexpr double k_press = 8;           // ε: twice the error of a resting proxy, which is τ [g]
 constexpr double k_same_normal = 0.95;  // cosine: normal of a plane that is found again [b]
-// Steps along a crease.
-constexpr double k_same_way = 0.9;      // cosine between two steps that a secant may connect [b]
-constexpr double k_longest_stride = 4;  // of the planes' step, where the secant has no root ahead [b]
+// Steps along a crease, and along a relief against friction.
+constexpr double k_same_way = 0.9;        // cosine between two steps that a secant may connect [b]
+constexpr double k_longest_stride = 4;    // of the planes' step, where the secant has no root ahead [b]
+constexpr double k_relief_stride = 1.25;  // of the step that friction leaves: 2 passes places that hold [b]
 // Hops towards the nearest place.
 constexpr double k_least_hop = 8;         // τ: a nearer place is left to the descent [b]
 constexpr double k_far = 1.5;             // travel: longest hop; a proxy that moved farther slipped down a slope [b]
@@ -141,19 +142,21 @@ struct Planes {
   }
 };
 
-/// The last step along a crease, which bends while the step is straight.
+/// The last step along a crease or a relief, which bends while the step is straight.
 struct Stride {
   Vec3 direction;
-  double length = 0, wanted = 0;  ///< Length as taken, and as the planes gave it.
+  double length = 0, wanted = 0;  ///< Length as taken, and as planes and friction gave it.
+  bool stretched = false;         ///< It was another one than these gave.
+  bool turned = false;            ///< A step against friction led back; the tick takes its steps as they are then.
 
   void record(Vec3 step, double step_wanted) noexcept {
     length = norm(step);
     wanted = step_wanted;
-    direction = (1 / length) * step;
+    direction = length > 0 ? (1 / length) * step : Vec3{};
   }
 
-  /// Ratio of the next step to that of the planes. The step of the planes shrinks in proportion to the way covered, so
-  /// the secant through the last two leads to its root.
+  /// Ratio of the next step to that of planes and friction. That one shrinks in proportion to the way covered, so the
+  /// secant through the last two leads to its root.
   /// @param farthest longest step.
   double factor(Vec3 step, double step_wanted, double farthest) const noexcept {
     const double along = dot(step, direction), fall = wanted - along;
@@ -199,6 +202,8 @@ struct Aim {
   double wanted = 0;     ///< |x* − x|.
   double held = 0;       ///< μδ: what friction takes from that.
   bool presses = false;  ///< The step leads along the normal instead.
+
+  double left() const noexcept { return wanted - held; }
 };
 
 enum class Next { done, aim, sweep };
@@ -221,7 +226,9 @@ class Proxy::Descent {
   Next settle(Tick& tick, const Aim& aim) noexcept;
   Next settle_held(Tick& tick, const Aim& aim) noexcept;
   static void apply_friction(Aim& aim) noexcept;
-  void stretch_along_crease(const Tick& tick, Aim& aim) const noexcept;
+  void stretch(Tick& tick, Aim& aim) const noexcept;
+  bool follows_relief(const Aim& aim) const noexcept;
+  bool overshot(const Tick& tick, const Aim& aim) const noexcept;
   bool sweep_step(Tick& tick, const Aim& aim) noexcept;
   const ProxyState& end_tick(Tick& tick, double period_s) noexcept;
 
@@ -277,7 +284,7 @@ const ProxyState& Proxy::Descent::update(Vec3 probe, double period_s) noexcept {
     if (next == Next::done) break;
     if (next == Next::aim) continue;
     apply_friction(aim);
-    stretch_along_crease(tick, aim);
+    stretch(tick, aim);
     if (!sweep_step(tick, aim)) break;
   }
   return end_tick(tick, period_s);
@@ -336,7 +343,7 @@ Aim Proxy::Descent::aim(Tick& tick) noexcept {
 Next Proxy::Descent::settle(Tick& tick, const Aim& aim) noexcept {
   if (!aim.at.found) return Next::done;
   if (aim.presses) return Next::sweep;
-  if (aim.at.count > 0) return aim.wanted - aim.held <= shortest_ ? settle_held(tick, aim) : Next::sweep;
+  if (aim.at.count > 0) return aim.left() <= shortest_ && !overshot(tick, aim) ? settle_held(tick, aim) : Next::sweep;
   tick.free = aim.wanted == 0;
   const bool no_nearer = tick.planes.count == 0 && aim.wanted > tick.nearest - k_least_gain * shortest_;
   const bool may_go_on = tick.crept && !tick.extra_round && norm(tick.x) <= k_held * tick.travel;
@@ -370,12 +377,33 @@ void Proxy::Descent::apply_friction(Aim& aim) noexcept {
   if (aim.at.count > 0) aim.step = (1 - aim.held / aim.wanted) * aim.step;
 }
 
-/// Stretches a step along a crease by the secant, where there is no friction. s beyond the aim the proxy rises by
-/// s²/(2·depth), and half a tolerance is allowed. On relief successive steps are not related closely enough.
-void Proxy::Descent::stretch_along_crease(const Tick& tick, Aim& aim) const noexcept {
-  if (aim.at.count < 2 || aim.held > 0 || surface_->tallest_relief_m() > 0) return;
-  const double farthest = aim.wanted + std::sqrt(norm(tick.goal - tick.x) * surface_->tolerance_m());
-  aim.step = tick.stride.factor(aim.step, aim.wanted, farthest) * aim.step;
+/// Whether the step leads along a relief against friction, where the next steps have much the same direction.
+bool Proxy::Descent::follows_relief(const Aim& aim) const noexcept {
+  return aim.at.count == 1 && aim.held > 0 && surface_->tallest_relief_m() > 0;
+}
+
+/// Whether a stretched step led beyond where friction holds the proxy: it goes back then.
+bool Proxy::Descent::overshot(const Tick& tick, const Aim& aim) const noexcept {
+  return tick.stride.stretched && follows_relief(aim) && aim.wanted > 0 && aim.left() < -shortest_;
+}
+
+/// Stretches a step by the secant. Along a crease of plain faces without friction: s beyond the aim the proxy rises by
+/// s²/(2·depth), and half a tolerance is allowed; creases of relief turn too much. Along a relief: a step that
+/// overshoots is taken back once as far as the secant says, so the proxy rests where it would after many short steps.
+void Proxy::Descent::stretch(Tick& tick, Aim& aim) const noexcept {
+  if (aim.presses) return;
+  Stride& stride = tick.stride;
+  stride.stretched = false;
+  const double left = std::abs(aim.left());
+  double farthest = k_relief_stride * left;
+  if (aim.at.count > 1 && aim.held == 0 && surface_->tallest_relief_m() == 0)
+    farthest = left + std::sqrt(norm(tick.goal - tick.x) * surface_->tolerance_m());
+  else if (!follows_relief(aim) || stride.turned)
+    return;
+  stride.turned = aim.left() < 0;
+  const double factor = stride.factor(aim.step, left, farthest);
+  stride.stretched = factor != 1;
+  aim.step = factor * aim.step;
 }
 
 /// Moves the proxy up to the first contact of the step. @returns false when the tick ends there.
@@ -389,13 +417,14 @@ bool Proxy::Descent::sweep_step(Tick& tick, const Aim& aim) noexcept {
   tick.x = tick.x + moved;
   add_waypoint(tick.start + tick.x);
   if (aim.at.count > 0) tick.slid = tick.slid + moved;
+  if (hit && follows_relief(aim)) tick.stride.length = 0, tick.stride.stretched = false;
   tick.free = !hit && tick.planes.count == 0;
   if (tick.free) return false;
   if (!hit) {
     if (friction_of(tick.next) > 0) tick.press = norm(moved) + k_press * shortest_;
     tick.press_normal = tick.next.normal;
     tick.crept = aim.at.count > 1 && norm(moved) > k_crept * shortest_;
-    if (aim.at.count > 1) tick.stride.record(moved, aim.wanted);
+    if (aim.at.count > 1 || follows_relief(aim)) tick.stride.record(moved, std::abs(aim.left()));
     tick.planes.count = 0;
     return true;
   }

@@ -33,7 +33,8 @@ class Page {
     document.title = `${data.title} · Papilla`;
     $('title').textContent = data.title;
     const fewer = scene.triangles_shown < scene.triangles;
-    $('summary').textContent = `${count(scene.triangles, 'triangle')} in ${count(scene.parts.length, 'part')}; `
+    $('summary').textContent = `${count(scene.triangles, 'triangle')} in ${count(scene.parts.length - this.coarserParts(), 'part')}; `
+      + (scene.levels.length ? `coarser levels of detail at ${count(scene.levels.length, 'place')}, by size on the screen; ` : '')
       + (fewer ? `${scene.triangles_shown.toLocaleString('en')} shown, simplified for this page by about ${number(scene.error_mm)} mm at most` : 'all of them shown');
     $('footer').textContent = data.live ? `Served by ${data.program}, on this machine only. The samples come from its player; nothing is loaded from anywhere else.`
       : data.looks ? `Served by ${data.program}, on this machine only. Nothing is loaded from anywhere else.`
@@ -120,6 +121,13 @@ class Page {
     }
   }
 
+  /** Parts that are nothing but coarser levels of detail. */
+  coarserParts() {
+    const { instances, finest_instances: finest } = this.scene, parts = new Set(instances.slice(finest).map(({ part }) => part));
+    for (const { part } of instances.slice(0, finest)) parts.delete(part);
+    return parts.size;
+  }
+
   nameOf(use) {
     const { name, part } = this.scene.instances[use];
     return name || this.scene.parts[part].name || `part ${part}`;
@@ -127,7 +135,7 @@ class Page {
 
   listParts(filter) {
     const wanted = filter.toLowerCase(), list = $('parts'), found = [];
-    this.scene.instances.forEach((_, i) => { if (this.nameOf(i).toLowerCase().includes(wanted)) found.push(i); });
+    this.scene.instances.slice(0, this.scene.finest_instances).forEach((_, i) => { if (this.nameOf(i).toLowerCase().includes(wanted)) found.push(i); });
     list.replaceChildren(...found.slice(0, MOST_LISTED).map((i) => {
       const item = element('li', { role: 'option', id: `use-${i}`, 'aria-selected': String(i === this.selected) }, this.nameOf(i));
       item.addEventListener('click', () => this.select(i, true));

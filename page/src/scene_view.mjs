@@ -140,7 +140,10 @@ export class SceneView {
     this.plain = standardMaterial(null);
     this.meshes = [];
     for (const part of parts) for (const mesh of part.meshes) mesh.geometry = geometryOf(mesh);
+    const places = this.data.levels.map(() => []);  // By place and number: groups of which one is shown.
     instances.forEach((use, index) => {
+      const { place, number } = use.level ?? {};
+      const host = use.level ? (places[place][number] ??= new THREE.Group()) : this.root;
       for (const mesh of parts[use.part].meshes) {
         const object = new THREE.Mesh(mesh.geometry, this.plain);
         object.matrixAutoUpdate = false;
@@ -148,14 +151,30 @@ export class SceneView {
         mesh.shader ??= shadingOf(materials[mesh.material], mesh, false);
         object.userData = { use: index, mesh };
         this.meshes.push(object);
-        this.root.add(object);
+        host.add(object);
       }
     });
+    this.data.levels.forEach((coverages, i) => this.addLevels(coverages, places[i]));
     this.world.add(this.root);
     this.root.updateMatrixWorld(true);
     this.box = new THREE.Box3().setFromObject(this.root);
     if (this.box.isEmpty()) this.box.set(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
     this.size = this.box.getSize(new THREE.Vector3()).length();
+  }
+
+  /** Levels of detail by the share of the picture's height that the sphere around the finest one takes. */
+  addLevels(coverages, groups) {
+    if (!groups[0]) return;
+    const { center, radius } = new THREE.Box3().setFromObject(groups[0]).getBoundingSphere(new THREE.Sphere());
+    const lod = new THREE.LOD(), distance = (coverage) => radius / (coverage * Math.tan(this.camera.fov * Math.PI / 360));
+    lod.position.copy(center);
+    for (let k = 0; k <= coverages.length; ++k) {
+      const group = groups[k] ?? new THREE.Group();  // Below the last coverage there is nothing.
+      group.position.copy(center).negate();
+      const from = k === 0 ? 0 : distance(coverages[k - 1]);
+      if (Number.isFinite(from)) lod.addLevel(group, from);
+    }
+    this.root.add(lod);
   }
 
   addMarker() {
@@ -289,7 +308,7 @@ export class SceneView {
     const { left, top, width, height } = this.canvas.getBoundingClientRect();
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2((event.clientX - left) / width * 2 - 1, 1 - (event.clientY - top) / height * 2), this.camera);
-    const [hit] = ray.intersectObjects(this.meshes, false);
+    const [hit] = ray.intersectObjects(this.meshes.filter(({ parent }) => parent.visible), false);
     if (!hit) return null;
     const { use, mesh } = hit.object.userData;
     return { use, mesh, face: hit.faceIndex, local: hit.object.worldToLocal(hit.point.clone()), uv: hit.uv, bary: hit.barycoord };

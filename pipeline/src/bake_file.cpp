@@ -218,8 +218,10 @@ BakeWay bake_way(const std::filesystem::path& input, const BakeFileOptions& opti
 PreparedBake prepare_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
                           BakeWay& way, const ProgressCallback& progress) {
   BakeOptions bake = options.bake;
+  GrainMaker maker(rules, bake.library, bake.unwrap.method.deadline, bake.unwrap.method.cache);
+  if (!bake_way(input, options, rules).in_place) maker.begin_ahead();
   Scene scene = read_for_bake(input, rules, options, way, bake.plan, progress);
-  return prepare_bake(std::move(scene), rules, bake, progress);
+  return prepare_bake(std::move(scene), rules, bake, maker, progress);
 }
 
 PlannedFile plan_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,
@@ -249,9 +251,12 @@ BakeFileResult bake_file(const std::filesystem::path& input, const std::filesyst
     result.way = {false, k_instances_apart};
   }
   const Stopwatch total;
+  const MethodOptions& method = options.bake.unwrap.method;
+  GrainMaker maker(rules, options.bake.library, method.deadline, method.cache);
+  maker.begin_ahead();
   Scene scene = read_scene(input, options.read, progress_until(progress, options.read_deadline));
   const double read_seconds = total.seconds();
-  static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, progress);
+  static_cast<BakeResult&>(result) = bake_scene(std::move(scene), rules, options.bake, maker, progress);
   result.seconds["read"] = read_seconds;
   const Stopwatch write_clock;
   for (std::string& loss : write_scene(result.scene, output, options.write, &result.sizes))

@@ -275,9 +275,7 @@ void drop_unused_textures(Scene& scene) {
 }
 
 /// Makes the grains that the surfaces use, side by side.
-std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& rules, const RecipeLibrary& library,
-                                         const Deadline& deadline, const StageCache* cache,
-                                         const ProgressCallback& progress) {
+std::map<std::string, Grain> make_grains(const BakePlan& plan, GrainMaker& maker, const ProgressCallback& progress) {
   const std::set<std::string> wanted = grains_of(plan.surfaces);
   const std::vector<std::string> names(wanted.begin(), wanted.end());
   std::vector<Grain> made(names.size());
@@ -285,7 +283,7 @@ std::map<std::string, Grain> make_grains(const BakePlan& plan, const Materials& 
   SharedProgress done(progress, "grains", static_cast<double>(names.size()));
   oneapi::tbb::parallel_for(std::size_t{0}, names.size(), [&](std::size_t i) {
     try {
-      made[i] = make_grain(rules.materials.at(names[i]), library, deadline, cache);
+      made[i] = maker.take(names[i]);
     } catch (const Error&) {
       failures[i] = std::current_exception();
     }
@@ -446,7 +444,7 @@ RepairResult repair_of(const std::vector<BakedSurface>& surfaces) {
   return total_repair(repaired);
 }
 
-PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options,
+PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
                           const ProgressCallback& progress) {
   PreparedBake prepared;
   BakeResult& result = prepared.result;
@@ -464,8 +462,8 @@ PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions
                     {"simplify", result.plan.simplify_seconds}};
   const PartContext context = unwrap_context(result.scene, {});
   leave_out(result.scene, result.plan.perception);
-  result.grains = make_grains(result.plan, rules, options.library, options.unwrap.method.deadline.earlier_by(to_finish),
-                              cache, progress);
+  maker.finish_by(options.unwrap.method.deadline.earlier_by(to_finish));
+  result.grains = make_grains(result.plan, maker, progress);
   for (const auto& [name, grain] : result.grains) {
     for (const std::string& warning : grain.warnings) result.scene.warnings.push_back(warning);
     result.seconds["analyze"] += grain.analyze_seconds;
@@ -493,7 +491,13 @@ PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions
 
 BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options,
                       const ProgressCallback& progress) {
-  PreparedBake prepared = prepare_bake(std::move(scene), rules, options, progress);
+  GrainMaker maker(rules, options.library, options.unwrap.method.deadline, options.unwrap.method.cache);
+  return bake_scene(std::move(scene), rules, options, maker, progress);
+}
+
+BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
+                      const ProgressCallback& progress) {
+  PreparedBake prepared = prepare_bake(std::move(scene), rules, options, maker, progress);
   BakeResult result = std::move(prepared.result);
   std::vector<SurfaceWork>& works = prepared.works;
   const std::vector<PartSurface>& surfaces = result.plan.surfaces;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "grain_maker.hpp"
 #include "papilla/pipeline/bake_file.hpp"
 #include "papilla/pipeline/bake_scene.hpp"
 #include "surface_bake.hpp"
@@ -26,8 +27,12 @@ struct PreparedBake {
 };
 
 /// The first half of bake_scene(): plan_bake() and the grains.
-PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options,
+PreparedBake prepare_bake(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
                           const ProgressCallback& progress);
+
+/// bake_scene() with grains that may have been begun.
+BakeResult bake_scene(Scene scene, const Materials& rules, const BakeOptions& options, GrainMaker& maker,
+                      const ProgressCallback& progress);
 
 /// The same of a file, as bake_file() would read it.
 PreparedBake prepare_file(const std::filesystem::path& input, const Materials& rules, const BakeFileOptions& options,

@@ -12,6 +12,7 @@
 #include "papilla/io/node_places.hpp"
 #include "papilla/meshing/mesh_bounds.hpp"
 #include "papilla/meshing/simplify.hpp"
+#include "papilla/pipeline/level_scenes.hpp"
 
 namespace papilla {
 namespace {
@@ -108,7 +109,6 @@ namespace {
 
 constexpr double k_level_factor = 4;        ///< Between the tolerances of --lod: about a quarter of the triangles.
 constexpr double k_first_tolerance = 1e-4;  ///< Of the largest part's diagonal.
-constexpr double k_picture_height_px = 2000;
 constexpr double k_most_kept = 0.9;
 
 std::vector<double> tolerances(std::span<const TriangleMesh> meshes, const LevelOptions& options, double finest_mm) {
@@ -182,7 +182,7 @@ std::vector<LevelReport> add_levels(Scene& scene, std::span<const TriangleMesh> 
                          level.result.mesh.triangles.size(),
                          level.result.stop};
       if (level.kept) {
-        report.screen_coverage = std::min(1.0, size / (k_picture_height_px * level.tolerance_mm));
+        report.screen_coverage = coverage_of_tolerance(size, level.tolerance_mm);
         part.levels.push_back({std::move(level.result.mesh), report.screen_coverage});
         report.level = part.levels.size();
       }

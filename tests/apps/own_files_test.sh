@@ -41,6 +41,7 @@ cp map.png grain.png && cp map.png picture.png
 printf '{"materials": {"g": {"texture": "grain.png", "size_mm": [40, 40], "stiffness": 300}}, "assign": [{"part": "*", "material": "g"}]}' >rules.json
 printf '{"layers": [{"recipe": "dots"}], "libraries": ["lib.recipes"], "size": 16, "time": [0, 1]}' >config.json
 printf 'dots image|picpath=picture.png\n' >lib.recipes
+printf '{"command": ["papilla", "inspect", "one.obj"]}\n' >lines.jsonl
 printf '{"centre": [0, 0, 0], "radius": 100}' >volume.json
 printf 't,x,y,z\n0,0,0,0.01\n0.01,0,0,0.01\n' >hand.csv
 "$papilla" bake scene.glb -m rules.json -o tagged.glb -q || fail "nothing baked"
@@ -68,6 +69,7 @@ fit        | stroke.csv                                      | stroke.csv       
 plan       | scene.glb -m rules.json --reach volume.json --view volume2.json | scene.glb rules.json volume.json volume2.json | --json
 bake       | scene.glb -m rules.json --library lib.recipes --reach volume.json --view volume2.json | scene.glb rules.json lib.recipes volume.json volume2.json | --output --json
 split      | scene.glb -m rules.json --library lib.recipes -o made | scene.glb rules.json lib.recipes | --json
+batch      | lines.jsonl                                     | lines.jsonl                      | --json
 merge      | jobs                                            | jobs/bake.json jobs/manifest.jsonl scene.glb | --output --json
 cache      | stats                                           |                                  | --json
 materials  | check own.json                                  | own.json                         | --output --picture --json

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <utility>
 
+#include "io/temporary_folder.hpp"
 #include "page/page_file.hpp"
 #include "page/page_mesh.hpp"
 #include "page/page_scene.hpp"
 #include "papilla/core/base64.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
+#include "papilla/io/glb_writer.hpp"
 
 namespace papilla::app {
 namespace {
@@ -113,6 +120,53 @@ TEST(PageScene, TellsWhatLiesOnTheSecondChannelAndWhatBrowsersDoNotShow) {
   ASSERT_EQ(shown["warnings"].size(), 1U);
   EXPECT_EQ(shown["warnings"][0].get<std::string>().substr(0, 17), "picture_not_shown");
   EXPECT_NE(json["parts"][0]["meshes"][0]["uv1_stream"], "");
+}
+
+TEST(PageScene, LevelsOfDetailStandWhereTheFinestDoes) {
+  const auto plate = [](Index n) {  // Of 10 mm.
+    TriangleMesh mesh = grid(n, 1);
+    for (Vec3& p : mesh.positions) p = 10.0 / n * p;
+    return mesh;
+  };
+  Part part;
+  part.name = "plate";
+  part.mesh = plate(10);
+  part.levels = {{plate(4), 0.3}, {plate(1), 0.1}};
+  Scene scene = single_part_scene(std::move(part), "test");
+  scene.nodes.push_back(scene.nodes[0]);
+  scene.nodes[0].name = "under";
+  scene.nodes[1].name = "upper";
+  scene.nodes[1].local[3] = 40;
+  scene.nodes[0].children = {1};  // One that shows levels and has a child.
+  const test::TemporaryFolder folder;
+  for (const MeshCoding coding : {MeshCoding::none, MeshCoding::quantize}) {
+    GlbWriteOptions write;
+    write.meshes = coding;
+    write_glb(scene, folder / "a.glb", write);
+    PageSceneOptions options;
+    const Scene read = read_for_page(folder / "a.glb", {}, options.levels);
+    const Json json = page_scene(read, folder / "a.glb", options, {}).json;
+    EXPECT_EQ(json["triangles"], 400);
+    EXPECT_EQ(json["finest_instances"], 2);
+    EXPECT_EQ(json["levels"], Json::parse("[[0.3, 0.1, 0], [0.3, 0.1, 0]]"));
+    ASSERT_EQ(json["instances"].size(), 6U);
+    std::map<std::pair<int, int>, std::pair<double, int>> found;  // Farthest x and triangles by place and level.
+    for (const Instance& use : instances(read)) {
+      const auto same = [&](const Json& shown) { return shown["name"] == read.nodes[use.node].name; };
+      const auto shown = std::find_if(json["instances"].begin(), json["instances"].end(), same);
+      ASSERT_NE(shown, json["instances"].end());
+      const Json& level = (*shown)["level"];
+      double x = -1e9;
+      for (const Vec3& p : read.parts[use.part].mesh.positions) x = std::max(x, transform_point(use.world, p).x);
+      found[{level["place"], level["number"]}] = {x, static_cast<int>(read.parts[use.part].mesh.triangles.size())};
+    }
+    ASSERT_EQ(found.size(), 6U);
+    for (const auto& [key, value] : found) {
+      EXPECT_NEAR(value.first, (found.at({key.first, 0}).first), 1e-2);
+      EXPECT_EQ(value.second, (std::array{200, 32, 2})[static_cast<std::size_t>(key.second)]);
+    }
+    EXPECT_NEAR(std::abs(found.at({0, 0}).first - found.at({1, 0}).first), 40, 1e-2);
+  }
 }
 
 TEST(PageScene, CountsInstances) {

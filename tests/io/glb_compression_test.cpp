@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "glb_compression.hpp"
 
+#include <assimp/scene.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -278,6 +280,58 @@ TEST_F(GlbCompression, EveryCodecKeepsAllAttributesWithinTheirBounds) {
       EXPECT_LE(moved, size * k_side_mm / 16384);
       EXPECT_GT(moved, 0) << "nothing was rounded";
     }
+  }
+}
+
+/// Positions in the part's frame in millimetres and uv by the number of the triangle, as assimp reads a file.
+std::map<long, std::array<std::pair<Vec3, Vec2>, 3>> read_by_assimp(const std::filesystem::path& file,
+                                                                    const std::string& mesh_name) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  if (scene == nullptr) throw InvalidInput(importer.GetErrorString());
+  std::map<long, std::array<std::pair<Vec3, Vec2>, 3>> result;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene->mMeshes[m];
+    if (!std::string(mesh.mName.C_Str()).starts_with(mesh_name) || mesh.mNumFaces < 10) continue;  // Not the level.
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      std::array<std::pair<Vec3, Vec2>, 3> corners;
+      for (unsigned k = 0; k < 3; ++k) {
+        const unsigned v = mesh.mFaces[f].mIndices[k];
+        const aiVector3D &p = mesh.mVertices[v], &uv = mesh.mTextureCoords[0][v];
+        corners[k] = {1e3 * Vec3{double{p.x}, double{p.y}, double{p.z}}, {double{uv.x}, double{uv.y}}};
+      }
+      result[std::lround(65535 * double{mesh.mColors[0][mesh.mFaces[f].mIndices[0]].r})] = corners;
+    }
+  }
+  return result;
+}
+
+// An independent reader. assimp 5.2.5 refuses meshopt, and takes the whole numbers of quantize for floats.
+TEST_F(GlbCompression, AssimpReadsWhatDracoPacks) {
+  const Scene scene = compressible_scene();
+  const auto whole = corners_of(scene, use_by(scene, "seat"));
+  const TriangleMesh& mesh = scene.parts[0].mesh;
+  for (const MeshCoding coding : {MeshCoding::none, MeshCoding::draco}) {
+    GlbWriteOptions options;
+    options.meshes = coding;
+    write_glb(scene, folder_ / "a.glb", options);
+    const auto read = read_by_assimp(folder_ / "a.glb", "patch");
+    ASSERT_EQ(read.size(), whole.size());
+    double moved = 0;
+    for (const auto& [number, corners] : read) {
+      const auto t = static_cast<std::size_t>(number - 1);
+      for (const auto& [position, uv] : corners) {  // Codecs may begin a triangle with any corner.
+        double nearest = k_side_mm, drift = 0;
+        for (int k = 0; k < 3; ++k)
+          if (const double distance = norm(position - mesh.corner(t, k)); distance < nearest) {
+            nearest = distance;
+            drift = norm(uv - mesh.uv.values[mesh.uv.indices[t][static_cast<std::size_t>(k)]]);
+          }
+        EXPECT_LE(drift * k_texels, 0.1);
+        moved = std::max(moved, nearest);
+      }
+    }
+    EXPECT_LE(moved, coding == MeshCoding::none ? 1e-5 : k_side_mm / 16384);
   }
 }
 

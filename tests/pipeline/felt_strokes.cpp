@@ -57,23 +57,36 @@ FeltPlate felt_plate(const MaterialRule& rule, const DeviceCaps& device, const H
   return {std::move(baked), std::move(haptic), std::move(surface)};
 }
 
-StrokeForces stroke_forces(const ContactSurface& surface, const DeviceCaps& device, const Stroke& stroke) {
+StrokeForces stroke_forces(const ContactSurface& surface, const DeviceCaps& device, const Stroke& stroke,
+                           double (*clock)()) {
   constexpr double k_period_s = 1e-3, k_least_n = 0.02, k_start_m = 0.025, k_above_m = 2e-3;
   constexpr int k_press_ticks = 250;
-  const auto tick = std::make_unique<HapticTick>(surface, safety_limits(device.max_force_n), k_period_s);
+  const double period_s = k_period_s / stroke.substeps;
+  const auto tick = std::make_unique<HapticTick>(surface, safety_limits(device.max_force_n), period_s);
   const double radius = surface.probe_radius_m();
   const Vec3 way{std::cos(stroke.angle), std::sin(stroke.angle), 0};
   const auto ticks = k_press_ticks + static_cast<int>(std::lround(stroke.way_m / stroke.speed_m_per_s / k_period_s));
+  const auto probe_at = [&](double i) {
+    const double pressed = std::min(1.0, i / k_press_ticks);
+    const double gone = stroke.speed_m_per_s * k_period_s * std::max(0.0, i - k_press_ticks);
+    return Vec3{k_start_m, k_start_m, radius + k_above_m - (k_above_m + stroke.depth_m) * pressed} + gone * way +
+           stroke.shift;
+  };
   StrokeForces result;
   int in_contact = 0;
+  tick->reset(probe_at(0));
   for (int i = 0; i < ticks; ++i) {
-    const double pressed = std::min(1.0, static_cast<double>(i) / k_press_ticks);
-    const double gone = stroke.speed_m_per_s * k_period_s * std::max(0, i - k_press_ticks);
-    const Vec3 probe = Vec3{k_start_m, k_start_m, radius + k_above_m - (k_above_m + stroke.depth_m) * pressed} +
-                       gone * way + stroke.shift;
-    if (i == 0) tick->reset(probe);
-    const Vec3 force = (*tick)({probe});
-    result.lost += tick->lost();
+    Vec3 probe, force;
+    double sweeps = 0;
+    const double start = clock ? clock() : 0;
+    for (int k = 1; k <= stroke.substeps; ++k) {
+      probe = probe_at(std::max(0.0, i - 1 + static_cast<double>(k) / stroke.substeps));
+      force = (*tick)({probe});
+      result.lost += tick->lost();
+      sweeps += tick->proxy().sweeps;
+    }
+    if (clock) result.tick_s.push_back(clock() - start);
+    result.sweeps.push_back(sweeps);
     const Vec3 behind = tick->proxy().proxy - probe;
     result.lag_m = std::max(result.lag_m, std::hypot(behind.x, behind.y));
     if (i > k_press_ticks && force.z > k_least_n)

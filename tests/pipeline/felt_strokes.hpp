@@ -33,17 +33,21 @@ struct Stroke {
   double way_m = 0.06;
   double angle = 0;  ///< Of the way, from x.
   Vec3 shift = {};   ///< Of the whole path.
+  int substeps = 1;  ///< Ticks a millisecond, for the limit of many.
 };
 
-/// Forces of the whole path from positions to a device, at 1 kHz.
+/// Forces of the whole path from positions to a device, a millisecond apart, with the work of the ticks before.
 struct StrokeForces {
   std::vector<Vec3> force_n;
+  std::vector<double> sweeps, tick_s;
   double lag_m = 0;           ///< Largest distance of the proxy from the probe along the plate.
   double lateral_ratio = 0;   ///< Largest lateral over normal force while it moves.
   double largest_step_n = 0;  ///< Largest change of the force in a tick, from the third tick of the contact on.
   long lost = 0;
 };
-StrokeForces stroke_forces(const ContactSurface& surface, const DeviceCaps& device, const Stroke& stroke);
+/// @param clock  seconds, which time the ticks; none: they are not timed.
+StrokeForces stroke_forces(const ContactSurface& surface, const DeviceCaps& device, const Stroke& stroke,
+                           double (*clock)() = nullptr);
 
 /// Root mean square of the difference over that of `a`.
 double relative_difference(const StrokeForces& a, const StrokeForces& b);

@@ -5,7 +5,6 @@
 
 #include "page/page_file.hpp"
 #include "papilla/core/base64.hpp"
-#include "papilla/io/gltf_reader.hpp"
 #include "papilla/io/image_file.hpp"
 
 namespace papilla::app {
@@ -44,8 +43,9 @@ void write_report_page(const std::filesystem::path& glb, Json report, const std:
     const ColorImage& photograph = grains.at(material["name"].get<std::string>()).photograph;
     material["photo"] = encode_base64(encode_png(shrink(photograph, k_photo_px)));
   }
-  const Scene scene = read_gltf(glb, {.tag_channel = true});
-  write_page({glb.filename().string(), page_scene(scene, glb, options, progress).json, std::move(report)}, page);
+  PageSceneOptions shown = options;
+  const Scene scene = read_for_page(glb, {}, shown.levels);
+  write_page({glb.filename().string(), page_scene(scene, glb, shown, progress).json, std::move(report)}, page);
 }
 
 }  // namespace papilla::app

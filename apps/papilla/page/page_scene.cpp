@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "json/scene_json.hpp"
 #include "page/page_mesh.hpp"
@@ -223,12 +224,51 @@ Json images_json(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// What nodes show: first the finest levels of detail, then the coarser ones.
+struct ShownUses {
+  std::vector<Instance> uses;
+  std::vector<std::optional<PageLevel>> levels;  ///< Of each.
+  std::size_t finest = 0;                        ///< So many.
+};
+
+ShownUses uses_of(const Scene& scene, const std::vector<PageLevels>& levels) {
+  const std::vector<Instance> drawn = instances(scene);
+  const std::vector<std::optional<PageLevel>> of_drawn = levels_of(scene, drawn, levels);
+  ShownUses shown;
+  for (const bool coarser : {false, true}) {
+    if (coarser) shown.finest = shown.uses.size();
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      if ((of_drawn[i] && of_drawn[i]->number > 0) != coarser) continue;
+      shown.uses.push_back(drawn[i]);
+      shown.levels.push_back(of_drawn[i]);
+    }
+  }
+  return shown;
+}
+
+Json use_json(const Scene& scene, const Instance& use, const std::optional<PageLevel>& level) {
+  Json json = {{"part", use.part}, {"name", scene.nodes[use.node].name}, {"world", use.world}};
+  if (level) json["level"] = {{"place", level->place}, {"number", level->number}};
+  return json;
+}
+
+Json coverages_json(const std::vector<PageLevels>& levels) {
+  Json json = Json::array();
+  for (const PageLevels& place : levels) json.push_back(place.coverages);
+  return json;
+}
+
+}  // namespace
+
 PageScene page_scene(const Scene& scene, const std::filesystem::path& file, const PageSceneOptions& options,
                      const ProgressCallback& progress) {
-  const std::vector<Instance> drawn = instances(scene);
+  const ShownUses drawn = uses_of(scene, options.levels);
+  const std::span finest(drawn.uses.data(), drawn.finest);
   std::size_t triangles = 0, triangles_shown = 0;
   double error_mm = 0;
-  for (const Instance& use : drawn) triangles += scene.parts[use.part].mesh.triangles.size();
+  for (const Instance& use : finest) triangles += scene.parts[use.part].mesh.triangles.size();
   const double keep =
       std::min(1.0, static_cast<double>(options.triangles) / static_cast<double>(std::max<std::size_t>(triangles, 1)));
   const std::vector<ShownPart> shown = show_parts(scene, keep, progress);
@@ -246,10 +286,9 @@ PageScene page_scene(const Scene& scene, const std::filesystem::path& file, cons
          {"meshes", std::move(meshes)},
          {"distortion", shown_uv(scene.parts[i].mesh) ? distortion_json(shown[i].distortion) : Json(nullptr)}});
   }
-  for (const Instance& use : drawn) {
-    uses.push_back({{"part", use.part}, {"name", scene.nodes[use.node].name}, {"world", use.world}});
+  for (std::size_t i = 0; i < drawn.uses.size(); ++i) uses.push_back(use_json(scene, drawn.uses[i], drawn.levels[i]));
+  for (const Instance& use : finest)
     for (const PageMesh& mesh : shown[use.part].meshes) triangles_shown += mesh.shown;
-  }
   PageEnvironments environments;
   const Json environment = environments.number_of(options.environment);
   PageMaterials materials(scene, file, environments);
@@ -260,6 +299,8 @@ PageScene page_scene(const Scene& scene, const std::filesystem::path& file, cons
                {"z_up", scene.up == UpAxis::z},
                {"parts", std::move(parts)},
                {"instances", std::move(uses)},
+               {"finest_instances", drawn.finest},
+               {"levels", coverages_json(options.levels)},
                {"materials", std::move(materials.materials)},
                {"heights", std::move(materials.heights)},
                {"images", images_json(scene)},

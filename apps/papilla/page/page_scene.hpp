@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
+#include "page/page_levels.hpp"
 #include "papilla/core/progress.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/pipeline/environment.hpp"
@@ -14,13 +16,14 @@ namespace papilla::app {
 struct PageSceneOptions {
   std::size_t triangles = 250000;                      ///< That the page shows, about; more are simplified. At least 1.
   std::optional<EnvironmentPicture> environment = {};  ///< Lights the scene; nothing: a plain room does.
+  std::vector<PageLevels> levels = {};                 ///< Of read_for_page().
 };
 
 /// A scene as data of the page.
 struct PageScene {
   Json json;
-  std::size_t triangles = 0, triangles_shown = 0;
-  double error_mm = 0;  ///< Of the simplification.
+  std::size_t triangles = 0, triangles_shown = 0;  ///< Of the finest levels of detail.
+  double error_mm = 0;                             ///< Of the simplification.
 };
 
 /// A scene as the report page shows it: parts in compressed streams (PageMesh), instances, materials with their haptic

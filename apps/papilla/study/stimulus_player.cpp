@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/stimulus_player.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "papilla/core/error.hpp"
 #include "papilla/core/plain_number.hpp"
-
-extern char** environ;
 
 namespace papilla::app {
 namespace {
@@ -54,46 +48,32 @@ void StimulusPlayer::start(const fs::path& file) {
   failure_.clear();
   std::vector<std::string> words = {player_program(), fs::absolute(file).string(), "--device", device_,
                                     "--seconds",      plain_number(seconds_),      "--quiet"};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int reason = ::posix_spawnp(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (reason != 0) throw DeviceError(std::string(k_player) + ": cannot be started: " + std::strerror(reason));
-  child_ = child;
+  try {
+    child_.emplace(std::move(words));
+  } catch (const IoError& error) {
+    throw DeviceError(error.what());
+  }
 }
 
 bool StimulusPlayer::is_playing() {
   const std::scoped_lock lock(mutex_);
   if (!child_) return false;
-  int status = 0;
-  if (::waitpid(*child_, &status, WNOHANG) != *child_) return true;
-  take_status(status);
+  if (child_->is_running()) return true;
+  finish();
   return false;
 }
 
 std::string StimulusPlayer::wait() {
   const std::scoped_lock lock(mutex_);
-  if (!child_) return failure_;
-  int status = 0;
-  while (::waitpid(*child_, &status, 0) < 0 && errno == EINTR) {
-  }
-  take_status(status);
+  if (child_) finish();
   return failure_;
 }
 
 void StimulusPlayer::stop() {
   const std::scoped_lock lock(mutex_);
   if (!child_) return;
-  ::kill(*child_, SIGINT);
-  int status = 0;
-  while (::waitpid(*child_, &status, 0) < 0 && errno == EINTR) {
-  }
+  child_->send(SIGINT);
+  child_->wait();
   child_.reset();
 }
 
@@ -102,11 +82,13 @@ std::string StimulusPlayer::failure() {
   return failure_;
 }
 
-void StimulusPlayer::take_status(int status) {
+void StimulusPlayer::finish() {
+  const ChildEnd end = child_->wait();
   child_.reset();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  failure_ = WIFEXITED(status) ? std::string(k_player) + " ended with " + std::to_string(WEXITSTATUS(status))
-                               : std::string(k_player) + " was ended by signal " + std::to_string(WTERMSIG(status));
+  if (end.exit_code == 0) return;
+  failure_ = std::string(k_player) + (end.signal != 0 ? " was ended by signal " + std::to_string(end.signal)
+                                                      : " ended with " + std::to_string(end.exit_code));
+  if (!end.messages.empty()) failure_ += ": " + end.messages;
 }
 
 }  // namespace papilla::app

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
+
+#include "papilla/core/child_process.hpp"
 
 namespace papilla::app {
 
@@ -34,12 +34,13 @@ class StimulusPlayer {
   std::string failure();
 
  private:
-  void take_status(int status);
+  /// Waits for its end, and keeps why it failed.
+  void finish();
 
   std::string device_;
   double seconds_;
   std::mutex mutex_;
-  std::optional<pid_t> child_;
+  std::optional<ChildProcess> child_;
   std::string failure_;
 };
 

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
 
 #include "exit_code.hpp"
 #include "file_options.hpp"
@@ -12,7 +14,9 @@
 #include "options/perception_option.hpp"
 #include "options/scene_option.hpp"
 #include "papilla/core/progress_until.hpp"
+#include "papilla/pipeline/level_scenes.hpp"
 #include "scene_output.hpp"
+#include "shown_format.hpp"
 #include "text/scene_text.hpp"
 #include "verbs.hpp"
 
@@ -26,7 +30,7 @@ struct Options {
   SimplifySceneOptions simplify;
   PerceptionOption perception;
   bool one_sided = false, merge_faces = false, strict = false;
-  bool as_nodes = false;  ///< Levels as nodes instead of MSFT_lod.
+  bool as_nodes = false, as_files = false;  ///< Levels as nodes or as files instead of MSFT_lod.
   SceneOptions read;
   OutputOptions stored;
 };
@@ -37,15 +41,45 @@ void check(const Options& o) {
     throw UsageError("simplify: one of --tolerance, --ratio, --budget, --lod or --lod-tolerances is needed");
   if (s.budget && (s.tolerance_mm || s.ratio))
     throw UsageError("simplify: --budget cannot be combined with --tolerance or --ratio");
-  if (s.levels.asked() && !o.as_nodes && !is_gltf_file(o.out))
+  if (!s.levels.asked() && (o.as_nodes || o.as_files))
+    throw UsageError("simplify: --lod-nodes and --lod-files need --lod or --lod-tolerances");
+  if (s.levels.asked() && !o.as_nodes && !o.as_files && !is_gltf_file(o.out))
     throw UsageError("simplify: --output: '" + o.out +
-                     "' must end in .glb or .gltf to hold levels of detail; or give --lod-nodes");
+                     "' must end in .glb or .gltf to hold levels of detail; or give --lod-nodes or --lod-files");
   double last = s.tolerance_mm.value_or(0);
   for (const double tolerance : s.levels.tolerances_mm) {
     if (!(tolerance > last))
       throw UsageError(fmt::format("simplify: --lod-tolerances: {} does not exceed {} mm", tolerance, last));
     last = tolerance;
   }
+}
+
+/// Writes OUT.lod1.glb, OUT.lod2.glb, ... and takes the levels from the scene. @returns what they are.
+Json write_level_files(Scene& scene, std::span<const LevelReport> levels, const std::string& out,
+                       const WriteOptions& write, const Console& console) {
+  Json files = Json::array();
+  const std::filesystem::path path = out;
+  for (const double tolerance : level_tolerances(levels)) {
+    LevelScene level = scene_of_level(scene, levels, tolerance);
+    const std::string file =
+        std::filesystem::path(path)
+            .replace_extension(fmt::format(".lod{}{}", files.size() + 1, path.extension().string()))
+            .string();
+    level.scene.warnings.clear();
+    level.scene.losses.clear();  // They are those of the scene, which tells them.
+    const Json stored = write_output(level.scene, file, write, console);
+    const std::size_t triangles = drawn_triangles(level.scene);
+    console.print(shown_format("{}: {} triangles within {:.3g} mm, below {:.3g} of the picture's height\n", file,
+                               triangles, tolerance, level.screen_coverage));
+    files.push_back({{"file", file},
+                     {"level", files.size() + 1},
+                     {"tolerance_mm", tolerance},
+                     {"screen_coverage", level.screen_coverage},
+                     {"triangles", triangles},
+                     {"stored", stored}});
+  }
+  for (Part& part : scene.parts) part.levels.clear();
+  return files;
 }
 
 Json run(const Options& options, VerbContext& context) {
@@ -67,6 +101,8 @@ Json run(const Options& options, VerbContext& context) {
   context.console.print(simplify_text(result, wanted));
   Json json = simplify_json(result, wanted);
   if (options.as_nodes) levels_to_nodes(result.scene);
+  if (options.as_files)
+    json["lod_files"] = write_level_files(result.scene, result.levels, options.out, write, context.console);
   json["stored"] = write_output(result.scene, options.out, write, context.console);
   json["losses"] = result.scene.losses;
   json["output"] = options.out;
@@ -97,7 +133,11 @@ void add_goals(CLI::App& verb, Options& options) {
       ->delimiter(',')
       ->check(positive())
       ->excludes(number);
-  verb.add_flag("--lod-nodes", options.as_nodes, "Levels as nodes NAME_LOD0, NAME_LOD1, ... instead of MSFT_lod");
+  auto* const nodes =
+      verb.add_flag("--lod-nodes", options.as_nodes, "Levels as nodes NAME_LOD0, NAME_LOD1, ... instead of MSFT_lod");
+  verb.add_flag("--lod-files", options.as_files,
+                "Levels as files OUT.lod1.glb, OUT.lod2.glb, ... instead of MSFT_lod, in any format that is written")
+      ->excludes(nodes);
 }
 
 }  // namespace

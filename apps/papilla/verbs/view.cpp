@@ -33,10 +33,11 @@ struct Options {
 
 PageScene scene_of(const std::string& file, const Options& options, const VerbContext& context) {
   ReadOptions read = options.scene.read_options(context.cache);
-  read.tag_channel = true;
   PageSceneOptions page = options.page;
   if (!options.environment.empty()) page.environment = read_environment(options.environment, k_scene_environment_width);
-  return page_scene(read_scene(file, read, context.progress), file, page, context.progress);
+  const Scene scene =
+      is_gltf_file(file) ? read_for_page(file, read, page.levels) : read_scene(file, read, context.progress);
+  return page_scene(scene, file, page, context.progress);
 }
 
 PageContent content_of(const std::string& file, Json scene) {

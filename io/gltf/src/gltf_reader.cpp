@@ -14,6 +14,7 @@
 #include "papilla/core/error.hpp"
 #include "papilla/core/one_line.hpp"
 #include "papilla/core/units.hpp"
+#include "papilla/io/gltf_levels.hpp"
 #include "papilla/io/gltf_triangles.hpp"
 #include "papilla/io/scene.hpp"
 #include "papilla/io/tag_manifest.hpp"
@@ -256,13 +257,19 @@ void link_coarser_parts(const Document& document, const std::vector<bool>& lower
 /// Leaves out the coarser levels of detail (MSFT_lod): the nodes that a node lists as its lower levels, what stands
 /// below them, the parts that only they show, and the screen coverages in the node's extras. Noted in Scene::losses.
 /// @param keep_parts  GltfReadOptions::coarser_parts.
+/// @param kept  when given, gets the levels, and nothing is left out.
 /// @throws InvalidInput when a list names its own node or one that does not exist.
-void keep_finest_levels(const Document& document, bool keep_parts, Scene& scene, GltfOrigin& origin) {
+void keep_finest_levels(const Document& document, bool keep_parts, std::vector<GltfLevels>* kept, Scene& scene,
+                        GltfOrigin& origin) {
   std::vector<bool> lower(scene.nodes.size(), false);
   std::size_t levels = 0;
   for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {  // the scene may have more: instances
     const std::vector<std::uint32_t> ids = lower_levels(document, i);
     if (ids.empty()) continue;
+    if (kept != nullptr) {
+      kept->push_back({static_cast<std::uint32_t>(i), ids});
+      continue;
+    }
     levels += ids.size();
     drop_coverages(scene.nodes[i]);
     flag_below(scene, ids, lower);
@@ -511,15 +518,15 @@ void move_tag_channel(Material& material) {
 
 /// All but materials and parts, which are there already.
 /// @param triangles  of the scene, for finding tags.
-void read_rest(Document& document, AccessorReader& reader, const std::filesystem::path& tags, bool coarser_parts,
-               const PartTriangles& triangles, Scene& scene, GltfOrigin& origin) {
+void read_rest(Document& document, AccessorReader& reader, const GltfReadOptions& options,
+               std::vector<GltfLevels>* levels, const PartTriangles& triangles, Scene& scene, GltfOrigin& origin) {
   read_nodes(document, scene);
   origin.nodes.resize(scene.nodes.size());
   std::iota(origin.nodes.begin(), origin.nodes.end(), 0U);
   read_roots(document, scene);
   expand_instances(document, reader, scene, origin);  // appends nodes: those of the file keep their numbers
   scale_whole_positions(document, scene);
-  keep_finest_levels(document, coarser_parts, scene, origin);
+  keep_finest_levels(document, options.coarser_parts, levels, scene, origin);
   note_losses(document, scene);
   read_asset(document, scene);
   try {
@@ -527,7 +534,7 @@ void read_rest(Document& document, AccessorReader& reader, const std::filesystem
   } catch (const InvalidInput& error) {
     throw InvalidInput(document.file + ": " + error.what());
   }
-  find_missing_tags(tags, triangles, scene);
+  find_missing_tags(options.tags, triangles, scene);
   // Names, addresses and keys come from the file.
   for (std::vector<std::string>* lines : {&scene.losses, &scene.warnings})
     for (std::string& line : *lines) line = one_line(line);
@@ -543,9 +550,8 @@ Scene empty_scene(Document& document) {
   return scene;
 }
 
-}  // namespace
-
-Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options, GltfOrigin* origin_of) {
+Scene read_scene(const std::filesystem::path& path, const GltfReadOptions& options, std::vector<GltfLevels>* levels,
+                 GltfOrigin* origin_of) {
   Document document = gltf::load_document(path);
   Scene scene = empty_scene(document);
   AccessorReader reader(document);
@@ -554,9 +560,20 @@ Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& option
   origin.parts = gltf::read_parts(document, reader, options.tag_channel, options.cad_uv, scene);
   if (options.tag_channel)
     for (Material& material : scene.materials) move_tag_channel(material);
-  read_rest(document, reader, options.tags, options.coarser_parts, mesh_triangles(scene), scene, origin);
+  read_rest(document, reader, options, levels, mesh_triangles(scene), scene, origin);
   if (origin_of != nullptr) *origin_of = std::move(origin);
   return scene;
+}
+
+}  // namespace
+
+Scene read_gltf(const std::filesystem::path& path, const GltfReadOptions& options, GltfOrigin* origin_of) {
+  return read_scene(path, options, nullptr, origin_of);
+}
+
+Scene read_gltf_levels(const std::filesystem::path& path, const GltfReadOptions& options,
+                       std::vector<GltfLevels>& levels) {
+  return read_scene(path, options, &levels, nullptr);
 }
 
 struct GltfTriangles::File {
@@ -573,7 +590,7 @@ GltfTriangles::GltfTriangles(const std::filesystem::path& path, const std::files
   scene = empty_scene(document);
   gltf::read_materials(document, reader, scene);
   origin.parts = gltf::list_parts(document, reader, scene);
-  read_rest(document, reader, tags, false, triangles_of(*this), scene, origin);
+  read_rest(document, reader, {.tags = tags}, nullptr, triangles_of(*this), scene, origin);
 }
 GltfTriangles::~GltfTriangles() = default;
 GltfTriangles::GltfTriangles(GltfTriangles&&) noexcept = default;

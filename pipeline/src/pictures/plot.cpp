@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "papilla/pipeline/pictures/plot.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 
 #include "papilla/core/atomic_file.hpp"
+#include "papilla/core/child_process.hpp"
 #include "papilla/core/error.hpp"
 #include "papilla/core/read_file.hpp"
 #include "papilla/core/temporary_folder.hpp"
-
-extern char** environ;
 
 namespace papilla {
 namespace {
@@ -163,29 +157,13 @@ std::string commands_of(const Plot& plot) {
 }
 
 /// Runs gnuplot in a folder. @returns whether it is installed.
-bool run_gnuplot(const fs::path& folder) {
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "messages", O_WRONLY | O_CREAT, 0600);
-  std::array<std::string, 3> words{"gnuplot", "--default-settings", "plot.gp"};
-  std::array<char*, 4> arguments{words[0].data(), words[1].data(), words[2].data(), nullptr};
-  pid_t child = 0;
-  const int failed = ::posix_spawnp(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (failed == ENOENT) return false;
-  if (failed != 0) throw IoError(fmt::format("gnuplot: cannot be started (error {})", failed));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    std::string message = read_file(folder / "messages");
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    throw IoError("gnuplot: " + message);
-  }
-  return true;
+bool run_gnuplot(const fs::path& folder) try {
+  ChildEnd end = ChildProcess({"gnuplot", "--default-settings", "plot.gp"}, folder).wait();
+  if (end.exit_code == 0) return true;
+  std::replace(end.messages.begin(), end.messages.end(), '\n', ' ');
+  throw IoError("gnuplot: " + end.messages);
+} catch (const ProgramMissing&) {
+  return false;
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Grains made ahead are the grains that are made when they are asked for.
+#include "grain_maker.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "papilla/core/error.hpp"
+#include "papilla/io/image_file.hpp"
+#include "papilla/texture/grain.hpp"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+class GrainMakerTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_);
+    for (const auto& [name, kind] : {std::pair{"balls", GrainKind::spheres6}, {"ovals", GrainKind::ovals8}}) {
+      GrainOptions options;
+      options.size_px = 64;
+      write_grey_image(folder_ / (std::string(name) + ".png"), synthesize_grain(kind, options).picture, 8);
+      add(name, folder_ / (std::string(name) + ".png"));
+    }
+    add("lost", folder_ / "none.png");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void add(const std::string& name, const fs::path& texture) {
+    MaterialRule rule;
+    rule.name = name, rule.texture = texture;
+    rule.size_mm[0] = 40, rule.size_mm[1] = 20;
+    rule.height.depth_mm = 0.4;
+    rules_.materials[name] = rule;
+    AssignRule assign;
+    assign.material = name;
+    rules_.assign.push_back(assign);
+  }
+
+  void expect_same(const Grain& a, const std::string& material) const {
+    const Grain b = make_grain(rules_.materials.at(material), library_);
+    EXPECT_EQ(a.normal_png.bytes, b.normal_png.bytes);
+    EXPECT_EQ(a.height_png.bytes, b.height_png.bytes);
+    EXPECT_FALSE(a.height_png.bytes.empty());
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("papilla-grains-" + std::to_string(::getpid()));
+  Materials rules_;
+  RecipeLibrary library_ = RecipeLibrary::builtin();
+};
+
+TEST_F(GrainMakerTest, AheadOrNotGrainsAreTheSame) {
+  for (const bool ahead : {false, true}) {
+    GrainMaker maker(rules_, library_, {}, nullptr);
+    if (ahead) maker.begin_ahead();
+    expect_same(maker.take("ovals"), "ovals");
+    expect_same(maker.take("balls"), "balls");
+  }
+}
+
+TEST_F(GrainMakerTest, AFailureIsToldWhereItIsAskedFor) {
+  GrainMaker maker(rules_, library_, {}, nullptr);
+  maker.begin_ahead();
+  EXPECT_THROW(maker.take("lost"), IoError);
+  expect_same(maker.take("balls"), "balls");
+}
+
+TEST_F(GrainMakerTest, WhatNobodyAsksForIsLeft) {
+  GrainMaker maker(rules_, library_, {}, nullptr);
+  maker.begin_ahead();  // Ends without a failure of "lost", and before all are made.
+}
+
+TEST_F(GrainMakerTest, ADeadlineHoldsForWhatIsMadeWhenAskedFor) {
+  GrainMaker maker(rules_, library_, Deadline(1000), nullptr);
+  maker.begin_ahead();
+  maker.finish_by(Deadline(900));
+  expect_same(maker.take("ovals"), "ovals");
+}
+
+}  // namespace
+}  // namespace papilla
